@@ -113,7 +113,7 @@ def _root_faults(record: Record) -> Iterator[str]:
         if not np.all(np.max(even, axis=0) > 0):
             yield "a tooth's own load pulls no point of the root on its side"
     own_load = record["line_load"][carrying][:, None]
-    own = root_stress(flexible, geometry, own_load, case.slice_coupling)[0][:, :, 0]
+    own = root_stress(flexible, geometry, own_load, case.mesh.slice_coupling)[0][:, :, 0]
     single = carrying & (np.count_nonzero(carrying, axis=1) == 1)[:, None]
     recorded = np.moveaxis(record["root_tension"], 1, 0)
     if not np.allclose(recorded[:, single], own[:, single[carrying]], rtol=SAME):

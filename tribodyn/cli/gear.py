@@ -53,8 +53,8 @@ def gear(
     from tribodyn.geometry.limits.checks import check
     from tribodyn.geometry.sheet.sheet import geometry_sheet
     from tribodyn.geometry.tooth.body import body_masses
+    from tribodyn.studies.gears.check import sheet_tables
     from tribodyn.studies.gears.drive_file import load_drive
-    from tribodyn.studies.gears.shared import sheet_tables
 
     loaded = load_drive(model, overrides(settings))
     written: list[Path] = []

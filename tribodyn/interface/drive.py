@@ -23,8 +23,8 @@ from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh
+from tribodyn.studies.gears.check import sheet_tables
 from tribodyn.studies.gears.drive_file import load_drive
-from tribodyn.studies.gears.shared import sheet_tables
 from tribodyn.studies.gears.spline_drive import as_spline
 
 if TYPE_CHECKING:

@@ -76,4 +76,6 @@ def test_a_case_names_the_file_of_a_power_without_speed(tmp_path):
     )
     with pytest.raises(InputError, match=r"lc.toml: operating.power = .*without a speed; add pinion_speed"):
         load(file)
-    assert load(file, {"operating.gear_speed": "100 rad/s"}).case.gear_torque == pytest.approx(200.0)
+    assert load(file, {"operating.gear_speed": "100 rad/s"}).case.operating.gear_torque == pytest.approx(
+        200.0
+    )

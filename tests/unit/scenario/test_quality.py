@@ -14,17 +14,17 @@ def case(name, **changes):
 
 
 def test_load_contact_has_teeth_that_differ():
-    flanks = case("load-contact-18-36").modifications
-    again = case("load-contact-18-36").modifications
+    flanks = case("load-contact-18-36").mesh.modifications
+    again = case("load-contact-18-36").mesh.modifications
     assert (len(flanks.pinion.pitch_error), len(flanks.gear.pitch_error)) == (18, 36)
     assert flanks.pinion.pitch_error == again.pinion.pitch_error
     assert (
         flanks.pinion.pitch_error
-        != case("load-contact-18-36", mesh__deviation_sample=5).modifications.pinion.pitch_error
+        != case("load-contact-18-36", mesh__deviation_sample=5).mesh.modifications.pinion.pitch_error
     )
     assert flanks.pinion.profile_error is not None
     assert flanks.misalignment.in_plane != 0.0
-    alone = case("load-contact-18-36", mesh__slices=1).modifications
+    alone = case("load-contact-18-36", mesh__slices=1).mesh.modifications
     assert alone.misalignment.in_plane == 0.0
 
 
@@ -32,8 +32,8 @@ def test_a_coarser_class_deviates_more_by_the_root_of_two():
     """The same sample of the class two above is twice as large, whatever the study."""
     for name, curve in (
         ("involute-23-47", lambda one: one.mesh.error_table[1]),
-        ("load-contact-18-36", lambda one: one.modifications.pinion.profile_error[1]),
-        ("load-contact-18-36", lambda one: np.array(one.modifications.gear.pitch_error)),
+        ("load-contact-18-36", lambda one: one.mesh.modifications.pinion.profile_error[1]),
+        ("load-contact-18-36", lambda one: np.array(one.mesh.modifications.gear.pitch_error)),
     ):
         fine, coarse = (curve(case(name, drive__quality=grade)) for grade in (5, 7))
         assert coarse == pytest.approx(2 * fine, rel=1e-9, abs=1e-15)
@@ -71,7 +71,7 @@ def test_misalignment_of_the_helix_tolerances():
     slopes = [np.sqrt(2) * (0.05 * d[i] ** 0.5 + 0.35 * b[i] ** 0.5 + 4) for i in (0, 1)]
     expected = np.hypot(*slopes) * 1e-3 / min(b)
     assert (
-        other.modifications.misalignment.in_plane - one.modifications.misalignment.in_plane
+        other.mesh.modifications.misalignment.in_plane - one.mesh.modifications.misalignment.in_plane
         == pytest.approx(expected)
     )
 

@@ -45,7 +45,7 @@ def test_quantities_in_si():
             "mesh.misalignment.out_of_plane": "-0.1 deg",
         },
     )
-    pinion, gear, misalignment = case.modifications
+    pinion, gear, misalignment = case.mesh.modifications
     assert pinion.tip == Relief(20e-6, 4e-3, 1.0)
     assert pinion.root == pytest.approx((12.7e-6, 2.54e-3, 2.0))
     assert gear.lead == LeadRelief(8e-6, 6e-6, 8e-3)
@@ -68,7 +68,7 @@ def test_quantities_in_si():
 @pytest.mark.parametrize("name", [STUDY, "involute-18-36-fem"])
 def test_as_many_slices_as_what_varies_asks_for(name: str, overrides: dict, slices: int):
     case = load_scenario(name, overrides)
-    assert (case.slices if name == STUDY else case.mesh.slices) == slices
+    assert case.mesh.slices == slices
 
 
 def test_what_is_written_in_a_scenario_changes_the_model_it_is_like(scenario: Path):
@@ -76,10 +76,10 @@ def test_what_is_written_in_a_scenario_changes_the_model_it_is_like(scenario: Pa
     shipped = load_scenario(STUDY)
     assert case.drive == shipped.drive
     assert case.materials == shipped.materials
-    assert case.modifications.pinion.tip == Relief(20e-6, 4e-3, 1.0)
+    assert case.mesh.modifications.pinion.tip == Relief(20e-6, 4e-3, 1.0)
     other = load_scenario(scenario, {"drive.like": "jia-involute-17-29"})
     assert other.drive.pinion.teeth == 17
-    assert other.modifications.pinion.tip == Relief(20e-6, 4e-3, 1.0)
+    assert other.mesh.modifications.pinion.tip == Relief(20e-6, 4e-3, 1.0)
 
 
 def test_mistakes_are_told_with_the_file_that_they_are_in(scenario: Path):
@@ -122,9 +122,9 @@ def test_errors_of_profile_and_pitch_from_csv_files(scenario: Path):
     case = load_scenario(
         scenario, {PINION + "profile_error": "profile.csv", PINION + "pitch_errors": "pitch.csv"}
     )
-    angle, error = case.modifications.pinion.profile_error
+    angle, error = case.mesh.modifications.pinion.profile_error
     np.testing.assert_allclose(angle, np.radians([-25, 0, 25]))
     np.testing.assert_allclose(error, [0, 1e-6, 4e-6])
-    np.testing.assert_allclose(case.modifications.pinion.pitch_error, 0.25e-6 * np.arange(18))
+    np.testing.assert_allclose(case.mesh.modifications.pinion.pitch_error, 0.25e-6 * np.arange(18))
     listed = load_scenario(scenario, {PINION + "pitch_errors": [f"{0.25 * tooth} um" for tooth in range(18)]})
-    assert listed.modifications.pinion.pitch_error == case.modifications.pinion.pitch_error
+    assert listed.mesh.modifications.pinion.pitch_error == case.mesh.modifications.pinion.pitch_error

@@ -9,7 +9,7 @@ from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.material import MaterialData
-from tribodyn.studies.gears.shared import checked, sheet_tables, with_unit
+from tribodyn.studies.gears.check import sheet_and_stiffness, sheet_tables, with_unit
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7830.0, 46.0, 470.0, 6e9)
 LOAD, STIFFNESS = 2600.0, 5.2e8
@@ -23,8 +23,8 @@ def pair(family: Any) -> Assembly:
 @pytest.mark.parametrize("load", [2600.0, 9000.0])
 def test_stiffness_by_simulation_and_by_the_standard(load: float):
     """c' of ISO 6336-1, (5.25): 1/q' of 25 and 60 teeth, 0.8 of it measured, less below 100 N/mm."""
-    found = checked(
-        pair(involute.FAMILY), (STEEL, STEEL), "energy method", load, STIFFNESS, remark="of steel"
+    found = sheet_and_stiffness(
+        pair(involute.FAMILY), (STEEL, STEEL), "energy method", (load, STIFFNESS), remark="of steel"
     )
     by, width = found.data["stiffness"]["by"], 0.0325
     assert by["energy method"] == {
@@ -60,7 +60,7 @@ def test_stiffness_by_simulation_and_by_the_standard(load: float):
 
 
 def test_other_teeth_have_no_reference():
-    found = checked(pair(crc.FAMILY), (STEEL, STEEL), "energy method", LOAD, STIFFNESS)
+    found = sheet_and_stiffness(pair(crc.FAMILY), (STEEL, STEEL), "energy method", (LOAD, STIFFNESS))
     assert list(found.data["stiffness"]["by"]) == ["energy method"]
     assert "iso_6336_1" not in found.data["stiffness"]
     assert found.remarks == []

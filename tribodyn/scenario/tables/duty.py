@@ -1,5 +1,6 @@
 """What a drive has to do: speed of either shaft, torque of either shaft or power."""
 
+import math
 from collections.abc import Iterator
 from typing import Annotated, NamedTuple
 
@@ -101,7 +102,7 @@ def duty_of(table: DutyTable, pinion_teeth: float, gear_teeth: float) -> Duty:
     T_g = P/ω_g and T_g = T_p z_g/z_p without losses, which add to what the driving shaft puts in.
     """
     ratio = gear_teeth / pinion_teeth
-    speed = float("nan")
+    speed = math.nan  # one object, so that equal cases are equal
     if table.pinion_speed is not None:
         speed = table.pinion_speed
     elif table.gear_speed is not None:

@@ -1,16 +1,14 @@
-"""The tables of `models/`: what drives, materials, lubricants and bearings are."""
+"""The tables of `models/`: what drives, materials and lubricants are."""
 
 from typing import Annotated, Any
 
 from pydantic import Field
 
-from tribodyn.dynamics.rolling_bearing import BearingType
 from tribodyn.geometry.drive import PROFILES
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario import units
 from tribodyn.scenario.printed import Printed, PrintedQuantity
 from tribodyn.scenario.quantity import (
-    Count,
     Names,
     NotNegative,
     Number,
@@ -29,7 +27,6 @@ Angle = Annotated[float, Quantity(units.positive(units.ANGLE_KIND))]
 Mass = Annotated[float, Quantity(units.positive(units.MASS))]
 Inertia = Annotated[float, Quantity(units.positive(units.INERTIA))]
 Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE))]
-Stiffness = Annotated[float, Quantity(units.positive(units.STIFFNESS))]
 FaceWidth = Annotated[float, Quantity(units.positive(units.LENGTH), "20 mm")]
 Radius = Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")]
 KinematicViscosity = Annotated[float, Quantity(units.positive(units.KINEMATIC_VISCOSITY))]
@@ -184,39 +181,3 @@ class Lubricant(Described):
     fzg_micropitting_temperature: Annotated[float, Quantity(units.TEMPERATURE_KIND, "90 degC")] = written(
         "90 degC", description="oil temperature of that test"
     )
-
-
-class Rolling(Table):
-    """The rolling bearings of a shaft, from whose type, size and load the stiffness follows."""
-
-    type: BearingType
-    elements: Annotated[int, Field(strict=True, ge=3, le=1000)] = Field(description="rolling elements")
-    diameter: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
-        None, description="of a ball"
-    )
-    length: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
-        None, description="effective, of a roller"
-    )
-    contact_angle: Annotated[float, Quantity(units.not_negative(units.ANGLE_KIND), "15 deg")] = written(
-        "0 deg"
-    )
-    radial_load: Annotated[float, Quantity(units.positive(units.FORCE))] = Field(description="of one bearing")
-    count: Count = Field(2, description="bearings that carry the shaft")
-
-
-class Bearing(Table):
-    """Shaft and bearing of one gear: stiffness given, or from the rolling bearings alone."""
-
-    stiffness_x: Stiffness | None = Field(None, description="along the pitch tangent")
-    stiffness_y: Stiffness | None = Field(None, description="along the line of centres")
-    rolling: Rolling | None = Field(None, description="in place of the stiffness")
-    damping_ratio: NotNegative | None = Field(None, description="of both axes")
-    damping_ratio_x: NotNegative | None = None
-    damping_ratio_y: NotNegative | None = None
-
-
-class Bearings(Described):
-    """Shafts and bearings of both gears (`models/bearings/`)."""
-
-    pinion: Bearing
-    gear: Bearing

@@ -4,15 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from tribodyn.geometry.drive import Drive
-from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.studies.gears.by_standard import Quality
-from tribodyn.studies.protocol.study import CaseHead
+from tribodyn.studies.gears.case import GearCase
 from tribodyn.tribology.lubricant import LubricantData
 
 
 @dataclass(frozen=True)
-class Settings:
+class AssessmentSettings:
     """What is asked beyond the drive and its duty, and what the standards need to know.
 
     Parameters
@@ -50,34 +48,25 @@ class Settings:
     damping_ratio: float
 
 
-@dataclass(frozen=True)
-class AssessmentCase(CaseHead):
+@dataclass(frozen=True, kw_only=True)
+class AssessmentCase(GearCase):
     """One assessment, complete.
 
     Parameters
     ----------
-    title, name, kind, toml, sha256, family, drive, materials, masses, mean_roughness
-        As in `tribodyn.studies.gear_pair.case.Case`.
     lubricant : LubricantData
-        With its data sheet.
-    pinion_speed, gear_torque, oil_temperature : float
-        The duty: rad/s, N m, K.
+        With its data sheet, at the temperature of the oil.
+    oil_temperature : float
+        Of the duty, K.
     quality : Quality
         Deviations of the gears by ISO 1328-1.
-    settings : Settings
+    settings : AssessmentSettings
     limits : mapping
         Name of a limit -> its value, SI units.
     """
 
-    family: str
-    drive: Drive
-    materials: tuple[MaterialData, MaterialData]
-    masses: tuple[BodyMass, BodyMass]
-    mean_roughness: float
     lubricant: LubricantData
-    pinion_speed: float
-    gear_torque: float
     oil_temperature: float
     quality: Quality
-    settings: Settings
+    settings: AssessmentSettings
     limits: Mapping[str, Any]

@@ -78,7 +78,10 @@ def local_of(
         np.interp(roll, along["roll_angle"], along[name]) for name in ("normal_load", "hertz_pressure")
     )
     motion = kinematics(assembly.path, assembly.path.signed_distance(roll))
-    speeds = motion.pinion_speed * case.pinion_speed, motion.gear_speed * case.pinion_speed
+    speeds = (
+        motion.pinion_speed * case.operating.pinion_speed,
+        motion.gear_speed * case.operating.pinion_speed,
+    )
     raised = pressure * np.sqrt(settings.application_factor * max(figures["dynamic_factor"], 1.0))
     # no Hertz contact where its half width √(8 w ρ/(π E_r)) is not small beside its radius, none without load
     flanks = flanks_of(case)

@@ -17,9 +17,9 @@ from tribodyn.record.reader import Record, open_record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.check import check
 from tribodyn.studies.assessment.judged import LIMITS
 from tribodyn.studies.assessment.pictures import pictures
+from tribodyn.studies.assessment.run import check
 from tribodyn.studies.protocol.load import load
 from tribodyn.studies.protocol.part import Curve
 from tribodyn.studies.protocol.study import Study
@@ -139,10 +139,10 @@ def _asked(case: AssessmentCase) -> str:
         f"b {drive.pinion.face_width * 1e3:.4g}/{drive.gear.face_width * 1e3:.4g} mm, "
         f"grade {case.quality.grade:g}, Ra {case.mean_roughness * 1e6:.3g} µm"
     )
-    torque = case.gear_torque / ratio
+    speed, torque = case.operating.pinion_speed, case.operating.gear_torque / ratio
     duty = (
-        f"{case.pinion_speed * torque * 1e-3:.4g} kW at {case.pinion_speed * _RPM:.5g} rpm of the pinion, "
-        f"{torque:.4g} N m on the pinion, {case.gear_torque:.4g} N m on the gear"
+        f"{speed * torque * 1e-3:.4g} kW at {speed * _RPM:.5g} rpm of the pinion, "
+        f"{torque:.4g} N m on the pinion, {case.operating.gear_torque:.4g} N m on the gear"
     )
     oil = f"at {case.oil_temperature - 273.15:.4g} °C, {case.settings.lubrication}"
     if sheet is not None:

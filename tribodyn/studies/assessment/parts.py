@@ -47,7 +47,7 @@ def asked_of(case: AssessmentCase) -> Asked:
     """What a case asks the studies."""
     data, settings = tomllib.loads(case.toml), case.settings
     first, last = settings.speed_range
-    speeds = np.linspace(first, last, settings.speeds) * case.pinion_speed
+    speeds = np.linspace(first, last, settings.speeds) * case.operating.pinion_speed
     names = ("drive", "lubricant", "bearings", "mesh", "losses")
     tables = {name: data[name] for name in names if name in data}
     tables |= {
@@ -60,10 +60,10 @@ def asked_of(case: AssessmentCase) -> Asked:
     return Asked(
         case.title,
         tables,
-        case.pinion_speed,
-        case.gear_torque,
-        tuple(case.gear_torque * share for share in settings.torque_shares),
-        tuple(sorted({*map(float, speeds), case.pinion_speed})),
+        case.operating.pinion_speed,
+        case.operating.gear_torque,
+        tuple(case.operating.gear_torque * share for share in settings.torque_shares),
+        tuple(sorted({*map(float, speeds), case.operating.pinion_speed})),
         settings.friction_laws,
         pitch_deviation,
         settings.samples,

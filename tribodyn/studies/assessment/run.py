@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.families import family
 from tribodyn.geometry.sheet.outlines import geometry_arrays
+from tribodyn.geometry.sheet.sheet import geometry_sheet
 from tribodyn.numerics.scatter import SPREAD, scatter
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
@@ -24,24 +23,25 @@ from tribodyn.studies.assessment.local import Local, local_of
 from tribodyn.studies.assessment.said import assumed, extrapolated
 from tribodyn.studies.assessment.simulated import simulated_part
 from tribodyn.studies.assessment.standard import iso_part, standard_of, strength_of
+from tribodyn.studies.gears.check import sheet_tables, with_oil
+from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Progress, RunResult
+from tribodyn.studies.protocol.study import Checked, Progress, RunResult
 
 #: What is no number, or has the unit of what is compared; what ends the name of a scatter.
 WITHOUT_UNIT, SPREAD_OF = ("limits", "samples"), "_spread"
 
 
-def prepare(case: AssessmentCase) -> Assembly:
-    """Put the gears together.
-
-    Raises
-    ------
-    InputError
-        Where the teeth cannot be made or cannot run together.
-    """
-    from tribodyn.geometry.limits.checks import check
-
-    return check(family(case.family), case.drive)
+def check(case: AssessmentCase) -> Checked:
+    """Check a case and what it asks of the other studies; say what gears and oil it describes."""
+    sheet = geometry_sheet(assembled(case))
+    asked = parts.asked_of(case)
+    tasks = [task for part in parts.parts(asked) for task in part.tasks]
+    for task in tasks:
+        if task.needed:
+            parts.case_of(task, {task.key: task.values[0]} if task.values else {})
+    found = Checked({"geometry": sheet, "tasks": [task.name for task in tasks]}, sheet_tables(sheet))
+    return with_oil(found, case.lubricant)
 
 
 def run(
@@ -65,7 +65,7 @@ def run(
         # what is left of the part in work is done again
         error.__notes__ = [f"the parts done so far: {parts.folder_of(path)}, the same call goes on"]
         raise
-    groups = {"geometry": geometry_arrays(prepare(case))}
+    groups = {"geometry": geometry_arrays(assembled(case))}
     with writer(case, path, LAYOUT, len(local.roll_angle), groups=groups, force=force) as record:
         record.write(0, _arrays(local))
         return RunResult(record.finish(summary), "complete", "", summary)
@@ -89,7 +89,7 @@ def assessed(
         If a part that is needed cannot be run; see also `parts.results`.
     """
     begun = perf_counter()
-    assembly = prepare(case)
+    assembly = assembled(case)
     asked = parts.asked_of(case)
     taking_part = parts.parts(asked)
     done = parts.results(taking_part, folder, progress, force=force)
@@ -107,8 +107,8 @@ def assessed(
     iso = iso_part(case, found) if found else {}
     summary: dict[str, Any] = {
         "duty": {
-            "pinion_speed": case.pinion_speed,
-            "gear_torque": case.gear_torque,
+            "pinion_speed": case.operating.pinion_speed,
+            "gear_torque": case.operating.gear_torque,
             "oil_temperature": case.oil_temperature,
         },
         **found_there,

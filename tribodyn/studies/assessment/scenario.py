@@ -1,11 +1,14 @@
 """The tables of a scenario of ``kind = "assessment"``."""
 
-from typing import Annotated, Literal, cast
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Annotated, Literal
 
 from pydantic import Field
 
+from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario import units
-from tribodyn.scenario.common import Slices, Temperature, head_of
+from tribodyn.scenario.common import Temperature
 from tribodyn.scenario.quantity import (
     NotNegative,
     Positive,
@@ -16,22 +19,17 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
-from tribodyn.scenario.tables.drive_data import (
-    drive_of,
-    lubricant_of,
-    masses_of,
-    materials_of,
-    mean_roughness,
-)
-from tribodyn.scenario.tables.duty import duty_of
+from tribodyn.scenario.tables.bearings import Bearings
+from tribodyn.scenario.tables.drive_data import lubricant_of
+from tribodyn.scenario.tables.duty import broken_driving_rules
 from tribodyn.scenario.tables.losses import LossesTable
-from tribodyn.scenario.tables.model_files import Bearings, DriveTable, Lubricant
 from tribodyn.scenario.tables.modification import MisalignmentTable
-from tribodyn.scenario.tables.spectrum import OperatingTable, SpectrumScenario
+from tribodyn.scenario.tables.spectrum import OperatingTable
 from tribodyn.scenario.tables.temperature import TemperatureTable
-from tribodyn.scenario.tables.tolerances import grade_of, tolerances_of
-from tribodyn.studies.assessment.case import AssessmentCase, Settings
-from tribodyn.studies.gears.by_standard import Quality, quality_of
+from tribodyn.scenario.tables.tolerances import tolerances_of
+from tribodyn.studies.assessment.case import AssessmentCase, AssessmentSettings
+from tribodyn.studies.gears.scenario import FaceSlices, GearScenario, Oil, broken_gear_rules, gear_fields
+from tribodyn.tribology.friction import FRICTION_LAWS
 
 Speeds = Annotated[int, Field(strict=True, ge=8)]
 Samples = Annotated[int, Field(strict=True, ge=0, le=1000)]
@@ -49,9 +47,7 @@ class AssessmentMesh(Table):
     """How the axes stand, and in how many slices the face is taken."""
 
     misalignment: MisalignmentTable = written({})
-    slices: Slices | None = Field(
-        None, description="of the face; default: 21 where anything varies along it, else 1"
-    )
+    slices: FaceSlices = None
 
 
 class AssessmentAsked(Table):
@@ -103,12 +99,11 @@ class AssessmentLimits(Table):
     )
 
 
-class AssessmentScenario(SpectrumScenario):
+class AssessmentScenario(GearScenario):
     """A scenario file of an assessment."""
 
     kind: Literal["assessment"]
-    drive: Annotated[DriveTable, model_file("drives")]
-    lubricant: Annotated[Lubricant, model_file("lubricants")]
+    lubricant: Oil
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
     operating: AssessmentOperating
     mesh: AssessmentMesh = written({})
@@ -125,23 +120,58 @@ Scenario = AssessmentScenario
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
     """Return the case of a scenario that has passed schema and rules."""
-    drive, operating = scenario.drive, scenario.operating
-    duty = duty_of(operating, drive.pinion.teeth, drive.gear.teeth)
+    oil_temperature = scenario.operating.oil_temperature
     return AssessmentCase(
-        **head_of(scenario, toml, sha256),
-        family=drive.family,
-        drive=drive_of(drive),
-        materials=materials_of(drive),
-        masses=masses_of(drive),
-        mean_roughness=mean_roughness(drive),
-        lubricant=lubricant_of(scenario.lubricant, operating.oil_temperature),
-        pinion_speed=duty.pinion_speed,
-        gear_torque=duty.gear_torque,
-        oil_temperature=operating.oil_temperature,
-        quality=cast(
-            Quality,
-            quality_of([grade_of(drive, one) for one in (drive.pinion, drive.gear)], tolerances_of(drive)),
-        ),
-        settings=Settings(**scenario.assessment.model_dump()),
+        **gear_fields(scenario, toml, sha256),
+        lubricant=lubricant_of(scenario.lubricant, oil_temperature),
+        oil_temperature=oil_temperature,
+        settings=AssessmentSettings(**scenario.assessment.model_dump()),
         limits=scenario.limits.model_dump(),
     )
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that the scenario breaks."""
+    drive, data_sheet = scenario.drive, scenario.lubricant.viscosity_40 is not None
+    yield from broken_gear_rules(scenario, oil=data_sheet)
+    if None in tolerances_of(drive):
+        yield InputError(
+            "drive.quality",
+            rule="missing: the standards reckon with the deviations of a tolerance class by ISO 1328-1",
+            remedy="add quality = 6 to [drive]",
+        )
+    if not data_sheet:
+        yield InputError(
+            "lubricant.viscosity_40",
+            rule="missing: temperatures and margins need the oil over temperature, by its data sheet",
+            remedy="give type, viscosity_40, viscosity_100 and density_15",
+        )
+    yield from broken_driving_rules(
+        scenario.operating,
+        (drive.pinion.teeth, drive.gear.teeth),
+        "the standards' formulas are those of a driving pinion",
+        ", or call the driving gear the pinion",
+    )
+    yield from _broken_settings(scenario)
+
+
+def _broken_settings(scenario: Scenario) -> Iterator[InputError]:
+    settings = scenario.assessment
+    for lower, higher in pairwise(settings.torque_shares):
+        if not lower < higher:
+            rule = f"must increase: {higher:g} follows {lower:g}"
+            yield InputError(
+                "assessment.torque_shares", f"{higher:g}", rule, "write them in increasing order"
+            )
+    first, last = settings.speed_range
+    if not first < last:
+        rule = "the last speed must be above the first"
+        yield InputError("assessment.speed_range", f"[{first:g}, {last:g}]", rule, "write [0.2, 2.5]")
+    for name in settings.friction_laws:
+        if name not in FRICTION_LAWS:
+            yield unknown_name("assessment.friction_laws", name, FRICTION_LAWS, FRICTION_LAWS.what)
+            continue
+        needed = [key.name for key in FRICTION_LAWS[name].keys if key.default is None]
+        if name == "none" or needed:
+            rule = f"has keys of its own ({', '.join(needed)})" if needed else "has no losses"
+            yield InputError("assessment.friction_laws", f'"{name}"', rule, "leave it out")

@@ -35,7 +35,11 @@ def simulated_part(
     films, count = local.films, len(local.points)
     width = float(assembly.common_width)
     angle = float(assembly.path.pressure_angle(0.0))
-    power = case.gear_torque * float(case.drive.pinion.teeth / case.drive.gear.teeth) * case.pinion_speed
+    power = (
+        case.operating.gear_torque
+        * float(case.drive.pinion.teeth / case.drive.gear.teeth)
+        * case.operating.pinion_speed
+    )
     loss, friction = float(figures["power_friction_mean"]), float(figures["friction_coefficient_mean"])
     bulk = films.bulk_temperature - ZERO_CELSIUS
     film = by_point(local.at_points(films.film_thickness), min)

@@ -114,7 +114,7 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
     """Evaluate the standards for an involute drive; `face` is K_Hβ."""
     drive, settings = case.drive, case.settings
     path = path_of(assembly)
-    width, torque = float(assembly.common_width), case.gear_torque / path.ratio
+    width, torque = float(assembly.common_width), case.operating.gear_torque / path.ratio
     bodies = body_masses(
         assembly, [(one.mass, one.inertia) for one in case.masses], [one.density for one in case.materials]
     )
@@ -123,7 +123,7 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
         case.materials,
         bodies,
         case.quality,
-        (case.pinion_speed, case.gear_torque),
+        (case.operating.pinion_speed, case.operating.gear_torque),
         settings.application_factor,
     )
     dynamic, stiffness = by.dynamic, by.stiffness
@@ -131,7 +131,7 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
     transverse = transverse_factor_b((path.contact_ratio, 0.0), stiffness.mesh, by.base_pitch_deviation, load)
     duty = Load(
         torque,
-        case.pinion_speed,
+        case.operating.pinion_speed,
         width,
         case.oil_temperature,
         settings.application_factor,
@@ -148,7 +148,7 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
         path,
         integral_temperature.ScuffingMesh(
             load * transverse,
-            case.pinion_speed * float(reference_radius(drive, "pinion")),
+            case.operating.pinion_speed * float(reference_radius(drive, "pinion")),
             float(oil.viscosity(case.oil_temperature)),
             case.oil_temperature,
             case.mean_roughness,
@@ -215,7 +215,7 @@ def path_of(assembly: Assembly) -> ContactPath:
 def iso_part(case: AssessmentCase, found: Standard) -> dict[str, Any]:
     """What a program reads of it; temperatures in °C, everything else in SI units."""
     films, count = found.films, len(POINTS)
-    power = case.gear_torque / found.path.ratio * case.pinion_speed
+    power = case.operating.gear_torque / found.path.ratio * case.operating.pinion_speed
     return {
         "theta_M": by_point(np.full(count, films.bulk_temperature - ZERO_CELSIUS), max),
         "mu_m": by_point(np.full(count, films.friction_coefficient), max),

@@ -1,25 +1,24 @@
 """From a case of the efficiency study to its record: one mesh cycle, quasi-static."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, effective_contact_ratio
 from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.geometry.sheet.outlines import geometry_arrays
 from tribodyn.geometry.sheet.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark
-from tribodyn.mesh.cycle import MeshCycle, as_arrays
+from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.power_flow import driving_gear, power_put_in
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
@@ -28,14 +27,15 @@ from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
+from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.gears.oil import oil_data
+from tribodyn.studies.gears.prepare import PreparedGears, assembled, at_tooth_temperature
 from tribodyn.studies.gears.shared import LAYOUT
-from tribodyn.studies.gears.temperature import Thermal, contact_figures, thermal_figures, thermal_state
+from tribodyn.studies.gears.temperature import contact_figures, thermal_figures
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Progress, RunResult
+from tribodyn.studies.protocol.study import Checked, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
 from tribodyn.tribology.friction.coulomb import constant
-from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.surface_state import fraction_in_range
 
 #: By how much of a pitch the mesh is looked at before and behind a jump.
@@ -52,23 +52,15 @@ SPECTRUM = (
 )
 
 
-class Prepared(NamedTuple):
-    """A case made ready: the table of the mesh, the gears it was made from, and what the mesh has to do.
+@dataclass(frozen=True)
+class PreparedEfficiency(PreparedGears[EfficiencyCase]):
+    """A case made ready, with what the mesh has to do.
 
     `flanks` are those of the load contact model that shares the load, where the scenario asks for it.
     """
 
-    case: EfficiencyCase
-    cycle: MeshCycle
-    assembly: Assembly
     duty: Duty
-    flanks: LoadedFlanks | None = None
-    thermal: Thermal | None = None
-
-    @property
-    def lubricant(self) -> LubricantData:
-        """The lubricant at the bulk temperature of the teeth, at which film and friction are taken."""
-        return self.case.lubricant if self.thermal is None else self.thermal.lubricant
+    flanks: LoadedFlanks | None
 
     @property
     def path(self) -> PathOfContact:
@@ -76,7 +68,7 @@ class Prepared(NamedTuple):
         return self.assembly.path
 
 
-def prepare(case: EfficiencyCase) -> Prepared:
+def prepare(case: EfficiencyCase) -> PreparedEfficiency:
     """Check the geometry and tabulate the mesh.
 
     Raises
@@ -84,11 +76,9 @@ def prepare(case: EfficiencyCase) -> Prepared:
     InputError
         Where the teeth cannot be made or cannot run together, or the load sharing does not fit them.
     """
-    from tribodyn.geometry.limits.checks import check
     from tribodyn.mesh.by_compliance import loaded_flanks_of, mesh_cycle_of
 
-    assembly = check(family(case.family), case.drive)
-    mesh = case.mesh
+    assembly, mesh = assembled(case), case.mesh
     if case.operating.gear_torque < 0.0:  # the gear drives: the back flanks carry
         behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
         mesh = replace(mesh, modifications=behind)
@@ -102,9 +92,14 @@ def prepare(case: EfficiencyCase) -> Prepared:
     def lost(case: EfficiencyCase) -> float:
         return cycle_efficiency(cycle, assembly.path, duty_of(case), flanks=flanks).power_friction
 
-    thermal = thermal_state(case, assembly, lost)
-    warm = case if thermal is None else replace(case, lubricant=thermal.lubricant)
-    return Prepared(case, cycle, assembly, duty_of(warm), flanks, thermal)
+    case, thermal = at_tooth_temperature(case, assembly, lost)
+    return PreparedEfficiency(case, assembly, cycle, thermal, duty_of(case), flanks)
+
+
+def check(case: EfficiencyCase) -> Checked:
+    """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
+    study = prepare(case)
+    return check_gears(study, study.duty.closure)
 
 
 def run(
@@ -114,7 +109,7 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
-    """Run a case and write its record; see `study.Prepared.run`.
+    """Run a case and write its record; see `study.Study.run`.
 
     It covers one mesh cycle.
     """
@@ -162,7 +157,7 @@ def spectrum_figures(case: EfficiencyCase) -> dict[str, Any]:
     }
 
 
-def _at_jumps(study: Prepared) -> tuple[Places, Engagement]:
+def _at_jumps(study: PreparedEfficiency) -> tuple[Places, Engagement]:
     """The mesh on both sides of where a pair enters, leaves or passes a corner of the path.
 
     Extremes lie there as a rule; over samples alone they would change by jumps with the numbers of a drive.
@@ -173,14 +168,14 @@ def _at_jumps(study: Prepared) -> tuple[Places, Engagement]:
     return mesh, engage(mesh, study.duty)
 
 
-def _sampled(study: Prepared) -> tuple[Samples, Places, Engagement]:
+def _sampled(study: PreparedEfficiency) -> tuple[Samples, Places, Engagement]:
     over = samples(study.cycle, study.case.samples_per_cycle, study.duty.way)
     mesh = places(study.cycle, study.path, over.phase, study.duty.sharing, study.flanks)
     return over, mesh, engage(mesh, study.duty)
 
 
 def efficiencies(
-    study: Prepared, known: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
+    study: PreparedEfficiency, known: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
 ) -> dict[str, float]:
     """Cycle efficiency under every load sharing, by the torque ratio, and of an involute by Höhn's formula.
 
@@ -209,7 +204,7 @@ def efficiencies(
     return results | _by_loss_factor(study)
 
 
-def _by_loss_factor(study: Prepared) -> dict[str, float]:
+def _by_loss_factor(study: PreparedEfficiency) -> dict[str, float]:
     case, friction = study.case, study.duty.closure.friction
     if not study.assembly.family.involute or friction.functions.coefficient is not constant:
         return {}
@@ -232,7 +227,7 @@ def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dic
     return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
 
 
-def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) -> dict[str, Any]:
+def _figures(study: PreparedEfficiency, over: Samples, mesh: Places, state: Engagement) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
     means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
     loaded = state.normal_load > 0
@@ -267,7 +262,7 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
         "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
         **law_figures(study.case),
-        "lubricant": oil_data(study.lubricant),
+        "lubricant": oil_data(study.case.lubricant),
         **exceeded_limits(study.case, state.closure_shares[loaded], state.friction_shares[loaded]),
         "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
         "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),
@@ -284,18 +279,20 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
     return figures | _judged(study, mesh, state, figures)
 
 
-def _judged(study: Prepared, mesh: Places, state: Engagement, figures: dict[str, Any]) -> dict[str, Any]:
+def _judged(
+    study: PreparedEfficiency, mesh: Places, state: Engagement, figures: dict[str, Any]
+) -> dict[str, Any]:
     """Whether the study lies within its model, see `record.trust`."""
     quantities = {
         "deflection": state.normal_load * mesh.cycle.compliance[:, 0] / study.case.drive.module,
         "friction_coefficient": state.friction_coefficient,
         "hertz_pressure": state.hertz_pressure,
-        **heat_of(state.flash_temperature_rise, study.lubricant.temperature),
+        **heat_of(state.flash_temperature_rise, study.case.lubricant.temperature),
     }
     loaded = state.normal_load > 0
     judge = Judge()
     judge.take({name: np.where(loaded, values, np.nan) for name, values in quantities.items()})
     judge.take({"efficiency": figures["efficiency"]})
-    judge.take(heat_of(figures["flash_temperature_max"], study.lubricant.temperature))
+    judge.take(heat_of(figures["flash_temperature_max"], study.case.lubricant.temperature))
     judge_tribology(judge, figures)
     return judge.figures()

@@ -7,13 +7,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.families import family
 from tribodyn.geometry.path import kinematics
-from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import BEGIN, END, PLACES
 from tribodyn.studies.ehl.loads import given_loads, quasi_static_loads
+from tribodyn.studies.gears.prepare import PreparedGears, assembled
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.data import FilmData, FrictionData
@@ -36,12 +34,7 @@ _UNLOADED = 1e-6
 _SPREAD = 32
 
 
-class Prepared(NamedTuple):
-    """A case made ready: the table of the mesh, and the gears it was made from."""
-
-    case: EhlCase
-    cycle: MeshCycle
-    assembly: Assembly
+PreparedEhl = PreparedGears[EhlCase]
 
 
 class PairWay(NamedTuple):
@@ -63,17 +56,16 @@ class PairWay(NamedTuple):
         return self.speeds[0] - self.speeds[1]
 
 
-def prepare(case: EhlCase) -> Prepared:
+def prepare(case: EhlCase) -> PreparedEhl:
     """Check the geometry and tabulate the mesh; raises InputError where teeth cannot be made or run."""
-    from tribodyn.geometry.limits.checks import check
     from tribodyn.mesh.by_compliance import mesh_cycle_of
 
-    assembly = check(family(case.family), case.drive)
+    assembly = assembled(case)
     cycle = mesh_cycle_of(assembly, case.materials, case.mesh, case.operating.gear_torque)
-    return Prepared(case, cycle, assembly)
+    return PreparedGears(case, assembly, cycle, None)
 
 
-def way(study: Prepared) -> PairWay:
+def way(study: PreparedEhl) -> PairWay:
     """Return the pair at positions evenly spaced in roll angle, in the middle of equal parts of its contact.
 
     Loads are given ones, or follow from the compliances of the pairs, the torque and the friction of the
@@ -90,7 +82,7 @@ def way(study: Prepared) -> PairWay:
     return _way(study, study.case.positions, (free.roll[known], friction[known]))
 
 
-def _way(study: Prepared, positions: int, friction: tuple[Array, Array] | None) -> PairWay:
+def _way(study: PreparedEhl, positions: int, friction: tuple[Array, Array] | None) -> PairWay:
     """As `way`, with friction coefficients at roll angles, or without friction."""
     case, cycle = study.case, study.cycle
     start, end = float(cycle.roll_start), float(cycle.roll_end)
@@ -111,7 +103,7 @@ def _way(study: Prepared, positions: int, friction: tuple[Array, Array] | None) 
     return PairWay(roll, line_load * float(cycle.face_width), line_load, radius, speeds, (nodes, loads))
 
 
-def jump_width(study: Prepared, line_load: float, radius: Array, speeds: tuple[Array, Array]) -> float:
+def jump_width(study: PreparedEhl, line_load: float, radius: Array, speeds: tuple[Array, Array]) -> float:
     """Roll angle in which the oil is drawn through half a contact, b/u, at the highest load; rad.
 
     Where the load rises much faster, the contact widens faster than the oil can follow.
@@ -132,7 +124,7 @@ def _spread(nodes: Array, loads: Array, width: float) -> tuple[Array, Array]:
     return fine, np.convolve(padded, kernel, mode="valid")
 
 
-def friction_along(study: Prepared, over: PairWay) -> Array:
+def friction_along(study: PreparedEhl, over: PairWay) -> Array:
     """Friction coefficient of the solved contact, of the sign of the sliding; NaN where there is none."""
     seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
     found = np.full(len(over.roll), np.nan)
@@ -152,7 +144,7 @@ def given_of(case: EhlCase) -> LawInput:
     return LawInput(surfaces_of(case), case.lubricant, case.materials, none, none)
 
 
-def seen_by(study: Prepared, over: PairWay, film: str | None, friction: str) -> ContactFriction:
+def seen_by(study: PreparedEhl, over: PairWay, film: str | None, friction: str) -> ContactFriction:
     """What a film law (None: that which goes with the friction law) and a friction law make of the way."""
     case = replace(study.case, film=FilmData(film), friction=FrictionData(friction))
     cycle, speed = study.cycle, study.case.operating.pinion_speed
@@ -166,7 +158,7 @@ def seen_by(study: Prepared, over: PairWay, film: str | None, friction: str) -> 
     )
 
 
-def by_laws(study: Prepared, over: PairWay) -> dict[str, dict[str, Array]]:
+def by_laws(study: PreparedEhl, over: PairWay) -> dict[str, dict[str, Array]]:
     """Film by every film law and friction by every friction law that needs no values of its own.
 
     The solved law is left out: it is tabulated from the contacts that are solved here.
@@ -186,12 +178,12 @@ def by_laws(study: Prepared, over: PairWay) -> dict[str, dict[str, Array]]:
     return {"film": films, "friction": frictions}
 
 
-def meant_by(study: Prepared, over: PairWay, law: str) -> str:
+def meant_by(study: PreparedEhl, over: PairWay, law: str) -> str:
     """Which dataset of the solved contact a film law stands for.
 
     Its central or its minimum film; and that between smooth surfaces, where the law knows no roughness.
     """
-    smooth = study._replace(case=replace(study.case, roughness=1e-3 * study.case.roughness))
+    smooth = replace(study, case=replace(study.case, roughness=1e-3 * study.case.roughness))
     rough, flat = (
         seen_by(prepared, over, law, "none").surface.central_film_thickness for prepared in (study, smooth)
     )

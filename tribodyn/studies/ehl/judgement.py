@@ -12,7 +12,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.scenario.tables.spectrum import OiledOperatingTable
-from tribodyn.studies.ehl.along_path import Prepared, by_laws, meant_by, prepare, seen_by, way
+from tribodyn.studies.ehl.along_path import PreparedEhl, by_laws, meant_by, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import solve
 from tribodyn.studies.protocol.load import loaded_from, table_of
@@ -266,7 +266,7 @@ def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
     return found
 
 
-def _inside(study: Prepared, seen: ContactFriction, law: FilmLaw | FrictionLaw) -> tuple[float, float]:
+def _inside(study: PreparedEhl, seen: ContactFriction, law: FilmLaw | FrictionLaw) -> tuple[float, float]:
     """Shares of the way inside the law's range, and inside its judged limits alone; NaN: none stated."""
     film, friction = (law.name, "none") if law.table == "film" else (None, law.name)
     closure = untried_closure_of(replace(study.case, film=FilmData(film), friction=FrictionData(friction)))

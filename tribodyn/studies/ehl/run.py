@@ -10,7 +10,7 @@ from tribodyn.mesh.cycle import as_arrays
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.ehl.along_path import (
     PairWay,
-    Prepared,
+    PreparedEhl,
     by_laws,
     contact_for,
     loaded,
@@ -24,8 +24,9 @@ from tribodyn.studies.ehl.along_path import (
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import BEGIN, END, PLACES, SAMPLES, layout_of
 from tribodyn.studies.ehl.squeezed import SteadyContact, kept, squeezed
+from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Progress, RunResult
+from tribodyn.studies.protocol.study import Checked, Progress, RunResult
 
 Array = Any
 
@@ -43,7 +44,7 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
-    """Run a case and write its record; see `study.Prepared.run`."""
+    """Run a case and write its record; see `study.Study.run`."""
     path = target(case, output, force)
     begun = perf_counter()
     study = prepare(case)
@@ -72,6 +73,11 @@ def run(
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
+def check(case: EhlCase) -> Checked:
+    """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
+    return check_gears(prepare(case))
+
+
 def figures(case: EhlCase) -> dict[str, Any]:
     """Figures of a case without a record."""
     study = prepare(case)
@@ -79,7 +85,7 @@ def figures(case: EhlCase) -> dict[str, Any]:
     return _figures(study, over, solve(study, over, lambda _share: None), by_laws(study, over))
 
 
-def solve(study: Prepared, over: PairWay, progress: Progress) -> dict[str, Array]:
+def solve(study: PreparedEhl, over: PairWay, progress: Progress) -> dict[str, Array]:
     """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
     case = study.case
     seen = seen_by(study, over, None, "none")
@@ -134,7 +140,7 @@ def solve(study: Prepared, over: PairWay, progress: Progress) -> dict[str, Array
     return arrays
 
 
-def _traction(study: Prepared, over: PairWay) -> list[float]:
+def _traction(study: PreparedEhl, over: PairWay) -> list[float]:
     """Friction coefficient over slide-to-roll ratio, where the load is highest; NaN: not solved."""
     seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
     at = int(np.argmax(over.line_load))
@@ -146,7 +152,7 @@ def _traction(study: Prepared, over: PairWay) -> list[float]:
 
 
 def _figures(
-    study: Prepared, over: PairWay, arrays: dict[str, Array], laws: dict[str, dict[str, Array]]
+    study: PreparedEhl, over: PairWay, arrays: dict[str, Array], laws: dict[str, dict[str, Array]]
 ) -> dict[str, Any]:
     solved = np.isfinite(arrays["central_film_thickness"])
     if not np.any(solved):

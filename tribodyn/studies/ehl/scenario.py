@@ -1,27 +1,18 @@
 """The tables of a scenario of ``kind = "ehl"``: the contact of a pair solved along its way."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from tribodyn.dynamics.data import OperatingData
-from tribodyn.mesh.data import MeshData
-from tribodyn.scenario.common import head_of
+from tribodyn.errors import InputError
 from tribodyn.scenario.curves import LoadCurve
-from tribodyn.scenario.quantity import Switch, Table, csv_or_record, model_file, written
-from tribodyn.scenario.tables.drive_data import (
-    lubricant_of,
-    modifications_of,
-    slices_of,
-    teeth_of,
-)
-from tribodyn.scenario.tables.duty import duty_of
-from tribodyn.scenario.tables.model_files import DriveTable, Lubricant
-from tribodyn.scenario.tables.modification import MisalignmentTable
-from tribodyn.scenario.tables.spectrum import OiledOperatingTable, SpectrumScenario
+from tribodyn.scenario.quantity import Switch, Table, csv_or_record, written
+from tribodyn.scenario.tables.duty import broken_driving_rules
+from tribodyn.scenario.tables.spectrum import OiledOperatingTable
 from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.studies.gears.scenario import GearScenario, Oil, broken_gear_rules, gear_fields, oil_fields
 from tribodyn.tribology.ehl.grid import STEP
 
 
@@ -65,12 +56,11 @@ class EhlOutput(Table):
     )
 
 
-class EhlScenario(SpectrumScenario):
+class EhlScenario(GearScenario):
     """A scenario file of a study of the solved contact."""
 
     kind: Literal["ehl"]
-    drive: Annotated[DriveTable, model_file("drives")]
-    lubricant: Annotated[Lubricant, model_file("lubricants")]
+    lubricant: Oil
     operating: OiledOperatingTable
     mesh: EhlMesh = written({})
     contact: EhlContact = written({})
@@ -82,23 +72,19 @@ Scenario = EhlScenario
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
     """Return the case of a scenario that has passed schema and rules."""
-    drive, operating = scenario.drive, scenario.operating
-    modifications = modifications_of(drive, MisalignmentTable(from_quality=0.0))
+    contact = scenario.contact
     return EhlCase(
-        **head_of(scenario, toml, sha256),
-        **teeth_of(drive),
-        lubricant=lubricant_of(scenario.lubricant, operating.oil_temperature),
-        operating=OperatingData("speed", *duty_of(operating, drive.pinion.teeth, drive.gear.teeth)),
-        mesh=MeshData(
-            scenario.mesh.compliance,
-            damping_ratio=0.0,
-            modifications=modifications,
-            slices=slices_of(None, modifications),
-        ),
+        **gear_fields(scenario, toml, sha256),
+        **oil_fields(scenario),
         positions=scenario.output.positions,
-        transient=scenario.contact.transient,
-        loads=loads.in_si() if (loads := scenario.contact.loads) else None,
-        step=scenario.contact.step,
-        film=FilmData(),
-        friction=FrictionData("none"),
+        transient=contact.transient,
+        loads=contact.loads.in_si() if contact.loads else None,
+        step=contact.step,
     )
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that tie keys of such a scenario together and that this one breaks."""
+    yield from broken_gear_rules(scenario)
+    drive = scenario.drive
+    yield from broken_driving_rules(scenario.operating, (drive.pinion.teeth, drive.gear.teeth))

@@ -8,21 +8,21 @@ import numpy as np
 from tribodyn.dynamics.recorded import pair_numbers
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.record.trust import Judge, heat_of
-from tribodyn.studies.gear_pair.prepare import Prepared
+from tribodyn.studies.gear_pair.prepare import PreparedPair
 
 
 def judge_block(
     judge: Judge,
     cycles: np.ndarray,
     block: Mapping[str, np.ndarray],
-    prepared: Prepared,
+    prepared: PreparedPair,
     between_samples: bool = False,
 ) -> None:
     """Judge what is recorded of a block of states, at mesh cycles (n,) since the start."""
     if not len(cycles):
         return
     quantities = quantities_of(block, prepared.case.drive.module, smallest_clearance(prepared.assembly))
-    quantities |= heat_of(block["flash_temperature_rise"], prepared.lubricant.temperature)
+    quantities |= heat_of(block["flash_temperature_rise"], prepared.case.lubricant.temperature)
     places = {"time": block["time"], "mesh_cycle": cycles}
     numbers = pair_numbers(prepared.cycle.front_pairs, np.size(prepared.cycle.side))
     judge.take(quantities, places, numbers, between_samples)

@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -27,9 +28,8 @@ from tribodyn.mesh.equilibrium import contacts, elastic, settled
 from tribodyn.mesh.power_flow import friction_loss
 from tribodyn.numerics.curve import monotone_slopes
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gears.temperature import Thermal, thermal_state
+from tribodyn.studies.gears.prepare import PreparedGears, assembled, at_tooth_temperature
 from tribodyn.tribology.closure import Closure, closure_of
-from tribodyn.tribology.lubricant import LubricantData
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
 #: reduces the error by the square of the coupling between two pairs over what each deflects alone.
@@ -40,32 +40,22 @@ STRONGLY_COUPLED = 0.1
 SWEEPS_NONLINEAR = 12
 
 
-class Prepared(NamedTuple):
+@dataclass(frozen=True)
+class PreparedPair(PreparedGears[Case]):
     """A case made ready to integrate.
 
-    Attributes
+    Parameters
     ----------
-    case : Case
-    cycle : MeshCycle
     model : Model
     masses : tuple of (mass kg, inertia kg m²)
         Of pinion and gear alone, without what is attached to them.
-    assembly : Assembly
-    thermal : Thermal or None
-        Bulk temperature and load-independent losses, where the case asks for them.
+    given : Case
+        As it was before: with the oil that enters the mesh.
     """
 
-    case: Case
-    cycle: MeshCycle
     model: Model
     masses: tuple[tuple[float, float], tuple[float, float]]
-    assembly: Assembly
-    thermal: Thermal | None = None
-
-    @property
-    def lubricant(self) -> LubricantData:
-        """The lubricant at the bulk temperature of the teeth, at which the model was made."""
-        return self.case.lubricant if self.thermal is None else self.thermal.lubricant
+    given: Case
 
 
 class Tabulated(NamedTuple):
@@ -137,7 +127,7 @@ def _hashable(value: Any) -> Hashable:
     return tuple(map(_hashable, value)) if isinstance(value, (list, tuple)) else value
 
 
-def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
+def prepare(case: Case, tabulated: Tabulated | None = None) -> PreparedPair:
     """Check the geometry, tabulate the mesh cycle and assemble the model.
 
     Parameters
@@ -152,12 +142,11 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
         Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
     cycle, table, (pinion, gear), assembly, _ = made = tabulated or tables(case)
-    thermal = thermal_state(case, assembly, _quasi_static_loss(made))
-    warm = case if thermal is None else dataclasses.replace(case, lubricant=thermal.lubricant)
+    warm, thermal = at_tooth_temperature(case, assembly, _quasi_static_loss(made))
     surfaces, film, friction = closure = closure_of(warm)
     mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle, closure)
     model = Model(table, mechanics, surfaces, film.parameters, friction.parameters, options)
-    return Prepared(case, cycle, model, (pinion, gear), assembly, thermal)
+    return PreparedPair(warm, assembly, cycle, thermal, model, (pinion, gear), case)
 
 
 def _quasi_static_loss(made: Tabulated) -> Callable[[Case], float]:
@@ -177,12 +166,10 @@ def _quasi_static_loss(made: Tabulated) -> Callable[[Case], float]:
 
 def tables(case: Case) -> Tabulated:
     """Check the geometry and tabulate the mesh cycle; raises as `prepare` does."""
-    from tribodyn.geometry.families import family
-    from tribodyn.geometry.limits.checks import check
     from tribodyn.geometry.tooth.body import body_masses
     from tribodyn.mesh.by_compliance import mesh_cycle_of
 
-    assembly = check(family(case.family), case.drive)
+    assembly = assembled(case)
     back, torque = case.mesh.backlash is not None, case.operating.gear_torque
     cycle = mesh_cycle_of(assembly, case.materials, case.mesh, torque, back)
     given = [(one.mass, one.inertia) for one in case.masses]

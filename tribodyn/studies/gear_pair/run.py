@@ -20,15 +20,16 @@ from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 from tribodyn.studies.gear_pair.assumptions import judge_balance, judge_block
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import Prepared, prepare
+from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures, warning_of
 from tribodyn.studies.gears.by_standard import rated
+from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.gears.oil import oil_data
 from tribodyn.studies.gears.shared import LAYOUT
 from tribodyn.studies.gears.temperature import contact_figures, thermal_figures
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Progress, RunResult
+from tribodyn.studies.protocol.study import Checked, Progress, RunResult
 from tribodyn.tribology.closure import exceeded_limits, law_figures
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
@@ -64,9 +65,16 @@ def run(
     return result
 
 
+def check(case: Case) -> Checked:
+    """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
+    prepared = prepare(case)
+    return check_gears(prepared, prepared.model.closure, prepared.masses)
+
+
 def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunResult:
     """Run a case once."""
     prepared = prepare(case)
+    case = prepared.case
     model, cycle = prepared.model, prepared.cycle
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
     summary: dict[str, Any] = {
@@ -82,7 +90,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         "compliance_remark": compliance_remark(prepared.assembly, case.materials, case.mesh) or None,
         **_by_standard(prepared),
         **law_figures(case),
-        "lubricant": oil_data(prepared.lubricant),
+        "lubricant": oil_data(case.lubricant),
     }
     groups = {
         "mesh_cycle": as_arrays(cycle),
@@ -149,7 +157,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def _by_standard(prepared: Prepared) -> dict[str, float]:
+def _by_standard(prepared: PreparedPair) -> dict[str, float]:
     """K_v by ISO 6336-1 of a drive with a quality whose involute pinion drives; nothing of others."""
     case, operating = prepared.case, prepared.case.operating
     if case.quality is None or not prepared.assembly.family.involute or operating.gear_torque <= 0.0:
@@ -167,7 +175,7 @@ def window_of(cycles: int) -> int:
 class RunStatistics:
     """What the summary needs of a run that arrives in blocks: extremes, both ends, the last cycles."""
 
-    def __init__(self, cycles: int, total: int, prepared: Prepared):
+    def __init__(self, cycles: int, total: int, prepared: PreparedPair):
         self.start = total - cycles
         self.stop = total
         self.written = 0

@@ -5,57 +5,48 @@ as they would be written in TOML. Rules that tie fields together stand in `rules
 solvers in their registries.
 """
 
-from typing import Annotated, Literal, cast
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from tribodyn.compliance.foundation import Foundation
-from tribodyn.dynamics.data import BearingData, OperatingData
-from tribodyn.dynamics.rolling_bearing import RollingBearing, radial_stiffness
+from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
-from tribodyn.scenario.common import (
-    Angle,
-    Error,
-    Inertia,
-    Slices,
-    Torque,
-    TorsionalDamping,
-    head_of,
-)
+from tribodyn.scenario.common import Angle, Error, Inertia, Torque, TorsionalDamping
 from tribodyn.scenario.curves import ErrorCurve, StiffnessCurve, TorqueCurve
 from tribodyn.scenario.quantity import (
     Count,
     NotNegative,
     Quantity,
-    Switch,
     Table,
     Text,
     csv_file,
     model_file,
     written,
 )
-from tribodyn.scenario.tables.drive_data import (
-    backlash_of,
-    lubricant_of,
-    masses_of,
-    modifications_of,
-    slices_of,
-    teeth_of,
-)
+from tribodyn.scenario.tables.bearings import Bearings, Stiffness, bearings_of
+from tribodyn.scenario.tables.drive_data import backlash_of
 from tribodyn.scenario.tables.duty import DutyTable, duty_of
-from tribodyn.scenario.tables.laws import FilmTable, FrictionTable, film_data, friction_values
-from tribodyn.scenario.tables.losses import LossesTable, losses_of
-from tribodyn.scenario.tables.model_files import Bearing, Bearings, DriveTable, Lubricant, Stiffness
+from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.modification import MisalignmentTable
-from tribodyn.scenario.tables.quality import DeviationSample, error_with_sample, with_sample
-from tribodyn.scenario.tables.spectrum import OiledOperatingTable, SpectrumScenario
-from tribodyn.scenario.tables.temperature import TemperatureTable, temperature_of
-from tribodyn.scenario.tables.tolerances import grade_of, tolerances_of
+from tribodyn.scenario.tables.spectrum import OiledOperatingTable
 from tribodyn.solve.data import SolverData
 from tribodyn.studies.gear_pair.case import Case, OutputData
-from tribodyn.studies.gears.by_standard import quality_of
-from tribodyn.tribology.data import FrictionData
+from tribodyn.studies.gears.scenario import (
+    FaceSlices,
+    FilmKeys,
+    FoundationCoupling,
+    GearScenario,
+    LossKeys,
+    Oil,
+    SampleNumber,
+    SliceCoupling,
+    TemperatureKeys,
+    gear_fields,
+    mesh_of,
+    oil_fields,
+)
 
 #: Cosines in a load or an error: a curve is given by points.
 MOST_HARMONICS = 1000
@@ -140,7 +131,7 @@ class Mesh(Table):
     foundation: Foundation = Field(
         "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
     )
-    foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
+    foundation_coupling: FoundationCoupling = True
     stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
     table: (
         Annotated[
@@ -158,14 +149,10 @@ class Mesh(Table):
     )
     points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
     transmission_error: TransmissionError = written({})
-    deviation_sample: DeviationSample | None = Field(
-        None, description="number of the sample of deviations drawn from the quality; default: none"
-    )
+    deviation_sample: SampleNumber = None
     misalignment: MisalignmentTable = written({})
-    slices: Slices | None = Field(
-        None, description="of the face; default: 21 where anything varies along it, else 1"
-    )
-    slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
+    slices: FaceSlices = None
+    slice_coupling: SliceCoupling = True
 
 
 class Friction(FrictionTable):
@@ -195,18 +182,17 @@ class Output(Table):
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
 
 
-class GearPairScenario(SpectrumScenario):
+class GearPairScenario(GearScenario):
     """A scenario file."""
 
     kind: Literal["gear-pair"] = "gear-pair"
-    drive: Annotated[DriveTable, model_file("drives")]
-    lubricant: Annotated[Lubricant, model_file("lubricants")]
+    lubricant: Oil
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
     operating: Operating
     mesh: Mesh
-    temperature: TemperatureTable | None = Field(None, description="bulk temperature of the teeth")
-    losses: LossesTable | None = Field(None, description="load-independent losses")
-    film: FilmTable | None = Field(None, description="which law gives the film")
+    temperature: TemperatureKeys = None
+    losses: LossKeys = None
+    film: FilmKeys = None
     friction: Friction
     solver: Solver = written({})
     output: Output = written({})
@@ -217,42 +203,14 @@ Scenario = GearPairScenario
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
     """Return the case of a scenario that has passed schema and rules."""
-    drive = scenario.drive
+    own: dict[str, Any] = {"operating": _operating(scenario), "mesh": _mesh(scenario)}
     return Case(
-        **head_of(scenario, toml, sha256),
-        **teeth_of(drive),
-        masses=masses_of(drive),
-        lubricant=lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
-        bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),
-        operating=_operating(scenario),
-        mesh=_mesh(scenario),
-        friction=FrictionData(
-            scenario.friction.law,
-            friction_values(scenario.friction),
-            scenario.friction.sliding,
-            scenario.friction.reversal_width,
-        ),
+        **gear_fields(scenario, toml, sha256) | own,
+        **oil_fields(scenario),
+        bearings=bearings_of(scenario.bearings),
         solver=SolverData(**scenario.solver.model_dump()),
         output=OutputData(**scenario.output.model_dump()),
-        film=film_data(scenario),
-        temperature=temperature_of(scenario.temperature),
-        losses=losses_of(scenario.losses),
-        quality=quality_of(
-            [grade_of(drive, one) for one in (drive.pinion, drive.gear)], tolerances_of(drive)
-        ),
     )
-
-
-def _bearing(bearing: Bearing) -> BearingData:
-    ratio_x = bearing.damping_ratio if bearing.damping_ratio_x is None else bearing.damping_ratio_x
-    ratio_y = bearing.damping_ratio if bearing.damping_ratio_y is None else bearing.damping_ratio_y
-    if bearing.rolling is not None:
-        numbers = bearing.rolling.model_dump()
-        sizes = {name: numbers[name] or 0.0 for name in ("diameter", "length")}
-        both = radial_stiffness(RollingBearing(**{**numbers, **sizes}))
-        return BearingData(both, both, cast(float, ratio_x), cast(float, ratio_y))
-    stiffness = cast(float, bearing.stiffness_x), cast(float, bearing.stiffness_y)
-    return BearingData(*stiffness, cast(float, ratio_x), cast(float, ratio_y))
 
 
 def _operating(scenario: Scenario) -> OperatingData:
@@ -276,31 +234,11 @@ def _operating(scenario: Scenario) -> OperatingData:
 
 
 def _mesh(scenario: Scenario) -> MeshData:
-    mesh = scenario.mesh
-    error = mesh.transmission_error
-    modifications = modifications_of(scenario.drive, mesh.misalignment)
-    table, sample = error.table.in_si() if error.table else None, mesh.deviation_sample
-    if mesh.compliance == "fem":
-        modifications = with_sample(
-            scenario.drive, modifications, sample, every_tooth=False, slices=mesh.slices
-        )
-    else:
-        table = error_with_sample(scenario.drive, table, sample)
-    return MeshData(
+    mesh, error = scenario.mesh, scenario.mesh.transmission_error
+    return mesh_of(
+        scenario,
+        error=error.table.in_si() if error.table else None,
         table=mesh.table.in_si() if mesh.table else None,
         error_harmonics=tuple((one.order, one.amplitude, one.phase) for one in error.harmonics),
-        error_table=table,
-        modifications=modifications,
-        slices=slices_of(mesh.slices, modifications),
         backlash=backlash_of(scenario.drive, mesh.backlash),
-        **mesh.model_dump(
-            exclude={
-                "table",
-                "transmission_error",
-                "misalignment",
-                "slices",
-                "backlash",
-                "deviation_sample",
-            }
-        ),
     )

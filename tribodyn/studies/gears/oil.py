@@ -2,21 +2,12 @@
 
 from typing import Any
 
-from tribodyn.studies.protocol.study import Checked, TextTable
+from tribodyn.studies.protocol.study import TextTable
 from tribodyn.tribology.lubricant import LubricantData, oil_values
 from tribodyn.tribology.oil import GIVEN, T_40, T_100, ZERO_CELSIUS, kinematic_viscosity
 
 #: Factor to the unit that is shown, and that unit, by SI unit.
 _SHOWN = {"Pa s": (1e3, "mPa s"), "1/Pa": (1e9, "1/GPa"), "1": (1.0, "")}
-
-
-def with_oil(checked: Checked, lubricant: LubricantData) -> Checked:
-    """Return what `check` says with the lubricant added, under the key `lubricant`."""
-    return checked._replace(
-        data={**checked.data, "lubricant": oil_data(lubricant)},
-        tables=(*checked.tables, oil_table(lubricant)),
-        remarks=(*checked.remarks, *oil_remarks(lubricant)),
-    )
 
 
 def oil_data(lubricant: LubricantData) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.load_contact.case import Oiled
+from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
 from tribodyn.tribology.surface_state import contact_friction, fraction_in_range, range_shares
 
@@ -30,15 +30,15 @@ class FaceFilm(NamedTuple):
     figures: dict[str, Any]
 
 
-def film_over_face(assembly: Assembly, loaded: LoadedContact, oiled: Oiled) -> FaceFilm:
+def film_over_face(assembly: Assembly, loaded: LoadedContact, case: LubricatedCase) -> FaceFilm:
     """Evaluate the film law at the load of every slice, the oil as it enters the mesh.
 
     Each slice is a line contact of its own line load, with the radii and speeds of its pair: no flow along
     the face. Beyond the path of contact the flanks have the curvature of the path's end.
     """
-    closure = closure_of(oiled)
+    closure = closure_of(case)
     motion = pair_geometry(assembly, loaded.roll).motion
-    speed = oiled.operating.pinion_speed
+    speed = case.operating.pinion_speed
     carries = loaded.line_load > 0.0
     position, pair, _ = np.nonzero(carries)
     vanishing = pitch_point(assembly.path)
@@ -55,8 +55,8 @@ def film_over_face(assembly: Assembly, loaded: LoadedContact, oiled: Oiled) -> F
     thickness, in_range = (np.full(carries.shape, np.nan) for _ in range(2))
     thickness[carries], in_range[carries] = film, inside
     least = int(np.argmin(film))
-    laws = {name: value for name, value in law_figures(oiled).items() if name.startswith("film")}
-    outside = exceeded_limits(oiled, *range_shares(contact.contact, closure))
+    laws = {name: value for name, value in law_figures(case).items() if name.startswith("film")}
+    outside = exceeded_limits(case, *range_shares(contact.contact, closure))
     return FaceFilm(
         {"central_film_thickness": thickness, "closure_in_range": in_range},
         {

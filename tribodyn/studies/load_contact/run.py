@@ -1,5 +1,6 @@
 """From a case of the load contact study to its record: teeth in slow rotation at one torque or several."""
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from time import perf_counter
@@ -20,21 +21,22 @@ from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
+from tribodyn.studies.gears.check import sheet_and_stiffness
 from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.film import FaceFilm, film_over_face
 from tribodyn.studies.load_contact.layout import BODIES, LAYOUT, OILED
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Progress, RunResult
+from tribodyn.studies.protocol.study import Checked, Progress, RunResult
 
 
-class Prepared(NamedTuple):
+class PreparedTeeth(NamedTuple):
     """A case made ready: its teeth put together, and their elasticity."""
 
     case: LoadContactCase
     flexible: PairFlexibility
 
 
-def prepare(case: LoadContactCase) -> Prepared:
+def prepare(case: LoadContactCase) -> PreparedTeeth:
     """Check geometry and modifications, and find the elasticity of both gears.
 
     Raises
@@ -45,8 +47,8 @@ def prepare(case: LoadContactCase) -> Prepared:
     from tribodyn.compliance.sharing.flank_gap import check_modifications
 
     flexible = _flexible(case.family, case.drive, case.materials)
-    check_modifications(flexible.assembly, case.modifications)
-    return Prepared(case, flexible)
+    check_modifications(flexible.assembly, case.mesh.modifications)
+    return PreparedTeeth(case, flexible)
 
 
 @remembered(2)
@@ -57,7 +59,7 @@ def _flexible(name: str, drive: Drive, materials: tuple[MaterialData, MaterialDa
     return flexibility(check(family(name), drive), materials, lead=True)
 
 
-def roll(study: Prepared, gear_torque: float) -> LoadedContact:
+def roll(study: PreparedTeeth, gear_torque: float) -> LoadedContact:
     """Roll the study's teeth through its mesh cycles at a torque, N m.
 
     Raises
@@ -70,18 +72,18 @@ def roll(study: Prepared, gear_torque: float) -> LoadedContact:
     return roll_through(*_contact(study, gear_torque))
 
 
-def _contact(study: Prepared, gear_torque: float) -> tuple[Any, ...]:
+def _contact(study: PreparedTeeth, gear_torque: float) -> tuple[Any, ...]:
     """Arguments of `roll_through` and `loaded_error`."""
     case = study.case
     return (
         study.flexible,
-        case.modifications,
+        case.mesh.modifications,
         gear_torque,
         case.positions_per_cycle,
         case.cycles,
         case.friction_coefficient,
-        case.slices,
-        case.slice_coupling,
+        case.mesh.slices,
+        case.mesh.slice_coupling,
     )
 
 
@@ -92,14 +94,14 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
-    """Run a case and write its record; see `study.Prepared.run`."""
+    """Run a case and write its record; see `study.Study.run`."""
     path = target(case, output, force)
     begun = perf_counter()
     study = prepare(case)
     report = progress or (lambda _share: None)
     steps = 1 + len(case.gear_torques)
     try:
-        loaded, failure = roll(study, case.gear_torque), ""
+        loaded, failure = roll(study, case.operating.gear_torque), ""
     except SimulationError as error:
         loaded, failure = None, error.reason
     groups = {
@@ -107,7 +109,7 @@ def run(
         "geometry": geometry_arrays(study.flexible.assembly),
     }
     samples, scales = 0 if loaded is None else len(loaded.phase), _scales(study, loaded)
-    layout = LAYOUT if case.oiled is None else OILED
+    layout = LAYOUT if case.lubricated is None else OILED
     with writer(case, path, layout, samples, groups=groups, scales=scales, force=force) as record:
         summary: dict[str, Any] = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
         if loaded is None:
@@ -133,22 +135,31 @@ def run(
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
+def check(case: LoadContactCase) -> Checked:
+    """Check a case, and say what gears it describes and how stiff they are."""
+    study = prepare(case)
+    assembly = study.flexible.assembly
+    arm = float(assembly.path.gear_pitch_radius) * math.cos(float(assembly.path.pressure_angle(0.0)))
+    pair = case.operating.gear_torque / arm, single_pair_stiffness(study)
+    return sheet_and_stiffness(assembly, case.materials, "finite elements", pair)
+
+
 def figures(case: LoadContactCase) -> dict[str, Any]:
     """Figures of a case at its own torque, without a record."""
     study = prepare(case)
     contact_ratio = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
-    loaded = roll(study, case.gear_torque)
+    loaded = roll(study, case.operating.gear_torque)
     film = film_of(study, loaded).figures
     return contact_ratio | loaded_figures(study, loaded) | film | _judged(study, loaded, film)
 
 
-def film_of(study: Prepared, loaded: LoadedContact) -> FaceFilm:
+def film_of(study: PreparedTeeth, loaded: LoadedContact) -> FaceFilm:
     """Film over the face; nothing where the scenario has no lubricant."""
-    oiled = study.case.oiled
-    return FaceFilm({}, {}) if oiled is None else film_over_face(study.flexible.assembly, loaded, oiled)
+    case = study.case.lubricated
+    return FaceFilm({}, {}) if case is None else film_over_face(study.flexible.assembly, loaded, case)
 
 
-def record_arrays(study: Prepared, loaded: LoadedContact) -> dict[str, Float[Array, "position ..."]]:
+def record_arrays(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Float[Array, "position ..."]]:
     """Datasets of the record, over the phase first."""
     carrying = loaded.normal_load > 0.0
     teeth = float(study.case.drive.pinion.teeth)
@@ -170,15 +181,15 @@ def record_arrays(study: Prepared, loaded: LoadedContact) -> dict[str, Float[Arr
     }
 
 
-def torque_residual(study: Prepared, loaded: LoadedContact) -> Float[Array, " position"]:
+def torque_residual(study: PreparedTeeth, loaded: LoadedContact) -> Float[Array, " position"]:
     """Torque of the pairs' loads, friction included, over the gear's torque, less 1, at every position."""
     motion = pair_geometry(study.flexible.assembly, loaded.roll).motion
     side = np.sign(motion.signed_distance)
     lever = motion.gear_normal_arm + side * study.case.friction_coefficient * motion.gear_friction_arm
-    return np.sum(loaded.normal_load * lever, axis=1) / study.case.gear_torque - 1.0
+    return np.sum(loaded.normal_load * lever, axis=1) / study.case.operating.gear_torque - 1.0
 
 
-def loaded_figures(study: Prepared, loaded: LoadedContact) -> dict[str, Any]:
+def loaded_figures(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Any]:
     """Figures of the summary, SI units."""
     worst = np.unravel_index(np.argmax(loaded.line_load), loaded.line_load.shape)
     position, pair = np.unravel_index(np.argmin(np.abs(loaded.roll)), loaded.roll.shape)
@@ -202,12 +213,12 @@ def loaded_figures(study: Prepared, loaded: LoadedContact) -> dict[str, Any]:
         "pinion_root_compression_max": float(np.min(compression[0])),
         "gear_root_compression_max": float(np.min(compression[1])),
         "torque_residual": float(np.max(np.abs(torque_residual(study, loaded)))),
-        "gear_torque": study.case.gear_torque,
-        "slices": study.case.slices,
+        "gear_torque": study.case.operating.gear_torque,
+        "slices": study.case.mesh.slices,
     }
 
 
-def _judged(study: Prepared, loaded: LoadedContact, film: Mapping[str, Any]) -> dict[str, Any]:
+def _judged(study: PreparedTeeth, loaded: LoadedContact, film: Mapping[str, Any]) -> dict[str, Any]:
     """Whether the contact lies within its model, see `record.trust`; the load deflects all pairs alike."""
     judge = Judge()
     places, pairs = {"phase": loaded.phase - loaded.phase[0]}, pair_numbers(study, loaded).tolist()
@@ -217,21 +228,21 @@ def _judged(study: Prepared, loaded: LoadedContact, film: Mapping[str, Any]) -> 
     return judge.figures()
 
 
-def _shared(study: Prepared, loaded: LoadedContact) -> dict[str, float]:
+def _shared(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, float]:
     """Maximum load of a pair beside another; nothing where pairs never share the load."""
     value = shared_load(loaded.normal_load, loaded.roll, study.flexible.assembly.roll_limits)
     return {"shared_load_max": value} if np.isfinite(value) else {}
 
 
-def single_pair_stiffness(study: Prepared) -> float:
+def single_pair_stiffness(study: PreparedTeeth) -> float:
     """Load over deflection along the normal of one unmodified pair alone at the pitch point, N/m."""
     alone = np.zeros((1, 1))
-    shared = share_load(study.flexible, alone, study.case.gear_torque)
+    shared = share_load(study.flexible, alone, study.case.operating.gear_torque)
     angle = pair_geometry(study.flexible.assembly, alone).motion.pressure_angle
     return float(shared.normal_load[0, 0] / (shared.deflection[0] * np.cos(angle[0, 0])))
 
 
-def _numbers(study: Prepared) -> dict[str, float]:
+def _numbers(study: PreparedTeeth) -> dict[str, float]:
     """Numbers of the mesh; there is no table."""
     path, assembly = study.flexible.assembly.path, study.flexible.assembly
     start, end = assembly.roll_limits
@@ -246,7 +257,7 @@ def _numbers(study: Prepared) -> dict[str, float]:
     }
 
 
-def _scales(study: Prepared, loaded: LoadedContact | None) -> dict[str, np.ndarray]:
+def _scales(study: PreparedTeeth, loaded: LoadedContact | None) -> dict[str, np.ndarray]:
     pairs = np.zeros(0, dtype=int) if loaded is None else pair_numbers(study, loaded)
     places = np.zeros(0) if loaded is None else np.asarray(loaded.slice_position)
     scales: dict[str, np.ndarray] = {"pair": pairs, "slice": places, "body": np.array(BODIES)}
@@ -254,7 +265,7 @@ def _scales(study: Prepared, loaded: LoadedContact | None) -> dict[str, np.ndarr
     return scales | ({"torque": np.array(torques)} if torques else {})
 
 
-def pair_numbers(study: Prepared, loaded: LoadedContact) -> Int[Array, " pair"]:
+def pair_numbers(study: PreparedTeeth, loaded: LoadedContact) -> Int[Array, " pair"]:
     """Numbers of the pairs: 1 passed the beginning of the path last, 2 is the next to do so."""
     start, _ = study.flexible.assembly.roll_limits
     pitch = 2.0 * np.pi / float(study.case.drive.pinion.teeth)

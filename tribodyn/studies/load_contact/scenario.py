@@ -1,28 +1,31 @@
 """The tables of a scenario of ``kind = "load-contact"``: teeth in slow rotation under load."""
 
-from typing import Annotated, Literal
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from tribodyn.errors import InputError
 from tribodyn.scenario import units
-from tribodyn.scenario.common import Slices, head_of
-from tribodyn.scenario.quantity import (
-    Count,
-    NotNegative,
-    Quantity,
-    Switch,
-    Table,
-    model_file,
-    written,
-)
-from tribodyn.scenario.tables.drive_data import lubricant_of, modifications_of, slices_of, teeth_of
-from tribodyn.scenario.tables.duty import duty_of
-from tribodyn.scenario.tables.laws import FilmTable, film_of
-from tribodyn.scenario.tables.model_files import DriveTable, Lubricant
+from tribodyn.scenario.quantity import Count, NotNegative, Quantity, Table, written
+from tribodyn.scenario.tables.duty import broken_driving_rules
 from tribodyn.scenario.tables.modification import MisalignmentTable
-from tribodyn.scenario.tables.quality import DeviationSample, with_sample
-from tribodyn.scenario.tables.spectrum import OiledOperatingTable, SpectrumScenario
-from tribodyn.studies.load_contact.case import LoadContactCase, Oiled
+from tribodyn.scenario.tables.spectrum import OiledOperatingTable
+from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.gears.scenario import (
+    FaceSlices,
+    FilmKeys,
+    GearScenario,
+    Oil,
+    SampleNumber,
+    SliceCoupling,
+    broken_gear_rules,
+    gear_fields,
+    mesh_of,
+    oil_fields,
+)
+from tribodyn.studies.load_contact.case import LoadContactCase
 
 Load = Annotated[float, Quantity(units.positive(units.TORQUE))]
 
@@ -38,14 +41,10 @@ class LoadContactOperating(OiledOperatingTable):
 class LoadContactMesh(Table):
     """Slices of the face, friction, and how the axes stand."""
 
-    slices: Slices | None = Field(
-        None, description="of the face; default: 21 where anything varies along it, else 1"
-    )
-    slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
+    slices: FaceSlices = None
+    slice_coupling: SliceCoupling = True
     friction_coefficient: NotNegative = Field(0.0, description="of all pairs")
-    deviation_sample: DeviationSample | None = Field(
-        None, description="number of the sample of deviations drawn from the quality; default: none"
-    )
+    deviation_sample: SampleNumber = None
     misalignment: MisalignmentTable = written({})
 
 
@@ -56,17 +55,14 @@ class LoadContactOutput(Table):
     cycles: Count = Field(1, description="mesh cycles; more than one where teeth differ")
 
 
-class LoadContactScenario(SpectrumScenario):
+class LoadContactScenario(GearScenario):
     """A scenario file of a load contact study."""
 
     kind: Literal["load-contact"]
-    drive: Annotated[DriveTable, model_file("drives")]
-    lubricant: Annotated[Lubricant, model_file("lubricants")] | None = Field(
-        None, description="for the film over the face; default: none is computed"
-    )
+    lubricant: Oil | None = Field(None, description="for the film over the face; default: none is computed")
     operating: LoadContactOperating
     mesh: LoadContactMesh = written({})
-    film: FilmTable | None = Field(None, description="which law gives the film")
+    film: FilmKeys = None
     output: LoadContactOutput = written({})
 
 
@@ -75,31 +71,49 @@ Scenario = LoadContactScenario
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
     """Return the case of a scenario that has passed schema and rules."""
-    drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
-    teeth, duty = teeth_of(drive), duty_of(operating, drive.pinion.teeth, drive.gear.teeth)
-    oiled = None
-    if scenario.lubricant is not None:
-        lubricant = lubricant_of(scenario.lubricant, operating.oil_temperature)
-        oiled = Oiled(**teeth, lubricant=lubricant, operating=duty, film=film_of(scenario.film))
-    modifications = with_sample(
-        drive,
-        modifications_of(drive, mesh.misalignment),
-        mesh.deviation_sample,
-        every_tooth=True,
-        slices=mesh.slices,
-    )
+    gears: dict[str, Any] = gear_fields(scenario, toml, sha256) | {
+        "mesh": mesh_of(scenario, every_tooth=True)
+    }
+    oiled = scenario.lubricant is not None
     return LoadContactCase(
-        **head_of(scenario, toml, sha256),
-        family=teeth["family"],
-        drive=teeth["drive"],
-        materials=teeth["materials"],
-        gear_torque=duty.gear_torque,
-        gear_torques=operating.gear_torques,
-        friction_coefficient=mesh.friction_coefficient,
-        modifications=modifications,
-        slices=slices_of(mesh.slices, modifications),
-        slice_coupling=mesh.slice_coupling,
+        **gears,
+        gear_torques=scenario.operating.gear_torques,
+        friction_coefficient=scenario.mesh.friction_coefficient,
         positions_per_cycle=scenario.output.positions_per_cycle,
         cycles=scenario.output.cycles,
-        oiled=oiled,
+        lubricated=LubricatedCase(**gears, **oil_fields(scenario)) if oiled else None,
     )
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that tie keys of such a scenario together and that this one breaks."""
+    yield from broken_gear_rules(scenario)
+    drive, operating, oiled = scenario.drive, scenario.operating, scenario.lubricant is not None
+    yield from broken_driving_rules(operating, (drive.pinion.teeth, drive.gear.teeth), speed_needed=oiled)
+    if not oiled:
+        yield from _without_oil(scenario)
+    torques = operating.gear_torques
+    if len(torques) == 1:
+        rule = "a single torque makes no map"
+        yield InputError("operating.gear_torques", f"{torques[0]:g} N*m", rule, "give at least two")
+    for number, (torque, after) in enumerate(pairwise(torques), start=1):
+        if after <= torque:
+            yield InputError(
+                f"operating.gear_torques.{number}",
+                f"{after:g} N*m",
+                f"not greater than the {torque:g} N*m before it",
+                "give the torques in increasing order",
+            )
+            break
+
+
+def _without_oil(scenario: Scenario) -> Iterator[InputError]:
+    """Refuse what says something of a film that is not computed."""
+    remedy = 'add lubricant = "iso-vg-220-mineral", or leave it out'
+    given = {
+        "operating.oil_temperature": scenario.operating.oil_temperature,
+        "film": scenario.film,
+    }
+    for key, value in given.items():
+        if value is not None:
+            yield InputError(key, rule="without a lubricant there is no film", remedy=remedy)

@@ -38,6 +38,10 @@ Progress = Callable[[float], None]
 """Called with the share done, 0 … 1."""
 
 
+#: Part -> the module in which what it holds may stand, too.
+_ALSO_IN = {"rules": "scenario", "check": "run", "estimate": "case"}
+
+
 @dataclass(frozen=True)
 class CaseHead:
     """What every case begins with.
@@ -69,15 +73,15 @@ class Study:
     """A kind of study: what it is, and where its parts are.
 
     The parts are modules of its package, or attributes of the package itself, imported on first
-    use, so that a registered study costs nothing.
+    use, so that a registered study costs nothing. What a part holds may also stand in the module in brackets.
 
     ============= =================================================================================
     part          what it holds
     ============= =================================================================================
     scenario      ``Scenario``, the schema of a file; ``table_for(data)``, that of a file with these data
                   (optional); ``case_of(scenario, toml, sha256)``, its case, a `CaseHead` and more
-    rules         ``broken_rules(scenario)``, errors for the rules that tie keys together (optional)
-    check         ``check(case) -> Checked``; raises InputError where the case cannot be run
+    rules         ``broken_rules(scenario)``, errors for the rules that tie keys together (optional; scenario)
+    check         ``check(case) -> Checked``; raises InputError where the case cannot be run (run)
     run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; and
                   ``figures(case) -> dict``, its figures without a record (optional: to be swept)
     report        ``REPORTED``, heading -> quantities of the summary; ``sentences(record)``, how far it is
@@ -89,7 +93,7 @@ class Study:
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
-    estimate      ``estimate(case) -> Estimate``, what a run takes (optional)
+    estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case)
     assess        ``ROLE``, the part that it plays in an assessment of a drive (optional), see `protocol.part`
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
     verbs         ``VERBS``, verbs and Python functions that it offers (optional), see `protocol.verb`;
@@ -157,10 +161,7 @@ class Study:
     def check(self, case: Any, *, allow_large: bool = False) -> Checked:
         """Check a case and say what it describes, and what a run takes where that is much, without a run.
 
-        Raises
-        ------
-        InputError
-            Where it cannot be run, or takes more than the limits and that is not allowed.
+        Raises InputError where it cannot be run, or takes more than `allow_large` permits.
         """
         estimate = self.estimate(case)
         refuse_large(estimate, allow_large)
@@ -210,12 +211,7 @@ class Study:
     def figures(self, case: Any) -> dict[str, Any]:
         """Work out the figures of a case without a record, those of `swept` among them.
 
-        An efficiency that cannot be is None, see `record.withheld`.
-
-        Raises
-        ------
-        InputError, SimulationError
-            Where the case cannot be worked out.
+        An efficiency that cannot be is None, see `record.withheld`. Raises InputError or SimulationError.
         """
         from tribodyn.record.withheld import withheld
 
@@ -301,10 +297,7 @@ class Study:
     def _part(self, part: str, name: str, optional: bool = False) -> Any:
         """What a part of the study holds; None where it is optional and not there.
 
-        Raises
-        ------
-        InputError
-            If the study is of another package, and that lacks the part or cannot be imported.
+        Raises InputError if the study is of another package, and that lacks the part or cannot be imported.
         """
         try:
             return self._imported(part, name, optional)
@@ -319,14 +312,15 @@ class Study:
         own = getattr(package, name, None)
         if own is not None and not ismodule(own):  # a part may have the name of what it holds
             return own
-        module = f"{self.package}.{part}"
-        try:
-            return getattr(import_module(module), name)
-        except ModuleNotFoundError as error:
-            if optional and error.name in (module, self.package):
-                return None
-            raise
-        except AttributeError as error:
-            if optional and error.name == name:
-                return None
-            raise
+        places = [f"{self.package}.{place}" for place in (part, _ALSO_IN.get(part)) if place]
+        for module in places:
+            needed = not optional and module == places[-1]
+            try:
+                return getattr(import_module(module), name)
+            except ModuleNotFoundError as error:
+                if needed or error.name not in (module, self.package):
+                    raise
+            except AttributeError as error:
+                if needed or error.name != name:
+                    raise
+        return None

@@ -1,6 +1,6 @@
 """What `check` says of a gear with rolling elements."""
 
-from tribodyn.studies.gears.shared import with_unit
+from tribodyn.studies.gears.check import with_unit
 from tribodyn.studies.protocol.study import Checked, TextTable
 from tribodyn.studies.rolling.geometry import RollingDrive, element_radius_limits
 from tribodyn.studies.rolling.run import prepare

@@ -1,7 +1,7 @@
 """What `tribodyn check` says of a case."""
 
 from tribodyn.geometry.sheet.sheet import geometry_sheet
-from tribodyn.studies.gears.shared import sheet_tables
+from tribodyn.studies.gears.check import sheet_tables
 from tribodyn.studies.protocol.study import Checked
 from tribodyn_example.specific_sliding.scenario import SlidingCase
 from tribodyn_example.specific_sliding.sliding import sliding_of

@@ -11,8 +11,8 @@ import pytest
 
 from tests.support.short_studies import written_template
 from tribodyn.standards import integral_temperature
-from tribodyn.studies.assessment.run import prepare
 from tribodyn.studies.assessment.standard import Standard, iso_part, standard_of
+from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.protocol.load import load_scenario
 
 TEETH, SHIFT, MODULE, WIDTH, CENTRE = (25, 60), (0.2, 0.1), 3.0, 40.0, 129.0
@@ -75,7 +75,7 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 @pytest.fixture(scope="module")
 def found(case: Any) -> tuple[dict[str, Any], Any]:
-    standard = standard_of(case, prepare(case), 1.0)
+    standard = standard_of(case, assembled(case), 1.0)
     return iso_part(case, standard), standard
 
 
@@ -87,7 +87,7 @@ APPLICATION, FACE, SPRAYED = 1.25, 1.3, 1.2
 def harder(case: Any) -> Standard:
     settings = replace(case.settings, application_factor=APPLICATION, lubrication="spray")
     loaded = replace(case, settings=settings)
-    return standard_of(loaded, prepare(loaded), FACE)
+    return standard_of(loaded, assembled(loaded), FACE)
 
 
 def test_stiffness_and_load_factors(found: tuple[dict[str, Any], Any]):

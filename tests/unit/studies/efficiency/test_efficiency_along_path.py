@@ -14,7 +14,7 @@ from tribodyn.record.reader import open_record
 from tribodyn.studies.efficiency.along_path import Duty, cycle_efficiency, engage
 from tribodyn.studies.efficiency.loss_factor import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, places
-from tribodyn.studies.efficiency.run import Prepared, efficiencies
+from tribodyn.studies.efficiency.run import PreparedEfficiency, efficiencies
 from tribodyn.studies.efficiency.run import prepare as prepare_study
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.studies.protocol.load import load_scenario
@@ -29,12 +29,12 @@ def studies():
     return {name: prepare_study(load_scenario(name)) for name in DRIVES}
 
 
-def under(study: Prepared, law: str, mu: float = 0.06) -> Duty:
+def under(study: PreparedEfficiency, law: str, mu: float = 0.06) -> Duty:
     values = {"coefficient": mu} if law == "coulomb" else {}
     return study.duty._replace(closure=of_case(study.case, law, **values))
 
 
-def with_coefficient(study: Prepared, mu: float) -> Duty:
+def with_coefficient(study: PreparedEfficiency, mu: float) -> Duty:
     return under(study, "coulomb", mu)
 
 

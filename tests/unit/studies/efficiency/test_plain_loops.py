@@ -1,6 +1,7 @@
 """A mesh cycle of two involutes in plain loops: mesh at a phase, samples, datasets, figures."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -13,7 +14,14 @@ from tribodyn.mesh.equilibrium import contacts
 from tribodyn.studies.efficiency.arrays import record_arrays, samples
 from tribodyn.studies.efficiency.loss_factor import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.places import places
-from tribodyn.studies.efficiency.run import Prepared, _at_jumps, _figures, _sampled, efficiencies, prepare
+from tribodyn.studies.efficiency.run import (
+    PreparedEfficiency,
+    _at_jumps,
+    _figures,
+    _sampled,
+    efficiencies,
+    prepare,
+)
 from tribodyn.studies.protocol.load import load_scenario
 
 NAME = "efficiency-involute-18-36"
@@ -21,7 +29,7 @@ SHORT = {"output.samples_per_cycle": 23}
 
 
 @pytest.fixture(scope="module", params=[410.0, -410.0], ids=["pinion", "gear"])
-def study(request: pytest.FixtureRequest) -> Prepared:
+def study(request: pytest.FixtureRequest) -> PreparedEfficiency:
     law = {"friction.law": "masjedi-khonsari", "operating.gear_torque": f"{request.param} N*m"}
     return prepare(load_scenario(NAME, SHORT | law))
 
@@ -49,7 +57,7 @@ def test_where_the_gear_drives_pairs_go_through_the_table_backwards(name: str):
     assert not np.any(forward.later)
 
 
-def test_the_mesh_at_a_phase_is_that_of_two_involutes(study: Prepared):
+def test_the_mesh_at_a_phase_is_that_of_two_involutes(study: PreparedEfficiency):
     """Radii of curvature along the line of action; compliance by scipy's splines through the table."""
     cycle, path = study.cycle, study.path
     phase = np.array([0.0, 0.013, 0.21, 0.37, 0.52, 0.68, 0.83, 0.997])
@@ -100,7 +108,7 @@ OF_STATE = (
 )
 
 
-def test_datasets_of_a_mesh_cycle_in_plain_loops(study: Prepared):
+def test_datasets_of_a_mesh_cycle_in_plain_loops(study: PreparedEfficiency):
     """By the record's pairs: the one that entered last is the last, whichever gear drives."""
     over, mesh, state = _sampled(study)
     duty, way = study.duty, study.duty.way
@@ -152,7 +160,7 @@ def test_datasets_of_a_mesh_cycle_in_plain_loops(study: Prepared):
                 assert found[name][k, slot] == pytest.approx(wanted, rel=1e-12, nan_ok=True), name
 
 
-def test_figures_of_a_mesh_cycle_in_plain_loops(study: Prepared):
+def test_figures_of_a_mesh_cycle_in_plain_loops(study: PreparedEfficiency):
     """Extremes of samples and of both sides of every jump; means over one cycle, the last sample left out."""
     over, mesh, state = _sampled(study)
     found = _figures(study, over, mesh, state)
@@ -207,12 +215,12 @@ def test_figures_of_a_mesh_cycle_in_plain_loops(study: Prepared):
     assert found["trust"] == "laws extrapolated"
 
 
-def test_loss_factors_are_of_one_coefficient_alone(study: Prepared):
+def test_loss_factors_are_of_one_coefficient_alone(study: PreparedEfficiency):
     """1 − μ H_v, and Höhn's formula where the pitch point lies in single contact."""
     known: Any = {one: SimpleNamespace(efficiency=0.5) for one in ("elastic", "uniform")}
     duty = study.duty
     assert not {"loss_factor", "efficiency_hoehn"} & efficiencies(study, known).keys()
-    coulomb = study._replace(duty=duty._replace(closure=of_case(study.case, "coulomb", coefficient=0.07)))
+    coulomb = replace(study, duty=duty._replace(closure=of_case(study.case, "coulomb", coefficient=0.07)))
     found = efficiencies(coulomb, known)
     tips = tip_contact_ratios(coulomb.assembly.family, coulomb.case.drive)
     factor = exact(*tips, 18.0, 2.0)

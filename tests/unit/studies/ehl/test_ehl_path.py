@@ -8,23 +8,23 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.geometry.path import kinematics
 from tribodyn.studies.ehl import along_path, loads
-from tribodyn.studies.ehl.along_path import PairWay, Prepared, prepare
+from tribodyn.studies.ehl.along_path import PairWay, PreparedEhl, prepare
 from tribodyn.studies.protocol.load import load
 
 POSITIONS = 6
 
 
 @pytest.fixture(scope="module")
-def study() -> Prepared:
+def study() -> PreparedEhl:
     return prepare(load("ehl-crc-23-47", {"output.positions": POSITIONS}).case)
 
 
 @pytest.fixture(scope="module")
-def over(study: Prepared) -> PairWay:
+def over(study: PreparedEhl) -> PairWay:
     return along_path._way(study, POSITIONS, None)
 
 
-def test_given_loads_are_those_of_the_way(study: Prepared):
+def test_given_loads_are_those_of_the_way(study: PreparedEhl):
     start, end = float(study.cycle.roll_start), float(study.cycle.roll_end)
     span = end - start
     roll, load = loads.given_loads((np.array([start, 0.0, end]), np.array([-3.0, 4.0, 0.0])), study.cycle)
@@ -47,7 +47,7 @@ def test_given_loads_are_those_of_the_way(study: Prepared):
         loads.given_loads((np.array([start, end]), np.array([0.0, -1.0])), study.cycle)
 
 
-def test_the_way_is_divided_evenly_and_its_loads_balance_the_torque(study: Prepared, over: PairWay):
+def test_the_way_is_divided_evenly_and_its_loads_balance_the_torque(study: PreparedEhl, over: PairWay):
     cycle, path = study.cycle, study.assembly.path
     span = float(cycle.roll_end - cycle.roll_start)
     expected = [float(cycle.roll_start) + (i + 0.5) * span / POSITIONS for i in range(POSITIONS)]
@@ -66,7 +66,7 @@ def test_the_way_is_divided_evenly_and_its_loads_balance_the_torque(study: Prepa
     assert turned / float(cycle.pitch_angle) == pytest.approx(500.0, rel=2e-3)
 
 
-def test_the_oil_is_drawn_through_half_a_contact(study: Prepared, over: PairWay):
+def test_the_oil_is_drawn_through_half_a_contact(study: PreparedEhl, over: PairWay):
     found = along_path.jump_width(study, 3e5, over.radius, over.speeds)
     half = math.sqrt(8.0 * 3e5 * float(np.median(over.radius)) / (math.pi * 226.37e9))
     speeds = np.abs(over.speeds[0] + over.speeds[1]) / 2.0

@@ -24,7 +24,7 @@ from tribodyn.studies.gear_pair.batch.figures import fill_unstable, window_figur
 from tribodyn.studies.gear_pair.batch.marched import Outcome, marched
 from tribodyn.studies.gear_pair.batch.steady import PreparedAt, legs_of, prepared_between, steady
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key, tables
+from tribodyn.studies.gear_pair.prepare import PreparedPair, Tabulated, prepare, table_key, tables
 from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import warning_of
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
@@ -106,7 +106,7 @@ def _at_own_temperature(chunk: Chunk, rows: dict[str, np.ndarray]) -> dict[int, 
 def _evaluate(chunk: Chunk, settings: SweepSettings, workers: int | None) -> dict[str, np.ndarray]:
     """Evaluate every case once."""
     rows = layout_of(settings).empty_rows(len(chunk.cases))
-    ready: dict[int, tuple[Prepared, np.ndarray]] = {}
+    ready: dict[int, tuple[PreparedPair, np.ndarray]] = {}
     for i, case in enumerate(chunk.cases):
         if isinstance(case, str):
             _fail(rows, i, case)
@@ -139,7 +139,7 @@ def _alike(cases: dict[int, Case]) -> list[list[int]]:
 
 
 def _solve(
-    cases: list[tuple[Prepared, np.ndarray]],
+    cases: list[tuple[PreparedPair, np.ndarray]],
     ways: Sequence[NeighbourWay | None],
     prepared_at: PreparedAt,
     settings: SweepSettings,
@@ -169,7 +169,7 @@ def _solve(
 
 
 def _fill(
-    rows: dict[str, np.ndarray], i: int, prepared: Prepared, outcome: Outcome, settings: SweepSettings
+    rows: dict[str, np.ndarray], i: int, prepared: PreparedPair, outcome: Outcome, settings: SweepSettings
 ) -> None:
     """Put the outcome of a case into its row."""
     for name in ("period", "stable", "multiplier_max", "residual", "cycles", "solution", "message"):
@@ -201,7 +201,7 @@ def tabulated(case: Case) -> Tabulated:
     return _made_once(_tables, table_key(case), lambda: tables(case))
 
 
-def _start(prepared: Prepared, settings: SweepSettings) -> np.ndarray:
+def _start(prepared: PreparedPair, settings: SweepSettings) -> np.ndarray:
     """Where a case begins: as its scenario says, or for a steady state at the equilibrium without friction.
 
     The latter is taken at `CREEP`, where it is the same at all speeds, and is therefore found once. At the

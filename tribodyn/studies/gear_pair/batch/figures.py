@@ -11,7 +11,7 @@ from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.solve.engagement import engage_next
 from tribodyn.studies.gear_pair.assumptions import judge_block
 from tribodyn.studies.gear_pair.batch.marched import CaseWindow
-from tribodyn.studies.gear_pair.prepare import Prepared
+from tribodyn.studies.gear_pair.prepare import PreparedPair
 from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
 from tribodyn.studies.gear_pair.sweep_layout import SWEPT, UNSTABLE_QUANTITIES
 from tribodyn.studies.gears.temperature import thermal_figures
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def window_figures(
-    prepared: Prepared, window: CaseWindow, samples: int
+    prepared: PreparedPair, window: CaseWindow, samples: int
 ) -> tuple[dict[str, float], dict[str, Any]]:
     """Return the figures of `sweep_layout.SWEPT` over a window, SI units, and what is said of their trust.
 
@@ -55,7 +55,7 @@ def fill_unstable(
     rows: dict[str, np.ndarray],
     i: int,
     branches: "Sequence[ContinuedBranch]",
-    prepared_at: Callable[[float], Prepared],
+    prepared_at: Callable[[float], PreparedPair],
     samples: int,
 ) -> None:
     """Put branches into the row of a case, with the figures of their motions over one period each.

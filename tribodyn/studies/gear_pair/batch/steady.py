@@ -13,7 +13,7 @@ from tribodyn.solve.orbit.motions import FAILED
 from tribodyn.solve.orbit.periodic import WANDERING, SteadyMotion, refuse_time_dependent, steady_states
 from tribodyn.studies.gear_pair.batch.marched import CaseWindow, Outcome, failed, marched, without_audit
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key
+from tribodyn.studies.gear_pair.prepare import PreparedPair, Tabulated, prepare, table_key
 from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
 from tribodyn.studies.sweeping.batch import NeighbourWay
 from tribodyn.studies.sweeping.between import NothingBetween, case_between
@@ -23,18 +23,20 @@ AT_A_TIME = 16
 #: Parts of a way at most, where every place on it needs a table of its own.
 PARTS = 4
 
-PreparedAt = Callable[[int, float], Prepared]
+PreparedAt = Callable[[int, float], PreparedPair]
 """Gives the prepared case on a line at a value of the parameter; raises InputError where there is none."""
 
 
-def legs_of(cases: Sequence[tuple[Prepared, np.ndarray]], ways: Sequence[NeighbourWay | None]) -> list[Leg]:
+def legs_of(
+    cases: Sequence[tuple[PreparedPair, np.ndarray]], ways: Sequence[NeighbourWay | None]
+) -> list[Leg]:
     """The leg to each case, with the state that it begins from."""
     legs = []
     for line, ((prepared, state), way) in enumerate(zip(cases, ways, strict=True)):
         if way is None:
             legs.append(Leg(line, 0.0, 0.0, state, 0))
         else:
-            finest = _finest(way, prepared.case)
+            finest = _finest(way, prepared.given)
             legs.append(Leg(line, way.start, way.target, state, way.period, finest, way.reach))
     return legs
 
@@ -50,16 +52,16 @@ def _finest(way: NeighbourWay, case: Case) -> float:
 
 
 def prepared_between(
-    cases: Sequence[Prepared], ways: Sequence[NeighbourWay | None], tabulated: Callable[[Case], Tabulated]
+    cases: Sequence[PreparedPair], ways: Sequence[NeighbourWay | None], tabulated: Callable[[Case], Tabulated]
 ) -> PreparedAt:
     """Gives the prepared case at a place on the way to a case, or beyond it."""
 
-    def prepared_at(line: int, value: float) -> Prepared:
+    def prepared_at(line: int, value: float) -> PreparedPair:
         way = ways[line]
         if way is None or value == way.target:
             return cases[line]
         share = (value - way.start) / (way.target - way.start)
-        case = case_between(way.neighbour, cases[line].case, share)
+        case = case_between(way.neighbour, cases[line].given, share)
         return prepare(case, tabulated(case))
 
     return prepared_at

@@ -1,0 +1,128 @@
+"""Shafts and bearings (`models/bearings/`): their tables, rules, and what the dynamics read of them."""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, cast
+
+from pydantic import Field
+
+from tribodyn.dynamics.data import BearingData
+from tribodyn.dynamics.rolling_bearing import ROLLERS, BearingType, RollingBearing, radial_stiffness
+from tribodyn.errors import InputError
+from tribodyn.scenario import units
+from tribodyn.scenario.quantity import Count, NotNegative, Quantity, Table, written
+from tribodyn.scenario.tables.model_files import Described
+
+Stiffness = Annotated[float, Quantity(units.positive(units.STIFFNESS))]
+#: Contact angle from which a bearing carries no radial load to speak of.
+MAXIMUM_CONTACT_ANGLE = math.radians(60.0)
+
+
+class Rolling(Table):
+    """The rolling bearings of a shaft, from whose type, size and load the stiffness follows."""
+
+    type: BearingType
+    elements: Annotated[int, Field(strict=True, ge=3, le=1000)] = Field(description="rolling elements")
+    diameter: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
+        None, description="of a ball"
+    )
+    length: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
+        None, description="effective, of a roller"
+    )
+    contact_angle: Annotated[float, Quantity(units.not_negative(units.ANGLE_KIND), "15 deg")] = written(
+        "0 deg"
+    )
+    radial_load: Annotated[float, Quantity(units.positive(units.FORCE))] = Field(description="of one bearing")
+    count: Count = Field(2, description="bearings that carry the shaft")
+
+
+class Bearing(Table):
+    """Shaft and bearing of one gear: stiffness given, or from the rolling bearings alone."""
+
+    stiffness_x: Stiffness | None = Field(None, description="along the pitch tangent")
+    stiffness_y: Stiffness | None = Field(None, description="along the line of centres")
+    rolling: Rolling | None = Field(None, description="in place of the stiffness")
+    damping_ratio: NotNegative | None = Field(None, description="of both axes")
+    damping_ratio_x: NotNegative | None = None
+    damping_ratio_y: NotNegative | None = None
+
+
+class Bearings(Described):
+    """Shafts and bearings of both gears (`models/bearings/`)."""
+
+    pinion: Bearing
+    gear: Bearing
+
+
+def bearings_of(bearings: Bearings) -> tuple[BearingData, BearingData]:
+    """Return stiffness and damping of both gears' bearings."""
+    return _bearing_of(bearings.pinion), _bearing_of(bearings.gear)
+
+
+def _bearing_of(bearing: Bearing) -> BearingData:
+    ratio_x = bearing.damping_ratio if bearing.damping_ratio_x is None else bearing.damping_ratio_x
+    ratio_y = bearing.damping_ratio if bearing.damping_ratio_y is None else bearing.damping_ratio_y
+    if bearing.rolling is not None:
+        numbers = bearing.rolling.model_dump()
+        sizes = {name: numbers[name] or 0.0 for name in ("diameter", "length")}
+        both = radial_stiffness(RollingBearing(**{**numbers, **sizes}))
+        return BearingData(both, both, cast(float, ratio_x), cast(float, ratio_y))
+    stiffness = cast(float, bearing.stiffness_x), cast(float, bearing.stiffness_y)
+    return BearingData(*stiffness, cast(float, ratio_x), cast(float, ratio_y))
+
+
+def broken_bearing_rules(bearings: Bearings) -> Iterator[InputError]:
+    """Go through what is missing in the bearings of both gears, or given twice."""
+    for side in ("pinion", "gear"):
+        yield from _broken_bearing(f"bearings.{side}", getattr(bearings, side))
+
+
+def _broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
+    for name in ("stiffness_x", "stiffness_y"):
+        given = getattr(bearing, name)
+        if bearing.rolling is None and given is None:
+            yield InputError(
+                f"{key}.{name}",
+                rule="missing",
+                remedy=f'add {name} = "1e9 N/m", or the table [{key}.rolling]',
+            )
+        elif bearing.rolling is not None and given is not None:
+            yield InputError(
+                f"{key}.{name}",
+                f"{given:g} N/m",
+                f"contradicts [{key}.rolling], from which it follows",
+                "give the one or the other",
+            )
+    if bearing.rolling is not None:
+        yield from _broken_rolling(f"{key}.rolling", bearing.rolling)
+    each = (bearing.damping_ratio_x, bearing.damping_ratio_y)
+    if bearing.damping_ratio is not None and any(ratio is not None for ratio in each):
+        yield InputError(
+            f"{key}.damping_ratio",
+            bearing.damping_ratio,
+            "contradicts damping_ratio_x and damping_ratio_y",
+            "write the one for both axes, or both of the others",
+        )
+    elif bearing.damping_ratio is None and any(ratio is None for ratio in each):
+        yield InputError(
+            f"{key}.damping_ratio", rule="missing", remedy="add damping_ratio = 0.05, for both axes"
+        )
+
+
+def _broken_rolling(key: str, rolling: Rolling) -> Iterator[InputError]:
+    needed, other = ("length", "diameter") if rolling.type in ROLLERS else ("diameter", "length")
+    if getattr(rolling, needed) is None:
+        rule = f'missing: type = "{rolling.type}" needs it'
+        yield InputError(f"{key}.{needed}", rule=rule, remedy=f'add {needed} = "12 mm"')
+    if getattr(rolling, other) is not None:
+        yield InputError(
+            f"{key}.{other}",
+            rule=f'has no effect with type = "{rolling.type}"',
+            remedy=f"leave {other} out",
+        )
+    if rolling.contact_angle >= MAXIMUM_CONTACT_ANGLE:
+        yield InputError(
+            f"{key}.contact_angle",
+            rule="60 deg or more: a thrust bearing",
+            remedy="write a smaller angle, or give stiffness_x and stiffness_y",
+        )

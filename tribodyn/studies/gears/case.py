@@ -1,0 +1,69 @@
+"""The case of gears that every study of a gear pair begins with, in SI units.
+
+Plain frozen dataclasses, so that the physics never meets pydantic or pint. Pairs are ordered (pinion, gear).
+"""
+
+from dataclasses import dataclass, field
+
+from tribodyn.dynamics.data import OperatingData
+from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.material import BodyMass, MaterialData
+from tribodyn.mesh.data import MeshData
+from tribodyn.studies.gears.by_standard import Quality
+from tribodyn.studies.protocol.study import CaseHead
+from tribodyn.tribology.bulk_temperature import TemperatureData
+from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.losses import LossData
+from tribodyn.tribology.lubricant import LubricantData
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearCase(CaseHead):
+    """Gears, their duty and their mesh.
+
+    Parameters
+    ----------
+    family : str
+        Name of the family of paths of contact.
+    drive : Drive
+        Geometry of both gears.
+    materials, masses : pairs of MaterialData and of BodyMass
+    roughness, mean_roughness : float
+        Composite rms roughness σ of the flanks, and their arithmetic mean roughness Ra, m.
+    operating : OperatingData
+    mesh : MeshData
+    quality : Quality or None
+        Deviations of the gears by ISO 1328-1; None: the drive has no tolerance class.
+    """
+
+    family: str
+    drive: Drive
+    materials: tuple[MaterialData, MaterialData]
+    masses: tuple[BodyMass, BodyMass]
+    roughness: float
+    mean_roughness: float
+    operating: OperatingData
+    mesh: MeshData
+    quality: Quality | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class LubricatedCase(GearCase):
+    """Gears with oil between the flanks: the oil, the laws of film and friction, and where heat goes.
+
+    Parameters
+    ----------
+    lubricant : LubricantData
+        At the temperature of the oil that enters the mesh; in `PreparedGears.case` at that of the teeth.
+    film, friction : FilmData, FrictionData
+    temperature : TemperatureData or None
+        How the bulk temperature of the teeth follows from the losses; None: it is that of the oil.
+    losses : LossData or None
+        Load-independent losses, where they are to be added.
+    """
+
+    lubricant: LubricantData
+    film: FilmData = field(default_factory=FilmData)
+    friction: FrictionData = field(default_factory=lambda: FrictionData("none"))
+    temperature: TemperatureData | None = None
+    losses: LossData | None = None

@@ -1,0 +1,156 @@
+"""What scenarios of gears have in common: keys of their tables, rules, and the fields of a case."""
+
+from collections.abc import Iterator
+from dataclasses import fields
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from tribodyn.dynamics.data import OperatingData
+from tribodyn.errors import InputError
+from tribodyn.mesh.data import MeshData
+from tribodyn.scenario.common import Slices, head_of
+from tribodyn.scenario.quantity import Switch, model_file
+from tribodyn.scenario.tables.drive_data import (
+    lubricant_of,
+    masses_of,
+    modifications_of,
+    slices_of,
+    teeth_of,
+)
+from tribodyn.scenario.tables.drive_rules import broken_drive_rules, broken_part_rules
+from tribodyn.scenario.tables.duty import duty_of
+from tribodyn.scenario.tables.laws import FilmTable, film_of, friction_values
+from tribodyn.scenario.tables.losses import LossesTable, broken_loss_rules, losses_of
+from tribodyn.scenario.tables.lubricant_rules import broken_lubricant_rules
+from tribodyn.scenario.tables.model_files import DriveTable, Lubricant
+from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.modification_rules import Face, broken_face_rules, broken_slice_rules
+from tribodyn.scenario.tables.quality import (
+    DeviationSample,
+    broken_sample_rules,
+    error_with_sample,
+    with_sample,
+)
+from tribodyn.scenario.tables.spectrum import SpectrumScenario, unnamed_duty
+from tribodyn.scenario.tables.temperature import TemperatureTable, broken_temperature_rules, temperature_of
+from tribodyn.scenario.tables.tolerances import grade_of, tolerances_of
+from tribodyn.studies.gears.by_standard import quality_of
+from tribodyn.tribology.data import FrictionData
+
+Oil = Annotated[Lubricant, model_file("lubricants")]
+TemperatureKeys = Annotated[TemperatureTable | None, Field(description="bulk temperature of the teeth")]
+LossKeys = Annotated[LossesTable | None, Field(description="load-independent losses")]
+FilmKeys = Annotated[FilmTable | None, Field(description="which law gives the film")]
+FaceSlices = Annotated[
+    Slices | None, Field(description="of the face; default: 21 where anything varies along it, else 1")
+]
+SliceCoupling = Annotated[Switch, Field(description="slices of one tooth hold each other")]
+FoundationCoupling = Annotated[Switch, Field(description="pairs that share a body share its foundation")]
+SampleNumber = Annotated[
+    DeviationSample | None,
+    Field(description="number of the sample of deviations drawn from the quality; default: none"),
+]
+
+#: Where a table [mesh] has no keys of misalignment, and neither does the drive's quality add any.
+_ALIGNED = MisalignmentTable(from_quality=0.0)
+
+
+class GearScenario(SpectrumScenario):
+    """A scenario of gears; each kind adds its tables."""
+
+    kind: Any
+    drive: Annotated[DriveTable, model_file("drives")]
+
+
+def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:
+    """Return the fields of a `GearCase` for a scenario that has passed schema and rules."""
+    drive = scenario.drive
+    gears = drive.pinion, drive.gear
+    duty = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth)
+    return {
+        **head_of(scenario, toml, sha256),
+        **teeth_of(drive),
+        "masses": masses_of(drive),
+        "operating": OperatingData("speed", *duty),
+        "mesh": mesh_of(scenario),
+        "quality": quality_of([grade_of(drive, gear) for gear in gears], tolerances_of(drive)),
+    }
+
+
+def oil_fields(scenario: Any) -> dict[str, Any]:
+    """Return the further fields of a `LubricatedCase`; tables that the kind does not have count as absent."""
+    friction, found = getattr(scenario, "friction", None), {}
+    if friction is not None:
+        own = {name: getattr(friction, name) for name in type(friction).model_fields if name != "law"}
+        found["friction"] = FrictionData(friction.law, friction_values(friction), **own)
+    return found | {
+        "lubricant": lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
+        "film": film_of(getattr(scenario, "film", None)),
+        "temperature": temperature_of(getattr(scenario, "temperature", None)),
+        "losses": losses_of(getattr(scenario, "losses", None)),
+    }
+
+
+def mesh_of(scenario: Any, *, every_tooth: bool = False, error: Any = None, **own: Any) -> MeshData:
+    """Return what a scenario says of its mesh, by finite elements where it names no compliance.
+
+    Parameters
+    ----------
+    scenario
+        Its table [mesh] may lack any key.
+    every_tooth : bool
+        Whether the study knows teeth that differ.
+    error : Table or None
+        Transmission error of a pair over roll angle (rad, m), to which a sample of deviations adds.
+    own
+        Fields of `MeshData` that are not plain keys of the table.
+    """
+    drive, mesh = scenario.drive, scenario.mesh
+    modifications = modifications_of(drive, getattr(mesh, "misalignment", _ALIGNED))
+    sample, slices = getattr(mesh, "deviation_sample", None), getattr(mesh, "slices", None)
+    if getattr(mesh, "compliance", "fem") == "fem":
+        modifications = with_sample(drive, modifications, sample, every_tooth=every_tooth, slices=slices)
+    else:
+        error = error_with_sample(drive, error, sample)
+    given = {one.name for one in fields(MeshData)} & set(type(mesh).model_fields)
+    values = {"compliance": "fem", "damping_ratio": 0.0} | {name: getattr(mesh, name) for name in given}
+    made = {
+        "modifications": modifications,
+        "slices": slices_of(slices, modifications),
+        "error_table": error,
+    }
+    return MeshData(**values | made | own)
+
+
+def broken_gear_rules(scenario: Any, *, every_duty: bool = False, oil: bool = True) -> Iterator[InputError]:
+    """Go through the broken rules of drive, duty, oil, temperatures, losses and mesh.
+
+    Parameters
+    ----------
+    scenario
+        Tables and keys that its kind does not have count as absent.
+    every_duty : bool
+        Whether the study runs all duties of a load spectrum at a time.
+    oil : bool
+        Whether the lubricant is looked at.
+    """
+    drive, mesh, lubricant = scenario.drive, scenario.mesh, scenario.lubricant
+    yield from broken_drive_rules(drive)
+    if not every_duty:
+        yield from unnamed_duty(scenario)
+    if lubricant is not None:
+        if oil:
+            yield from broken_lubricant_rules(lubricant, scenario.operating.oil_temperature)
+        yield from broken_temperature_rules(getattr(scenario, "temperature", None), lubricant)
+    yield from broken_loss_rules(getattr(scenario, "losses", None))
+    misalignment = getattr(mesh, "misalignment", _ALIGNED)
+    coupling = getattr(mesh, "slice_coupling", True)
+    face = Face(drive, misalignment, getattr(mesh, "slices", None), coupling)
+    if (compliance := getattr(mesh, "compliance", None)) is None:
+        yield from broken_slice_rules(face)
+    else:
+        yield from broken_face_rules(face, compliance)
+    yield from broken_sample_rules(drive, getattr(mesh, "deviation_sample", None), misalignment)
+    if hasattr(mesh, "hertz"):
+        yield from broken_part_rules(mesh.hertz, mesh.foundation, mesh.compliance)
