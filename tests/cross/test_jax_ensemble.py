@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -17,11 +16,7 @@ from tribodyn.solve import ensemble
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.jax import ensemble as jax_ensemble
-from tribodyn.studies.gear_pair import batch
 from tribodyn.studies.gear_pair.sweep_layout import SWEPT
-from tribodyn.sweep.engines import LocalEngine
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import run, settings_of
 
 pytestmark = pytest.mark.slow
 
@@ -168,27 +163,3 @@ def test_steady_states_through_jax(tmp_path: Path):
         assert set(one["solution"]) == {"period-1"}
         assert (one["residual"] <= 1e-7).all()
         np.testing.assert_allclose(one["multiplier_max"], other["multiplier_max"], atol=1e-3)
-
-
-def test_a_stopped_sweep_goes_on_and_compiles_nothing_again(tmp_path: Path, compiled, monkeypatch):
-    monkeypatch.setattr(batch, "MOST_IN_CHUNK", 8)
-    words = ("--vary", "operating.pinion_speed=250:400/11rad/s", "--transient", "4")
-    whole = swept("jax", tmp_path / "whole.h5", *words)
-
-    class Stops(LocalEngine):
-        def __call__(self, kind, chunks, settings):
-            yield next(iter(super().__call__(kind, chunks, settings)))
-            raise KeyboardInterrupt
-
-    grid = Grid("crc-23-47", [words[1]], MOTOR)
-    with pytest.raises(KeyboardInterrupt):
-        run(grid, settings_of(grid, 4, "jax"), Stops(width=8), tmp_path / "stopped.h5")
-    before = len(compiled)
-    resumed = swept("jax", tmp_path / "stopped.h5", *words, "--resume")
-    assert len(compiled) == before
-    with h5py.File(whole) as a, h5py.File(resumed) as b:
-        for name in a:
-            if isinstance(a[name], h5py.Dataset):
-                assert a[name][...].tobytes() == b[name][...].tobytes(), name
-    with SweepRecord(resumed) as record:
-        assert record.summary["cases_done_by_this_call"] == 3

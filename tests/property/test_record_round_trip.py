@@ -8,9 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from tests.support.record_samples import block, gear_pair_writer, geometry, mesh_cycle
+from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.errors import harmless
-from tribodyn.mesh.cycle import as_arrays, from_arrays
 from tribodyn.record.opened import harmless_data
 from tribodyn.record.reader import open_record
 
@@ -55,15 +54,3 @@ def test_summary_and_scenario_come_back(summary: dict, scenario: str):
         with open_record(path) as record:
             assert record.summary == harmless_data(summary)
             assert record.attrs["scenario"] == harmless(scenario)
-
-
-def test_the_mesh_cycle_comes_back_as_it_was():
-    cycle = from_arrays(mesh_cycle())
-    with tempfile.TemporaryDirectory() as folder:
-        with gear_pair_writer(Path(folder) / "run.h5", 1, table=as_arrays(cycle)) as record:
-            record.write(0, block(0, 1))
-            path = record.finish({})
-        with open_record(path) as record:
-            found = from_arrays(record.mesh_cycle)
-    for name, value in cycle._asdict().items():
-        np.testing.assert_array_equal(getattr(found, name), value, err_msg=name)

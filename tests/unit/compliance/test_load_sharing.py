@@ -14,7 +14,6 @@ from tribodyn.compliance.sharing.load_sharing import (
     effective_contact_ratio,
     extended_rolls,
     half_width,
-    in_batches,
     share_load,
 )
 from tribodyn.compliance.sharing.slices import PairFlexibility
@@ -51,17 +50,6 @@ def test_contact_ratio_is_from_where_the_overlap_begins_to_where_it_ends(begin, 
     second = np.minimum(roll - begin - 0.03, 2.0 * (end - roll))
     overlap = np.stack([first, second], axis=-1)
     assert effective_contact_ratio(roll, of_overlap(overlap), pitch) == pytest.approx((end - begin) / pitch)
-
-
-@pytest.mark.parametrize(("positions", "pairs", "slices"), [(17, 3, 1), (5, 2, 40), (300, 4, 9)])
-def test_batches_are_all_positions_and_bound_the_memory(monkeypatch, positions, pairs, slices):
-    monkeypatch.setattr(load_sharing, "_ENTRIES", 5000)
-    batches = in_batches((positions, pairs, slices))
-    places = (pairs * slices) ** 2
-    assert np.concatenate([np.arange(positions)[rows] for rows in batches]).tolist() == list(range(positions))
-    sizes = [rows.stop - rows.start for rows in batches]
-    assert all(size == 1 or size * places <= 5000 for size in sizes)
-    assert all(size == positions or (size + 1) * places > 5000 for size in sizes[:-1])
 
 
 def test_the_contact_flattens_both_bodies(pair):

@@ -98,32 +98,6 @@ def test_the_level_that_is_named_fits(monkeypatch, components, available):
     assert said in str(refused.value)
 
 
-def test_all_of_the_memory_may_be_used(monkeypatch):
-    monkeypatch.setattr(mesh_memory, "available_memory", lambda: memory_needed(7, 2))
-    check_level(7, 2)
-    with pytest.raises(InputError):
-        check_level(8, 2)
-
-
-@pytest.mark.parametrize(
-    ("lines", "limit", "used", "expected"),
-    [
-        ("MemTotal: 9 kB\nMemAvailable:   700 kB\nMemFree: 1 kB\n", "max", "5", 700 * 1024.0),
-        ("MemAvailable:   700 kB\n", "600000", "100000", 500000.0),
-        ("MemAvailable:   400 kB\n", "600000", "100000", 400 * 1024.0),
-        (None, "600000", "100000", 500000.0),
-        (None, None, None, float("inf")),
-    ],
-)
-def test_memory_is_what_system_and_container_leave(tmp_path, monkeypatch, lines, limit, used, expected):
-    for name, text in (("meminfo", lines), ("max", limit), ("current", used)):
-        if text is not None:
-            (tmp_path / name).write_text(text)
-    monkeypatch.setattr(mesh_memory, "Path", lambda path: tmp_path / path.rpartition("/")[2])
-    monkeypatch.setattr(mesh_memory, "_LIMITS", (tmp_path / "max", tmp_path / "current"))
-    assert mesh_memory.available_memory() == expected
-
-
 def test_level_below_one_is_refused():
     with pytest.raises(InputError, match="no cells"):
         check_level(0, 2)

@@ -2,14 +2,11 @@
 
 import dataclasses
 import math
-from types import SimpleNamespace
-from typing import Any, cast
 
 import numpy as np
 import pytest
 
 from tribodyn.compliance.sharing.load_sharing import (
-    LoadedFlanks,
     effective_contact_ratio,
     extended_rolls,
     flexibility,
@@ -18,7 +15,7 @@ from tribodyn.compliance.sharing.load_sharing import (
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.corner_contact import pair_geometry, roll_at_gap
+from tribodyn.geometry.flanks.corner_contact import roll_at_gap
 from tribodyn.geometry.flanks.modification import (
     FlankModification,
     LeadRelief,
@@ -27,7 +24,6 @@ from tribodyn.geometry.flanks.modification import (
     Relief,
     back_flanks,
 )
-from tribodyn.mesh import tabulate_loaded as module
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.table import slots
 from tribodyn.mesh.tabulate_loaded import flanks_of, segments, tabulate_loaded
@@ -201,23 +197,3 @@ def test_effective_contact_ratio_of_a_shipped_drive():
     roll = extended_rolls(assembly, roll_at_gap(assembly, 8e-5), 240)
     ratio = effective_contact_ratio(roll, share_load(flexible, roll, 318.3), 2 * np.pi / 18)
     assert ratio == pytest.approx(1.733, abs=0.02)
-
-
-def test_flanks_meet_over_corner_error_and_relief(monkeypatch):
-    """What the pairs are condensed with: all that keeps them apart, added up, off the path too."""
-    seen = {}
-    monkeypatch.setattr(module, "share_load", lambda *words: seen.update(shared=words[4]))
-    monkeypatch.setattr(module, "check_resolved", lambda *_: None)
-    monkeypatch.setattr(module, "condense", lambda *words: seen.update(whole=words[2]))
-    case = load_scenario(NAME)
-    assembly = assemble(family(case.family), case.drive)
-    flexible = SimpleNamespace(assembly=assembly, width=20e-3)
-    start, end = assembly.roll_limits
-    roll = np.array([[start - 0.02, 0.5 * start], [0.3 * end, end + 0.01]])
-    error = np.array([[1e-6, 2e-6], [3e-6, 5e-6]])
-    geometry = pair_geometry(assembly, roll)
-    corner = geometry.gap
-    module._pressed(LoadedFlanks(cast(Any, flexible), Modifications(), 3), 300.0, geometry, roll, error)
-    assert np.all((corner > 0.0) == [[True, False], [False, True]])
-    np.testing.assert_allclose(seen["shared"], np.repeat(error[..., None], 3, axis=-1), rtol=1e-12)
-    np.testing.assert_allclose(seen["whole"], seen["shared"] + corner[..., None], rtol=1e-12)

@@ -157,16 +157,6 @@ def test_the_record_says_so(tmp_path, outside):
     assert found["summary"]["trust_reasons"]["efficiency"]["value"] == 1.0597
 
 
-def test_a_record_inside_says_that_too(tmp_path):
-    with gear_pair_writer(tmp_path / "run.h5", 9, outlines=geometry()) as writer:
-        writer.write(0, block(0, 9))
-        writer.finish(judged(efficiency=0.99))
-    with open_record(tmp_path / "run.h5") as record:
-        assert (record.attrs["trust"], record.trust) == (INSIDE, INSIDE)
-        assert "outside the model" not in printed(summary_table(record))
-        assert as_json(record)["trust_reasons"] == []
-
-
 def test_a_sweep_says_it_case_by_case(tmp_path, outside):
     scale = ParameterScale("speed", "operating.pinion_speed", "rad/s", (1.0, 2.0, 3.0))
     layout = SweepLayout({"efficiency": QUANTITIES["efficiency"].variable()})
@@ -188,19 +178,6 @@ def test_a_sweep_says_it_case_by_case(tmp_path, outside):
         "Warning: 2 of 3 cases: outside the model: deflection of a pair of teeth over the module above 10 %"
         in text
     )
-
-
-@pytest.mark.parametrize(
-    "name", ["efficiency-involute-18-36", pytest.param("load-contact-18-36", marks=pytest.mark.soak)]
-)
-def test_studies_hand_over_what_they_have(name, tmp_path):
-    """A hundred times the torque: complete, and marked."""
-    result = run(load_scenario(name, {"operating.gear_torque": "40 kN*m"}), tmp_path / "much.h5")
-    assert (result.status, result.trust) == ("complete", OUTSIDE)
-    known = result.summary["trust_reasons"]["hertz_pressure"]
-    assert known["value"] == pytest.approx(result.summary["hertz_pressure_max"], rel=1e-9)
-    assert 0.0 < known["share"] <= 1.0
-    assert any("Hertz pressure" in why for why in result.reasons)
 
 
 def test_an_absurd_load_is_loud(tmp_path):

@@ -9,7 +9,6 @@ from rich.console import Console
 
 from tests.support import synthetic_record
 from tests.support.record_samples import block, gear_pair_writer, geometry
-from tribodyn.post import compare as comparing
 from tribodyn.post.report import as_json
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import open_record
@@ -17,7 +16,7 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, SweepLayout
 from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
 from tribodyn.record.withheld import is_efficiency, reason_to_withhold, samples_withheld, warnings, withheld
-from tribodyn.studies.pages.pictures import compare, summary_table, sweep_table
+from tribodyn.studies.pages.pictures import summary_table, sweep_table
 
 
 def printed(table) -> str:
@@ -70,11 +69,6 @@ def test_every_efficiency_is_one_by_its_name():
     ]
 
 
-def test_it_is_idempotent():
-    once = withheld({"efficiency": 1.5})
-    assert withheld(once) == once
-
-
 def test_samples_outside_are_nan_and_others_stay():
     values = np.array([0.99, 1.01, -3.0, 0.0, np.nan, 1.0])
     np.testing.assert_array_equal(
@@ -106,20 +100,6 @@ def test_a_figure_that_an_older_version_wrote_is_not_shown(wrong):
     found = json.loads(json.dumps(as_json(wrong), allow_nan=False))
     assert found["summary"]["efficiency"] is None
     assert "above 1" in found["summary"]["efficiency_withheld"]
-
-
-def test_a_comparison_withholds_the_figure_and_the_loss(wrong, tmp_path):
-    other = open_record(synthetic_record.write(tmp_path / "right.h5", cycles=1, per_cycle=20))
-    compared = compare([other, wrong])
-    found = comparing.as_json(compared)
-    for name in ("efficiency", "loss_fraction"):
-        values = found["quantities"][name]["values"]
-        assert values[0] is not None
-        assert values[1] is None
-    assert "above 1" in found["withheld"]["wrong"]["efficiency"]
-    text = printed(comparing.comparison_table(compared))
-    assert "Warning, wrong: withheld: efficiency" in text
-    assert "120" not in text
 
 
 def test_a_sweep_withholds_it_case_by_case(tmp_path):

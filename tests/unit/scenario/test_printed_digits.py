@@ -14,7 +14,7 @@ from tribodyn.geometry.families.involute import shift_sensitivity, tight_centre_
 from tribodyn.scenario.printed import shift_rounding
 from tribodyn.studies.gears.drive_file import load_drive
 from tribodyn.studies.gears.rounded import BRIEF
-from tribodyn.studies.protocol.load import load, load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 
 def pair(
@@ -152,17 +152,6 @@ def scenario(tmp_path: Path) -> Path:
     path = tmp_path / "fzg.toml"
     path.write_text(tomli_w.dumps(data))
     return path
-
-
-def test_check_and_gear_say_it(scenario: Path, forked: Any):
-    loaded = load(str(scenario))
-    checked = loaded.study.check(loaded.case)
-    assert checked.data["geometry"]["centre distance as printed"] == pytest.approx((91.5, "mm"))
-    assert any(
-        "centre distance 91.5 mm is that of the mesh without backlash" in one for one in checked.remarks
-    )
-    shown = forked("gear", str(scenario), folder=scenario.parent)
-    assert "centre distance as printed" in shown.stdout
 
 
 def test_a_sweep_says_of_which_cases_it_is(scenario: Path):

@@ -6,7 +6,7 @@ import pytest
 from tests.support.plain_kernels import make_plain, plain
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.solve.march import dormand_prince
-from tribodyn.solve.march.marching import SCRATCH, STATE
+from tribodyn.solve.march.marching import SCRATCH
 from tribodyn.solve.methods import dopri5, rodas4, switching
 from tribodyn.solve.methods.switching import COUNT, EXPLICIT_RUN, MODE, STIFFNESS, WHICH
 
@@ -77,36 +77,6 @@ def test_three_steps_that_are_not_stiff_hand_back():
     assert after(3, 12.1, which=1.0)[0][WHICH] == 1.0
     mode, _ = after(5, [11.0, 11.0, 12.5, 11.0, 11.0], which=1.0)
     assert (mode[WHICH], mode[COUNT]) == (1.0, 2.0)
-
-
-def test_each_step_is_that_of_the_method_in_use(monkeypatch):
-    """Attempt, samples, contacts and the next step."""
-    said = []
-
-    def named(name, value=None):
-        return lambda *arguments: said.append(name) or value
-
-    for one, module in (("explicit", dopri5), ("stiff", rodas4)):
-        for what in ("attempt", "sample", "adapted", "contacts"):
-            monkeypatch.setattr(module, what, named(f"{one} {what}", 7))
-    monkeypatch.setattr(rodas4, "stiffness", named("stiffness", 5.5))
-    for which, name in ((0.0, "explicit"), (1.0, "stiff")):
-        said.clear()
-        buffer = switching.buffer()
-        buffer[MODE, WHICH] = which
-        assert switching.attempt(True, 1e-3, None, None, None, None, None, buffer) == 7
-        assert buffer[MODE, STIFFNESS] == (5.5 if which else 0.0)
-        switching.sample(0.5, 1e-3, None, buffer, None)
-        assert switching.adapted(1e-3, 0.5, 0.5, buffer) == 7
-        switching.contacts(0.1, 0, None, None, buffer)
-        kernels = [one for one in said if one != "stiffness"]
-        assert kernels == [f"{name} {what}" for what in ("attempt", "sample", "adapted", "contacts")]
-
-
-def test_the_row_of_the_choice_lies_behind_those_of_both_methods():
-    assert len(switching.buffer()) == MODE + 1
-    assert len(rodas4.buffer()) <= MODE >= len(dopri5.buffer())
-    assert STATE < SCRATCH
 
 
 def test_the_explicit_methods_last_rates_are_the_next_steps_first(rng):

@@ -8,7 +8,7 @@ import pytest
 
 from tribodyn import FilmLaw, FrictionLaw, InputError, Parameter
 from tribodyn.kernels.native.identity import function_layout
-from tribodyn.numerics.elementary import exp, law, log
+from tribodyn.numerics.elementary import exp, log
 from tribodyn.record.reader import open_record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
@@ -61,12 +61,6 @@ def case():
     return load_scenario("crc-23-47", {**SHORT, "solver.method": "dopri5"})
 
 
-def sampled(result):
-    assert result.status == "complete", result.message
-    with open_record(result.path) as record:
-        return record["transmission_error_rotational"], record["friction_coefficient"]
-
-
 def assert_work_grows(record):
     """The work of friction in the native kernel grows by what NumPy makes of the law, over trapezoids."""
     work, power, time = (record[name] for name in ("work_friction", "power_friction", "time"))
@@ -84,17 +78,6 @@ def test_a_law_works_wherever_it_is_defined(place, tmp_path):
         coefficient = 0.03 + 0.05 * np.exp(-record["entrainment_speed"] / 2.0)
         np.testing.assert_allclose(record["friction_coefficient"], coefficient, rtol=1e-12)
         assert_work_grows(record)
-
-
-@pytest.mark.soak
-@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
-def test_a_constant_law_is_coulombs(method, tmp_path):
-    """A law that returns a plain number gives bit for bit what the shipped law gives."""
-    case = load_scenario("crc-23-47", {**SHORT, "solver.method": method, **COULOMB})
-    shipped = sampled(run(case, tmp_path / "shipped.h5"))
-    own = sampled(run(case, tmp_path / "own.h5", friction=FrictionLaw("own", "", constant)))
-    np.testing.assert_allclose(own[0], shipped[0], rtol=1e-11)
-    np.testing.assert_allclose(own[1], shipped[1], rtol=0, atol=0)
 
 
 @pytest.mark.soak
@@ -189,66 +172,6 @@ def test_a_case_without_laws_refuses_one(scenario, table, tmp_path):
 def test_what_is_no_law_is_refused(given, case, tmp_path):
     with pytest.raises(InputError, match=r"expected a FrictionLaw.*tribodyn\.FrictionLaw"):
         run(case, tmp_path / "no.h5", friction=given)
-
-
-def branching(contact, film, surfaces, parameters):
-    return 0.05 if contact.sliding > 0.0 else 0.04
-
-
-def too_few(contact):
-    return 0.05
-
-
-def negative(contact, film, surfaces, parameters):
-    return -0.05 + 0.0 * contact.sliding
-
-
-def halved(x):
-    return 0.5 * x
-
-
-def unmarked(contact, film, surfaces, parameters):
-    return halved(0.1)
-
-
-def closed_over_unmarked():
-    def helper(x):
-        return 0.5 * x
-
-    return lambda contact, film, surfaces, parameters: helper(0.1)
-
-
-@law
-def marked_half(x):
-    return 0.5 * x
-
-
-def marked(contact, film, surfaces, parameters):
-    return marked_half(0.1)
-
-
-@pytest.mark.parametrize(
-    ("function", "said"),
-    [
-        (branching, r"fails on arrays.*where\(\) and not if"),
-        (too_few, "fails on a number: TypeError"),
-        (negative, "gives -0.05 in an ordinary contact"),
-        (unmarked, "calls halved, which is not marked"),
-        (closed_over_unmarked(), "calls helper, which is not marked"),
-    ],
-)
-def test_a_law_that_cannot_work_is_refused_before_anything_is_written(function, said, case, tmp_path):
-    with pytest.raises(InputError, match=said):
-        run(case, tmp_path / "no.h5", friction=FrictionLaw("bad", "", function))
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.soak
-def test_a_law_may_call_functions_that_are_marked(case, tmp_path):
-    result = run(case, tmp_path / "run.h5", friction=FrictionLaw("marked", "", marked))
-    with open_record(result.path) as record:
-        found, load = record["friction_coefficient"], record["normal_load"]
-    np.testing.assert_allclose(found[load > 0.0], 0.05, rtol=1e-14)
 
 
 def test_a_key_without_a_value_is_named(case, tmp_path):

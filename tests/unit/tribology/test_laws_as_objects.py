@@ -1,6 +1,5 @@
 """Laws as objects: parameters, ranges, a law handed over from Python, and how kernels tell laws apart."""
 
-import dataclasses
 import importlib.util
 
 import numpy as np
@@ -17,14 +16,13 @@ from tribodyn.numerics.parameter import Parameter
 from tribodyn.record.reader import open_record
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.gear_pair.run import run
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run as run_study
 from tribodyn.tribology.closure import closure, laws_of, with_laws
 from tribodyn.tribology.data import FilmData
 from tribodyn.tribology.film import film_law
-from tribodyn.tribology.friction import FRICTION_LAWS, friction_law
-from tribodyn.tribology.law import FilmLaw, FrictionLaw
+from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.law import FrictionLaw
 
 
 @law
@@ -42,11 +40,6 @@ STRIBECK = FrictionLaw(
         Parameter("speed", "velocity", "sliding speed that halves it", default=0.5, source="this test"),
     ),
 )
-
-
-@law
-def _thick(contact, surfaces, parameters):
-    return -11.0 + 0.0 * contact.line_load, 1.0, 0.0
 
 
 def test_a_law_has_the_values_of_its_keys_as_parameters():
@@ -80,24 +73,6 @@ def test_a_law_handed_over_runs_in_every_compiler(rng):
     assert_right_hand_sides_agree(at_several_conditions(prepare(case).model), rng, 1e-12)
 
 
-@pytest.mark.soak
-def test_a_run_with_laws_handed_over_says_so(tmp_path):
-    plain = load_scenario("crc-23-47", {"solver.cycles": 1, "output.samples_per_cycle": 16})
-    thick = FilmLaw("thick", "a film of 17 µm", _thick)
-    case = with_laws(plain, film=thick, friction=STRIBECK.with_values(static=0.08))
-    result = run(case, tmp_path / "run.h5")
-    with open_record(result.path) as record:
-        assert (record.summary["film_law"], record.summary["friction_law"]) == ("thick", "stribeck")
-        assert record.summary["friction_range"] == "none stated"
-        assert "friction_in_range_fraction" not in record.summary
-        assert np.all(record["friction_in_range"] == -1)
-        touching = record["normal_load"] > 0
-        np.testing.assert_allclose(record["central_film_thickness"][touching], np.exp(-11.0))
-        found = record["friction_coefficient"][touching]
-        expected = 0.08 / (1.0 + np.abs(record["sliding_speed"][touching]) / 0.5)
-        np.testing.assert_allclose(found, expected, rtol=1e-12)
-
-
 def test_a_run_flags_the_range_of_its_friction_law(tmp_path):
     overrides = {"friction.law": "xu", "operating.gear_torque": "100 N*m"}
     result = run_study(load_scenario("efficiency-crc-23-47", overrides), tmp_path / "run.h5")
@@ -109,15 +84,6 @@ def test_a_run_flags_the_range_of_its_friction_law(tmp_path):
         np.testing.assert_array_equal(record["friction_in_range"][touching], inside)
         assert 0.2 < record.summary["friction_in_range_fraction"] < 0.5
         assert record.summary["friction_in_range_fraction"] == pytest.approx(np.mean(inside))
-
-
-def test_laws_that_state_a_range_flag_it_and_the_others_say_so():
-    conditions = {"coulomb": {"coefficient": 0.1}}
-    for name, one in FRICTION_LAWS.items():
-        if one.name in ("niemann", "schlenk", "iso-14179-1", "solved"):
-            continue  # of a mesh, not of a contact
-        flag = known(under(name, **conditions.get(name, {})), **POINT).friction_in_range
-        assert np.isnan(flag) == (one.range == ""), name
 
 
 def test_variants_share_their_machine_code():
@@ -220,8 +186,3 @@ def test_a_law_that_cannot_be_compiled_says_why():
     model = prepare(case).model
     with pytest.raises(InputError, match=r"law = _unfinished.*_asdict.*marked with its `law`"):
         rhs(0.3, 0.0, 0, np.zeros(STATES), model, work_array(model), np.empty(STATES))
-
-
-def test_laws_are_plain_data():
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        STRIBECK.name = "other"  # pyright: ignore[reportAttributeAccessIssue]

@@ -20,7 +20,6 @@ from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
 from tribodyn.studies.assessment.local import local_of, point_angles
 from tribodyn.studies.assessment.parts import asked_of
 from tribodyn.studies.assessment.standard import path_of
-from tribodyn.studies.gear_pair.assess import maxima
 from tribodyn.studies.protocol.load import load_scenario
 
 KIND = "assessment"
@@ -203,12 +202,6 @@ def test_a_change_runs_only_what_it_concerns(assessed: dict, folder: Path):
     assert warm["simulated"]["h_Y"]["C"] < assessed["simulated"]["h_Y"]["C"]
 
 
-def test_a_complete_record_is_not_replaced_unasked(assessed: dict, folder: Path):
-    scenario = written_template(KIND, folder)
-    said = invoked("assess", scenario, *shortened(KIND), "-o", folder / "out", status=2)
-    assert "--force" in said
-
-
 @pytest.mark.parametrize(
     ("key", "value", "named"),
     [
@@ -234,17 +227,6 @@ def test_an_oil_without_its_data_sheet_is_refused(tmp_path: Path):
     bare.write_text(text[:begin] + text[end:].replace("[operating]", "[operating]", 1), encoding="utf-8")
     with pytest.raises(InputError, match="data sheet"):
         load_scenario(bare, {"lubricant": "liu-ni-2022"})
-
-
-def test_another_kind_is_run_and_not_assessed():
-    said = invoked("assess", "crc-23-47", status=2)
-    assert "--kind assessment" in said
-
-
-def test_maxima_stand_out_on_both_sides():
-    values = np.array([1.0, 1.1, 1.0, 1.005, 1.0, 2.0, 1.0, np.nan, 1.0])
-    assert maxima(values) == [5, 1]
-    assert maxima(np.array([1.0, 2.0, 3.0])) == []
 
 
 def test_the_temperature_of_the_teeth_can_be_asked_for_otherwise(tmp_path: Path):

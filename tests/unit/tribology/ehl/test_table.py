@@ -303,26 +303,6 @@ def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
     assert [held_at(one, 2.0, 0.5) for one in (1.0, 1.75, 2.0, 2.5, 9.0)] == [-1.0, -0.5, 0.0, 1.0, 1.0]
 
 
-def test_more_contacts_are_solved_while_the_error_is_large(monkeypatch, rng):
-    """240 to begin with, 120 more each time, 600 at most; none is solved twice."""
-    contact, solved = tables.contact_of(LIU_NI), []
-    every = box_filled(rng, 600)
-    monkeypatch.setattr(tables, "spread", lambda duty, count: (every[:count], np.ones(count, dtype=bool)))
-    noise = 0.0
-
-    def solve_all(_, duties):
-        solved.append(duties)
-        film, share, friction = film_and_friction(contact, duties)
-        return np.stack([film + noise * rng.standard_normal(len(film)), np.log(friction), share], axis=1)
-
-    monkeypatch.setattr(tables, "solve_all", solve_all)
-    assert tables._made(contact, DUTY).solved == 240
-    noise = 0.05
-    assert tables._made(contact, DUTY).solved == 600
-    assert [len(one) for one in solved] == [240, 240, 120, 120, 120]
-    np.testing.assert_array_equal(np.concatenate(solved[1:]), every)
-
-
 def test_a_contact_of_a_table_is_that_of_the_case():
     oil = LIU_NI.lubricant
     surfaces = LIU_NI.surfaces._replace(
@@ -361,27 +341,3 @@ def test_a_solution_of_a_table_is_that_of_its_duty(monkeypatch):
     wanted = np.log([2.7e5, 0.21, 93.0, 0.35])
     monkeypatch.setattr(points, "solve_coupled", stopped)
     assert np.all(np.isnan(points.solve_one(contact, wanted)))
-
-
-@pytest.mark.parametrize(("cores", "count", "processes"), [(1, 9, 0), (3, 9, 2), (9, 9, 2), (3, 2, 0)])
-def test_duties_are_shared_between_processes(monkeypatch, cores, count, processes):
-    """One per core while each has enough to do; what a process does not answer is solved by this one."""
-    begun = []
-
-    def solve_one(_, duty):
-        return np.array([2.0 * duty[0], duty[1], -duty[2]])
-
-    def begin(contact, duties):
-        begun.append(duties)
-        return None
-
-    monkeypatch.setattr(points, "usable_cores", lambda: cores)
-    monkeypatch.setattr(points, "_WORTH", 3)
-    monkeypatch.setattr(points, "solve_one", solve_one)
-    monkeypatch.setattr(points, "_begun", begin)
-    duties = np.arange(4.0 * count).reshape(count, 4)
-    contact = tables.contact_of(LIU_NI)
-    np.testing.assert_array_equal(points.solve_all(contact, duties), [solve_one(None, one) for one in duties])
-    assert len(begun) == processes
-    for number, one in enumerate(begun, start=1):
-        np.testing.assert_array_equal(one, duties[number :: processes + 1])
