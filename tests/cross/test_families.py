@@ -50,12 +50,14 @@ def drive(shape):
 @pytest.mark.soak
 def test_the_mesh_cycle_differentiates_by_the_shape():
     """Derivative of what the table holds by the shape's numbers, against differences."""
-    family, shape = cycloidal.FAMILY, cycloidal.Shape(0.0235, 0.02)
+    family, shape = cycloidal.FAMILY, cycloidal.CycloidShape(0.0235, 0.02)
     mesh = MeshData("energy", 0.05, points=9)
     pairs = pair_slots(assemble(family, drive(shape)))
 
     def figure(values):
-        cycle = tabulate(assemble(family, drive(cycloidal.Shape(*values))), (STEEL, STEEL), mesh, pairs)
+        cycle = tabulate(
+            assemble(family, drive(cycloidal.CycloidShape(*values))), (STEEL, STEEL), mesh, pairs
+        )
         xp = np if isinstance(values, tuple) else jnp
         return (
             1e9 * xp.mean(cycle.compliance * cycle.in_contact[:, None])

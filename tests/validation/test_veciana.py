@@ -4,7 +4,7 @@ import pytest
 
 from tribodyn.validation import validate
 from tribodyn.validation.rows import published
-from tribodyn.validation.veciana_study import Study
+from tribodyn.validation.veciana_study import DriveUnderLaw
 
 #: A separate prototype of the restored equations: involute, cycloid at d_g = 0.1, 0.17, 0.4 d_1, crossover.
 PROTOTYPE = {
@@ -58,7 +58,7 @@ def test_both_readings_of_the_mixed_law_are_told(rows):
 def test_efficiencies_agree_with_a_separate_prototype(case):
     law, ratio, module = case
     involute, small, chosen, large, crossover = PROTOTYPE[case]
-    study = Study(ratio, module, law)
+    study = DriveUnderLaw(ratio, module, law)
     assert study.involute() == pytest.approx(involute, abs=1e-9)
     # the prototype's quadrature of the cycloid is converged to 1e-7
     assert study.cycloid([0.1, 0.17, 0.4]) == pytest.approx([small, chosen, large], abs=1e-7)

@@ -12,7 +12,7 @@ import numpy as np
 from tribodyn.numerics.shapes import Array, Float
 
 
-class Elastic(Protocol):
+class ElasticMaterial(Protocol):
     """An isotropic elastic material."""
 
     @property
@@ -27,7 +27,10 @@ class Elastic(Protocol):
 
 
 def hertz_half_width(
-    line_load: Float[Array, "..."], curvature: Float[Array, "..."], first: Elastic, second: Elastic
+    line_load: Float[Array, "..."],
+    curvature: Float[Array, "..."],
+    first: ElasticMaterial,
+    second: ElasticMaterial,
 ) -> Float[Array, "..."]:
     """Half width of the contact, m: L = √(4/π Σ(1 − ν²)/E q/κ), κ = 1/χ1 + 1/χ2 (Diez-Ibarbia et al. (13)).
 
@@ -42,7 +45,7 @@ def hertz_half_width(
 
 
 def weber_banaschek(
-    line_load: Float[Array, "..."], half_width: Float[Array, "..."], depth: float, material: Elastic
+    line_load: Float[Array, "..."], half_width: Float[Array, "..."], depth: float, material: ElasticMaterial
 ) -> Float[Array, "..."]:
     """Approach of the surface to the point `depth` below it in a half-plane under Hertz's pressure, m.
 
@@ -65,7 +68,7 @@ def weber_banaschek(
 
 
 def weber_banaschek_slope(
-    line_load: Float[Array, "..."], half_width: Float[Array, "..."], depth: float, material: Elastic
+    line_load: Float[Array, "..."], half_width: Float[Array, "..."], depth: float, material: ElasticMaterial
 ) -> Float[Array, "..."]:
     """Derivative of `weber_banaschek` by the line load, whose root the half width grows with; m per N/m."""
     nu = material.poisson_ratio

@@ -5,7 +5,7 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_radius
 from tribodyn.geometry.families import family
-from tribodyn.geometry.families.spline import FEWEST, Shape, working_path
+from tribodyn.geometry.families.spline import FEWEST, SplineShape, working_path
 from tribodyn.geometry.path import Path, distance_at_radius
 from tribodyn.geometry.tooth.tooth import thickness_half_angle
 
@@ -46,7 +46,7 @@ def fit_spline(assembly: Assembly, values: int) -> Assembly:
     knots *= _MARGIN
     angle = float(path.pressure_angle(0.0))
     bodies = _bodies(assembly, module, angle)
-    shape = Shape(np.zeros(len(knots)), knots, None, 0.0)
+    shape = SplineShape(np.zeros(len(knots)), knots, None, 0.0)
     drive = Drive(module, 0.0, bodies[0], bodies[1], shape)
 
     r = np.linspace(start, end, _SAMPLES)
@@ -63,11 +63,11 @@ def fit_spline(assembly: Assembly, values: int) -> Assembly:
     corner = float(found[-1]) if assembly.family.corner else 0.0
     return Assembly(
         family("spline"),
-        drive._replace(shape=Shape(np.maximum(found[: len(knots)], 0.0), knots, None, corner)),
+        drive._replace(shape=SplineShape(np.maximum(found[: len(knots)], 0.0), knots, None, corner)),
     )
 
 
-def _angle(drive: Drive, shape: Shape, r: np.ndarray) -> np.ndarray:
+def _angle(drive: Drive, shape: SplineShape, r: np.ndarray) -> np.ndarray:
     """Pressure angle of a shape, which is linear in its angles and its corner."""
     return working_path(drive._replace(shape=shape)).pressure_angle(r)
 
@@ -83,7 +83,10 @@ def _bodies(assembly: Assembly, module: float, angle: float) -> list[GearBody]:
         half = float(thickness_half_angle(assembly.tooth(side), radius)) * radius
         surplus.append(0.0 if abs(half / module - np.pi / 4) < 1e-9 else half - np.pi / 4 * module)
     if angle < 1e-9:
-        return [_body(assembly, side, module, 0.0, 2 * one) for side, one in zip(SIDES, surplus, strict=True)]
+        return [
+            _body(assembly, side, module, 0.0, 2 * height)
+            for side, height in zip(SIDES, surplus, strict=True)
+        ]
     shift = (surplus[0] - surplus[1]) / (2 * module * np.tan(angle))
     allowance = surplus[0] + surplus[1]
     return [
@@ -106,17 +109,19 @@ def _body(assembly: Assembly, side: Side, module: float, shift: float, allowance
     )
 
 
-def flank_deviation(one: Assembly, other: Assembly) -> float:
+def flank_deviation(first: Assembly, second: Assembly) -> float:
     """Maximum distance (m) along the normal between the working flanks of two pairs, on either gear.
 
     Teeth are compared about their axes, so that a difference of thickness counts.
     """
     deviations = []
     for side in SIDES:
-        path: Path = one.path_of(side)
-        radii = np.linspace(lowest_contact_radius(one, side), float(tip_radius(one.drive, side)), _SAMPLES)
+        path: Path = first.path_of(side)
+        radii = np.linspace(
+            lowest_contact_radius(first, side), float(tip_radius(first.drive, side)), _SAMPLES
+        )
         r = distance_at_radius(path, radii)
         arm = path.pinion_pitch_radius * np.cos(path.pressure_angle(r))
-        angles = [thickness_half_angle(pair.tooth(side), radii) for pair in (one, other)]
+        angles = [thickness_half_angle(pair.tooth(side), radii) for pair in (first, second)]
         deviations.append(np.abs((angles[0] - angles[1]) * arm).max())
     return float(max(deviations))

@@ -68,15 +68,17 @@ def compliance_remark(
     for side, material in zip(SIDES, materials, strict=True):
         tooth = loaded_tooth(assembly, side)
         ratio = float(tooth.tooth.root_radius) / float(tooth.body.bore_radius)
-        beyond += [f"{side} {one}" for one in outside_fitted_range(ratio, float(tooth.root_half_angle))]
+        beyond += [f"{side} {limit}" for limit in outside_fitted_range(ratio, float(tooth.root_half_angle))]
         over = polynomials_over_ring(tooth, material)
         if abs(over - 1.0) > REPORTED_DEVIATION:
             off.append(f"the {side}'s is {over:.3g} times that of the elastic ring")
-    said = f"The bodies' compliance (Sainsot & Velex) is extrapolated: {'; '.join(beyond)}." if beyond else ""
+    remark = (
+        f"The bodies' compliance (Sainsot & Velex) is extrapolated: {'; '.join(beyond)}." if beyond else ""
+    )
     if off:
-        said += (
-            f"{' ' if said else ''}Of the compliances of the bodies by the polynomials {' and '.join(off)} "
+        remark += (
+            f"{' ' if remark else ''}Of the compliances of the bodies by the polynomials {' and '.join(off)} "
             'that they are fitted to: mesh.foundation = "ring" uses the ring itself, '
             'compliance = "fem" resolves the rim.'
         )
-    return said
+    return remark

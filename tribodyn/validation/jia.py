@@ -13,8 +13,8 @@ from tribodyn.studies.gear_pair.case import Case
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.validation.jia_study import (
     CROWNED,
+    FaceState,
     Name,
-    State,
     case_of,
     maximum_line_load,
     maximum_pressure,
@@ -48,9 +48,9 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     """All rows of the paper; no run is recorded, so that `folder` stays empty."""
     values = geometry()
     parts = (
-        lambda: _misaligned("involute", "unmodified", State()),
+        lambda: _misaligned("involute", "unmodified", FaceState()),
         lambda: _misaligned("involute", "crowned", CROWNED),
-        lambda: _misaligned("parabolic", "unmodified", State()),
+        lambda: _misaligned("parabolic", "unmodified", FaceState()),
         lambda: _misaligned("parabolic", "crowned", CROWNED),
         lambda: _relieved() | _families(),
     )
@@ -91,7 +91,7 @@ def geometry() -> dict[str, tuple[Any, ...]]:
     }
 
 
-def _misaligned(name: Name, sort: str, base: State) -> dict[str, tuple[Any, ...]]:
+def _misaligned(name: Name, sort: str, base: FaceState) -> dict[str, tuple[Any, ...]]:
     """Rows of Tables 4 and 5: over their own value without misalignment."""
     return {
         f"jia/misaligned-{name}-{sort}-{minutes}": _ratio(
@@ -105,13 +105,15 @@ def _relieved() -> dict[str, tuple[Any, ...]]:
     """Rows of Table 3: over the unmodified."""
     return {
         f"jia/crown-{relief}-{relief}-{unmodified}": _ratio(
-            "parabolic", State(float(relief), float(unmodified)), State(), apart=relief == 8
+            "parabolic", FaceState(float(relief), float(unmodified)), FaceState(), apart=relief == 8
         )
         for relief, unmodified in RELIEFS
     }
 
 
-def _ratio(name: Name, state: State, base: State, apart: bool) -> tuple[float, str, tuple[str, float]]:
+def _ratio(
+    name: Name, state: FaceState, base: FaceState, apart: bool
+) -> tuple[float, str, tuple[str, float]]:
     """Ratio of the maximum line loads; the note has where, and the ratios of other readings."""
     maximum = maximum_line_load(name, state)
     pressures = maximum_pressure(name, state).value / maximum_pressure(name, base).value
@@ -121,7 +123,7 @@ def _ratio(name: Name, state: State, base: State, apart: bool) -> tuple[float, s
         f"of maximum Hertz pressures {pressures:.4f}"
     )
     if apart:
-        free = [maximum_line_load(name, one._replace(coupled=False)).value for one in (state, base)]
+        free = [maximum_line_load(name, given._replace(coupled=False)).value for given in (state, base)]
         note += f"; of line loads on slices that do not hold each other {free[0] / free[1]:.4f}"
     return maximum.value / maximum_line_load(name, base).value, note, (_PRESSURES, pressures)
 

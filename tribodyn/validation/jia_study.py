@@ -28,7 +28,7 @@ ARC_MINUTE = math.radians(1.0 / 60.0)
 POSITIONS, SLICES = 21, 41
 
 
-class State(NamedTuple):
+class FaceState(NamedTuple):
     """Modifications and misalignment of the gears.
 
     Attributes
@@ -46,7 +46,7 @@ class State(NamedTuple):
 
 
 #: The paper's relief where it looks at misalignment.
-CROWNED = State(8.0, 8.0)
+CROWNED = FaceState(8.0, 8.0)
 
 
 def case_of(name: Name) -> Case:
@@ -64,7 +64,7 @@ def elastic(name: Name) -> PairFlexibility:
 
 
 @cache
-def rolled(name: Name, state: State = State()) -> LoadedContact:
+def rolled(name: Name, state: FaceState = FaceState()) -> LoadedContact:
     """One mesh cycle of a drive in slow rotation."""
     flexible = elastic(name)
     teeth = flexible.assembly.drive
@@ -85,20 +85,20 @@ class Maximum(NamedTuple):
     place: float
 
 
-def maximum_line_load(name: Name, state: State = State()) -> Maximum:
+def maximum_line_load(name: Name, state: FaceState = FaceState()) -> Maximum:
     """Maximum line load over mesh cycle and face, N/m."""
     run = rolled(name, state)
     return _maximum(run, run.line_load)
 
 
-def maximum_pressure(name: Name, state: State = State(), away: float = 0.0) -> Maximum:
+def maximum_pressure(name: Name, state: FaceState = FaceState(), away: float = 0.0) -> Maximum:
     """Maximum Hertz pressure, Pa; of pairs at least `away` degrees from the pitch point."""
     run = rolled(name, state)
     far = np.abs(np.degrees(run.roll)) >= away
     return _maximum(run, run.pressure * far[..., None])
 
 
-def maximum_root_stress(name: Name, tension: bool, state: State = State()) -> tuple[float, float]:
+def maximum_root_stress(name: Name, tension: bool, state: FaceState = FaceState()) -> tuple[float, float]:
     """Maximum root stress of pinion and gear over mesh cycle and face, Pa, as an amount."""
     run = rolled(name, state)
     stress = run.root_tension if tension else -run.root_compression
@@ -133,7 +133,7 @@ class Passage(NamedTuple):
     tension: np.ndarray
 
 
-def passage(name: Name, state: State = State()) -> Passage:
+def passage(name: Name, state: FaceState = FaceState()) -> Passage:
     """One pair from just before its first to just beyond its last contact."""
     run = rolled(name, state)
     order = np.argsort(run.roll, axis=None)
@@ -148,7 +148,7 @@ def passage(name: Name, state: State = State()) -> Passage:
     return Passage(run.roll.ravel()[order], *(np.max(part, axis=-1).ravel()[order] for part in along_face))
 
 
-def face_load(name: Name, state: State = State()) -> tuple[np.ndarray, np.ndarray]:
+def face_load(name: Name, state: FaceState = FaceState()) -> tuple[np.ndarray, np.ndarray]:
     """Line load (N/m) along the face (m from its middle) of the pair that is nearest to the pitch point."""
     run = rolled(name, state)
     position, pair = np.unravel_index(int(np.argmin(np.abs(run.roll))), run.roll.shape)

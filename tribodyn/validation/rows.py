@@ -110,7 +110,8 @@ class Row(NamedTuple):
             return f"{value.choice}: {', '.join(part for part in (*parts, value.verdict) if part)}"
         if isinstance(value, list):
             return " ".join(
-                f"{one:.2g}" if name in ("difference", "tolerance") else f"{one:.5g}" for one in value
+                f"{number:.2g}" if name in ("difference", "tolerance") else f"{number:.5g}"
+                for number in value
             )
         if isinstance(value, bool):
             return str(value).lower()
@@ -176,7 +177,7 @@ def compare(
     compared = _compared(row)
     if compared == "implementation":
         text = f"compared with another implementation: {row['independent']:g}"
-        note = "; ".join(one for one in (note, text) if one)
+        note = "; ".join(part for part in (note, text) if part)
     difference, verdict = _judged(row, computed)
     return Row(
         row["id"],
@@ -222,7 +223,7 @@ def _judged(row: dict[str, Any], computed: Any) -> tuple[Any, str]:
         return float(computed) - value, DIRECTION if computed < 1.0 else FAIL
     if isinstance(value, list):
         off = [float(mine) - theirs for mine, theirs in zip(computed, value, strict=True)]
-        within = [abs(one) <= most for one, most in zip(off, tolerance, strict=True)]
+        within = [abs(error) <= most for error, most in zip(off, tolerance, strict=True)]
         return off, PASS if all(within) else FAIL
     if not isinstance(value, (int, float)):
         return None, REPORTED
@@ -245,7 +246,9 @@ def _tolerance_share(row: dict[str, Any]) -> float | None:
     """The tolerance over the value; where a part of it matters, over its distance from the `whole`."""
     if row["tolerance"] is None:
         return None
-    values, tolerances = (one if isinstance(one, list) else [one] for one in (_value(row), row["tolerance"]))
+    values, tolerances = (
+        given if isinstance(given, list) else [given] for given in (_value(row), row["tolerance"])
+    )
     if row["tolerance_kind"] == "relative":
         tolerances = [most * abs(value) for most, value in zip(tolerances, values, strict=True)]
     parts = [abs(row.get("whole", 0.0) - value) for value in values]

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from tribodyn.validation.rows import Row, compare, published
-from tribodyn.validation.veciana_study import DRIVES, LAWS, PINION_TEETH, Law, Study, contact_height
+from tribodyn.validation.veciana_study import DRIVES, LAWS, PINION_TEETH, DriveUnderLaw, Law, contact_height
 
 PAPER = "veciana-2024"
 #: Generating circles over d_1 between which the paper gives its gains, and the one it chooses.
 SMALL, CHOSEN, LARGE = 0.1, 0.17, 0.4
 
 
-class Table:
+class Efficiencies:
     """Efficiencies, %, of all drives of the study under one law.
 
     Attributes
@@ -26,7 +26,7 @@ class Table:
     """
 
     def __init__(self, law: Law) -> None:
-        studies = [Study(ratio, module, law) for ratio, module in DRIVES]
+        studies = [DriveUnderLaw(ratio, module, law) for ratio, module in DRIVES]
         circles = np.array([SMALL, CHOSEN, LARGE])
         self.involute = 100.0 * np.array([study.involute() for study in studies])
         self.cycloid = 100.0 * np.array([study.cycloid(circles) for study in studies])
@@ -54,7 +54,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     """All rows of the paper. Nothing is written to `folder`: the study needs no simulation."""
     tables = {}
     for count, law in enumerate(LAWS):
-        tables[law] = Table(law)
+        tables[law] = Efficiencies(law)
         if progress:
             progress((count + 1) / len(LAWS))
     values: dict[str, tuple[Any, ...]] = {**_geometry(), **_efficiencies(tables)}
@@ -63,7 +63,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
 
 
 def _geometry() -> dict[str, tuple[Any, str]]:
-    study = Study(1.0, 2e-3, "EHL")
+    study = DriveUnderLaw(1.0, 2e-3, "EHL")
     half = math.pi / PINION_TEETH
     ends = np.array([-half, half]), np.array([0.5, 0.5])
     angle = math.degrees(half / (2.0 * CHOSEN))
@@ -74,10 +74,10 @@ def _geometry() -> dict[str, tuple[Any, str]]:
     }
 
 
-def _efficiencies(tables: dict[Law, Table]) -> dict[str, tuple[Any, ...]]:
+def _efficiencies(tables: dict[Law, Efficiencies]) -> dict[str, tuple[Any, ...]]:
     ehl, literal, other = (tables[law] for law in LAWS)
 
-    def both(value: Callable[[Table], Any]) -> tuple[float, str, tuple[str, float]]:
+    def both(value: Callable[[Efficiencies], Any]) -> tuple[float, str, tuple[str, float]]:
         a, b = float(value(literal)), float(value(other))
         said = f"reading A (as printed) {a:.4g}, reading B (maximum pressure, own speeds) {b:.4g}"
         return a, said, ("reading B", b)
@@ -104,7 +104,7 @@ def _efficiencies(tables: dict[Law, Table]) -> dict[str, tuple[Any, ...]]:
         "veciana/18": both(lambda table: table.gain_by_module().min()),
         "veciana/16": (
             ehl.apart(),
-            f"EHL; {both(Table.apart)[1]}; loss of the cycloid, %, i = 1, m 2 mm, with the paper's rolling "
+            f"EHL; {both(Efficiencies.apart)[1]}; loss of the cycloid, %, i = 1, m 2 mm, with the paper's rolling "
             f"speeds -> with the motion of the contact along the path in them: {exact}",
         ),
     }

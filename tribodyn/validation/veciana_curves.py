@@ -11,8 +11,8 @@ from tribodyn.validation.veciana_study import (
     EFFECTIVE_MODULUS,
     LAWS,
     PINION_TEETH,
+    DriveUnderLaw,
     Law,
-    Study,
     closure_of,
     contact_height,
 )
@@ -52,7 +52,7 @@ def efficiencies(law: Law) -> Arrays:
     approach, recess = np.meshgrid(circle, circle, indexing="ij")
     arrays = {"circle over d_1 [1]": circle}
     for ratio, module in DRIVES:
-        study = Study(ratio, module, law)
+        study = DriveUnderLaw(ratio, module, law)
         arrays[f"{drive_key(ratio, module)} [1]"] = study.cycloid(approach, recess)
         arrays[f"involute, {drive_key(ratio, module)} [1]"] = np.array(study.involute())
     return arrays
@@ -60,7 +60,7 @@ def efficiencies(law: Law) -> Arrays:
 
 def heights() -> Arrays:
     """Contact height of the pinion and maximum pressure angle against the generating circles."""
-    study = Study(1.0, 2e-3, "EHL")
+    study = DriveUnderLaw(1.0, 2e-3, "EHL")
     half = math.pi / PINION_TEETH
     ends = np.array([-half, half]), np.array([0.5, 0.5])
     circle = np.linspace(0.1, 0.4, 121)
@@ -77,7 +77,7 @@ def conditions() -> Arrays:
     half = math.pi / PINION_TEETH
     psi = np.linspace(-half, half, 1200)  # an even number: not at the pitch point itself
     rotation = psi, np.full_like(psi, 1.0 / psi.size)
-    study = Study(1.0, 2e-3, "EHL")
+    study = DriveUnderLaw(1.0, 2e-3, "EHL")
     pairs: dict[str, UnitContact] = {
         "involute": study.involute_pair(rotation),
         "cycloid": study.cycloid_pair(CHOSEN, rotation=rotation),
@@ -90,7 +90,7 @@ def conditions() -> Arrays:
         arrays[f"sliding, {name} [m per s]"] = np.abs(speeds[0] - speeds[1])
         arrays[f"radius, {name} [m]"] = 1.0 / pair.curvature
         for law in LAWS:
-            state = Study(1.0, 2e-3, law).solve(pair)
+            state = DriveUnderLaw(1.0, 2e-3, law).solve(pair)
             arrays[f"load, {law}, {name} [N]"] = state.normal_load
             arrays[f"friction, {law}, {name} [1]"] = state.friction_coefficient
             arrays[f"torque ratio, {law}, {name} [1]"] = state.torque_ratio
@@ -103,7 +103,7 @@ def by_module() -> Arrays:
     arrays = {"module [m]": modules}
     for law in LAWS:
         for ratio in RATIOS:
-            studies = [Study(ratio, float(module), law) for module in modules]
+            studies = [DriveUnderLaw(ratio, float(module), law) for module in modules]
             values = {
                 "involute": [study.involute() for study in studies],
                 "cycloid": [study.cycloid(CHOSEN) for study in studies],

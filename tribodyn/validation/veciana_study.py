@@ -69,7 +69,7 @@ def closure_of(name: Law) -> Closure:
     return closure(given, film_law(friction.film), friction)
 
 
-class Study(NamedTuple):
+class DriveUnderLaw(NamedTuple):
     """One drive of the study under one law.
 
     Attributes

@@ -153,7 +153,7 @@ def test_in_plane_misalignment_is_the_gap_and_out_of_plane_only_what_curvature_m
 @pytest.mark.parametrize("name", ["cycloidal", "circular-arc"])
 def test_circles_on_inclined_axes_stand_apart_along_and_across_the_normal(name):
     """Paths of contact that are curved: each slice is moved in the plane of the pitch point's normal."""
-    assembly = assemble(family(name), DRIVE._replace(shape=cycloidal.Shape(28e-3, 33e-3)))
+    assembly = assemble(family(name), DRIVE._replace(shape=cycloidal.CycloidShape(28e-3, 33e-3)))
     roll = np.linspace(*assembly.roll_limits, 7)[[1, 2, 4, 5]]
     geometry, face = pair_geometry(assembly, roll), np.array([-0.5, 0.2, 0.5]) * WIDTH
     tilt = Misalignment(in_plane=0.03, out_of_plane=0.05)

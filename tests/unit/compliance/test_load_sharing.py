@@ -76,7 +76,7 @@ def test_the_contact_flattens_both_bodies(pair):
 def test_where_the_radii_vanish_the_contact_s_own_width_sees_more_of_them():
     """At the pitch point of a cycloid ρ̄² = M a, the mean over the half width a; and a² = 8 q ρ̄/(π E')."""
     soft = replace(STEEL, youngs_modulus=110e9, poisson_ratio=0.25)
-    drive = DRIVE._replace(shape=cycloidal.Shape(28e-3, 33e-3))
+    drive = DRIVE._replace(shape=cycloidal.CycloidShape(28e-3, 33e-3))
     assembly = assemble(cycloidal.FAMILY, drive)
     none = GearCompliance(np.empty(0), np.empty(0), np.empty(0), 1e-3)
     flexible = PairFlexibility(assembly, (STEEL, soft), float(drive.pinion.face_width), (none, none))

@@ -115,7 +115,7 @@ def test_the_tip_passes_the_fillet_at_the_gap_that_drawn_teeth_leave(side):
 def test_the_gap_falls_evenly_with_every_higher_tip():
     """Where the corner leaves the flank the gap changes fast: samples beside that place made a saw of it."""
     angles = [18.035, 18.7279, 19.2733, 20.257, 21.0364, 21.2197, 22.025, 22.9261, 23.484, 24.0855]
-    shape = spline.Shape(np.radians(angles), None, 36.9235e-3, 0.0)
+    shape = spline.SplineShape(np.radians(angles), None, 36.9235e-3, 0.0)
     pinion = GearBody(19.0, 0.0, 0.8257, 1.25, 0.1005, 0.06, 0.027)
     gaps = []
     for addendum in np.arange(0.700, 0.745, 0.001):

@@ -16,7 +16,7 @@ def test_rotation_is_the_integral_between_all_points():
     """Also between the outermost two of each end, which working flanks seldom reach."""
     r = 0.003 * np.linspace(-6.0, 6.0, 13)
     alpha = LIU_NI.pressure_angle + 0.05 * np.tanh(r / 0.009)
-    shape = points.Shape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
+    shape = points.PointsShape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
     path = points.FAMILY.working_path(LIU_NI._replace(shape=shape))
 
     def slope(s):
@@ -38,7 +38,9 @@ def test_a_pressure_angle_that_the_points_do_not_go_on_from_is_refused(half: int
     # of the other half the angle at P is the one that is given
     off = np.where(half * r > 0, np.radians(3.0), 0.0)
     alpha = LIU_NI.pressure_angle + off + 0.02 * r / 0.018 + 0.03 * (r / 0.018) ** 2
-    drive = LIU_NI._replace(shape=points.Shape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1)))
+    drive = LIU_NI._replace(
+        shape=points.PointsShape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
+    )
     with pytest.raises(InputError, match=r"does not go on from the path's points") as error:
         points.FAMILY.check(drive)
     advised = float(error.value.remedy.split('"')[1].removesuffix(" deg"))
@@ -48,7 +50,7 @@ def test_a_pressure_angle_that_the_points_do_not_go_on_from_is_refused(half: int
 def test_the_angle_is_held_beyond_the_points_and_its_slope_is_its_difference_between_them():
     r = 0.003 * np.linspace(-6.0, 6.0, 13)
     alpha = LIU_NI.pressure_angle + 0.05 * np.tanh(r / 0.009)
-    shape = points.Shape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
+    shape = points.PointsShape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
     path = points.FAMILY.working_path(LIU_NI._replace(shape=shape))
     between = np.concatenate([low + (high - low) * np.array([0.2, 0.7]) for low, high in pairwise(r)])
     step = 1e-7
@@ -70,7 +72,9 @@ def test_each_side_of_the_pitch_point_needs_its_points(half: int):
         r = 0.003 * half * np.sort(np.append(np.arange(-6.0, 1.0), np.arange(1.0, count + 1.0)))
         x = np.sort(r)
         angle = LIU_NI.pressure_angle
-        return LIU_NI._replace(shape=points.Shape(np.stack([x * np.cos(angle), x * np.sin(angle)], axis=-1)))
+        return LIU_NI._replace(
+            shape=points.PointsShape(np.stack([x * np.cos(angle), x * np.sin(angle)], axis=-1))
+        )
 
     def refusal(count):
         try:
@@ -88,7 +92,7 @@ def test_each_half_is_the_spline_through_its_points():
     """Not-a-knot by itself, so that the angle may bend at P."""
     r = 0.003 * np.array([-6.0, -4.7, -3.9, -2.2, -1.0, 0.0, 0.8, 2.1, 2.9, 4.4, 6.0])
     alpha = LIU_NI.pressure_angle + np.where(r < 0, 3.0, 5.0) * np.abs(r) + 0.02 * np.sin(400.0 * r)
-    shape = points.Shape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
+    shape = points.PointsShape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
     path = points.FAMILY.working_path(LIU_NI._replace(shape=shape))
     for half in (slice(0, 6), slice(5, 11)):
         spline = CubicSpline(r[half], alpha[half], bc_type="not-a-knot")
@@ -109,5 +113,5 @@ def test_points_that_make_no_path_are_named_in_millimetres(change, said):
     place = np.stack([r * np.cos(LIU_NI.pressure_angle), r * np.sin(LIU_NI.pressure_angle)], axis=-1)
     place[change[0]] = 1e-3 * np.array(change[1])
     with pytest.raises(InputError) as error:
-        points.FAMILY.check(LIU_NI._replace(shape=points.Shape(place)))
+        points.FAMILY.check(LIU_NI._replace(shape=points.PointsShape(place)))
     assert f"{error.value.value}, {error.value.rule}".startswith(said)

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 from tribodyn.geometry.drive import Drive, GearBody, tip_radius
-from tribodyn.geometry.families.s_gear import PowerRackPath, Shape, working_path
+from tribodyn.geometry.families.s_gear import PowerRackPath, SGearShape, working_path
 from tribodyn.geometry.path import contact_limits, radius, seen_from
 
 MODULE, PITCH_RADIUS = 0.003, 0.05
@@ -49,7 +49,7 @@ def test_the_rack_goes_on_straight_above_one_module():
     np.testing.assert_allclose(moved, np.diff(r) * np.hypot(1.0, cot) / cot, rtol=1e-12)
 
 
-@pytest.mark.parametrize("shape", [Shape(1.31, 1.9), Shape(1.2731, 1.9), Shape(1.6, 1.8)])
+@pytest.mark.parametrize("shape", [SGearShape(1.31, 1.9), SGearShape(1.2731, 1.9), SGearShape(1.6, 1.8)])
 def test_contact_ends_on_the_tip_circles_where_the_path_is_steep(shape):
     """From the left of a steep end Newton's step to a radius leads past it."""
     bodies = [GearBody(z, 0.0, 1.0, 1.25, 0.1, 0.02, 0.01) for z in (23.0, 47.0)]

@@ -12,7 +12,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive
 from tribodyn.geometry.families import family, involute
-from tribodyn.geometry.families.spline import FAMILY, Shape, _advice, even_places
+from tribodyn.geometry.families.spline import FAMILY, SplineShape, _advice, even_places
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.path import kinematics, position
 from tribodyn.geometry.spline_fit import fit_spline, flank_deviation
@@ -21,7 +21,7 @@ from tribodyn.studies.gears.drive_file import load_drive
 
 ANGLES = np.radians([26.7, 25.2, 23.8, 22.9, 22.0, 21.5, 21.4, 21.6])
 LENGTH = 0.019
-FREE = Drive(0.003, 0.0, body(23.0), body(47.0), Shape(ANGLES, None, LENGTH, 0.0))
+FREE = Drive(0.003, 0.0, body(23.0), body(47.0), SplineShape(ANGLES, None, LENGTH, 0.0))
 #: A drive of every family: those of the scenarios.
 OTHERS = [
     "involute-23-47",
@@ -151,7 +151,7 @@ def test_a_shift_moves_thickness_from_gear_to_pinion():
     shifted = STANDARD._replace(
         pinion=STANDARD.pinion._replace(profile_shift=0.2), gear=STANDARD.gear._replace(profile_shift=-0.2)
     )
-    shape = Shape(np.full(5, STANDARD.pressure_angle), None, 0.03, 0.0)
+    shape = SplineShape(np.full(5, STANDARD.pressure_angle), None, 0.03, 0.0)
     ours = check(FAMILY, shifted._replace(pressure_angle=0.0, shape=shape))
     theirs = check(involute.FAMILY, shifted)
     for side in SIDES:
@@ -184,7 +184,7 @@ def test_geometry_differentiates_by_every_value():
     at = np.concatenate([ANGLES, [LENGTH, np.radians(0.5)]])
 
     def figures(values):
-        shape = Shape(values[:-2], None, values[-2], values[-1])
+        shape = SplineShape(values[:-2], None, values[-2], values[-1])
         pair = assemble(FAMILY, FREE._replace(shape=shape))
         thickness = flank_point(pair.pinion, pair.pinion.tip_distance)[1]
         curvature = kinematics(pair.path, pair.r_end).relative_curvature

@@ -24,10 +24,10 @@ def drive(shape, pinion=23.0, gear=47.0, angle=0.0):
 
 
 CASES = [
-    (cycloidal.FAMILY, drive(cycloidal.Shape(0.0235, 0.0235))),
-    (cycloidal.FAMILY, drive(cycloidal.Shape(0.012, 0.03), 17.0, 90.0)),
-    (parabolic.FAMILY, drive(parabolic.Shape(0.32, 0.32))),
-    (parabolic.FAMILY, drive(parabolic.Shape(0.2, 0.4), 29.0, 17.0)),
+    (cycloidal.FAMILY, drive(cycloidal.CycloidShape(0.0235, 0.0235))),
+    (cycloidal.FAMILY, drive(cycloidal.CycloidShape(0.012, 0.03), 17.0, 90.0)),
+    (parabolic.FAMILY, drive(parabolic.ParabolaShape(0.32, 0.32))),
+    (parabolic.FAMILY, drive(parabolic.ParabolaShape(0.2, 0.4), 29.0, 17.0)),
 ]
 
 
@@ -85,7 +85,7 @@ def test_speed_per_radius_is_the_limit_of_the_kinematics(family, one):
 
 
 def test_nothing_vanishes_on_other_paths():
-    arc = drive(circular_arc.Shape(0.06, 0.06), angle=math.radians(18))
+    arc = drive(circular_arc.ArcShape(0.06, 0.06), angle=math.radians(18))
     for family, one in ((involute.FAMILY, arc._replace(shape=())), (circular_arc.FAMILY, arc)):
         assert pitch_point(family.working_path(one)) == (0.0, 0.0)
 

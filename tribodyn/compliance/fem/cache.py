@@ -88,12 +88,12 @@ def _ends(*arguments: Any) -> FreeEnds:
 
 def _kept(kind: type[Kept], name: str, solve: Callable[[], Kept]) -> Kept:
     """Arrays of a file, or of `solve`, which are then kept in it."""
-    names = [one for one in kind._fields if one not in kind._field_defaults]
+    names = [field for field in kind._fields if field not in kind._field_defaults]
 
     def made() -> dict[str, Any]:
         with one_blas_thread():
             solved = solve()
-        return {one: getattr(solved, one) for one in names}
+        return {field: getattr(solved, field) for field in names}
 
     arrays: dict[str, Any] = dict(arrays_kept_or_made("fem", name, made))
     return kind(**arrays)

@@ -40,7 +40,7 @@ class HalfSector(NamedTuple):
     edge: NDArray[np.int64]
 
 
-class Reduced(NamedTuple):
+class ReducedSector(NamedTuple):
     """Half a sector of one symmetry as seen from its edge: what loads and edge do to the readers."""
 
     stiffness: Float[Array, "edge edge"]  # (edge, edge)
@@ -173,7 +173,7 @@ def _reduced(
     readers: Float[Array, "reader dof"],
     components: int,
     symmetry: int,
-) -> Reduced:
+) -> ReducedSector:
     """Reduce the half with displacements that are (1) or are opposite to (-1) their mirror image."""
     unmoved = [1] if symmetry > 0 else [0, 2][: components - 1]  # components on the axis
     fixed = [_dofs(half.held, range(components), components), _dofs(half.axis, unmoved, components)]
@@ -189,7 +189,7 @@ def _reduced(
     read = readers[:, rest]
     to_edge = inner[:, edges]
     by_edges = _solved(solver, to_edge.toarray())
-    return Reduced(
+    return ReducedSector(
         stiffness[edges][:, edges].toarray() - to_edge.T @ by_edges,
         loads[edges] - to_edge.T @ by_loads,
         read @ by_loads,

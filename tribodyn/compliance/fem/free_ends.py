@@ -105,7 +105,7 @@ LEVEL = 1
 _SECTORS = np.arange(-NEIGHBOURS, NEIGHBOURS + 1)
 
 
-class Face(NamedTuple):
+class EndFace(NamedTuple):
     """End face of a gear: how the openings of a sector's two halves hang together.
 
     Attributes
@@ -193,7 +193,7 @@ def free_ends(
     )
 
 
-def face_of(model: GearModel, opening: Openings) -> Face:
+def face_of(model: GearModel, opening: Openings) -> EndFace:
     """Openings vanish where the body is held, are one on the axis and follow each other on the edges."""
     half, nodes = model.half, KDTree(model.basis.doflocs.T)
     number = np.asarray(nodes.query(opening.place.T)[1])
@@ -205,7 +205,7 @@ def face_of(model: GearModel, opening: Openings) -> Face:
     unit = np.eye(len(number))
     own, shared = unit[:, free], unit[:, free & ~axis & ~edge]
     none = np.zeros_like(shared)
-    return Face(
+    return EndFace(
         opening,
         np.hstack([own, none]),
         np.hstack([own * axis[:, None], shared]),
@@ -238,7 +238,7 @@ def harmonic_of(
 
 
 def at_phase(
-    harmonics: list[Harmonic], face: Face, phase: complex
+    harmonics: list[Harmonic], face: EndFace, phase: complex
 ) -> tuple[Complex[Array, "wave free free"], Complex[Array, "free load"], Complex[Array, "reading free"]]:
     """S (K, O, O); stress on the held faces per flank load (O, K M); on the roots per opening (K 2 P, O)."""
     joined = csr_matrix(face.joined(phase))  # two entries per row at most

@@ -205,8 +205,8 @@ def _coons(
     return (1 - u) * first + u * last + (1 - v) * left[:, None] + v * right[:, None] - corners
 
 
-def _fraction(one: Float[Array, "point 2"], other: Float[Array, "point 2"]) -> Float[Array, " point"]:
-    lengths = _length(one), _length(other)
+def _fraction(first: Float[Array, "point 2"], second: Float[Array, "point 2"]) -> Float[Array, " point"]:
+    lengths = _length(first), _length(second)
     return (lengths[0] / lengths[0][-1] + lengths[1] / lengths[1][-1]) / 2
 
 

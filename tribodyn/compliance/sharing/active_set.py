@@ -46,7 +46,7 @@ class Pressed(NamedTuple):
     stiffness: Float[Array, " position"]
 
 
-class _Places(NamedTuple):
+class _System(NamedTuple):
     """What is asked at some positions, and the units of load and deflection in which it is solved."""
 
     matrix: Float[Array, "row place place"]
@@ -57,9 +57,9 @@ class _Places(NamedTuple):
     mean: Float[Array, " row"]
     unit: Float[Array, " row"]
 
-    def at(self, rows: Int[Array, " some"]) -> "_Places":
+    def at(self, rows: Int[Array, " some"]) -> "_System":
         """Return the part of it at some positions."""
-        return _Places(*(whole[rows] for whole in self))
+        return _System(*(whole[rows] for whole in self))
 
 
 class _Local(NamedTuple):
@@ -106,7 +106,7 @@ def press(
     active = gap <= (np.min(gap, axis=-1) + unit)[:, None]
     load = active * (mean / np.sum(active, axis=-1))[:, None]
     result = Pressed(np.zeros_like(gap), np.zeros(positions), np.zeros_like(gap), np.zeros(positions))
-    whole = _Places(matrix, arm, lever, gap, torque, mean, unit)
+    whole = _System(matrix, arm, lever, gap, torque, mean, unit)
     rows = np.arange(positions)
     worst = np.inf
     for step in range(_FREE_STEPS + _CAREFUL_STEPS):
@@ -134,7 +134,7 @@ def press(
     )
 
 
-def _newton_step(active: Bool[Array, "row place"], local: _Local, part: _Places) -> Pressed:
+def _newton_step(active: Bool[Array, "row place"], local: _Local, part: _System) -> Pressed:
     """Loads, ξ, overlaps and dT/dξ with the local deflection linearised."""
     matrix, arm, lever, gap = part.matrix, part.arm, part.lever, part.gap
     positions, places = gap.shape

@@ -89,13 +89,13 @@ def _condensed(
     across = matrix * ~np.eye(pairs, dtype=bool)[:, None, :, None]
     moved = np.einsum("tjmkn,tkn->tjm", across, load)
     level = np.hypot(total, minimum_load)
-    one = np.ones((positions * pairs, 1))
+    unit = np.ones((positions * pairs, 1))
     alone = press_pairs(
         flexible,
         curvature.reshape(-1, 1),
         own.reshape(-1, 1, slices, 1, slices),
-        one,
-        one,
+        unit,
+        unit,
         (gap + moved).reshape(-1, 1, slices),
         level.ravel(),
     ).slice_load.reshape(load.shape)
@@ -109,8 +109,10 @@ def _condensed(
     touching = np.argmin(gap + moved, axis=-1)[..., None] == np.arange(slices)
     weight = np.where(total[..., None] > 0, load / np.maximum(total, 1e-300)[..., None], touching)
     reached = gap + moved + np.einsum("tjmn,tjn->tjm", own, load) + secant * load
-    left = np.sum(weight * reached, axis=-1) - compliance * total - np.einsum("tjk,tk->tj", coupling, total)
-    return Condensed(compliance, coupling, left, friction_ratio(alone), peak_ratio(alone))
+    open_gap = (
+        np.sum(weight * reached, axis=-1) - compliance * total - np.einsum("tjk,tk->tj", coupling, total)
+    )
+    return Condensed(compliance, coupling, open_gap, friction_ratio(alone), peak_ratio(alone))
 
 
 def _stiff_together(

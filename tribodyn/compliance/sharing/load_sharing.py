@@ -17,7 +17,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.fem.cache import cached_gear_compliance
-from tribodyn.compliance.local import Elastic, hertz_half_width, weber_banaschek, weber_banaschek_slope
+from tribodyn.compliance.local import (
+    ElasticMaterial,
+    hertz_half_width,
+    weber_banaschek,
+    weber_banaschek_slope,
+)
 from tribodyn.compliance.sharing.active_set import press
 from tribodyn.compliance.sharing.face_compliance import slice_compliance
 from tribodyn.compliance.sharing.flank_gap import flank_gap
@@ -70,7 +75,7 @@ class SharedLoad(NamedTuple):
 
 def flexibility(
     assembly: Assembly,
-    materials: tuple[Elastic, Elastic],
+    materials: tuple[ElasticMaterial, ElasticMaterial],
     depth: float = DEPTH,
     level: int = LEVEL,
     lead: bool = False,

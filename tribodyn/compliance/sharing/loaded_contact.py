@@ -216,7 +216,9 @@ def reach(
     # what the pairs leave open at the worst phase while nothing is loaded, and the errors of single teeth
     open_between = float(np.max(np.min(whole.reshape(-1, _PHASES), axis=0)))
     errors = [
-        np.ptp(one.pitch_error) for one in (modifications.pinion, modifications.gear) if len(one.pitch_error)
+        np.ptp(flank.pitch_error)
+        for flank in (modifications.pinion, modifications.gear)
+        if len(flank.pitch_error)
     ]
     most = factor * deflection + open_between + float(sum(errors))
     before, beyond = _nearest(flexible, modifications, np.array([start, end]), face)

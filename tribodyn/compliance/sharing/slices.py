@@ -25,7 +25,7 @@ from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance
 from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers
-from tribodyn.compliance.local import Elastic, freed_of_depth
+from tribodyn.compliance.local import ElasticMaterial, freed_of_depth
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
 from tribodyn.numerics.shapes import Array, Float
@@ -36,13 +36,13 @@ class PairFlexibility(NamedTuple):
 
     Attributes
     ----------
-    materials : (Elastic, Elastic)
+    materials : (ElasticMaterial, ElasticMaterial)
     width : common face width, m
     gears : (GearCompliance, GearCompliance)
     """
 
     assembly: Assembly
-    materials: tuple[Elastic, Elastic]
+    materials: tuple[ElasticMaterial, ElasticMaterial]
     width: float
     gears: tuple[GearCompliance, GearCompliance]
 

@@ -79,7 +79,7 @@ def _step_to_rotation(beta: PerContact, path: ArcPath, target: PerContact) -> Pe
     return beta - (path._turned(beta) - target) * cos(path.angle + beta) / cos(beta)
 
 
-class Shape(NamedTuple):
+class ArcShape(NamedTuple):
     """Diameters of the two arcs, m; negative where the pressure angle falls away from the pitch point."""
 
     approach_diameter: Any
@@ -126,7 +126,7 @@ FAMILY = Family(
     unshifted(working_path),
     shiftable=False,
     check=check,
-    shape=Shape,
+    shape=ArcShape,
     parameters=(
         Parameter(
             "approach_diameter",

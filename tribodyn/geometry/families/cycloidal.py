@@ -16,7 +16,7 @@ from tribodyn.geometry.limits.reach import refuse_shift, require_reach
 from tribodyn.numerics.parameter import Parameter
 
 
-class Shape(NamedTuple):
+class CycloidShape(NamedTuple):
     """Diameters d_g1 (approach) and d_g2 (recess) of the generating circles, m."""
 
     approach_circle: Any
@@ -62,7 +62,7 @@ FAMILY = Family(
     unshifted(working_path),
     shiftable=False,
     check=check,
-    shape=Shape,
+    shape=CycloidShape,
     parameters=(
         Parameter(
             "approach_circle",

@@ -65,7 +65,7 @@ class ParabolaPath(NamedTuple):
         return x * sqrt(1 + (x / (2 * p)) ** 2)
 
 
-class Shape(NamedTuple):
+class ParabolaShape(NamedTuple):
     """Jia's parabola coefficients: k1 = p1/(2 r_g) of the recess, k2 = p2/(2 r_p) of the approach."""
 
     k1: Any
@@ -144,7 +144,7 @@ FAMILY = Family(
     unshifted(working_path),
     shiftable=False,
     check=check,
-    shape=Shape,
+    shape=ParabolaShape,
     parameters=(
         Parameter("k1", "number", "p1/(2 r_g) of the parabola in recess (Jia et al.)", example="0.32"),
         Parameter("k2", "number", "p2/(2 r_p) of the parabola in approach", example="0.32"),

@@ -121,12 +121,12 @@ def spline_slopes(x: Float[Array, " knot"], y: Float[Array, " knot"]) -> Float[A
     right = 3 * (h[1:] * secant[:-1] + h[:-1] * secant[1:])
     # Third derivatives agree at the second knot and at the last but one.
     ends = []
-    for first, second, one, other in (
+    for first, second, near, far in (
         (h[0], h[1], secant[0], secant[1]),
         (h[-1], h[-2], secant[-1], secant[-2]),
     ):
         row = xp.stack([second**2, second**2 - first**2, -(first**2)])
-        ends.append((row, 2 * (second**2 * one - first**2 * other)))
+        ends.append((row, 2 * (second**2 * near - first**2 * far)))
     pad = xp.zeros(x.shape[0] - 3)
     first_row = xp.concatenate([ends[0][0], pad])[None]
     last_row = xp.concatenate([pad, ends[1][0][::-1]])[None]
@@ -134,7 +134,7 @@ def spline_slopes(x: Float[Array, " knot"], y: Float[Array, " knot"]) -> Float[A
     return xp.linalg.solve(matrix, xp.concatenate([ends[0][1][None], right, ends[1][1][None]]))
 
 
-class Shape(NamedTuple):
+class PointsShape(NamedTuple):
     """Points (n, 2) of the path, x and y from the pitch point in m, x ascending, (0, 0) among them."""
 
     points: Any
@@ -221,7 +221,7 @@ FAMILY = Family(
     unshifted(working_path),
     shiftable=False,
     check=check,
-    shape=Shape,
+    shape=PointsShape,
     parameters=(Parameter("points", "path", "points x, y of the path of contact from the pitch point"),),
     corner=True,
     about="a path of contact of your own; pressure_angle at the pitch point, shape.points: CSV with x, y",

@@ -115,7 +115,7 @@ def _step_to_height(y: PerContact, path: PowerRackPath, distance: PerContact) ->
     return y - 2 * residual / (slope + xp.sqrt(xp.maximum(slope**2 - 2 * residual * bend, 0.0)))
 
 
-class Shape(NamedTuple):
+class SGearShape(NamedTuple):
     """Form factor a_P (in modules) and exponent n of the rack's flank."""
 
     form_factor: Any
@@ -162,7 +162,7 @@ FAMILY = Family(
     unshifted(working_path),
     shiftable=False,
     check=check,
-    shape=Shape,
+    shape=SGearShape,
     parameters=(
         Parameter("form_factor", "number", "a_P of the rack's flank, height in modules", example="1.6"),
         Parameter("exponent", "number", "n of the rack's flank", example="1.8"),

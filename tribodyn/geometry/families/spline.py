@@ -27,7 +27,7 @@ _REACH = 50
 _STEEPEST = np.radians(80.0)
 
 
-class Shape(NamedTuple):
+class SplineShape(NamedTuple):
     """Values of the path.
 
     Parameters
@@ -52,7 +52,7 @@ def even_places(count: int) -> Float[Array, " knot"]:
     return np.concatenate([np.linspace(-1.0, 0.0, before + 1), np.linspace(0.0, 1.0, after + 1)[1:]])
 
 
-def knots_of(shape: Shape) -> tuple[Any, Any, int]:
+def knots_of(shape: SplineShape) -> tuple[Any, Any, int]:
     """Signed distances of the knots (m), half the path length (m), and which knot is P."""
     if shape.knots is None:
         count = len(shape.angles)
@@ -160,7 +160,7 @@ FAMILY = Family(
     generating_path,
     shiftable=False,
     check=check,
-    shape=Shape,
+    shape=SplineShape,
     parameters=(
         Parameter(
             "angles",

@@ -86,9 +86,9 @@ def profile_curve(assembly: Assembly, pinion: Deviations, gear: Deviations, base
     share = np.linspace(0.0, 1.0, _POINTS)
     total = np.zeros(_POINTS)
     # the pinion's root meets first, the gear's tip
-    for one, along in ((pinion, share), (gear, share[::-1])):
-        total += one.slope * (along - 0.5)
-        total += one.form / 2.0 * np.cos(2.0 * np.pi * one.waves * along + one.phase)
+    for flank, along in ((pinion, share), (gear, share[::-1])):
+        total += flank.slope * (along - 0.5)
+        total += flank.form / 2.0 * np.cos(2.0 * np.pi * flank.waves * along + flank.phase)
     roll = np.linspace(start, end, _POINTS)
     if base_pitch:
         cosine = float(np.cos(assembly.path.pressure_angle(0.0)))
@@ -110,19 +110,19 @@ def deviating(
     opened = pinion.helix / widths[0] + gear.helix / widths[1]
     stand = modifications.misalignment
     both = []
-    for flank, one in ((modifications.pinion, pinion), (modifications.gear, gear)):
-        both.append(_with_pitch(flank, one.pitch) if every_tooth else flank)
+    for flank, drawn in ((modifications.pinion, pinion), (modifications.gear, gear)):
+        both.append(_with_pitch(flank, drawn.pitch) if every_tooth else flank)
     profile = both[0].profile_error
     both[0] = both[0]._replace(profile_error=curve if profile is None else summed(profile, curve))
     return Modifications(both[0], both[1], Misalignment(stand.in_plane + opened, stand.out_of_plane))
 
 
-def summed(one: Table, other: Table) -> Table:
+def summed(first: Table, second: Table) -> Table:
     """Sum of two curves at the points of both, each held constant beyond its ends."""
-    at = np.unique(np.concatenate([one[0], other[0]]))
-    return at, np.interp(at, *one) + np.interp(at, *other)
+    at = np.unique(np.concatenate([first[0], second[0]]))
+    return at, np.interp(at, *first) + np.interp(at, *second)
 
 
 def _with_pitch(flank: FlankModification, pitch: Float[Array, " tooth"]) -> FlankModification:
     given = np.asarray(flank.pitch_error) if len(flank.pitch_error) else 0.0
-    return flank._replace(pitch_error=tuple(float(one) for one in pitch + given))
+    return flank._replace(pitch_error=tuple(float(error) for error in pitch + given))

@@ -20,7 +20,7 @@ _SAMPLES = 129
 _BLENDED = 1e-3
 
 
-class Limit(NamedTuple):
+class LimitOfExistence(NamedTuple):
     """What a distance means, and its SI unit."""
 
     about: str
@@ -37,11 +37,11 @@ _OF_BODY = {
     "rack_tip": "half width left at the tip of the rack between its rounded corners",
 }
 #: Name of every distance -> what it is.
-LIMITS: dict[str, Limit] = {
-    f"{name}_{side}": Limit(f"{about}, of the {side}", "m")
+LIMITS: dict[str, LimitOfExistence] = {
+    f"{name}_{side}": LimitOfExistence(f"{about}, of the {side}", "m")
     for name, about in _OF_BODY.items()
     for side in SIDES
-} | {"contact_ratio_above_1": Limit("contact ratio less 1", "1")}
+} | {"contact_ratio_above_1": LimitOfExistence("contact ratio less 1", "1")}
 
 
 def distances(assembly: Assembly) -> dict[str, Any]:

@@ -110,6 +110,6 @@ def body_masses(
     masses = []
     for side, known, density in zip(SIDES, given, densities, strict=True):
         computed = (0.0, 0.0) if None not in known else mass_and_inertia(assembly, side, density)
-        mass, inertia = (one if own is None else own for own, one in zip(known, computed, strict=True))
+        mass, inertia = (value if own is None else own for own, value in zip(known, computed, strict=True))
         masses.append((float(mass), float(inertia)))
     return masses[0], masses[1]

@@ -23,7 +23,7 @@ from tribodyn.tribology.surface_state import range_shares
 
 #: Nodes between two breaks of the integrand.
 POINTS = 20
-#: What an `Engagement` has of `SurfaceState`.
+#: What a `PathState` has of `SurfaceState`.
 _OF_SURFACE = (
     "asperity_load_ratio",
     "central_film_thickness",
@@ -34,7 +34,7 @@ _OF_SURFACE = (
 )
 
 
-class Engagement(NamedTuple):
+class PathState(NamedTuple):
     """Loads and friction at `Places`; arrays (K, Q) unless said, SI.
 
     Attributes
@@ -75,7 +75,7 @@ class Engagement(NamedTuple):
     power_friction: Array
 
 
-class Duty(NamedTuple):
+class MeshDuty(NamedTuple):
     """What the mesh has to do.
 
     Attributes
@@ -105,7 +105,7 @@ class _Loads(NamedTuple):
     deflection: Array
 
 
-def engage(mesh: Places, duty: Duty) -> Engagement:
+def engage(mesh: Places, duty: MeshDuty) -> PathState:
     """Solve loads and friction together at every phase; raises as `equilibrium.settled`."""
     cycle = mesh.cycle
     seen = contacts(cycle, duty.gear_torque, duty.pinion_speed, duty.closure)
@@ -116,7 +116,7 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     torques = duty.way * np.sum(load * seen.arms(found.friction_coefficient)[:, :, 0], axis=-1)
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
     sliding = (seen.pinion_speed - seen.gear_speed)[:, 0]
-    return Engagement(
+    return PathState(
         normal_load=load,
         friction_coefficient=mu,
         friction_force=seen.side[:, 0] * mu * load,
@@ -135,7 +135,7 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     )
 
 
-def _share(mesh: Places, duty: Duty, seen: Contacts, friction: Array) -> _Loads:
+def _share(mesh: Places, duty: MeshDuty, seen: Contacts, friction: Array) -> _Loads:
     """Loads that give the gear's torque; deflection ≥ 0, NaN where the sharing knows no elasticity."""
     torque = abs(duty.gear_torque)
     if mesh.flanks is not None:
@@ -158,7 +158,7 @@ class CycleEfficiency(NamedTuple):
     Attributes
     ----------
     efficiency : as `mesh.power_flow` defines it
-    power_in, power_out, power_friction : W, as in `Engagement`
+    power_in, power_out, power_friction : W, as in `PathState`
     friction_coefficient : mean weighted with load and sliding
     """
 
@@ -172,7 +172,7 @@ class CycleEfficiency(NamedTuple):
 def cycle_efficiency(
     cycle: MeshCycle,
     path: Path,
-    duty: Duty,
+    duty: MeshDuty,
     points: int = POINTS,
     flanks: LoadedFlanks | None = None,
 ) -> CycleEfficiency:

@@ -7,7 +7,7 @@ import numpy as np
 from tribodyn.dynamics.recorded import SAMPLES
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.power_flow import efficiency
-from tribodyn.studies.efficiency.along_path import Duty, Engagement
+from tribodyn.studies.efficiency.along_path import MeshDuty, PathState
 from tribodyn.studies.efficiency.places import Places
 from tribodyn.studies.efficiency.quadrature import Array
 
@@ -54,7 +54,7 @@ def samples(cycle: MeshCycle, count: int, way: float) -> Samples:
     return Samples(turned, np.where(later, falling + 1.0, falling), later, way)
 
 
-def record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:
+def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty) -> dict[str, Any]:
     """Datasets at the samples; what a quasi-static state has not stays out."""
     cycle = mesh.cycle
     touching = (cycle.in_contact > 0) & (state.normal_load > 0)

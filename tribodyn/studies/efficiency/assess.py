@@ -49,7 +49,7 @@ def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
     """Figures by the first law, and the losses by all of them."""
     first = done[f"{_TASK}{asked.laws[0]}"].summary
     summaries = {law: done[f"{_TASK}{law}"].summary for law in asked.laws}
-    losses = {law: float(one["power_friction_mean"]) for law, one in summaries.items() if one}
+    losses = {law: float(found["power_friction_mean"]) for law, found in summaries.items() if found}
     values = np.array(list(losses.values()))
     power = float(first["power_in_mean"])
     figures = {name: first[name] for name in _FIGURES if first.get(name) is not None}

@@ -21,7 +21,13 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.power_flow import driving_gear, power_put_in
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
-from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
+from tribodyn.studies.efficiency.along_path import (
+    CycleEfficiency,
+    MeshDuty,
+    PathState,
+    cycle_efficiency,
+    engage,
+)
 from tribodyn.studies.efficiency.arrays import Samples, record_arrays, samples
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
@@ -59,7 +65,7 @@ class PreparedEfficiency(PreparedGears[EfficiencyCase]):
     `flanks` are those of the load contact model that shares the load, where the scenario asks for it.
     """
 
-    duty: Duty
+    duty: MeshDuty
     flanks: LoadedFlanks | None
 
     @property
@@ -85,9 +91,9 @@ def prepare(case: EfficiencyCase) -> PreparedEfficiency:
     cycle = mesh_cycle_of(assembly, case.materials, mesh, case.operating.gear_torque)
     flanks = loaded_flanks_of(assembly, case.materials, mesh)
 
-    def duty_of(case: EfficiencyCase) -> Duty:
+    def duty_of(case: EfficiencyCase) -> MeshDuty:
         operating = case.operating
-        return Duty(operating.gear_torque, operating.pinion_speed, closure_of(case), case.load_sharing)
+        return MeshDuty(operating.gear_torque, operating.pinion_speed, closure_of(case), case.load_sharing)
 
     def lost(case: EfficiencyCase) -> float:
         return cycle_efficiency(cycle, assembly.path, duty_of(case), flanks=flanks).power_friction
@@ -145,8 +151,8 @@ def spectrum_figures(case: EfficiencyCase) -> dict[str, Any]:
     if not case.spectrum:
         return {}
     shares = np.array([share for share, _ in case.spectrum])
-    every = [figures(one) for _, one in case.spectrum]
-    each = {name: np.array([one[name] for one in every]) for name in SPECTRUM}
+    every = [figures(duty) for _, duty in case.spectrum]
+    each = {name: np.array([found[name] for found in every]) for name in SPECTRUM}
     means = {name: float(shares @ each[name]) for name in ("power_in_mean", "power_friction_mean")}
     return {
         "duty_share": shares,
@@ -157,7 +163,7 @@ def spectrum_figures(case: EfficiencyCase) -> dict[str, Any]:
     }
 
 
-def _at_jumps(study: PreparedEfficiency) -> tuple[Places, Engagement]:
+def _at_jumps(study: PreparedEfficiency) -> tuple[Places, PathState]:
     """The mesh on both sides of where a pair enters, leaves or passes a corner of the path.
 
     Extremes lie there as a rule; over samples alone they would change by jumps with the numbers of a drive.
@@ -168,7 +174,7 @@ def _at_jumps(study: PreparedEfficiency) -> tuple[Places, Engagement]:
     return mesh, engage(mesh, study.duty)
 
 
-def _sampled(study: PreparedEfficiency) -> tuple[Samples, Places, Engagement]:
+def _sampled(study: PreparedEfficiency) -> tuple[Samples, Places, PathState]:
     over = samples(study.cycle, study.case.samples_per_cycle, study.duty.way)
     mesh = places(study.cycle, study.path, over.phase, study.duty.sharing, study.flanks)
     return over, mesh, engage(mesh, study.duty)
@@ -218,7 +224,7 @@ def _by_loss_factor(study: PreparedEfficiency) -> dict[str, float]:
     return results
 
 
-def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dict[str, float]:
+def _effective_contact_ratio(mesh: Places, state: PathState, duty: MeshDuty) -> dict[str, float]:
     """Contact ratio under load, where the load sharing knows corner contact."""
     if mesh.flanks is None:
         return {}
@@ -227,7 +233,7 @@ def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dic
     return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
 
 
-def _figures(study: PreparedEfficiency, over: Samples, mesh: Places, state: Engagement) -> dict[str, Any]:
+def _figures(study: PreparedEfficiency, over: Samples, mesh: Places, state: PathState) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
     means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
     loaded = state.normal_load > 0
@@ -280,7 +286,7 @@ def _figures(study: PreparedEfficiency, over: Samples, mesh: Places, state: Enga
 
 
 def _judged(
-    study: PreparedEfficiency, mesh: Places, state: Engagement, figures: dict[str, Any]
+    study: PreparedEfficiency, mesh: Places, state: PathState, figures: dict[str, Any]
 ) -> dict[str, Any]:
     """Whether the study lies within its model, see `record.trust`."""
     quantities = {

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.post.style import mark_panel, new_figure
-from tribodyn.validation.jia_study import CROWNED, Name, State, face_load, passage
+from tribodyn.validation.jia_study import CROWNED, FaceState, Name, face_load, passage
 
 RELIEFS = (0.0, 4.0, 8.0, 12.0)
 MINUTES = (0.0, 1.0, 2.0, 3.0)
@@ -29,9 +29,9 @@ QUANTITIES = {
     "tension": ("Root tension (MPa)", 1e-6),
 }
 #: The four panels of figures 17 and 19 to 21.
-PANELS: tuple[tuple[str, Name, State], ...] = (
-    ("involute, unmodified", "involute", State()),
-    ("parabolic, unmodified", "parabolic", State()),
+PANELS: tuple[tuple[str, Name, FaceState], ...] = (
+    ("involute, unmodified", "involute", FaceState()),
+    ("parabolic, unmodified", "parabolic", FaceState()),
     ("involute, 8/8 µm, 8 mm", "involute", CROWNED),
     ("parabolic, 8/8 µm, 8 mm", "parabolic", CROWNED),
 )
@@ -43,7 +43,9 @@ def relieved_faces(_: Path) -> Figure:
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     for letter, axes, unmodified in zip("ab", panels, (0.0, 8.0), strict=True):
         for relief, colour in zip(RELIEFS, _shades(RELIEFS), strict=True):
-            _draw_face(axes, "parabolic", State(relief, unmodified), colour, f"$y_1 = y_2$ = {relief:g} µm")
+            _draw_face(
+                axes, "parabolic", FaceState(relief, unmodified), colour, f"$y_1 = y_2$ = {relief:g} µm"
+            )
         axes.set_title(f"parabolic, $y_3$ = {unmodified:g} mm")
         mark_panel(axes, letter)
     _finish(figure, panels.flat, FACE, LINE_LOAD)
@@ -57,7 +59,7 @@ def relieved_stresses(_: Path) -> Figure:
     for row, quantity in zip(panels, ("line_load", "compression", "tension"), strict=True):
         for axes, unmodified in zip(row, (0.0, 8.0), strict=True):
             for relief, colour in zip(RELIEFS, _shades(RELIEFS), strict=True):
-                state = State(relief, unmodified)
+                state = FaceState(relief, unmodified)
                 _draw_passage(axes, "parabolic", state, quantity, colour, f"$y_1 = y_2$ = {relief:g} µm")
             axes.set_title(f"parabolic, $y_3$ = {unmodified:g} mm")
         row[0].set_ylabel(QUANTITIES[quantity][0])
@@ -78,13 +80,13 @@ def misaligned_faces(_: Path) -> Figure:
 def misaligned_passages(quantity: str, _: Path) -> Figure:
     """Figures 19 (line load; Hertz pressure), 20 and 21 (root stress) under misalignment."""
 
-    def draw(axes: Axes, name: Name, state: State, colour: Any, label: str) -> None:
+    def draw(axes: Axes, name: Name, state: FaceState, colour: Any, label: str) -> None:
         _draw_passage(axes, name, state, quantity, colour, label)
 
     return _four(draw, ROLL, QUANTITIES[quantity][0])
 
 
-def _four(draw: Callable[[Axes, Name, State, Any, str], None], along: str, across: str) -> Figure:
+def _four(draw: Callable[[Axes, Name, FaceState, Any, str], None], along: str, across: str) -> Figure:
     figure = new_figure(height=5.2)
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
     for letter, axes, (title, name, state) in zip("abcd", panels.flat, PANELS, strict=True):
@@ -110,12 +112,12 @@ def _finish(figure: Figure, panels: Iterable[Axes], along: str, across: str) -> 
     figure.legend(*first.get_legend_handles_labels(), loc="outside lower center", ncols=4)
 
 
-def _draw_face(axes: Axes, name: Name, state: State, colour: Any, label: str) -> None:
+def _draw_face(axes: Axes, name: Name, state: FaceState, colour: Any, label: str) -> None:
     place, load = face_load(name, state)
     axes.plot(1e3 * place, 1e-3 * load, color=colour, label=label)
 
 
-def _draw_passage(axes: Axes, name: Name, state: State, quantity: str, colour: Any, label: str) -> None:
+def _draw_passage(axes: Axes, name: Name, state: FaceState, quantity: str, colour: Any, label: str) -> None:
     course = passage(name, state)
     values = getattr(course, quantity)
     axes.plot(np.degrees(course.roll), QUANTITIES[quantity][1] * values, color=colour, label=label)

@@ -33,7 +33,7 @@ COLOUR = dict(zip(LAWS, PALETTE, strict=False))
 PROFILES = {"involute": "-", "cycloid": "--", "cycloid, exact speeds": ":"}
 
 
-class Drawing(NamedTuple):
+class Plot(NamedTuple):
     """A figure: what computes its arrays, and what draws these."""
 
     compute: Callable[[], Arrays]
@@ -165,12 +165,12 @@ def figure_10(arrays: Arrays) -> Figure:
     return figure
 
 
-FIGURES: dict[str, Drawing] = {
-    "figure-1": Drawing(coefficients, figure_1),
-    "figure-5-ehl": Drawing(partial(efficiencies, "EHL"), partial(surfaces, "EHL")),
-    "figure-6-mehl-a": Drawing(partial(efficiencies, "MEHL A"), partial(surfaces, "MEHL A")),
-    "figure-6-mehl-b": Drawing(partial(efficiencies, "MEHL B"), partial(surfaces, "MEHL B")),
-    "figure-8": Drawing(heights, figure_8),
-    "figure-9": Drawing(conditions, figure_9),
-    "figure-10": Drawing(by_module, figure_10),
+FIGURES: dict[str, Plot] = {
+    "figure-1": Plot(coefficients, figure_1),
+    "figure-5-ehl": Plot(partial(efficiencies, "EHL"), partial(surfaces, "EHL")),
+    "figure-6-mehl-a": Plot(partial(efficiencies, "MEHL A"), partial(surfaces, "MEHL A")),
+    "figure-6-mehl-b": Plot(partial(efficiencies, "MEHL B"), partial(surfaces, "MEHL B")),
+    "figure-8": Plot(heights, figure_8),
+    "figure-9": Plot(conditions, figure_9),
+    "figure-10": Plot(by_module, figure_10),
 }

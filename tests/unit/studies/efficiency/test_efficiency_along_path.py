@@ -11,7 +11,7 @@ from tribodyn.geometry.families import family
 from tribodyn.mesh.equilibrium import contacts
 from tribodyn.mesh.power_flow import mean_efficiency
 from tribodyn.record.reader import open_record
-from tribodyn.studies.efficiency.along_path import Duty, cycle_efficiency, engage
+from tribodyn.studies.efficiency.along_path import MeshDuty, cycle_efficiency, engage
 from tribodyn.studies.efficiency.loss_factor import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, places
 from tribodyn.studies.efficiency.run import PreparedEfficiency, efficiencies
@@ -29,12 +29,12 @@ def studies():
     return {name: prepare_study(load_scenario(name)) for name in DRIVES}
 
 
-def under(study: PreparedEfficiency, law: str, mu: float = 0.06) -> Duty:
+def under(study: PreparedEfficiency, law: str, mu: float = 0.06) -> MeshDuty:
     values = {"coefficient": mu} if law == "coulomb" else {}
     return study.duty._replace(closure=of_case(study.case, law, **values))
 
 
-def with_coefficient(study: PreparedEfficiency, mu: float) -> Duty:
+def with_coefficient(study: PreparedEfficiency, mu: float) -> MeshDuty:
     return under(study, "coulomb", mu)
 
 
