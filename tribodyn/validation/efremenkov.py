@@ -38,7 +38,7 @@ RUNS: dict[str, tuple[str, dict[str, str]]] = {
 }
 
 
-class Comparison(NamedTuple):
+class FinishedRun(NamedTuple):
     """What the rows need of a record: figures, and datasets (time, element)."""
 
     summary: dict[str, Any]
@@ -87,15 +87,15 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     ]
 
 
-def _run(path: Path, scenario: str, changes: dict[str, str]) -> Comparison:
+def _run(path: Path, scenario: str, changes: dict[str, str]) -> FinishedRun:
     result = run(load_scenario(scenario, changes), path, force=True)
     if result.status != "complete":
         raise SimulationError(f"{path.stem}: {result.message}")
     with open_record(result.path) as record:
-        return Comparison(record.summary, {name: record[name] for name in record})
+        return FinishedRun(record.summary, {name: record[name] for name in record})
 
 
-def _table(result: Comparison) -> dict[str, Any]:
+def _table(result: FinishedRun) -> dict[str, Any]:
     """Rows of Table 1: L_A, L_B, v_s in mm/s, N_S, R."""
     data = result.data
     columns = (
@@ -109,7 +109,7 @@ def _table(result: Comparison) -> dict[str, Any]:
     return {f"efremenkov/row-{number:02d}": row.tolist() for number, row in enumerate(table, start=1)}
 
 
-def _figures(results: dict[str, Comparison | None]) -> dict[str, Any]:
+def _figures(results: dict[str, FinishedRun | None]) -> dict[str, Any]:
     """Figures of the text, from runs by `CHANGES`; None for a gear that locks."""
     found: dict[str, Any] = {
         f"efremenkov/ns-max{end or '-r2-20'}": None if result is None else float(result.loss.max())

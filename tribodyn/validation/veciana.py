@@ -104,7 +104,7 @@ def _efficiencies(tables: dict[Law, Efficiencies]) -> dict[str, tuple[Any, ...]]
         "veciana/18": both(lambda table: table.gain_by_module().min()),
         "veciana/16": (
             ehl.apart(),
-            f"EHL; {both(Efficiencies.apart)[1]}; loss of the cycloid, %, i = 1, m 2 mm, with the paper's rolling "
-            f"speeds -> with the motion of the contact along the path in them: {exact}",
+            f"EHL; {both(Efficiencies.apart)[1]}; loss of the cycloid, %, i = 1, m 2 mm, with the paper's "
+            f"rolling speeds -> with the motion of the contact along the path in them: {exact}",
         ),
     }
