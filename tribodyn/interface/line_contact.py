@@ -9,13 +9,14 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.interface.words import in_python
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
-from tribodyn.tribology.ehl.fluid.fluid import Fluid, roelands_index
+from tribodyn.tribology.ehl.fluid.fluid import Fluid
 from tribodyn.tribology.ehl.fluid.heat import HeatProperties
 from tribodyn.tribology.ehl.fluid.rheology import Rheology
 from tribodyn.tribology.ehl.grid import STEP
 from tribodyn.tribology.ehl.problem import LineContact, check
 from tribodyn.tribology.ehl.steady import Solution
 from tribodyn.tribology.ehl.values import positive
+from tribodyn.tribology.oil import roelands_index
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -211,7 +212,7 @@ def line_contact(
                 line_load, radius, entrainment_speed, Fluid(viscosity, pressure_viscosity), effective_modulus
             )
         )
-        index = min(max(roelands_index(pressure_viscosity, viscosity), 1e-3), 1.0)
+        index = min(max(float(roelands_index(pressure_viscosity, viscosity)), 1e-3), 1.0)
     fluid = Fluid(viscosity, pressure_viscosity, index, compressible)
     rough = None
     if roughness is not None:

@@ -7,8 +7,6 @@ there; figures are unrounded, `rounded` gives them as the standard prints them.
 import math
 from typing import NamedTuple
 
-#: Classes of the standard.
-CLASSES = (1, 11)
 #: Ranges of validity: teeth; module, reference diameter and face width, m.
 TEETH, MODULE, DIAMETER, WIDTH = (5, 1000), (0.5e-3, 70e-3), (5e-3, 15.0), (4e-3, 1.2)
 
@@ -72,7 +70,7 @@ def rounded(tolerance: float) -> float:
 
 def outside(teeth: int, module: float, diameter: float, face_width: float) -> list[str]:
     """Say which sizes are outside the standard's range."""
-    said = []
+    found = []
     for name, value, (least, greatest), factor, unit in (
         ("number of teeth", teeth, TEETH, 1.0, ""),
         ("module", module, MODULE, 1e3, " mm"),
@@ -81,5 +79,5 @@ def outside(teeth: int, module: float, diameter: float, face_width: float) -> li
     ):
         if not least * (1 - 1e-12) <= value <= greatest * (1 + 1e-12):
             limits = f"{factor * least:g} to {factor * greatest:g}{unit}"
-            said.append(f"{name} {factor * value:g}{unit}, it is for {limits}")
-    return said
+            found.append(f"{name} {factor * value:g}{unit}, it is for {limits}")
+    return found

@@ -91,15 +91,6 @@ def approach_factor(first: float, second: float) -> float:
     return min(max(1.40 - 4.0 / 15.0 * second / first, 0.6), 1.0)
 
 
-def tip_relief_factor(tip_contact_ratios: tuple[float, float], relief: float, effective: float) -> float:
-    """X_Ca of gears of grade 6 or finer: (32), with C_a at most C_eff, both in m.
-
-    1 + (0.06 + 0.18 C_a/C_eff) ε_max + (0.02 + 0.69 C_a/C_eff) ε_max².
-    """
-    longest, share = max(tip_contact_ratios), min(relief / effective, 1.0)
-    return 1.0 + (0.06 + 0.18 * share) * longest + (0.02 + 0.69 * share) * longest**2
-
-
 def pressure_angle_factor(working: float, pressure_angle: float, helix_angle: float) -> float:
     """X_αβ = 1.22 (sin α_wt cos α_n cos β)^¼/√(cos α_wt cos α_t), α_wt and α_n in rad: (13)."""
     transverse = math.atan(math.tan(pressure_angle) / math.cos(helix_angle))

@@ -1,19 +1,8 @@
-"""Load factors K_Hβ and K_Hα from the loads that a contact analysis gives: method A of ISO 6336-1:2019.
-
-The standard's definitions: how far the load of a place exceeds what an even distribution would give.
-"""
+"""Transverse load factor K_Hα by ISO 6336-1:2019: from the loads of a contact analysis, and by method B."""
 
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
-
-
-def face_load_factor(line_load: Float[Array, "position pair slice"]) -> float:
-    """K_Hβ = (F/b)_max/(F_m/b) over the face, where the line load of a pair is at its maximum: (43)."""
-    loads = np.nan_to_num(np.asarray(line_load))
-    position, pair, _ = np.unravel_index(np.argmax(loads), loads.shape)
-    carried = loads[position, pair]
-    return float(np.max(carried) / np.mean(carried))
 
 
 def transverse_load_factor(load: float, accurate_load: float) -> float:

@@ -102,11 +102,6 @@ def specific_heat(density_15: Any, temperature: Any) -> Any:
     return (1685.0 + 3.39 * (temperature - ZERO_CELSIUS)) / exp(0.5 * log(1e-3 * density_15))
 
 
-def thermal_conductivity(density_15: Any, temperature: Any) -> Any:
-    """Thermal conductivity of a mineral oil, W/(m K): 0.1172 (1 − 0.00054 θ)/d (Cragoe 1929)."""
-    return 0.1172 * (1.0 - 0.00054 * (temperature - ZERO_CELSIUS)) / (1e-3 * density_15)
-
-
 class Typical(NamedTuple):
     """A coefficient by the type of the oil: its value, the spread of what is published, where it is from."""
 

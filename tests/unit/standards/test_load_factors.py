@@ -1,25 +1,13 @@
-"""K_Hβ and K_Hα of loads that are known."""
+"""K_Hα of loads that are known."""
 
 import numpy as np
 import pytest
 
-from tribodyn.standards.load_factors import (
-    face_load_factor,
-    shared_load,
-    transverse_factor_b,
-    transverse_load_factor,
-)
+from tribodyn.standards.load_factors import shared_load, transverse_factor_b, transverse_load_factor
 
 
 def test_even_loads_have_factors_of_one():
-    even = np.full((5, 2, 7), 100.0)
-    assert face_load_factor(even) == 1.0
     assert transverse_load_factor(50.0, 50.0) == 1.0
-
-
-def test_a_wedge_carries_twice_the_mean_at_its_end():
-    wedge = np.linspace(0.0, 200.0, 201)[None, None, :] * np.array([0.5, 1.0])[:, None, None]
-    assert face_load_factor(wedge) == pytest.approx(2.0)
 
 
 def test_the_excess_counts_where_pairs_share():

@@ -100,9 +100,3 @@ def test_mean_flash_over_the_path_is_continuous_over_the_cases():
     assert integral.approach_factor(1.0, 1.5) == pytest.approx(1.0)
     assert integral.approach_factor(1.0, 3.0) == pytest.approx(0.6)
     assert integral.approach_factor(1.0, 0.5) == 1.0
-
-
-def test_relief_counts_up_to_what_the_load_deflects():
-    full = integral.tip_relief_factor((0.8, 0.7), 20e-6, 20e-6)
-    assert full == pytest.approx(1.0 + 0.24 * 0.8 + 0.71 * 0.64)
-    assert integral.tip_relief_factor((0.8, 0.7), 40e-6, 20e-6) == full

@@ -7,8 +7,9 @@ import pytest
 from tests.support.line_contacts import MODULUS, by_moes
 from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.fluid import Fluid, roelands_index
+from tribodyn.tribology.ehl.fluid.fluid import Fluid
 from tribodyn.tribology.ehl.problem import LineContact, check
+from tribodyn.tribology.oil import roelands_index
 
 FLUID = Fluid(0.04, 22e-9, 0.6)
 PROBLEM = LineContact(2e5, 0.01, 1.0, FLUID, MODULUS)

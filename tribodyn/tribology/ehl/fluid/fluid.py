@@ -1,14 +1,13 @@
 """Viscosity and density of the fluid under pressure, with their derivatives; arrays in, arrays out."""
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.tribology.oil import ROELANDS_PRESSURE
+
 Array = Any
 
-#: Reference pressure of Roelands' law, Pa (Roelands 1966).
-ROELANDS_PRESSURE = 1.962e8
 #: Dowson & Higginson (1966): ρ/ρ0 = 1 + 0.6e-9 p/(1 + 1.7e-9 p), p in Pa.
 DENSITY_RISE, DENSITY_SATURATION = 0.6e-9, 1.7e-9
 #: Bound of ln(η/η0): beyond, Reynolds' equation is ρ h = const to more digits than floats have.
@@ -72,8 +71,3 @@ def relative_density(pressure: Array, fluid: Fluid) -> tuple[Array, Array]:
         return np.ones_like(pressure), np.zeros_like(pressure)
     below = 1.0 / (1.0 + DENSITY_SATURATION * pressure)
     return 1.0 + DENSITY_RISE * pressure * below, DENSITY_RISE * below * below
-
-
-def roelands_index(pressure_viscosity: float, viscosity: float) -> float:
-    """Index z at which Roelands' ln η + 9.67 = (ln η0 + 9.67) (1 + p/p_r)^z, has the slope α at 0."""
-    return pressure_viscosity * ROELANDS_PRESSURE / (math.log(viscosity) + 9.67)
