@@ -8,46 +8,10 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, normal_backlash
 from tribodyn.geometry.drive import SIDES, Drive, body_of
-from tribodyn.geometry.flanks.modification import Modifications, vary_along_lead
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.scenario.tables import model_files
 from tribodyn.scenario.tables.centre_distance import RoundedDistance, rounded_distance
-from tribodyn.scenario.tables.modification import MisalignmentTable, flank_of, misalignment_of
-from tribodyn.scenario.tables.shape import shape_of
-from tribodyn.scenario.tables.tolerances import helix_allowance
-from tribodyn.scenario.tables.tooth_data import gear_body, gives_thickness, pressure_angle_of
-from tribodyn.tribology.lubricant import FzgStages, LubricantData, lubricant_from
-from tribodyn.tribology.oil import UNITS, OilSheet, by_type
-
-#: Slices along the face where nothing is said and anything varies along it.
-SLICES = 21
-
-
-def lubricant_of(lubricant: model_files.Lubricant, oil_temperature: float | None = None) -> LubricantData:
-    """Return the lubricant's numbers, at the oil's temperature (K) where a data sheet gives them.
-
-    Rules as in `lubricant_rules.broken_lubricant_rules`.
-    """
-    given = {name: value for name in UNITS if (value := getattr(lubricant, name)) is not None}
-    stages = FzgStages(
-        lubricant.fzg_scuffing_stage,
-        lubricant.fzg_micropitting_stage,
-        lubricant.fzg_micropitting_temperature,
-    )
-    if (sheet := sheet_of(lubricant)) is not None and oil_temperature is not None:
-        return lubricant_from(sheet, oil_temperature, stages)
-    typical = by_type(lubricant.type) if lubricant.type else {}
-    numbers: dict[str, Any] = {name: one.value for name, one in typical.items()} | given
-    return LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
-
-
-def sheet_of(lubricant: model_files.Lubricant) -> OilSheet | None:
-    """Return the data sheet of a lubricant; None where it is given by the numbers that the laws read."""
-    if lubricant.type is None or lubricant.viscosity_40 is None:
-        return None
-    given = {name: value for name in UNITS if (value := getattr(lubricant, name)) is not None}
-    viscosity_100, density_15 = cast(float, lubricant.viscosity_100), cast(float, lubricant.density_15)
-    return OilSheet(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given)
+from tribodyn.scenario.tables.tooth_data import gear_body, gives_thickness, pressure_angle_of, shape_of
 
 
 def mean_roughness(drive: model_files.DriveTable) -> float:
@@ -159,21 +123,6 @@ def _material(drive: model_files.DriveTable, gear: model_files.Gear) -> Material
     material = cast(model_files.Material, gear.material or drive.material)
     numbers = material.model_dump(exclude={"title", "source", "assumptions"})
     return MaterialData(name=material.title, **numbers)
-
-
-def modifications_of(drive: model_files.DriveTable, misalignment: MisalignmentTable) -> Modifications:
-    """Return what is taken off the flanks of a drive, and how its axes stand."""
-    stand = misalignment_of(misalignment)
-    if misalignment.from_quality:
-        opened = misalignment.from_quality * helix_allowance(drive)
-        stand = stand._replace(in_plane=stand.in_plane + opened)
-    pinion, gear = (flank_of(gear.modification, drive.module) for gear in (drive.pinion, drive.gear))
-    return Modifications(pinion, gear, stand)
-
-
-def slices_of(given: int | None, modifications: Modifications) -> int:
-    """Return the number of slices along the face."""
-    return given or (SLICES if vary_along_lead(modifications) else 1)
 
 
 def _mass(gear: model_files.Gear) -> BodyMass:

@@ -4,11 +4,10 @@ from collections.abc import Iterator
 
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.geometry.families import FAMILIES
+from tribodyn.scenario.tables.face import broken_modification_rules
 from tribodyn.scenario.tables.model_files import DriveTable
-from tribodyn.scenario.tables.modification_rules import broken_modification_rules
-from tribodyn.scenario.tables.shape import shape_errors
-from tribodyn.scenario.tables.tolerances import broken_quality_rules
-from tribodyn.scenario.tables.tooth_data import broken_tooth_rules
+from tribodyn.scenario.tables.quality import broken_quality_rules
+from tribodyn.scenario.tables.tooth_data import broken_tooth_rules, shape_errors
 
 
 def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:

@@ -1,6 +1,6 @@
 """The tables ``[film]`` and ``[friction]``: which laws hold between the flanks, and the laws' own keys."""
 
-from typing import Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Self
 
 from pydantic import Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
@@ -88,15 +88,6 @@ class FrictionTable(LawTable):
         return self.law
 
 
-class WithLaws(Protocol):
-    """A scenario with both tables."""
-
-    @property
-    def film(self) -> FilmTable | None: ...  # noqa: D102
-    @property
-    def friction(self) -> FrictionTable: ...  # noqa: D102
-
-
 def law_errors(table: LawTable) -> list[InputError]:
     """Return what is wrong with the name of the law and with its own keys."""
     if table.chosen is None:
@@ -129,11 +120,6 @@ def _explained(error: InputError, table: LawTable, law: Any) -> InputError:
         rule = f'contradicts law = "{law.name}"; it is a key of law = {", ".join(map(quoted, others))}'
         return InputError(error.key, error.value, rule, f"leave {key} out")
     return error
-
-
-def film_data(scenario: WithLaws) -> FilmData:
-    """Return the choice of film law, its values in SI units."""
-    return film_of(scenario.film)
 
 
 def film_of(film: FilmTable | None) -> FilmData:

@@ -11,7 +11,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.resolve import resolve_table
-from tribodyn.scenario.tables.spectrum import OiledOperatingTable
+from tribodyn.scenario.tables.duty import OiledOperatingTable
 from tribodyn.studies.ehl.along_path import PreparedEhl, by_laws, meant_by, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import solve

@@ -9,8 +9,7 @@ from pydantic import Field
 from tribodyn.errors import InputError
 from tribodyn.scenario.curves import LoadCurve
 from tribodyn.scenario.quantity import Switch, Table, csv_or_record, written
-from tribodyn.scenario.tables.duty import broken_driving_rules
-from tribodyn.scenario.tables.spectrum import OiledOperatingTable
+from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.gears.scenario import GearScenario, Oil, broken_gear_rules, gear_fields, oil_fields
 from tribodyn.tribology.ehl.grid import STEP

@@ -18,7 +18,7 @@ from tribodyn.scenario.sources import find_drive_or_scenario, read_toml
 from tribodyn.scenario.tables.drive_data import drive_of, masses_of, materials_of, rounded_distance_of
 from tribodyn.scenario.tables.drive_rules import broken_drive_rules
 from tribodyn.scenario.tables.model_files import DriveTable
-from tribodyn.scenario.tables.tolerances import tolerance_lines
+from tribodyn.scenario.tables.quality import tolerance_lines
 from tribodyn.scenario.tables.tooth_data import gauge_of
 from tribodyn.studies.protocol.load import load
 

@@ -11,30 +11,30 @@ from tribodyn.errors import InputError
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario.common import Slices, head_of
 from tribodyn.scenario.quantity import Switch, model_file
-from tribodyn.scenario.tables.drive_data import (
-    lubricant_of,
-    masses_of,
+from tribodyn.scenario.tables.drive_data import masses_of, teeth_of
+from tribodyn.scenario.tables.drive_rules import broken_drive_rules, broken_part_rules
+from tribodyn.scenario.tables.duty import SpectrumScenario, duty_of, unnamed_duty
+from tribodyn.scenario.tables.face import (
+    Face,
+    broken_face_rules,
+    broken_slice_rules,
     modifications_of,
     slices_of,
-    teeth_of,
 )
-from tribodyn.scenario.tables.drive_rules import broken_drive_rules, broken_part_rules
-from tribodyn.scenario.tables.duty import duty_of
 from tribodyn.scenario.tables.laws import FilmTable, film_of, friction_values
 from tribodyn.scenario.tables.losses import LossesTable, broken_loss_rules, losses_of
-from tribodyn.scenario.tables.lubricant_rules import broken_lubricant_rules
+from tribodyn.scenario.tables.lubricant import broken_lubricant_rules, lubricant_of
 from tribodyn.scenario.tables.model_files import DriveTable, Lubricant
 from tribodyn.scenario.tables.modification import MisalignmentTable
-from tribodyn.scenario.tables.modification_rules import Face, broken_face_rules, broken_slice_rules
 from tribodyn.scenario.tables.quality import (
     DeviationSample,
     broken_sample_rules,
     error_with_sample,
+    grade_of,
+    tolerances_of,
     with_sample,
 )
-from tribodyn.scenario.tables.spectrum import SpectrumScenario, unnamed_duty
 from tribodyn.scenario.tables.temperature import TemperatureTable, broken_temperature_rules, temperature_of
-from tribodyn.scenario.tables.tolerances import grade_of, tolerances_of
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.tribology.data import FrictionData
 

@@ -9,9 +9,8 @@ from pydantic import Field
 from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Count, NotNegative, Quantity, Table, written
-from tribodyn.scenario.tables.duty import broken_driving_rules
+from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.scenario.tables.modification import MisalignmentTable
-from tribodyn.scenario.tables.spectrum import OiledOperatingTable
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.scenario import (
     FaceSlices,

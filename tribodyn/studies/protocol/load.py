@@ -14,7 +14,7 @@ from tribodyn.errors import InputError, InputErrors, unknown_name
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
 from tribodyn.scenario.sources import find_scenario
-from tribodyn.scenario.tables.spectrum import broken_spectrum_rules, in_force, of_duty, spectrum_of
+from tribodyn.scenario.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
 from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.protocol.study import CaseHead, Study
 

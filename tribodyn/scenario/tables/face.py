@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.flanks.modification import (
+    Modifications,
     broken_flank_rules,
     shown_count,
     shown_length,
@@ -13,9 +14,27 @@ from tribodyn.geometry.flanks.modification import (
     uneven_teeth,
     vary_along_lead,
 )
-from tribodyn.scenario.tables.drive_data import modifications_of
 from tribodyn.scenario.tables.model_files import DriveTable
-from tribodyn.scenario.tables.modification import MisalignmentTable, Modification, flank_of
+from tribodyn.scenario.tables.modification import MisalignmentTable, Modification, flank_of, misalignment_of
+from tribodyn.scenario.tables.quality import helix_allowance
+
+#: Slices along the face where nothing is said and anything varies along it.
+SLICES = 21
+
+
+def modifications_of(drive: DriveTable, misalignment: MisalignmentTable) -> Modifications:
+    """Return what is taken off the flanks of a drive, and how its axes stand."""
+    stand = misalignment_of(misalignment)
+    if misalignment.from_quality:
+        opened = misalignment.from_quality * helix_allowance(drive)
+        stand = stand._replace(in_plane=stand.in_plane + opened)
+    pinion, gear = (flank_of(gear.modification, drive.module) for gear in (drive.pinion, drive.gear))
+    return Modifications(pinion, gear, stand)
+
+
+def slices_of(given: int | None, modifications: Modifications) -> int:
+    """Return the number of slices along the face."""
+    return given or (SLICES if vary_along_lead(modifications) else 1)
 
 
 class Face(NamedTuple):

@@ -1,15 +1,19 @@
-"""Rules of a lubricant: by its data sheet or by the numbers that the laws read, and at which temperature."""
+"""A lubricant by its data sheet or by the numbers that the laws read: its numbers, and its rules."""
 
 from collections.abc import Iterator
+from typing import Any, cast
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.tables.model_files import Lubricant
+from tribodyn.tribology.lubricant import FzgStages, LubricantData, lubricant_from
 from tribodyn.tribology.oil import (
     MAXIMUM_VISCOSITY,
     MINIMUM_VISCOSITY,
     OIL_TYPES,
     TEMPERATURE_RANGE,
+    UNITS,
     ZERO_CELSIUS,
+    OilSheet,
     by_type,
     kinematic_viscosity,
 )
@@ -28,6 +32,33 @@ _DIRECT = {
     "limiting_shear_coefficient": "0.05",
 }
 _EXAMPLES = {"viscosity_40": '"220 mm**2/s"', "viscosity_100": '"19 mm**2/s"', "density_15": '"0.89 g/cm**3"'}
+
+
+def lubricant_of(lubricant: Lubricant, oil_temperature: float | None = None) -> LubricantData:
+    """Return the lubricant's numbers, at the oil's temperature (K) where a data sheet gives them.
+
+    Rules as in `broken_lubricant_rules`.
+    """
+    given = {name: value for name in UNITS if (value := getattr(lubricant, name)) is not None}
+    stages = FzgStages(
+        lubricant.fzg_scuffing_stage,
+        lubricant.fzg_micropitting_stage,
+        lubricant.fzg_micropitting_temperature,
+    )
+    if (sheet := sheet_of(lubricant)) is not None and oil_temperature is not None:
+        return lubricant_from(sheet, oil_temperature, stages)
+    typical = by_type(lubricant.type) if lubricant.type else {}
+    numbers: dict[str, Any] = {name: one.value for name, one in typical.items()} | given
+    return LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
+
+
+def sheet_of(lubricant: Lubricant) -> OilSheet | None:
+    """Return the data sheet of a lubricant; None where it is given by the numbers that the laws read."""
+    if lubricant.type is None or lubricant.viscosity_40 is None:
+        return None
+    given = {name: value for name in UNITS if (value := getattr(lubricant, name)) is not None}
+    viscosity_100, density_15 = cast(float, lubricant.viscosity_100), cast(float, lubricant.density_15)
+    return OilSheet(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given)
 
 
 def broken_lubricant_rules(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
