@@ -39,12 +39,12 @@ if TYPE_CHECKING:
     from tribodyn.interface.validation import validate
     from tribodyn.numerics.parameter import Parameter
     from tribodyn.studies.protocol.study import Study
-    from tribodyn.studies.protocol.verb import Answer
+    from tribodyn.studies.protocol.verb import Finding
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
 
     Design: type[Run]
     design: Callable[..., Run]
-    judge: Callable[..., Answer]
+    judge: Callable[..., Finding]
 
 __all__ = [
     "Design",

@@ -51,8 +51,6 @@ def gear(
     from tribodyn.cli.printing import print_json, print_prose, print_text_table, quoted_path
     from tribodyn.geometry.families import family
     from tribodyn.geometry.limits.checks import check
-    from tribodyn.geometry.sheet.sheet import geometry_sheet
-    from tribodyn.geometry.tooth.body import body_masses
     from tribodyn.studies.gears.check import sheet_tables
     from tribodyn.studies.gears.drive_file import load_drive
 
@@ -63,11 +61,7 @@ def gear(
         written.append(file)
     with loaded.origins.naming():
         assembly = check(family(loaded.family), loaded.drive)
-    given = [(body.mass, body.inertia) for body in loaded.masses]
-    masses = body_masses(assembly, given, [material.density for material in loaded.materials])
-    sheet = geometry_sheet(assembly, masses, loaded.gauges) | loaded.rounded
-    for side, lines in zip(("pinion", "gear"), loaded.tolerances, strict=True):
-        sheet[side] |= lines
+    sheet = loaded.sheet(assembly)
     files = written + (_draw(loaded, assembly, output, points, force) if output is not None else [])
     if json:
         print_json(

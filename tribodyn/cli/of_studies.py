@@ -25,13 +25,13 @@ from tribodyn.cli.options import (
 from tribodyn.errors import InputError
 
 if TYPE_CHECKING:
-    from tribodyn.studies.protocol.verb import Answer, Option, Verb
+    from tribodyn.studies.protocol.verb import Finding, Option, Verb
 
 #: Endings of files that keep an answer.
 ENDINGS = (".json", ".png", ".svg", ".pdf")
 
 
-class EngineName(StrEnum):
+class SearchEngine(StrEnum):
     """Where candidates are evaluated."""
 
     native = "native"
@@ -87,8 +87,8 @@ def _run(
     *,
     resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped run of that name.")] = False,
     engine: Annotated[
-        EngineName, typer.Option(help="native: the cores of this machine; dask: many machines.")
-    ] = EngineName.native,
+        SearchEngine, typer.Option(help="native: the cores of this machine; dask: many machines.")
+    ] = SearchEngine.native,
     scheduler: Annotated[
         str | None,
         typer.Option(metavar="ADDRESS", help="Dask's scheduler, tcp://host:8786; default: one of its own."),
@@ -109,10 +109,10 @@ def _run(
     from tribodyn.studies.sweeping.cluster import client_of
 
     require_one_way(resume=resume, force=force)
-    if scheduler is not None and engine is EngineName.native:
+    if scheduler is not None and engine is SearchEngine.native:
         raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
     how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}
-    with nullcontext() if engine is EngineName.native else client_of(None, scheduler) as client:
+    with nullcontext() if engine is SearchEngine.native else client_of(None, scheduler) as client:
         run_loaded(
             lambda: function(scenario, overrides=overrides(settings)),
             Shown(plot, report, json),
@@ -122,7 +122,7 @@ def _run(
 
 
 def _answer(
-    function: Callable[..., "Answer"],
+    function: Callable[..., "Finding"],
     scenario: ScenarioArgument,
     *,
     settings: SetOption = None,
@@ -169,7 +169,7 @@ def _check(output: Path | None, force: bool) -> None:
     check_output(output, force)
 
 
-def _keep(answer: "Answer", output: Path, force: bool) -> None:
+def _keep(answer: "Finding", output: Path, force: bool) -> None:
     if output.suffix == ".json":
         from tribodyn.cli.printing import write_json
 

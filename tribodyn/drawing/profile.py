@@ -15,7 +15,7 @@ from tribodyn.numerics.output_files import MARKS, write_output
 HEADER = tuple(MARKS[".csv"].decode().strip().split(","))
 
 
-class Profile(NamedTuple):
+class ToothProfile(NamedTuple):
     """One tooth from the middle of a gap to the middle of the next.
 
     Parameters
@@ -32,7 +32,7 @@ class Profile(NamedTuple):
     angle: np.ndarray
 
 
-def tooth_profile(assembly: Assembly, side: Side, flank_points: int = 60) -> Profile:
+def tooth_profile(assembly: Assembly, side: Side, flank_points: int = 60) -> ToothProfile:
     """Points of one tooth of a body, of plain numbers; the gear repeats it `teeth` times."""
     fillet_points = max(flank_points // 2, 8)
     shape = tooth_outline(assembly.tooth(side), flank_points, fillet_points)
@@ -43,14 +43,14 @@ def tooth_profile(assembly: Assembly, side: Side, flank_points: int = 60) -> Pro
         *["flank"] * (flank_points - 1),
         *["tip"] * TIP_POINTS,
     ]
-    return Profile(
+    return ToothProfile(
         part + part[::-1],
         np.concatenate([radius, radius[::-1]]),
         np.concatenate([-angle, angle[::-1]]),
     )
 
 
-def write_profile(path: Path, profile: Profile, *, force: bool = False) -> Path:
+def write_profile(path: Path, profile: ToothProfile, *, force: bool = False) -> Path:
     """Write a profile as CSV: x along the tooth's axis outwards, y across, mm; raises as `write_output`."""
     x, y = profile.radius * np.cos(profile.angle), profile.radius * np.sin(profile.angle)
     columns = (1e3 * x, 1e3 * y, 1e3 * profile.radius, np.degrees(profile.angle))

@@ -14,8 +14,6 @@ from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.limits.limits import plain_distances
-from tribodyn.geometry.sheet.sheet import geometry_sheet
-from tribodyn.geometry.tooth.body import body_masses
 from tribodyn.interface import shown
 from tribodyn.interface.scenario import in_toml
 from tribodyn.interface.words import in_python
@@ -65,12 +63,7 @@ class GearPair:
     @cached_property
     def sheet(self) -> dict[str, Any]:
         """The geometry sheet: name to (value, unit), of pinion and gear in dictionaries of their own."""
-        given = [(body.mass, body.inertia) for body in self._model.masses]
-        masses = body_masses(self._assembly, given, [material.density for material in self._model.materials])
-        sheet = geometry_sheet(self._assembly, masses, self._model.gauges) | self._model.rounded
-        for side, lines in zip(("pinion", "gear"), self._model.tolerances, strict=True):
-            sheet[side] |= lines
-        return sheet
+        return self._model.sheet(self._assembly)
 
     @cached_property
     def _mesh(self) -> GearsInMesh:

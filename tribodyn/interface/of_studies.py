@@ -13,7 +13,7 @@ from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.study import Progress
 
 if TYPE_CHECKING:
-    from tribodyn.studies.protocol.verb import Answer, Verb
+    from tribodyn.studies.protocol.verb import Finding, Verb
 
 
 @cache
@@ -44,7 +44,7 @@ def _function(verb: "Verb") -> Callable[..., Any]:
         how = {"force": force, "resume": resume, "allow_large": allow_large}
         return recorded(loaded.case, output, progress=progress, client=client, **how)
 
-    def answer(source: Source, overrides: Mapping[str, Any] | None = None, **options: Any) -> "Answer":
+    def answer(source: Source, overrides: Mapping[str, Any] | None = None, **options: Any) -> "Finding":
         return verb.function(scenario(source, overrides), **options)
 
     function = answer if verb.answers else run

@@ -8,7 +8,7 @@ from tribodyn.interface.words import in_python
 from tribodyn.validation.rows import SHOWN, Row, counted
 
 
-class Comparison(list[Row]):
+class PaperComparison(list[Row]):
     """Rows of a comparison with a paper; a notebook shows them as a table.
 
     Attributes
@@ -30,7 +30,7 @@ class Comparison(list[Row]):
 @in_python()
 def validate(
     paper: str, progress: Callable[[float], None] | None = None, folder: str | Path | None = None
-) -> Comparison:
+) -> PaperComparison:
     """Compare with the numbers of a paper: run what its rows need.
 
     Parameters
@@ -56,6 +56,6 @@ def validate(
     SimulationError
         If one of the runs fails.
     """
-    compared = Comparison(validation.validate(paper, progress, folder))
+    compared = PaperComparison(validation.validate(paper, progress, folder))
     compared.choices = validation.CHOICES.get(paper, "")
     return compared

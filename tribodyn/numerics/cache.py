@@ -235,6 +235,7 @@ def alone(folder: str, name: str) -> Iterator[None]:
     """Work on a file of the cache while no other process does: what one makes, the others need not.
 
     Waits for at most `LONGEST_WAIT`. Where the system has no locks, or none for this folder, nobody waits.
+    The lock is on a byte of one file per folder; the library `filelock` would leave a file for every name.
     """
     trusted = trusted_folder("locks")
     number = _lock_file(trusted / folder) if trusted is not None else None

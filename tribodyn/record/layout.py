@@ -50,7 +50,7 @@ class Head(NamedTuple):
     code: str = ""
 
 
-class Place(NamedTuple):
+class DataPlace(NamedTuple):
     """Where a dataset's bytes lie in the file: offset of the first row, bytes per row, shape of a row."""
 
     offset: int
@@ -73,7 +73,7 @@ class LaidOut(NamedTuple):
 
     content: Layered
     blanks: list[Blank]
-    places: dict[str, Place]
+    places: dict[str, DataPlace]
 
 
 def create(head: Head, samples: int) -> LaidOut:
@@ -108,7 +108,7 @@ def create(head: Head, samples: int) -> LaidOut:
 def write_trimmed(
     head: Head,
     samples: int,
-    source: tuple[BinaryIO, Mapping[str, Place]],
+    source: tuple[BinaryIO, Mapping[str, DataPlace]],
     scratch: Path,
     change: Callable[[h5py.File], None],
 ) -> None:
@@ -197,14 +197,14 @@ def blank_of(dataset: h5py.Dataset, variable: Variable) -> Blank:
     return Blank(offset, dataset.dtype.itemsize * int(dataset.size or 0), value)
 
 
-def place_of(dataset: h5py.Dataset) -> Place:
+def place_of(dataset: h5py.Dataset) -> DataPlace:
     """Say where a dataset's bytes lie."""
     row = dataset.shape[1:]
     stride = dataset.dtype.itemsize * int(np.prod(row, dtype=int))
     offset = dataset.id.get_offset()
     if offset is None and dataset.size:
         raise OSError(f"HDF5 gave {dataset.name} no place in the file")
-    return Place(offset or 0, stride, row)
+    return DataPlace(offset or 0, stride, row)
 
 
 def describe(dataset: h5py.Dataset, variable: Variable) -> None:

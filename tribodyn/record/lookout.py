@@ -1,8 +1,9 @@
-"""A function of a file's path, called by a child process, which may hang or die of what it finds.
+"""A function of a file's path, called in a child process with a time limit: a hostile file may crash it.
 
-The child is a copy of this process where that is safe. Otherwise, as in a notebook, whose threads a copy
-would not have, it is a copy of a process that is kept for this: only the first call waits for imports. Where
-the system copies no processes, that process calls the function itself.
+The child is a copy of this process where that is safe: 0.02 s for every record that is read, where a new
+process needs 0.2 s to import h5py. Otherwise, as in a notebook, whose threads a copy would not have, it is a
+copy of a process that is kept for this: only the first call waits for imports. Where the system copies no
+processes, that process calls the function itself.
 """
 
 import atexit

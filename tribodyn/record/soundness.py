@@ -1,8 +1,7 @@
 """Whether an HDF5 file from anywhere can be read safely: looked through by a child process with a time limit.
 
 HDF5 follows what a file says: into other files, around in circles, to sizes that no memory has, and now and
-then it crashes. So a file that this process has not written is first looked through by a child, which may
-hang or die.
+then it crashes. So a file that this process has not written is first read in a child process.
 """
 
 import os

@@ -17,7 +17,7 @@ from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING
 from tribodyn.record.withheld import warnings_in
 
 
-class Parameter(NamedTuple):
+class VariedKey(NamedTuple):
     """A varied parameter: its dimension, its key in the scenario, SI unit and values."""
 
     name: str
@@ -98,10 +98,10 @@ class SweepRecord(OpenRecord):
         return tuple(str(dim[0].name).lstrip("/") for dim in self._file["status"].dims)
 
     @cached_property
-    def parameters(self) -> tuple[Parameter, ...]:
+    def parameters(self) -> tuple[VariedKey, ...]:
         """The varied parameters, in the order of the dimensions."""
         return tuple(
-            Parameter(name, harmless(str(self._file[name].attrs["key"])), self.units(name), self._read(name))
+            VariedKey(name, harmless(str(self._file[name].attrs["key"])), self.units(name), self._read(name))
             for name in self.dims
             if name != "direction"
         )

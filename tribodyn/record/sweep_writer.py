@@ -126,7 +126,7 @@ class SweepWriter:
                 raise unwritable(self.path, error) from error
             raise
 
-    def _datasets(self, head: SweepHead, force: bool, resume: bool) -> dict[str, layout.Place]:
+    def _datasets(self, head: SweepHead, force: bool, resume: bool) -> dict[str, layout.DataPlace]:
         """Places of all datasets in what is left, or in a file made anew."""
         if resume and not force and self.partial.exists():
             return _places_of(self.partial, head)
@@ -252,14 +252,14 @@ def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequenc
     return layout.scale(file, name, variable, numbers if numbers.dtype.kind == "i" else numbers.astype("<f8"))
 
 
-def _case_place(dataset: h5py.Dataset, dims: int) -> layout.Place:
+def _case_place(dataset: h5py.Dataset, dims: int) -> layout.DataPlace:
     """Where a dataset lies, with one row per case."""
     row = dataset.shape[dims:]
     stride = dataset.dtype.itemsize * int(np.prod(row, dtype=int))
-    return layout.Place(layout.place_of(dataset).offset, stride, row)
+    return layout.DataPlace(layout.place_of(dataset).offset, stride, row)
 
 
-def _places_of(path: Path, head: SweepHead) -> dict[str, layout.Place]:
+def _places_of(path: Path, head: SweepHead) -> dict[str, layout.DataPlace]:
     """The places in what an unfinished sweep left.
 
     Raises
@@ -287,7 +287,7 @@ def _places_of(path: Path, head: SweepHead) -> dict[str, layout.Place]:
         raise InputError("--resume", str(path), f"damaged: {error}", other) from error
 
 
-def _found(dataset: Any, name: str, head: SweepHead) -> layout.Place:
+def _found(dataset: Any, name: str, head: SweepHead) -> layout.DataPlace:
     """Where a dataset of an unfinished sweep lies; ValueError where it is not as this sweep would make it."""
     variable = head.layout.variables[name]
     inner = tuple(len(head.layout.scales[dim][1]) for dim in variable.dims)

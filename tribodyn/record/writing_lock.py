@@ -1,7 +1,8 @@
 """One process at a time writes a record; a lock of the operating system, which dies with its process.
 
 The lock is on a file of its own beside the record, as the record's file is replaced now and then. Whoever is
-killed leaves that file behind, and it bars nobody.
+killed leaves that file behind, and it bars nobody. It is not the library `filelock` (4.2), which says not who
+writes, leaves its file beside every record, and takes a user's file of that name for a lock.
 """
 
 import contextlib

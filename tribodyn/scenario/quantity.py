@@ -187,7 +187,7 @@ class Column(Table):
         return np.array(self.values, dtype=float) * factor_to_si(self.unit, kind)
 
 
-class Curve(Table):
+class CurveTable(Table):
     """A function given by points; a scenario names a CSV file instead, whose header carries names and units.
 
     The first field is the abscissa, which must increase; the second the ordinate.

@@ -8,9 +8,12 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError
 
 from tribodyn.errors import InputError, InputErrors, quoted
-from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES, Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.geometry.sheet.measures import Gauge
+from tribodyn.geometry.sheet.sheet import geometry_sheet
+from tribodyn.geometry.tooth.body import body_masses
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.quantity import Table
 from tribodyn.scenario.resolve import resolve_table, unresolved_keys
@@ -53,6 +56,15 @@ class DriveModel(NamedTuple):
     path: Path
     origins: Origins
     table: Mapping[str, Any]
+
+    def sheet(self, assembly: Assembly) -> dict[str, Any]:
+        """The geometry sheet: name to (value, unit), of pinion and gear in tables of their own."""
+        given = [(body.mass, body.inertia) for body in self.masses]
+        masses = body_masses(assembly, given, [material.density for material in self.materials])
+        sheet = geometry_sheet(assembly, masses, self.gauges) | self.rounded
+        for side, lines in zip(SIDES, self.tolerances, strict=True):
+            sheet[side] |= lines
+        return sheet
 
     @property
     def gauges(self) -> tuple[Gauge, Gauge]:

@@ -33,7 +33,7 @@ class Option(NamedTuple):
     type: Any = None
 
 
-class Answer(Protocol):
+class Finding(Protocol):
     """What a verb without a record finds, for the terminal, for JSON, as a picture, and for Python."""
 
     @property
@@ -62,7 +62,7 @@ class Verb(NamedTuple):
     function : callable
         Its docstring is the Python function's, and its first line the verb's help. Parameters whose
         annotation holds an `Option` are options of the verb. With `answers` it is
-        ``function(case, *, progress, …) -> Answer``; otherwise ``function(source, …, *, overrides, …) ->
+        ``function(case, *, progress, …) -> Finding``; otherwise ``function(source, …, *, overrides, …) ->
         Loaded``, the scenario to be run, with the options of `tribodyn run`. It takes the texts of the
         command line and Python's values alike.
     examples : str

@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 from tribodyn.errors import InputError
 from tribodyn.post.shown_units import shown, shown_unit
 from tribodyn.post.style import PALETTE, QUIET, literal
-from tribodyn.record.sweep_reader import Parameter, SweepRecord
+from tribodyn.record.sweep_reader import SweepRecord, VariedKey
 from tribodyn.record.sweep_schema import DONE
 
 #: Branches that have a colour of the palette each; of more, colours follow their order.
@@ -150,14 +150,14 @@ def chosen_branch(records: Sequence[SweepRecord], at: Mapping[str, float | str])
     return found, f"{literal(found[0].label)}{more}"
 
 
-def axis_label(parameter: Parameter) -> str:
+def axis_label(parameter: VariedKey) -> str:
     """Label an axis: "Pinion speed (rpm)"."""
     name = parameter.name.replace("_", " ").capitalize()
     unit = shown_unit(parameter.units)[0]
     return literal(f"{name} ({unit})" if unit else name)
 
 
-def _value(parameter: Parameter, index: int) -> str:
+def _value(parameter: VariedKey, index: int) -> str:
     text = shown(parameter.values[index].item(), parameter.units, 4)
     return f"{parameter.name.replace('_', ' ')} {text}" if parameter.units == "1" else text
 
