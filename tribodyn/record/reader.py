@@ -90,7 +90,7 @@ class Record(OpenRecord):
             for parent in parents:
                 place = place.setdefault(parent, {})
             place[leaf] = value
-        return withheld(renamed.of_older(nested) if renamed.OLDER in self._file else nested)
+        return withheld(renamed.of_older(nested, self._file))
 
     @cached_property
     def mesh_cycle(self) -> dict[str, Any]:

@@ -6,6 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards import flash_temperature, integral_temperature
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.local import Local
@@ -13,23 +15,22 @@ from tribodyn.studies.assessment.standard import ZERO_CELSIUS, Standard, Strengt
 
 
 class Limit(NamedTuple):
-    """A limit of the scenario: what is compared with it, and in which unit that is shown."""
+    """A limit of the scenario; `least`: the quantity must be at least the limit, else at most."""
 
     label: str
-    least: bool
-    factor: float = 1.0
-    unit: str = ""
+    quantity: Quantity
+    least: bool = False
 
 
-#: Name of a limit -> what it is; `least`: the value must be at least the limit.
+#: Name of a limit -> what it is.
 LIMITS: dict[str, Limit] = {
-    "scuffing_flash": Limit("Scuffing S_B, flash temperature", True),
-    "scuffing_integral": Limit("Scuffing S_intS, integral temp.", True),
-    "micropitting": Limit("Micropitting S_λ", True),
-    "dynamic_factor": Limit("Dynamic factor K_v", False),
-    "hertz_pressure": Limit("Hertz pressure with K_v", False, 1e-9, "GPa"),
-    "root_tension": Limit("Root tension", False, 1e-6, "MPa"),
-    "loaded_error": Limit("Loaded error, peak to peak", False, 1e6, "µm"),
+    "scuffing_flash": Limit("Scuffing S_B, flash temperature", QUANTITIES["S_B"], least=True),
+    "scuffing_integral": Limit("Scuffing S_intS, integral temp.", QUANTITIES["S_intS"], least=True),
+    "micropitting": Limit("Micropitting S_λ", QUANTITIES["S_lambda"], least=True),
+    "dynamic_factor": Limit("Dynamic factor K_v", QUANTITIES["dynamic_factor"]),
+    "hertz_pressure": Limit("Hertz pressure with K_v", QUANTITIES["hertz_pressure_max"]),
+    "root_tension": Limit("Root tension", QUANTITIES["pinion_root_tension_max"]),
+    "loaded_error": Limit("Loaded error, peak to peak", QUANTITIES["loaded_transmission_error_peak_to_peak"]),
 }
 #: Limit -> the figure that it bounds, of those that scatter.
 _SCATTERED = {"dynamic_factor": "dynamic_factor", "loaded_error": "loaded_transmission_error_peak_to_peak"}

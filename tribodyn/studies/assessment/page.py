@@ -13,6 +13,8 @@ from tribodyn.numerics.output_files import write_output
 from tribodyn.numerics.scatter import SPREAD
 from tribodyn.post.page.page import table, warnings_of
 from tribodyn.post.style import inline
+from tribodyn.quantities.catalogue import quantities
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record, open_record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
@@ -25,33 +27,15 @@ from tribodyn.studies.protocol.part import Curve
 from tribodyn.studies.protocol.study import Study
 
 _RPM = 30.0 / math.pi
-#: Name in ``iso`` and ``simulated`` -> what it is called, factor and format of what is shown, unit.
-_COMPARED = {
-    "theta_M": ("Bulk temperature θ_M", 1.0, ".1f", "°C"),
-    "mu_m": ("Mean friction μ_m", 1.0, ".4f", ""),
-    "h_Y": ("Minimum film h_Y", 1e6, ".3f", "µm"),
-    "lambda_GF": ("Specific film λ_GF", 1.0, ".3f", ""),
-    "c_prime": ("Stiffness of one pair c′", 1e-9, ".2f", "N/(mm µm)"),
-    "c_gamma_alpha": ("Mesh stiffness c_γα", 1e-9, ".2f", "N/(mm µm)"),
-    "K_v": ("Dynamic factor K_v", 1.0, ".3f", ""),
-    "K_Halpha": ("Transverse load factor K_Hα", 1.0, ".3f", ""),
-    "H_v": ("Loss factor H_v", 1.0, ".4f", ""),
-    "loss": ("Loss to tooth friction", 1.0, ".1f", "W"),
-}
-#: Name in the spread -> the same.
-_SCATTERED = {
-    "K_v": ("Dynamic factor K_v", 1.0, ".2f", ""),
-    "K_Halpha": ("Transverse load factor K_Hα", 1.0, ".2f", ""),
-    "K_Hbeta": ("Face load factor K_Hβ", 1.0, ".2f", ""),
-    "loaded_transmission_error_peak_to_peak": ("Loaded error, peak to peak", 1e6, ".2f", "µm"),
-    "transmission_error_peak_to_peak": ("The same in motion", 1e6, ".2f", "µm"),
-}
-_MARGINS = {
-    "theta_B": ("Contact temperature θ_B", ".1f", "°C"),
-    "S_B": ("Scuffing S_B, flash temp.", ".2f", ""),
-    "S_intS": ("Scuffing S_intS, integral temp.", ".2f", ""),
-    "S_lambda": ("Micropitting S_λ", ".2f", ""),
-}
+#: What stands in ``iso`` and ``simulated`` beside each other, in the spread, and in the margins.
+_COMPARED = quantities(
+    *("theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss")
+)
+_SCATTERED = quantities(
+    *("K_v", "K_Halpha", "K_Hbeta"),
+    *("loaded_transmission_error_peak_to_peak", "transmission_error_peak_to_peak"),
+)
+_MARGINS = quantities("theta_B", "S_B", "S_intS", "S_lambda")
 
 
 def page(record: Record) -> str:
@@ -118,7 +102,7 @@ def _verdict(record: Record, summary: Mapping[str, Any]) -> str:
     else:
         said = f'<p class="verdict good">All {len(limits)} limits hold.</p>' if limits else ""
     within = [
-        f"{LIMITS[name].label} ({one['p95'] * LIMITS[name].factor:.3g} at 95 %)"
+        f"{LIMITS[name].label} ({LIMITS[name].quantity.in_unit(one['p95']):.3g} at 95 %)"
         for name, one in limits.items()
         if one["kept"] and not one.get("kept_p95", True)
     ]
@@ -182,12 +166,12 @@ def _limits(summary: Mapping[str, Any]) -> str:
     rows = []
     for name, one in summary.get("limits", {}).items():
         limit = LIMITS[name]
-        value, bound = one["value"] * limit.factor, one["limit"] * limit.factor
+        value, bound = limit.quantity.in_unit(one["value"]), limit.quantity.in_unit(one["limit"])
         sign, mark = "≥" if limit.least else "≤", "" if one["kept"] else ' class="bad"'
         verdict = "holds" if one["kept"] else "exceeded"
         rows.append(
             f"<tr{mark}><td>{escape(limit.label)}</td><td>{value:.3g}</td><td>{sign} {bound:.3g}</td>"
-            f"<td>{escape(limit.unit)}</td><td>{verdict}</td></tr>"
+            f"<td>{escape(limit.quantity.unit)}</td><td>{verdict}</td></tr>"
         )
     head = "<tr><th>Limit</th><th>value</th><th>required</th><th></th><th></th></tr>"
     return f'<section><h2>Limits</h2><table class="numbers">{head}{"".join(rows)}</table></section>'
@@ -195,13 +179,14 @@ def _limits(summary: Mapping[str, Any]) -> str:
 
 def _by_standard(summary: Mapping[str, Any]) -> str:
     iso, own, rows = summary.get("iso", {}), summary["simulated"], []
-    for name, (label, factor, form, unit) in _COMPARED.items():
-        rows.append((label, _shown(iso.get(name), factor, form), _shown(own.get(name), factor, form), unit))
+    for quantity in _COMPARED:
+        values = (_shown(part.get(quantity.name), quantity) for part in (iso, own))
+        rows.append((quantity.title, *values, _unit(quantity)))
     margins = summary["margins"]
-    for name, (label, form, unit) in _MARGINS.items():
-        values = [_shown(margins.get(part, {}).get(name), 1.0, form) for part in ("iso", "simulated")]
-        if any(one != "–" for one in values):
-            rows.append((label, *values, unit))
+    for quantity in _MARGINS:
+        values = [_shown(margins.get(part, {}).get(quantity.name), quantity) for part in ("iso", "simulated")]
+        if any(value != "–" for value in values):
+            rows.append((quantity.title, *values, _unit(quantity)))
     cells = "".join(
         f"<tr><td>{escape(label)}</td><td>{first}</td><td>{second}</td><td>{escape(unit)}</td></tr>"
         for label, first, second, unit in rows
@@ -214,11 +199,11 @@ def _scatter(summary: Mapping[str, Any]) -> str:
     """Figures over the samples of deviations, where there are any."""
     spread = summary["simulated"].get("spread", {})
     rows = [
-        f"<tr><td>{label}</td>"
-        + "".join(f"<td>{_shown(spread[name][part], factor, form)}</td>" for part in SPREAD)
-        + f"<td>{unit}</td></tr>"
-        for name, (label, factor, form, unit) in _SCATTERED.items()
-        if name in spread
+        f"<tr><td>{escape(quantity.title)}</td>"
+        + "".join(f"<td>{_shown(spread[quantity.name][part], quantity)}</td>" for part in SPREAD)
+        + f"<td>{quantity.unit}</td></tr>"
+        for quantity in _SCATTERED
+        if quantity.name in spread
     ]
     if not rows:
         return ""
@@ -230,29 +215,30 @@ def _scatter(summary: Mapping[str, Any]) -> str:
     )
 
 
-def _shown(value: Any, factor: float, form: str) -> str:
+def _shown(value: Any, quantity: Quantity) -> str:
     if isinstance(value, Mapping):
         value = value["worst"]
-    if value is None or not math.isfinite(float(value)):
-        return "–"
-    return format(float(value) * factor, form)
+    return "–" if value is None else quantity.written(float(value))
+
+
+def _unit(quantity: Quantity) -> str:
+    """Its unit; temperatures by the standards are kept in °C."""
+    return quantity.unit.replace("degC", "°C")
 
 
 def _points(summary: Mapping[str, Any]) -> str:
     iso, own = summary.get("iso", {}), summary["simulated"]
     rows = [
-        ("λ_GF, ISO", iso.get("lambda_GF"), 1.0, ".3f"),
-        ("λ_GF, simulated", own["lambda_GF"], 1.0, ".3f"),
-        ("h_Y, ISO (µm)", iso.get("h_Y"), 1e6, ".3f"),
-        ("h_Y, simulated (µm)", own["h_Y"], 1e6, ".3f"),
-        ("Contact temperature, simulated (°C)", own["theta_B"], 1.0, ".1f"),
+        (quantity, f"{quantity._replace(unit=_unit(quantity)).titled}, {by}", part.get(quantity.name))
+        for quantity in quantities("lambda_GF", "h_Y", "theta_B")
+        for by, part in (("ISO", iso), ("simulated", own))
     ]
     head = "".join(f"<th>{name}</th>" for name in ("", *POINTS, "worst"))
     cells = "".join(
         f"<tr><td>{escape(label)}</td>"
-        + "".join(f"<td>{_shown(values.get(name), factor, form)}</td>" for name in (*POINTS, "worst"))
+        + "".join(f"<td>{_shown(values.get(name), quantity)}</td>" for name in (*POINTS, "worst"))
         + "</tr>"
-        for label, values, factor, form in rows
+        for quantity, label, values in rows
         if values
     )
     return (
