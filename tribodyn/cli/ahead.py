@@ -55,8 +55,7 @@ def begin(words: Sequence[str]) -> None:
 
     Parameters
     ----------
-    words : sequence of str
-        Of the command line, without the program.
+    words : of the command line, without the program
     """
     drawn_otherwise = {"--plot", "--no-plot", "-h", "--help"}
     if list(words[:1]) == ["run"] and not drawn_otherwise.intersection(words) and usable_cores() > 1:

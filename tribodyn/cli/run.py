@@ -67,8 +67,7 @@ def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | Non
 
     Parameters
     ----------
-    made : callable
-        Gives the case.
+    made : gives the case
     shown : Shown
     output : Path or None
     **how

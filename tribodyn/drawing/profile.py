@@ -20,11 +20,10 @@ class ToothProfile(NamedTuple):
 
     Parameters
     ----------
-    part : list of str
-        Curve that each point belongs to: root, fillet, flank or tip; a point where two meet belongs to the
-        fillet, or to the flank at the tip.
-    radius, angle : array
-        Polar coordinates about the axis from the tooth's axis of symmetry, m and rad; the angle grows.
+    part : curve that each point belongs to: root, fillet, flank or tip; a point where two meet belongs to the
+        fillet, or to the flank at the tip
+    radius, angle : polar coordinates about the axis from the tooth's axis of symmetry, m and rad; the angle
+        grows
     """
 
     part: list[str]

@@ -114,13 +114,10 @@ def kept_or_made(
 
     Parameters
     ----------
-    folder, name : str
-        Of the file. The name is a digest of everything that the content depends on.
-    read : callable
-        Content -> what it stands for. None, or a ValueError, KeyError or TypeError where this process cannot
-        use it.
-    make : callable
-        () -> the thing, and its content; None: it is not kept.
+    folder, name : of the file. The name is a digest of everything that the content depends on.
+    read : content -> what it stands for. None, or a ValueError, KeyError or TypeError where this process
+        cannot use it.
+    make : () -> the thing, and its content; None: it is not kept
     """
     found = _known(folder, name, read)
     if found is not None:
@@ -282,10 +279,8 @@ def replacing(file: Path, scratch: Path | None = None) -> Iterator[Path]:
 
     Parameters
     ----------
-    file : path
-        Its folder is made if it is not there.
-    scratch : path, optional
-        In the same folder; by default a name that no other thread or process uses.
+    file : its folder is made if it is not there
+    scratch : in the same folder; by default a name that no other thread or process uses
     """
     if scratch is None:
         file.parent.mkdir(parents=True, exist_ok=True)

@@ -95,18 +95,12 @@ def start(
 
     Parameters
     ----------
-    target : str
-        ``module:function``. What it writes to standard output is the answer. Its standard input has no end:
-        where the caller closes it, the child is killed.
-    *words : str
-        Arguments of the function.
-    environment : mapping, optional
-        Variables that differ from this process's.
+    target : ``module:function``. What it writes to standard output is the answer. Its standard input has no
+        end: where the caller closes it, the child is killed.
+    *words : arguments of the function
+    environment : variables that differ from this process's
 
-    Raises
-    ------
-    OSError
-        If it cannot be started.
+    Raises OSError if it cannot be started.
     """
     import subprocess
 
@@ -151,10 +145,7 @@ def tell(process: "subprocess.Popen[bytes]", said: bytes) -> None:
 def answer(process: "subprocess.Popen[bytes]", limit: float, *, line: bool = False) -> bytes:
     """What a child answers: all that it writes, or the next line.
 
-    Raises
-    ------
-    TimeoutError
-        If it does not do so within the limit, s. It is killed then.
+    Raises TimeoutError if it does not do so within the limit, s. It is killed then.
     """
     assert process.stdout is not None
     late = threading.Event()

@@ -23,16 +23,12 @@ def iterate(step: Callable[[State], State], state: State, steps: int, differenti
 
     Parameters
     ----------
-    step : callable
-        state -> state.
-    state : array or tuple of arrays
-        Where to start.
-    steps : int
-        How often.
-    differentiated : int
-        Under JAX only so many of the last steps are differentiated, 0: all. For iterations that forget where
-        they started: where a step shrinks the error by the factor q, derivatives have an error of q to that
-        power.
+    step : state -> state
+    state : where to start
+    steps : how often
+    differentiated : under JAX only so many of the last steps are differentiated, 0: all. For iterations that
+        forget where they started: where a step shrinks the error by the factor q, derivatives have an error
+        of q to that power.
     """
     if namespace(state) is np:
         state, steps = step(state), steps - 1
@@ -62,14 +58,11 @@ def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -
 
     Parameters
     ----------
-    step : callable
-        (state, *parameters) -> state of the same shape; must not close over anything that is differentiated.
-    start : array or tuple of arrays
-        Where to start; near enough to converge in count − 1 steps.
-    count : int
-        Number of steps.
-    *parameters : arrays, pytrees of arrays
-        What the root depends on.
+    step : (state, *parameters) -> state of the same shape; must not close over anything that is
+        differentiated
+    start : where to start; near enough to converge in count − 1 steps
+    count : number of steps
+    *parameters : what the root depends on
     """
     xp = namespace(start, *parameters)
     if xp.__name__ == "numpy":

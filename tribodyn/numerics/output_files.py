@@ -38,12 +38,9 @@ def write_output(path: str | Path, content: bytes | str, *, force: bool = False)
 
     Parameters
     ----------
-    path : path
-        In a folder that is there.
-    content : bytes or str
-        A text becomes UTF-8.
-    force : bool
-        Replace also what this program did not write, and a link (not what it leads to).
+    path : in a folder that is there
+    content : a text becomes UTF-8
+    force : replace also what this program did not write, and a link (not what it leads to)
 
     Raises
     ------
@@ -72,11 +69,8 @@ def write_output(path: str | Path, content: bytes | str, *, force: bool = False)
 def check_output(path: str | Path, force: bool = False) -> None:
     """Whether a file may be written to `path`; touches nothing, so it can be called before any work.
 
-    Raises
-    ------
-    InputError
-        If something is there that this program did not make, or that is write-protected, and `force` is not
-        given; with it, if that is no file, or a folder.
+    Raises InputError if something is there that this program did not make, or that is write-protected, and
+    `force` is not given; with it, if that is no file, or a folder.
     """
     path = Path(path)
     try:

@@ -19,16 +19,11 @@ class Registry(Generic[T]):
 
     Parameters
     ----------
-    key : str
-        The scenario's key that takes these names: "friction.law".
-    what : str
-        What they are, for messages: "friction law".
-    places : mapping
-        Name -> ``module:attribute``, of this package.
-    group : str
-        Entry points of this group add names; a name of this package cannot be taken by one of them.
-    of : type
-        What all of them are instances of. It says its own name as `name`, or as `kind`.
+    key : the scenario's key that takes these names: "friction.law"
+    what : what they are, for messages: "friction law"
+    places : name -> ``module:attribute``, of this package
+    group : entry points of this group add names; a name of this package cannot be taken by one of them
+    of : what all of them are instances of. It says its own name as `name`, or as `kind`.
     """
 
     def __init__(self, key: str, what: str, places: Mapping[str, str], group: str, of: type[T]) -> None:
@@ -89,10 +84,7 @@ class Registry(Generic[T]):
     def __getitem__(self, name: str) -> T:
         """Return what a name stands for.
 
-        Raises
-        ------
-        InputError
-            If there is nothing of that name, or the package that offers it cannot be loaded.
+        Raises InputError if there is nothing of that name, or the package that offers it cannot be loaded.
         """
         if name not in self._loaded:
             self._loaded[name] = self._load(name)

@@ -40,8 +40,7 @@ def modules_behind(*names: str) -> dict[str, Path]:
 
     Parameters
     ----------
-    *names : str
-        Names of modules, imported or not; those without a source file are left out.
+    *names : names of modules, imported or not; those without a source file are left out
     """
     followed = {name.partition(".")[0] for name in names} | {_OWN}
     files: dict[str, Path] = {}

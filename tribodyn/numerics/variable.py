@@ -9,15 +9,11 @@ class Variable(NamedTuple):
 
     Parameters
     ----------
-    dims : tuple of str
-        Dimensions; none of a single number.
+    dims : dimensions; none of a single number
     units, long_name : str
-    dtype : str
-        Type in the file, as NumPy names it.
-    fill : float, int or bytes
-        Stands where nothing was written.
-    flags : str
-        Meanings of whole numbers that stand for words, the first of them being `fill`; empty: none.
+    dtype : type in the file, as NumPy names it
+    fill : stands where nothing was written
+    flags : meanings of whole numbers that stand for words, the first of them being `fill`; empty: none
     """
 
     dims: tuple[str, ...]

@@ -35,8 +35,7 @@ class Layered(io.RawIOBase):
 
     Parameters
     ----------
-    below : BinaryIO, optional
-        Open for reading; without it the file begins empty.
+    below : open for reading; without it the file begins empty
     """
 
     def __init__(self, below: BinaryIO | None = None) -> None:

@@ -26,18 +26,13 @@ class Head(NamedTuple):
 
     Attributes
     ----------
-    kind : str
-        Kind of study.
+    kind : kind of study
     layout : Layout
-    scenario, sha256 : str
-        The resolved scenario as TOML, and its digest.
+    scenario, sha256 : the resolved scenario as TOML, and its digest
     created : datetime
-    groups : dict
-        Name of a group of the layout -> arrays and numbers by name.
-    scales : dict
-        Values along the axes that the run does not go on along.
-    code : str
-        See `schema.CODE`; empty: nothing goes on with such a record.
+    groups : name of a group of the layout -> arrays and numbers by name
+    scales : values along the axes that the run does not go on along
+    code : see `schema.CODE`; empty: nothing goes on with such a record
     """
 
     kind: str
@@ -63,12 +58,9 @@ class LaidOut(NamedTuple):
 
     Attributes
     ----------
-    content : Layered
-        All but what the datasets hold.
-    blanks : list of Blank
-        That.
-    places : dict
-        Where each dataset lies.
+    content : all but what the datasets hold
+    blanks : that
+    places : where each dataset lies
     """
 
     content: Layered

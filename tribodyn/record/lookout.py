@@ -33,8 +33,7 @@ def through_a_child(look: Look, path: Path) -> str:
 
     Parameters
     ----------
-    look : callable
-        At module level; says what is wrong with a file, "" where nothing is.
+    look : at module level; says what is wrong with a file, "" where nothing is
     path : Path
 
     Returns

@@ -20,13 +20,9 @@ class OpenRecord:
 
     Parameters
     ----------
-    path : Path
-        An HDF5 file that tribodyn wrote.
+    path : an HDF5 file that tribodyn wrote
 
-    Raises
-    ------
-    InputError
-        If the file is missing, damaged, not such a record, or of a newer format.
+    Raises InputError if the file is missing, damaged, not such a record, or of a newer format.
     """
 
     _made_by = "run the scenario again"

@@ -53,17 +53,12 @@ class Layout(NamedTuple):
 
     Parameters
     ----------
-    axis : Variable
-        Scale of the axis on which a run goes on: time, phase of the mesh, frequency.
-    samples : mapping
-        Datasets along that axis, by name.
-    scales : mapping
-        Scales of the other axes.
-    others : mapping
-        Datasets along other axes; left out where an axis of theirs has no scale.
-    groups : mapping
-        Name of a group -> its arrays and numbers. Arrays bring their dimensions with them; numbers become
-        attributes.
+    axis : scale of the axis on which a run goes on: time, phase of the mesh, frequency
+    samples : datasets along that axis, by name
+    scales : scales of the other axes
+    others : datasets along other axes; left out where an axis of theirs has no scale
+    groups : name of a group -> its arrays and numbers. Arrays bring their dimensions with them; numbers
+        become attributes.
     """
 
     axis: Variable

@@ -52,12 +52,9 @@ class SweepLayout(NamedTuple):
 
     Parameters
     ----------
-    figures : mapping
-        Datasets by name; their dimensions are those after the cases'.
-    scales : mapping
-        Name of such a dimension -> its scale and the values along it.
-    attributes : mapping
-        What else the root says.
+    figures : datasets by name; their dimensions are those after the cases'
+    scales : name of such a dimension -> its scale and the values along it
+    attributes : what else the root says
     """
 
     figures: Mapping[str, Variable]

@@ -54,16 +54,11 @@ class SweepHead(NamedTuple):
 
     Attributes
     ----------
-    scenario, sha256 : str
-        The first case's scenario, resolved, and its digest.
-    parameters : tuple of ParameterScale
-        In the order of the dimensions.
-    settings : str
-        Everything else that the results depend on, as TOML: a sweep is taken up only with the same.
-    directions : tuple of str
-        "up", "down"; none where every case is on its own.
-    layout : SweepLayout
-        What is recorded of every case.
+    scenario, sha256 : the first case's scenario, resolved, and its digest
+    parameters : in the order of the dimensions
+    settings : everything else that the results depend on, as TOML: a sweep is taken up only with the same
+    directions : "up", "down"; none where every case is on its own
+    layout : what is recorded of every case
     """
 
     scenario: str
@@ -90,18 +85,12 @@ class SweepWriter:
 
     Parameters
     ----------
-    path : Path
-        Final name of the record.
+    path : final name of the record
     head : SweepHead
-    force : bool
-        Replace an existing record, and what an unfinished sweep left.
-    resume : bool
-        Go on with what an unfinished sweep left, if there is anything.
+    force : replace an existing record, and what an unfinished sweep left
+    resume : go on with what an unfinished sweep left, if there is anything
 
-    Raises
-    ------
-    InputError
-        See `writer.check_target`; also where what is left belongs to another sweep.
+    Raises InputError see `writer.check_target`; also where what is left belongs to another sweep.
     """
 
     def __init__(self, path: str | Path, head: SweepHead, *, force: bool = False, resume: bool = False):
@@ -152,8 +141,7 @@ class SweepWriter:
         ----------
         cases : (n,) int
             Numbers of the cases, increasing, the last dimension running fastest.
-        block : dict
-            Arrays (n, …) for every dataset of the layout.
+        block : arrays (n, …) for every dataset of the layout
         """
         cases, block = np.asarray(cases), cases_withheld(block)
         runs = np.split(np.arange(len(cases)), np.flatnonzero(np.diff(cases) != 1) + 1)
@@ -262,10 +250,7 @@ def _case_place(dataset: h5py.Dataset, dims: int) -> layout.DataPlace:
 def _places_of(path: Path, head: SweepHead) -> dict[str, layout.DataPlace]:
     """The places in what an unfinished sweep left.
 
-    Raises
-    ------
-    InputError
-        If it is damaged, or the record of something else.
+    Raises InputError if it is damaged, or the record of something else.
     """
     other = "move it away, or --force to begin anew"
     try:

@@ -28,13 +28,10 @@ class Excess(NamedTuple):
 
     Attributes
     ----------
-    value, limit : float
-        The value that is furthest outside, and the limit; SI.
+    value, limit : the value that is furthest outside, and the limit; SI
     units : str
-    share : float or None
-        Share of the samples in which the rule is broken; None of a single number.
-    places : dict
-        Where the value is: time (s), mesh_cycle, pair, ….
+    share : share of the samples in which the rule is broken; None of a single number
+    places : where the value is: time (s), mesh_cycle, pair, …
     """
 
     value: float
@@ -63,14 +60,12 @@ class Judge:
 
         Parameters
         ----------
-        quantities : mapping
-            Name of a rule -> a number, or values (n,) or (n, pairs, …); NaN where there is nothing to judge.
-        places : mapping, optional
-            Name -> where the n samples lie (n,).
-        pairs : sequence of int
-            Numbers of the pairs along the second axis.
-        between_samples : bool
-            Whether the values are those of extremes between samples, which do not count in any share.
+        quantities : name of a rule -> a number, or values (n,) or (n, pairs, …); NaN where there is nothing
+            to judge
+        places : name -> where the n samples lie (n,)
+        pairs : numbers of the pairs along the second axis
+        between_samples : whether the values are those of extremes between samples, which do not count in any
+            share
         """
         for name, given in quantities.items():
             rule, values = RULES[name], np.asarray(given, dtype=float)

@@ -11,19 +11,14 @@ class Rule(NamedTuple):
 
     Parameters
     ----------
-    label : str
-        The quantity in words.
-    most : float
-        Above it a result lies outside the model; SI.
+    label : the quantity in words
+    most : above it a result lies outside the model; SI
     units : str
-    about : str
-        Why the limit is where it is.
-    least : float
-        Below it likewise.
+    about : why the limit is where it is
+    least : below it likewise
     factor, unit, offset
         From SI to what is shown, value · factor + offset, and the unit of that.
-    extrapolates : bool
-        Whether a result beyond the limit is extrapolated only, and not outside the model.
+    extrapolates : whether a result beyond the limit is extrapolated only, and not outside the model
     """
 
     label: str

@@ -32,11 +32,8 @@ from tribodyn.record.writing_lock import WritingLock, refuse_if_written, remove_
 def check_target(path: Path, force: bool = False) -> None:
     """Whether a record may be written to `path`; touches nothing, so it can be called before any work.
 
-    Raises
-    ------
-    InputError
-        If the folder is missing or unwritable, if another process is writing that record, or if the record
-        or the remains of an earlier run are there and `force` is not given.
+    Raises InputError if the folder is missing or unwritable, if another process is writing that record, or if
+    the record or the remains of an earlier run are there and `force` is not given.
     """
     path = Path(path)
     folder = path.parent
@@ -98,29 +95,17 @@ class RecordWriter:
 
     Parameters
     ----------
-    path : Path
-        Final name of the record.
-    layout : Layout
-        What the records of the study hold.
-    kind : str
-        Kind of the study.
-    scenario_toml, sha256 : str
-        The resolved scenario and its SHA-256.
-    samples : int
-        Number of samples that a complete run has.
-    groups : mapping
-        Name of a group of the layout -> arrays and numbers: the mesh cycle, outlines.
-    scales : mapping
-        Values along the axes that the run does not go on along, by name.
-    force : bool
-        Replace an existing record, and the remains of an unfinished run.
-    code : str
-        See `schema.CODE`.
+    path : final name of the record
+    layout : what the records of the study hold
+    kind : kind of the study
+    scenario_toml, sha256 : the resolved scenario and its SHA-256
+    samples : number of samples that a complete run has
+    groups : name of a group of the layout -> arrays and numbers: the mesh cycle, outlines
+    scales : values along the axes that the run does not go on along, by name
+    force : replace an existing record, and the remains of an unfinished run
+    code : see `schema.CODE`
 
-    Raises
-    ------
-    InputError
-        See `check_target`; also where the file system refuses the file or has no room for it.
+    Raises InputError see `check_target`; also where the file system refuses the file or has no room for it.
     """
 
     def __init__(
@@ -190,12 +175,10 @@ class RecordWriter:
 
         Parameters
         ----------
-        start : int
-            Index of the first sample: blocks follow each other without a gap.
-        block : dict
-            Arrays (samples of the block, …) in SI units for any of the record's datasets along `time` (or
-            the axis that takes its place), itself included; one that no block names stays NaN.
-            Flags take booleans, NaN standing for "nothing to say".
+        start : index of the first sample: blocks follow each other without a gap
+        block : arrays (samples of the block, …) in SI units for any of the record's datasets along `time` (or
+            the axis that takes its place), itself included; one that no block names stays NaN. Flags take
+            booleans, NaN standing for "nothing to say".
 
         Raises
         ------
@@ -238,15 +221,10 @@ class RecordWriter:
         Parameters
         ----------
         summary : dict
-        trim : bool
-            Whether it may have fewer samples than it has room for.
+        trim : whether it may have fewer samples than it has room for
 
-        Raises
-        ------
-        ValueError
-            If samples are missing.
-        OutputError
-            If there is no room for the copy with the summary: the samples are kept under the temporary name.
+        Raises ValueError if samples are missing. OutputError If there is no room for the copy with the
+        summary: the samples are kept under the temporary name.
         """
         if self.written != self.samples and not trim:
             raise ValueError(f"{self.written} of {self.samples} samples written")
@@ -270,10 +248,8 @@ class RecordWriter:
 
         Parameters
         ----------
-        message : str
-            When and why the run stopped.
-        summary : dict, optional
-            What can be said of the part that was done.
+        message : when and why the run stopped
+        summary : what can be said of the part that was done
         """
         self._close()
         try:

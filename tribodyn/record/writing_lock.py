@@ -40,8 +40,7 @@ class WritingLock:
 
     Parameters
     ----------
-    path : Path
-        The record's final name.
+    path : the record's final name
 
     Raises
     ------

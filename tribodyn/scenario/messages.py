@@ -17,8 +17,7 @@ class Origins:
 
     Parameters
     ----------
-    file : str
-        The scenario's own file.
+    file : the scenario's own file
     """
 
     def __init__(self, file: str):

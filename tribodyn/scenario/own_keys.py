@@ -17,14 +17,10 @@ class Owner(NamedTuple):
 
     Attributes
     ----------
-    table : str
-        Dotted key of the table: "drive.shape".
-    what : str
-        For messages: "family", "law".
-    parameters : tuple of Parameter
-        The keys.
-    others : tuple of str
-        Keys of the same table that are not the owner's.
+    table : dotted key of the table: "drive.shape"
+    what : for messages: "family", "law"
+    parameters : the keys
+    others : keys of the same table that are not the owner's
     """
 
     table: str

@@ -29,10 +29,8 @@ class Quantity:
 
     Parameters
     ----------
-    kind : Kind
-        What it is a quantity of.
-    example : str
-        A sensible value of this field; default: the kind's own.
+    kind : what it is a quantity of
+    example : a sensible value of this field; default: the kind's own
     """
 
     def __init__(self, kind: Kind, example: str = ""):
@@ -66,16 +64,11 @@ class Reference:
 
     Parameters
     ----------
-    what : str
-        What the name stands for.
-    folder : str
-        Folder of `models/` whose files may be named; empty for CSV files.
-    columns : tuple of str
-        Columns that a CSV file must have.
-    as_list : bool
-        Whether the one column of a CSV file stands for a list of quantities.
-    record : callable, optional
-        (path, key) -> the columns, out of a record; for files that end in .h5.
+    what : what the name stands for
+    folder : folder of `models/` whose files may be named; empty for CSV files
+    columns : columns that a CSV file must have
+    as_list : whether the one column of a CSV file stands for a list of quantities
+    record : (path, key) -> the columns, out of a record; for files that end in .h5
     """
 
     def __init__(
@@ -130,8 +123,7 @@ class Weighed:
 
     Parameters
     ----------
-    tables, weight : str
-        Key of the list in a scenario, and of the weight in its tables.
+    tables, weight : key of the list in a scenario, and of the weight in its tables
     """
 
     def __init__(self, tables: str, weight: str) -> None:
@@ -144,8 +136,7 @@ class Names:
 
     Parameters
     ----------
-    known : collection of str
-        Looked through only when a schema is made.
+    known : looked through only when a schema is made
     """
 
     def __init__(self, known: Iterable[str]) -> None:

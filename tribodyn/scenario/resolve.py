@@ -40,12 +40,9 @@ def resolve(path: Path, overrides: Mapping[str, Any], table_of: TableOf) -> Reso
 
     Parameters
     ----------
-    path : Path
-        The scenario file.
-    overrides : mapping
-        Dotted key to value; a string is read as TOML where it is TOML, else taken as it stands.
-    table_of : callable
-        See `TableOf`.
+    path : the scenario file
+    overrides : dotted key to value; a string is read as TOML where it is TOML, else taken as it stands
+    table_of : see `TableOf`
     """
     return resolve_table(read_toml(path), path, overrides, table_of)
 

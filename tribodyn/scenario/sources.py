@@ -66,14 +66,10 @@ def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
 
     Parameters
     ----------
-    name : str
-        A path (it ends in .toml) relative to the referring file, or a name.
-    kind : str
-        Folder of `models/`: "drives", "materials", …; or `SCENARIOS`.
-    key : str
-        Where the name stands, for messages.
-    referring : Path
-        The file that it stands in.
+    name : a path (it ends in .toml) relative to the referring file, or a name
+    kind : folder of `models/`: "drives", "materials", …; or `SCENARIOS`
+    key : where the name stands, for messages
+    referring : the file that it stands in
     """
     if name.endswith(".toml"):
         path = referring.parent / name

@@ -126,10 +126,8 @@ def spelling(number: str, unit: str, what: str) -> tuple[str, str] | None:
 
     Parameters
     ----------
-    number, unit : str
-        The parts of the quantity as they were given; no number for a unit alone.
-    what : str
-        Name of the kind of quantity that is due.
+    number, unit : the parts of the quantity as they were given; no number for a unit alone
+    what : name of the kind of quantity that is due
     """
     unit = unit.strip()
 

@@ -18,14 +18,10 @@ class Kind(NamedTuple):
 
     Parameters
     ----------
-    name : str
-        What it is called in messages: "length".
-    si : str
-        The SI unit it is converted to, as pint writes it.
-    example : str
-        A good way to write one.
-    allowed : str
-        "any", "not negative" or "positive".
+    name : what it is called in messages: "length"
+    si : the SI unit it is converted to, as pint writes it
+    example : a good way to write one
+    allowed : "any", "not negative" or "positive"
     """
 
     name: str

@@ -44,20 +44,13 @@ class Axis(NamedTuple):
 
     Attributes
     ----------
-    key : str
-        Its dotted key in the scenario.
-    name : str
-        The last part of the key, or as much of it as distinguishes the axes; names the record's dimension.
-    written : tuple
-        The values as TOML would hold them.
-    values : tuple of float, or tuple of str
-        The values in SI, or the texts where they are no numbers.
-    units : str
-        SI unit, "1" for plain numbers, "" for texts.
-    drawn : bool
-        Whether the values number samples drawn at random.
-    weighed : Weighed or None
-        Where the weights stand of tables that the values number.
+    key : its dotted key in the scenario
+    name : the last part of the key, or as much of it as distinguishes the axes; names the record's dimension
+    written : the values as TOML would hold them
+    values : the values in SI, or the texts where they are no numbers
+    units : SI unit, "1" for plain numbers, "" for texts
+    drawn : whether the values number samples drawn at random
+    weighed : where the weights stand of tables that the values number
     """
 
     key: str
@@ -77,11 +70,8 @@ class Axis(NamedTuple):
 def axes_of(options: list[str], table: type[BaseModel]) -> list[Axis]:
     """Read all `--vary` options of a command; `table` is the schema of the scenario.
 
-    Raises
-    ------
-    InputError
-        If there is none, a key comes twice, or an option cannot be read; a key that the schema does not know
-        is left to the reading of the scenario, which suggests another.
+    Raises InputError if there is none, a key comes twice, or an option cannot be read; a key that the schema
+    does not know is left to the reading of the scenario, which suggests another.
     """
     if not options:
         raise InputError(
