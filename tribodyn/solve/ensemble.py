@@ -12,7 +12,6 @@ import numpy as np
 
 from tribodyn.dynamics.extremes import extremes_of, put_extremes, take_in
 from tribodyn.dynamics.parameters import STATES, Model
-from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.work import usable_cores
 from tribodyn.solve.choice import choose
@@ -79,7 +78,7 @@ def march(
         if extremes:
             seek_again(models, result, march, count)
         return result
-    if method not in (AUTO, EXPLICIT) or report_missing():
+    if method not in (AUTO, EXPLICIT):
         return one_by_one(models, states, method, march, count, progress)
     limit = max_steps if method == EXPLICIT else min(max_steps, HANDED_OVER)
     result = in_lanes(models, states, march._replace(max_steps=limit), count, progress)

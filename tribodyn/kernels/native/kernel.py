@@ -31,7 +31,7 @@ class Kernel(KernelFunction):
         functools.update_wrapper(self, function)
         self._name = function.__name__
         self._names = tuple(inspect.signature(function).parameters)
-        self._codes: dict[Any, Callable[[bytes, tuple[Any, ...]], Any]] = {}
+        self._codes: dict[Any, Callable[[bytes], Any]] = {}
         self._compiling = threading.Lock()
 
     def __call__(self, *arguments: Any) -> Any:
@@ -43,18 +43,13 @@ class Kernel(KernelFunction):
                 code = self._codes.get(layout)
                 if code is None:
                     code = self._codes[layout] = self._executable(layout)
-        return code(words, arguments)
+        return code(words)
 
-    def _executable(self, layout: Any) -> Callable[[bytes, tuple[Any, ...]], Any]:
+    def _executable(self, layout: Any) -> Callable[[bytes], Any]:
         """What runs the kernel for arguments of a layout."""
         from tribodyn.kernels.native.store import machine_code
 
-        code = machine_code(self.function, layout)
-        if code is not None:
-            return caller(code)
-        from tribodyn.kernels.native.plain import plainly_compiled
-
-        return plainly_compiled(self)
+        return caller(machine_code(self.function, layout))
 
 
 def kernel(function: Callable[..., Any]) -> Kernel:
@@ -62,12 +57,12 @@ def kernel(function: Callable[..., Any]) -> Kernel:
     return Kernel(function)
 
 
-def caller(code: Code) -> Callable[[bytes, tuple[Any, ...]], Any]:
+def caller(code: Code) -> Callable[[bytes], Any]:
     """Return a function of a block of arguments that runs the code and returns its results."""
     entry = _ENTRY(code.address)
     read = struct.Struct(f"={code.returns}")
 
-    def call(words: bytes, _: tuple[Any, ...]) -> Any:
+    def call(words: bytes) -> Any:
         results = ctypes.create_string_buffer(read.size)
         if entry(words, results):
             raise RuntimeError("a kernel raised an exception")

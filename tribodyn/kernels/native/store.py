@@ -7,6 +7,7 @@ damaged, or needs a function that this process does not have, is compiled again.
 """
 
 import hashlib
+import importlib
 import importlib.util
 import json
 import os
@@ -18,9 +19,9 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
+from tribodyn.errors import InputError
 from tribodyn.kernels.native.arguments import is_kept
 from tribodyn.kernels.native.code import Code, Compiled
-from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.cache import kept_or_made
 from tribodyn.numerics.sources import code_of, digest_of
 
@@ -28,22 +29,44 @@ from tribodyn.numerics.sources import code_of, digest_of
 _COMPILER = "tribodyn.kernels.native.compiler"
 
 
-def machine_code(function: Callable[..., Any], layout: Any) -> Code | None:
+def machine_code(function: Callable[..., Any], layout: Any) -> Code:
     """Machine code of a function for arguments of a layout: from disk, else compiled and kept there.
 
-    None where it is not on disk and this numba lacks what compiling takes, see `internals`.
+    Raises
+    ------
+    InputError
+        Where nothing can be compiled, by a variable of the environment or by the version of numba.
     """
 
-    def made() -> tuple[Code | None, bytes | None]:
-        if report_missing():
-            return None, None
-        from tribodyn.kernels.native.compiler import compiled
-
-        code = compiled(function, layout)
-        return loaded(code), content_of(code)
+    def made() -> tuple[Code, bytes]:
+        code = _compiler()(function, layout)
+        loaded_code = loaded(code)
+        assert loaded_code is not None  # made in this process
+        return loaded_code, content_of(code)
 
     place = _place_of(function, layout)
     return kept_or_made(*place, lambda content: loaded(compiled_in(content)), made) if place else made()[0]
+
+
+def _compiler() -> Callable[..., Compiled]:
+    """What compiles a kernel; imports numba, of whose internals it needs more than numba documents."""
+    try:
+        numba = importlib.import_module("numba")
+    except ValueError as error:
+        name = "NUMBA_NUM_THREADS"
+        if name not in os.environ:
+            raise
+        remedy = "unset it, or set it to 1 or more"
+        raise InputError(name, os.environ[name], "numba cannot be imported with it", remedy) from error
+    if numba.config.DISABLE_JIT:
+        rule = "switches off the compiler by which kernels are made"
+        raise InputError("NUMBA_DISABLE_JIT", os.environ.get("NUMBA_DISABLE_JIT"), rule, "unset it")
+    try:
+        from tribodyn.kernels.native.compiler import compiled
+    except (ImportError, AttributeError) as error:
+        remedy = "install a version within the bounds of tribodyn's pyproject.toml"
+        raise InputError("numba", numba.__version__, f"cannot compile kernels: {error}", remedy) from error
+    return compiled
 
 
 @cache

@@ -24,7 +24,6 @@ from tribodyn.dynamics.parameters import (
     VELOCITIES,
     Model,
 )
-from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import usable_cores
 from tribodyn.solve.choice import choose
@@ -89,7 +88,7 @@ class GearMap:
     @property
     def exact(self) -> bool:
         """Whether tangents come from the variational equations, as native methods integrate them."""
-        return all(runs(solver) is Runs.NATIVE for solver in self.solvers) and not report_missing()
+        return all(runs(solver) is Runs.NATIVE for solver in self.solvers)
 
     def full(self, states: Float[Array, "row moving"]) -> Float[Array, "row state"]:
         """States of the model from states of the map."""
