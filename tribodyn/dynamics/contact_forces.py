@@ -90,6 +90,13 @@ def cubic_slope(c, segment, cell, slot, channel, u):
 
 
 @law
+def cubic_and_slope(c, segment, cell, slot, channel, u):
+    """Both at once."""
+    c0, c1, c2, c3 = last_axis_of_four(c, segment, cell, slot, channel)
+    return c0 + u * (c1 + u * (c2 + u * c3)), c1 + u * (2.0 * c2 + 3.0 * u * c3)
+
+
+@law
 def approach(segment, cell, u, cells_per_radian, y, model, work):
     """Fill `work` with geometry, approach and its rates for every slot.
 
@@ -107,13 +114,13 @@ def approach(segment, cell, u, cells_per_radian, y, model, work):
         if out_of_reach(segment, i, model):
             continue
         side = table.side[i]
-        cosine = cubic(c, segment, cell, i, _COSINE, u)
-        sine = cubic(c, segment, cell, i, _SINE, u)
+        cosine, cosine_slope = cubic_and_slope(c, segment, cell, i, _COSINE, u)
+        sine, sine_slope = cubic_and_slope(c, segment, cell, i, _SINE, u)
+        gap, gap_slope = cubic_and_slope(c, segment, cell, i, _GAP, u)
+        compliance, compliance_slope = cubic_and_slope(c, segment, cell, i, _COMPLIANCE, u)
         along = side * towards
         error = along * cosine + across * sine
-        slope = along * cubic_slope(c, segment, cell, i, _COSINE, u)
-        slope = slope + across * cubic_slope(c, segment, cell, i, _SINE, u)
-        slope = (slope - cubic_slope(c, segment, cell, i, _GAP, u)) * cells_per_radian
+        slope = (along * cosine_slope + across * sine_slope - gap_slope) * cells_per_radian
         distance = cubic(c, segment, cell, i, _DISTANCE, u)
         flank_speed = cubic(c, segment, cell, i, _SPEED, u)
         lever_p = distance + table.pinion_pitch_radius * sine
@@ -125,10 +132,10 @@ def approach(segment, cell, u, cells_per_radian, y, model, work):
         work[RADIUS, i] = cubic(c, segment, cell, i, _RADIUS, u)
         work[PINION_SPEED, i] = side * pinion_speed * flank_speed
         work[GEAR_SPEED, i] = side * pinion_speed * (flank_speed - (1.0 + ratio) * distance)
-        work[COMPLIANCE, i] = cubic(c, segment, cell, i, _COMPLIANCE, u)
-        work[COMPLIANCE_SLOPE, i] = cubic_slope(c, segment, cell, i, _COMPLIANCE, u) * cells_per_radian
+        work[COMPLIANCE, i] = compliance
+        work[COMPLIANCE_SLOPE, i] = compliance_slope * cells_per_radian
         work[TRANSMISSION_ERROR, i] = error
-        work[APPROACH, i] = error - cubic(c, segment, cell, i, _GAP, u)
+        work[APPROACH, i] = error - gap
         work[APPROACH_SLOPE, i] = slope
         work[APPROACH_RATE, i] = side * towards_rate * cosine + across_rate * sine + slope * pinion_speed
         work[SLIDING, i] = side * pinion_speed * (1.0 + ratio) * distance
