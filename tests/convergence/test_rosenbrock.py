@@ -11,7 +11,7 @@ from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import Place
-from tribodyn.solve.march.rosenbrock import ALPHA, GAMMA, GAMMAS, STAGES, A, C
+from tribodyn.solve.methods.rodas4 import ALPHA, GAMMA, GAMMAS, STAGES, A, C
 from tribodyn.solve.right_hand_side import rhs
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator

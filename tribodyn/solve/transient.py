@@ -5,13 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import Extremes
+from tribodyn.dynamics.extremes import Extremes, no_extremes, take_in
 from tribodyn.dynamics.parameters import LAG, Model
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.choice import choose
 from tribodyn.solve.engagement import engage_next
-from tribodyn.solve.integrator import REASONS, Integrator, Status
-from tribodyn.solve.march.marched_again import MarchedAgain
-from tribodyn.solve.methods import Runs, integrator_class, method_file, runs
+from tribodyn.solve.integrator import REASONS, IntegratedCycles, Integrator, Status
+from tribodyn.solve.march.native_integrator import NativeIntegrator
+from tribodyn.solve.methods import AUTO, Runs, integrator_class, method_file, runs
 from tribodyn.solve.tolerances import StepTolerances, tolerances_from
 
 #: Mesh cycles between two writes of a native run, at most.
@@ -59,6 +60,49 @@ class Stop(NamedTuple):
     evaluations: int
     reason: str
     time: float
+
+
+class MarchedAgain:
+    """Wraps an integrator: where extremes are sought, a native one follows it, see `integrator.Integrator`.
+
+    As it starts every mesh cycle where the other did, it goes astray by no more than a cycle's error.
+
+    Parameters
+    ----------
+    integrator : Integrator
+    model : Model
+    samples : int
+        Samples per mesh cycle, at least 1.
+    tolerances : StepTolerances
+    """
+
+    def __init__(self, integrator: Integrator, model: Model, samples: int, tolerances: StepTolerances):
+        self.started = self.extremes = False
+        self._integrator = integrator
+        self._model, self._samples, self._tolerances = model, samples, tolerances
+        self._native: NativeIntegrator | None = None
+
+    def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
+        """See `integrator.Integrator`; what the second integration costs is not counted."""
+        self._integrator.started = self.started
+        part = self._integrator.integrate(state, first_cycle, cycles)
+        self.started = True
+        if not self.extremes:
+            return part
+        native = self._native or self._follower(state)
+        found = no_extremes()
+        for cycle in range(len(part.samples) // self._samples):
+            native.started = False
+            again = native.integrate(part.samples[cycle * self._samples], first_cycle + cycle, 1)
+            assert again.extremes is not None
+            take_in(found, again.extremes)
+        return part._replace(extremes=found)
+
+    def _follower(self, state: Float[Array, " state"]) -> NativeIntegrator:
+        file = method_file(choose(AUTO, self._model, state).method)
+        self._native = NativeIntegrator(file, self._model, 0, self._tolerances)
+        self._native.extremes = True
+        return self._native
 
 
 def make_integrator(

@@ -8,8 +8,8 @@ from scipy.optimize import approx_fprime
 
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.solve.march import dormand_prince as pair
-from tribodyn.solve.march import dormand_prince_8 as triple
-from tribodyn.solve.march import rosenbrock
+from tribodyn.solve.march import explicit_8 as triple
+from tribodyn.solve.methods import rodas4 as rosenbrock
 
 
 def test_the_pair_has_the_coefficients_of_scipy():
