@@ -23,9 +23,8 @@ class GearBody(NamedTuple):
     bore_radius : radius of the bore, m; 0 for a solid body
     tip_radius : float, optional
         Radius of the tip circle, m, where it is not r + (addendum + profile shift) × module.
-    thickness_allowance : float
-        Deviation of the normal tooth thickness on the reference circle from that of teeth which mesh without
-        backlash, m; negative for thinner teeth (A_sn of ISO 21771).
+    thickness_allowance : deviation of the normal tooth thickness on the reference circle from that of teeth
+        which mesh without backlash, m; negative for thinner teeth (A_sn of ISO 21771)
     tip_break : height below the tip circle at which the rounding of the tip leaves the flank, m
     """
 

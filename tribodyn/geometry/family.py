@@ -15,10 +15,9 @@ class Family(NamedTuple):
     ----------
     name : name of the family, as a drive file gives it
     working_path : drive -> the path of contact of the pair
-    generating_path : callable
-        (drive, side) -> (path, shift): the path of contact of that body with its rack, seen from the
-        body (the body is the path's pinion and rolls on the circle of `path.pinion_pitch_radius`), and the
-        distance x m (m) by which the rack is shifted away from the axis.
+    generating_path : (drive, side) -> (path, shift): the path of contact of that body with its rack, seen
+        from the body (the body is the path's pinion and rolls on the circle of `path.pinion_pitch_radius`),
+        and the distance x m (m) by which the rack is shifted away from the axis
     shiftable : whether a gear of this family can be profile-shifted
     check : drive -> None; raises InputError for numbers that this family in particular cannot use
     shape : callable, optional

@@ -69,9 +69,8 @@ class Kinematics(NamedTuple):
     signed_distance, pressure_angle : r (m) and α (rad)
     pinion_normal_arm, gear_normal_arm : arms of the normal load about the axes, r_p cos α and r_g cos α, m
     pinion_friction_arm, gear_friction_arm : arms of the friction force, r + r_p sin α and r_g sin α − r, m
-    pinion_curvature, gear_curvature : array
-        Curvatures of the flanks, 1/m, convex > 0. Curvature and not radius, because a radius is infinite
-        where a flank is straight.
+    pinion_curvature, gear_curvature : curvatures of the flanks, 1/m, convex > 0. Curvature and not radius,
+        because a radius is infinite where a flank is straight
     relative_curvature : array
         Their sum, one over the equivalent radius, 1/m. Like the flanks' own it is huge but finite where the
         equivalent radius vanishes: at the pitch point of a path whose pressure angle is zero there.

@@ -24,9 +24,8 @@ def fit_spline(assembly: Assembly, values: int) -> Assembly:
 
     Parameters
     ----------
-    assembly : Assembly
-        Of plain numbers and any family. A pair at a centre distance of its own becomes one of the module
-        2 r_w/z; the thickness of its teeth, and so its backlash, stays.
+    assembly : of plain numbers and any family. A pair at a centre distance of its own becomes one of the
+        module 2 r_w/z; the thickness of its teeth, and so its backlash, stays
     values : number of angles, at least `spline.FEWEST`
 
     Returns

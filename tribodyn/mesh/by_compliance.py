@@ -27,6 +27,8 @@ def mesh_cycle_of(
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a pair of plain numbers.
 
+    Raises InputError as `tabulate.tabulate` and `tabulate_loaded.tabulate_loaded`.
+
     Parameters
     ----------
     assembly : checked (`limits.checks`)
@@ -34,11 +36,6 @@ def mesh_cycle_of(
     mesh : what the compliance is, errors, backlash
     gear_torque : T_g, N m; matters where `mesh.at_load` only
     back : whether back flanks can touch
-
-    Raises
-    ------
-    InputError
-        As `tabulate.tabulate` and `tabulate_loaded.tabulate_loaded`.
     """
     if mesh.at_load:
         from tribodyn.mesh.tabulate_loaded import tabulate_loaded

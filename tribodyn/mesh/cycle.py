@@ -217,10 +217,7 @@ def _stiffness(cycle: MeshCycle, xp: Any) -> Any:
 def polynomials(cycle: MeshCycle) -> Polynomials:
     """Coefficients of the mesh cycle's splines.
 
-    Raises
-    ------
-    TypeError
-        If the table is not float64: under JAX, switch 64-bit numbers on first.
+    Raises TypeError if the table is not float64: under JAX, switch 64-bit numbers on first.
     """
     xp = namespace(*cycle)
     if cycle.compliance.dtype != np.float64:

@@ -22,9 +22,8 @@ class MeshData:
         Compliance of a gear body under its own tooth, with ``compliance = "energy"``.
     foundation_coupling : whether two pairs on one body share its foundation
     stiffness : single-pair stiffness, N/m, with ``compliance = "constant"``
-    table : Table or None
-        Single-pair stiffness over the pinion's roll angle from the pitch point (rad, N/m), with
-        ``compliance = "table"``.
+    table : single-pair stiffness over the pinion's roll angle from the pitch point (rad, N/m), with
+        ``compliance = "table"``
     damping_ratio : ζ of the mesh
     formulation : {"classical", "energy-consistent"}
         Whether the torque −∂V/∂φ of the varying stiffness acts on the bodies.

@@ -130,11 +130,8 @@ def equilibrium(seen: Contacts, share: Share) -> Equilibrium:
 def settled(seen: Contacts, share: Share) -> Equilibrium:
     """Return what `equilibrium` does of plain numbers.
 
-    Raises
-    ------
-    SimulationError
-        If friction locks the mesh, no load of a pair balances the torque, or a law's coefficient grows
-        without bound.
+    Raises SimulationError if friction locks the mesh, no load of a pair balances the torque, or a law's
+    coefficient grows without bound.
     """
     found, change = _solved(seen, share)
     mu = found.friction_coefficient

@@ -89,9 +89,8 @@ def mean_efficiency(
     gear_torque : N m, ≠ 0; negative where the gear drives, on back flanks that are like the driving ones
     friction_coefficient : array, () or (S, N, Q)
         μ ≥ 0.
-    normal_load : array, (S, N, Q), optional
-        Of `equilibrium`, N; default: loads of `quasi_static` without friction: the error is of the order of
-        the loss squared.
+    normal_load : (S, N, Q), optional; of `equilibrium`, N; default: loads of `quasi_static` without friction:
+        the error is of the order of the loss squared
     """
     loads = normal_load
     if loads is None:

@@ -22,9 +22,8 @@ class QuasiStatic(NamedTuple):
     normal_load : array, (S, N, Q)
         Load of each pair along its normal, N; 0 where it is not in contact or a gap keeps it from touching.
     deflection : (S, N), r_p θ_p − r_g θ_g, by which the pinion is ahead of the gear on the pitch circles, m
-    mesh_stiffness : array, (S, N)
-        Force on the pitch circles over the part of the deflection that the load makes, N/m: along the pitch
-        tangent, all pairs together, secant where the Hertz contact is load-dependent.
+    mesh_stiffness : (S, N), force on the pitch circles over the part of the deflection that the load makes,
+        N/m: along the pitch tangent, all pairs together, secant where the Hertz contact is load-dependent
     """
 
     normal_load: Float[Array, "segment node pair"]

@@ -62,6 +62,9 @@ def tabulate(
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a drive.
 
+    Raises InputError if a table does not cover the contact, an option lacks its numbers, or options
+    contradict each other.
+
     Parameters
     ----------
     assembly : the gear pair; every number of the drive may be traced
@@ -69,11 +72,6 @@ def tabulate(
     mesh : source of the compliance, transmission error, backlash and number of nodes
     pairs : front slots, `pair_slots(assembly)`
     back : whether to add as many slots for the back flanks, `mesh.backlash` away
-
-    Raises
-    ------
-    InputError
-        If a table does not cover the contact, an option lacks its numbers, or options contradict each other.
     """
     path, corner = assembly.path, assembly.family.corner
     _check_options(assembly, mesh, back)

@@ -51,16 +51,13 @@ def tabulate_loaded(
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a drive at an operating torque.
 
+    Raises InputError if a body has no bore, or the torque drives nothing.
+
     Parameters
     ----------
     assembly, materials, mesh, back
         As in `tabulate.tabulate`, of plain numbers.
     gear_torque : T_g ≠ 0 at whose magnitude the compliances are taken, N m
-
-    Raises
-    ------
-    InputError
-        If a body has no bore, or the torque drives nothing.
     """
     check_bores(assembly.drive)
     torque = abs(gear_torque)

@@ -42,10 +42,7 @@ def check_cover(x: np.ndarray, first: Any, last: Any, key: str) -> None:
 
     Traced limits are not checked. Half a microradian is allowed, so that limits printed to six digits serve.
 
-    Raises
-    ------
-    InputError
-        With the range that is needed.
+    Raises InputError with the range that is needed.
     """
     if is_jax(first) or is_jax(last):
         return

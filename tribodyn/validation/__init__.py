@@ -81,10 +81,7 @@ def validate(
 def figure_names(paper: str) -> list[str]:
     """Names of the figures of a paper that are drawn from our own numbers.
 
-    Raises
-    ------
-    InputError
-        For an unknown paper, and one without figures.
+    Raises InputError for an unknown paper, and one without figures.
     """
     _check(paper)
     if paper not in FIGURES:
@@ -108,6 +105,8 @@ def draw(
 ) -> list[Path]:
     """Draw figures like a paper's from our own numbers.
 
+    Raises InputError as `figure_names` and `write_output`.
+
     Parameters
     ----------
     paper : one of `FIGURES`
@@ -115,11 +114,6 @@ def draw(
     records : folder in which `validate` left the paper's records
     progress : optional; called with the share done, 0 … 1
     force : replace also pictures that are not ours
-
-    Raises
-    ------
-    InputError
-        As `figure_names` and `write_output`.
     """
     from tribodyn.post.style import house_style, save
 

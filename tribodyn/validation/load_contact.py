@@ -53,6 +53,8 @@ def load_contact(
 ) -> LoadContact:
     """Run a pair through one mesh cycle.
 
+    Raises InputError if the torque drives nothing, or as `roll_through` does.
+
     Parameters
     ----------
     flexible : `load_sharing.flexibility` of the drive
@@ -61,11 +63,6 @@ def load_contact(
     positions : equal steps over one pitch
     modifications, slices, coupled
         As for `loaded_contact.roll_through`, without pitch errors.
-
-    Raises
-    ------
-    InputError
-        If the torque drives nothing, or as `roll_through` does.
     """
     for broken in uneven_teeth(modifications):
         raise broken

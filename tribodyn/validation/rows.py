@@ -24,9 +24,8 @@ class Otherwise(NamedTuple):
 
     Attributes
     ----------
-    choice : str
-        The other choice: the program's default where the row is computed as published, another reading where
-        the paper leaves one open.
+    choice : the other choice: the program's default where the row is computed as published, another reading
+        where the paper leaves one open
     computed, difference, verdict
         As of the row.
     """
@@ -53,9 +52,8 @@ class Row(NamedTuple):
     compared : {"number", "claim", "direction", "implementation"}
         What the row compares; "implementation": the paper has a figure only, and the value of another
         implementation of its equations takes the number's place.
-    part : str
-        What of the value matters, where that is not the whole: the "loss" of an efficiency, the "rise" of a
-        ratio above 1.
+    part : what of the value matters, where that is not the whole: the "loss" of an efficiency, the "rise" of
+        a ratio above 1
     part_difference : computed less published, of this part
     tolerance_share : the tolerance as a share of the value or of its part; the largest of several columns
     tolerance_reason : why this share is larger than `WIDE`

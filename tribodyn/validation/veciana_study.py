@@ -212,9 +212,8 @@ def cycloid_contact(
         As in `involute_contact`.
     approach_circle, recess_circle : scalar or array (…)
         c_h = d_g1/d_1 and c_e = d_g2/d_1 of the generating circles.
-    exact_speeds : bool
-        The rolling speeds contain the motion of the contact along the path, r κ. Veciana (43)-(50) leave it
-        out and take angular speed times lever arm; sliding is the same either way.
+    exact_speeds : the rolling speeds contain the motion of the contact along the path, r κ. Veciana (43)-(50)
+        leave it out and take angular speed times lever arm; sliding is the same either way
     """
     psi, weight = rotation or rotations(pinion_teeth)
     circles = np.asarray(approach_circle, dtype=float), np.asarray(recess_circle, dtype=float)

@@ -40,9 +40,8 @@ def cached_gear_compliance(
     ----------
     tooth, teeth, bore_radius, poisson_ratio, depth, level
         As for `fem.gear_compliance`.
-    width : float, optional
-        Face width, m: with the response to loads that vary along teeth of this width and the root stress.
-        Some seconds more, once; another width then needs a part of them again.
+    width : optional; face width, m: with the response to loads that vary along teeth of this width and the
+        root stress. Some seconds more, once; another width then needs a part of them again
     """
     numbers = (teeth, bore_radius, poisson_ratio, depth, level)
     with part(0.0, 1.0 if width is None else 0.05):

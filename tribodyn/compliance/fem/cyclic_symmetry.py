@@ -105,9 +105,8 @@ def reduced_ring(
         Of the half sector; 2 or 3 components of the displacement follow each other at a node: u, v[, w].
     loads : (dof, load), on the half y > 0 of sector 0
     readers : (reader, dof), rows that take the half's displacements to what is read
-    mirrored : (reader,)
-        Whether the reader looks at the mirror image of the half: reads, at y < 0, what its row says of the
-        reflected displacement.
+    mirrored : (reader,), whether the reader looks at the mirror image of the half: reads, at y < 0, what its
+        row says of the reflected displacement
     """
     components = stiffness.shape[0] // half.nodes
     even, odd = (_reduced(half, stiffness, loads, readers, components, symmetry) for symmetry in (1, -1))

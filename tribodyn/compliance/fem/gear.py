@@ -35,9 +35,8 @@ def memory_needed(level: int, components: int) -> float:
     Parameters
     ----------
     level : refinement of the mesh
-    components : int
-        Of the displacement: 2 in plane strain, 3 for loads that vary along the teeth, with root stress, and
-        for free end faces after them.
+    components : of the displacement: 2 in plane strain, 3 for loads that vary along the teeth, with root
+        stress, and for free end faces after them
     """
     cells, flank, root, edge = half_sector_cells(level)
     unknowns = components * 4.0 * cells
@@ -67,10 +66,7 @@ def available_memory() -> float:
 def check_level(level: int, components: int) -> None:
     """Refuse a mesh that cannot be, or that would not fit into the memory.
 
-    Raises
-    ------
-    InputError
-        Saying how much memory the level needs, and which one would fit.
+    Raises InputError saying how much memory the level needs, and which one would fit.
     """
     if level < 1:
         raise InputError(
@@ -99,21 +95,17 @@ def gear_compliance(
 ) -> GearCompliance:
     """Solve a gear of plain numbers in plane strain for unit loads at every vertex of a flank.
 
+    Raises InputError if the cells do not fit into a thin rim, or the mesh not into the memory.
+
     Parameters
     ----------
     tooth : as cut
     teeth : number of teeth
     bore_radius : where the body is held, m
     poisson_ratio : ν < 0.5
-    depth : float
-        Depth below the flank at which the loaded tooth's displacement is read, m, as it is at twice that; a
-        cell or more, so that the mesh resolves it.
+    depth : depth below the flank at which the loaded tooth's displacement is read, m, as it is at twice that;
+        a cell or more, so that the mesh resolves it
     level : multiplies the number of cells in both directions
-
-    Raises
-    ------
-    InputError
-        If the cells do not fit into a thin rim, or the mesh not into the memory.
     """
     check_level(level, 2)
     model = gear_model(tooth, teeth, bore_radius, depth, level)

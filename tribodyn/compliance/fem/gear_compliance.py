@@ -21,9 +21,8 @@ class LeadHarmonics(NamedTuple):
     wave_number : (K,), k, rad/m, increasing from 0
     inside : (K, 2, M)
     between : (K, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`, per unit line load
-    root_position : (2, P)
-        x and y in the tooth's frame, m, of the points on the loaded flank's side, y > 0, from the middle of
-        the gap to the flank; those of the other side are their mirror images.
+    root_position : (2, P), x and y in the tooth's frame, m, of the points on the loaded flank's side, y > 0,
+        from the middle of the gap to the flank; those of the other side are their mirror images
     root_stress : (K, 2 NEIGHBOURS + 1, 2, P, M)
         Stress along the profile, tension positive, per unit line load, 1/m: on the tooth k − NEIGHBOURS
         pitches towards +y of the loaded one, on its own side y > 0 (0) and y < 0 (1).
@@ -68,9 +67,8 @@ class GearCompliance(NamedTuple):
     Attributes
     ----------
     radius : (M,), distance of the positions from the axis, m, increasing
-    inside : (2, M)
-        Displacement, along the load, of the points at the depth and at twice the depth below a loaded
-        position.
+    inside : (2, M), displacement, along the load, of the points at the depth and at twice the depth below a
+        loaded position
     between : (2 NEIGHBOURS + 1, M, M)
         Displacement at position i of the flank k − NEIGHBOURS pitches towards +y of the tooth's frame, the
         side of the loaded flank, per load at position j; infinite in truth for the tooth itself where i = j.

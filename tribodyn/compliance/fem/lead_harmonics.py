@@ -41,9 +41,8 @@ class LeadCompliance(NamedTuple):
     Attributes
     ----------
     radius : (M,), m
-    own : (N, M)
-        Displacement along the load per line load, freed of the depth: to be added to Weber-Banaschek's
-        deflection from the surface to `GearCompliance.depth`.
+    own : (N, M), displacement along the load per line load, freed of the depth: to be added to
+        Weber-Banaschek's deflection from the surface to `GearCompliance.depth`
     between : (N, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`
     root_stress : (N, 2 NEIGHBOURS + 1, 2, P, M), as in `LeadHarmonics`, 1/m
     """

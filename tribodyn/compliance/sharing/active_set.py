@@ -34,9 +34,8 @@ class Pressed(NamedTuple):
     ----------
     load : (position, place), N, ≥ 0
     deflection : (position,), ξ, m
-    overlap : (position, place)
-        ξ a − g less what the other places' loads deflect, m: what a place's own load takes up where it is
-        positive; the distance still open where negative.
+    overlap : (position, place), ξ a − g less what the other places' loads deflect, m: what a place's own load
+        takes up where it is positive; the distance still open where negative
     stiffness : (position,), dT/dξ, N m/m: of the places that touch, the local deflection's tangent included
     """
 
@@ -83,6 +82,8 @@ def press(
 ) -> Pressed:
     """Find loads that carry a torque; arrays over (position, place) unless said otherwise.
 
+    Raises SimulationError if no state of contact is found.
+
     Parameters
     ----------
     matrix : (position, place, place), Λ, m/N
@@ -91,11 +92,6 @@ def press(
     lever : l, m
     gap : g, m, of either sign
     torque : (position,), T > 0, N m
-
-    Raises
-    ------
-    SimulationError
-        If no state of contact is found.
     """
     positions, places = gap.shape
     mean = torque / np.max(lever, axis=-1)

@@ -55,9 +55,8 @@ def condense(
     geometry : of the pairs (position, pair)
     gap : (position, pair, slice), all of it, m
     shared : the state
-    minimum_load : float
-        Load, N, with which a pair is linearised that carries less or nothing: pressed alone, as the others'
-        loads leave its flank.
+    minimum_load : load, N, with which a pair is linearised that carries less or nothing: pressed alone, as
+        the others' loads leave its flank
     coupled : whether slices hold each other
     """
     parts = [

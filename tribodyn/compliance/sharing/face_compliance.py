@@ -18,9 +18,8 @@ def slice_compliance(
     ----------
     geometry : of the pairs (position, pair), one pitch apart, the one that entered first in front
     slices : one is plane strain
-    coupled : bool
-        Whether slices hold each other through the teeth and bodies, and the end faces are free; else each
-        slice is in plane strain by itself.
+    coupled : whether slices hold each other through the teeth and bodies, and the end faces are free; else
+        each slice is in plane strain by itself
     """
     matrix = by_slices(pair_harmonics(flexible, geometry, slices, coupled), slices)
     if coupled and slices > 1:

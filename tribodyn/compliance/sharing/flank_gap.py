@@ -151,11 +151,8 @@ def relief_rolls(assembly: Assembly, modifications: Modifications) -> list[float
 def check_modifications(assembly: Assembly, modifications: Modifications) -> None:
     """Refuse reliefs that are no longer reliefs, and errors that are not one per tooth.
 
-    Raises
-    ------
-    InputError
-        If a relief is longer than the active path or deeper than a share of the tooth, or negative; and for
-        the rules that hold for every shape of teeth (`broken_flank_rules`).
+    Raises InputError if a relief is longer than the active path or deeper than a share of the tooth, or
+    negative; and for the rules that hold for every shape of teeth (`broken_flank_rules`).
     """
     for side in SIDES:
         _check_flank(assembly, getattr(modifications, side), side)

@@ -148,6 +148,8 @@ def share_load(
 ) -> SharedLoad:
     """Share the gear's torque among the pairs that can touch, and along their faces.
 
+    Raises SimulationError if no state of contact is found.
+
     Parameters
     ----------
     roll : (position, pair)
@@ -160,11 +162,6 @@ def share_load(
         What is missing between the flanks beside the corners' gap, m: errors and modifications.
     slices : equal slices of the face
     coupled : whether slices hold each other through the teeth and bodies
-
-    Raises
-    ------
-    SimulationError
-        If no state of contact is found.
     """
     geometry = pair_geometry(flexible.assembly, roll)
     motion = geometry.motion

@@ -30,10 +30,7 @@ def check_contact(
 
     A slice must be as wide as its contact: the loads of narrower ones are not line loads to each other.
 
-    Raises
-    ------
-    InputError
-        Names the key, the rule and a value that obeys it.
+    Raises InputError, which names the key, the rule and a value that obeys it.
     """
     check_torque(gear_torque)
     check_modifications(flexible.assembly, modifications)

@@ -34,9 +34,8 @@ class SplineShape(NamedTuple):
     ----------
     angles : (n,), pressure angles at the knots, rad, from the approach's end to the recess's
     knots : (n,), optional; signed distances of the knots, m, ascending, 0 among them; plain numbers
-    path_length : float, optional
-        In place of knots: the n knots divide half this length evenly on either side of P, n // 2 intervals
-        in approach and (n − 1) // 2 in recess, m.
+    path_length : optional; in place of knots: the n knots divide half this length evenly on either side of P,
+        n // 2 intervals in approach and (n − 1) // 2 in recess, m
     corner : by how much the corner at P raises α from P to half the path length on either side, rad
     """
 

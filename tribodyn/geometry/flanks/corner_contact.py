@@ -30,9 +30,8 @@ class PairGeometry(NamedTuple):
     motion : direction, arms, curvatures and speeds, `path.kinematics`
     gap : distance between corner and flank along the flank's normal while nothing is loaded, m; 0 on the path
     pinion_radius, gear_radius : where each flank is touched: distance from its own axis, m
-    pinion_place, gear_place : array
-        The same as the signed distance at which that point of the flank is on the path of contact, m; both
-        are the contact's own on the path.
+    pinion_place, gear_place : the same as the signed distance at which that point of the flank is on the path
+        of contact, m; both are the contact's own on the path
     """
 
     motion: Kinematics

@@ -78,9 +78,8 @@ def profile_curve(assembly: Assembly, pinion: Deviations, gear: Deviations, base
 
     Parameters
     ----------
-    base_pitch : bool
-        Whether the pitch deviations of a pair of teeth count as a deviation of base pitch, which opens or
-        closes the flanks evenly along the path: so that one mesh cycle can stand for all teeth.
+    base_pitch : whether the pitch deviations of a pair of teeth count as a deviation of base pitch, which
+        opens or closes the flanks evenly along the path: so that one mesh cycle can stand for all teeth
     """
     start, end = (float(limit) for limit in assembly.roll_limits)
     share = np.linspace(0.0, 1.0, _POINTS)

@@ -108,10 +108,9 @@ def back_flanks(modifications: Modifications, pressure_angle: float) -> Modifica
 
     Parameters
     ----------
-    pressure_angle : float
-        α_w at the pitch point, rad. Inclined axes open the driving and the back flanks alike, skew axes open
-        the ones and close the others, so that `Misalignment` changes by the angle 2 α_w between the planes
-        of action.
+    pressure_angle : α_w at the pitch point, rad. Inclined axes open the driving and the back flanks alike,
+        skew axes open the ones and close the others, so that `Misalignment` changes by the angle 2 α_w
+        between the planes of action
     """
     within, across = modifications.misalignment
     cosine, sine = math.cos(2.0 * pressure_angle), math.sin(2.0 * pressure_angle)

@@ -43,9 +43,8 @@ class Tooth(NamedTuple):
         Signed distances r (m) on the generating path where the flank begins (at the fillet) and ends.
     form_angle : float
         Angle of the rack's normal where the fillet ends at the flank, rad; it grows to π/2 at the root.
-    overrun : float
-        −u_p where the rack's flank ends, m per rad: positive if it reaches beyond the point of zero velocity,
-        by this distance for the involute, and undercuts the tooth.
+    overrun : −u_p where the rack's flank ends, m per rad: positive if it reaches beyond the point of zero
+        velocity, by this distance for the involute, and undercuts the tooth
     corner_x, corner_y : centre of the rack's rounded tip in the rack's frame at φ = 0, m
     corner_radius : radius of the rack's rounded tip, m
     corner_limit : float
@@ -98,9 +97,8 @@ class ToothContact(NamedTuple):
     Parameters
     ----------
     x, y : contact point in the tooth's frame, m
-    load_angle : array
-        Angle α_1 (rad) from the perpendicular of the tooth's axis to the normal load F: F cos α_1 bends the
-        tooth towards its axis, F sin α_1 presses it along the axis into the body.
+    load_angle : angle α_1 (rad) from the perpendicular of the tooth's axis to the normal load F: F cos α_1
+        bends the tooth towards its axis, F sin α_1 presses it along the axis into the body
     """
 
     x: PerContact
@@ -269,9 +267,8 @@ def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact
     Parameters
     ----------
     body_path : working path seen from the body: `path.seen_from(family.working_path(drive), side)`
-    pitch_half_angle : float
-        Half thickness angle on the working pitch circle, rad:
-        `thickness_half_angle(tooth, body_path.pinion_pitch_radius)`.
+    pitch_half_angle : half thickness angle on the working pitch circle, rad: `thickness_half_angle(tooth,
+        body_path.pinion_pitch_radius)`
     r : signed distance in the body's own view, m: r of the drive for the pinion, −r for the gear
     """
     pitch_radius = body_path.pinion_pitch_radius

@@ -21,9 +21,8 @@ class Samples(NamedTuple):
     Attributes
     ----------
     turned : (K,), rotation since the first sample, in pitches
-    phase : (K,)
-        Phase of the table at each sample. Where the gear drives it falls: contact begins where the table's
-        ends, in the mirrored world in which the back flanks are driving flanks.
+    phase : (K,), phase of the table at each sample. Where the gear drives it falls: contact begins where the
+        table's ends, in the mirrored world in which the back flanks are driving flanks
     later : (K,) bool
         Where the table counts the pairs one slot later than the record.
     way : +1, or −1 where the gear drives

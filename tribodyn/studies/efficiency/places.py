@@ -25,9 +25,8 @@ class Places(NamedTuple):
     Attributes
     ----------
     phase : (K,), mesh cycles
-    cycle : MeshCycle
-        A table of one node in each of K segments, driving flanks only; its kinematics are the path's own, and
-        in contact are the pairs that may carry load under the load sharing in use.
+    cycle : a table of one node in each of K segments, driving flanks only; its kinematics are the path's own,
+        and in contact are the pairs that may carry load under the load sharing in use
     roll : (K, Q), pinion angles of the pairs from the pitch point, rad
     flanks : by what the pairs share the load; None: by the table's compliances, or not elastically
     """
@@ -51,6 +50,8 @@ def places(
 ) -> Places:
     """Look up the mesh at phases 0 … 1: compliance and gap from the table, kinematics from the path.
 
+    Raises InputError if one pair shall carry the load over a pitch that its contact does not cover.
+
     Parameters
     ----------
     cycle : of concrete numbers
@@ -60,11 +61,6 @@ def places(
     flanks : LoadedFlanks, optional
         The load contact model that the table was made from (`tabulate_loaded`). Pairs that share elastically
         then touch beyond the path as well, where a corner meets a flank; the others know the path only.
-
-    Raises
-    ------
-    InputError
-        If one pair shall carry the load over a pitch that its contact does not cover.
     """
     pairs = cycle.front_pairs
     segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)

@@ -77,10 +77,8 @@ class PreparedEfficiency(PreparedGears[EfficiencyCase]):
 def prepare(case: EfficiencyCase) -> PreparedEfficiency:
     """Check the geometry and tabulate the mesh.
 
-    Raises
-    ------
-    InputError
-        Where the teeth cannot be made or cannot run together, or the load sharing does not fit them.
+    Raises InputError where the teeth cannot be made or cannot run together, or the load sharing does not fit
+    them.
     """
     from tribodyn.mesh.by_compliance import loaded_flanks_of, mesh_cycle_of
 

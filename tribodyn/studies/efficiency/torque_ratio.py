@@ -120,14 +120,11 @@ def torque_ratio(
 
     Where the gear drives, the gears exchange their places and the flanks slide the other way, s = −sgn ψ.
 
+    Raises SimulationError as `equilibrium.settled`.
+
     Parameters
     ----------
     input_torque, pinion_speed, face_width : Γ_1 (of the gear, where that drives: Γ_2) N m, ω_1 rad/s, b m
-
-    Raises
-    ------
-    SimulationError
-        As `equilibrium.settled`.
     """
     normal_arm = np.stack([pair.pinion_normal_arm, pair.gear_normal_arm])
     friction_arm = np.stack([pair.pinion_friction_arm, pair.gear_friction_arm])
