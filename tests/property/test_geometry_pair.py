@@ -18,8 +18,8 @@ from tribodyn.geometry.path import (
     radius,
     seen_from,
 )
-from tribodyn.geometry.tooth.body import gear_polygon, section_area_and_inertia
-from tribodyn.geometry.tooth.tooth import cut_tooth, flank_point, thickness_half_angle, tooth_outline
+from tribodyn.geometry.tooth.body import gear_polygon, section_area_and_inertia, tooth_outline
+from tribodyn.geometry.tooth.tooth import cut_tooth, flank_point, thickness_half_angle
 
 
 def limits_of(family, drive):

@@ -7,8 +7,7 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Side, body_of
-from tribodyn.geometry.tooth.body import ROOT_POINTS, TIP_POINTS, half_profile
-from tribodyn.geometry.tooth.tooth import tooth_outline
+from tribodyn.geometry.tooth.body import ROOT_POINTS, TIP_POINTS, half_profile, tooth_outline
 from tribodyn.numerics.output_files import MARKS, write_output
 
 #: Columns of the file.

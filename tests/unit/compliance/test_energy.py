@@ -23,7 +23,8 @@ from tribodyn.geometry.drive import SIDES, Drive, GearBody
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import distance_at_radius, kinematics
-from tribodyn.geometry.tooth.tooth import contact_in_tooth_frame, tooth_outline
+from tribodyn.geometry.tooth.body import tooth_outline
+from tribodyn.geometry.tooth.tooth import contact_in_tooth_frame
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 

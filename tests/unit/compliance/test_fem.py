@@ -14,8 +14,8 @@ from tribodyn.compliance.fem.strips import curved_basis, plane_stiffness
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth.body import section_area_and_inertia
-from tribodyn.geometry.tooth.tooth import cut_tooth, flank_point, tooth_outline
+from tribodyn.geometry.tooth.body import section_area_and_inertia, tooth_outline
+from tribodyn.geometry.tooth.tooth import cut_tooth, flank_point
 
 DEEP = 1.5e-3  # twice that is beyond the tooth's axis
 

@@ -8,7 +8,8 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.limits.checks import check, check_sizes
+from tribodyn.geometry.limits.checks import check
+from tribodyn.geometry.limits.sizes import check_sizes
 
 
 def body(teeth, shift=0.0, **changes):

@@ -20,15 +20,19 @@ from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.path import contact_limits, kinematics, seen_from
 from tribodyn.geometry.sheet.sheet import geometry_sheet
-from tribodyn.geometry.tooth.body import gear_polygon, mass_and_inertia, section_area_and_inertia
-from tribodyn.geometry.tooth.tooth import (
+from tribodyn.geometry.tooth.body import (
     ToothOutline,
+    gear_polygon,
+    mass_and_inertia,
+    section_area_and_inertia,
+    tooth_outline,
+)
+from tribodyn.geometry.tooth.tooth import (
     contact_in_tooth_frame,
     cut_tooth,
     fillet_point,
     flank_point,
     thickness_half_angle,
-    tooth_outline,
 )
 
 

@@ -130,7 +130,7 @@ def test_losses_can_be_traced(name):
         (("involute-18-36-fem", "mean_stiffness", ["drive.module"]), 'mesh.compliance = "fem"'),
         (("cycloidal-23-47", "hertz_pressure", ["drive.module"]), "infinite at the pitch point"),
         (("backlash-oscillator", "contact_ratio", ["damping"]), "no gear pair"),
-        (("load-contact-18-36", "efficiency", ["drive.module"]), "[mesh]"),
+        (("load-contact-18-36", "efficiency", ["drive.module"]), "[friction]"),
     ],
 )
 def test_what_cannot_be_differentiated(arguments, said):

@@ -1,6 +1,5 @@
 """Whether a drive can be made and can run: one clear message for the first rule that it breaks."""
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -17,14 +16,13 @@ from tribodyn.geometry.assembly import (
     tip_clearance,
     tip_corner_gap,
 )
-from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_circle_radius
+from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, tip_circle_radius
 from tribodyn.geometry.family import Family
+from tribodyn.geometry.limits.sizes import advice, boundary, check_sizes, millimetres, replaced, require
 from tribodyn.geometry.tooth.tooth import Tooth, flank_point, thickness_half_angle
 
-_MAXIMUM_PRESSURE_ANGLE = math.radians(45)
 # An overlap below this share of the module is the chord error of the fillet's points.
 _OVERLAP_TOLERANCE = 1e-5
-_LENGTHS = ("module", "centre_distance", "face_width", "bore_radius", "tip_radius")
 # Overlap of back flanks, in modules, that is rounding.
 _ROUNDING = 1e-9
 
@@ -57,72 +55,15 @@ def check(family: Family, drive: Drive) -> Assembly:
     return assembly
 
 
-def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
-    """Refuse numbers that are not finite or have the wrong sign; the pressure angle if the family has one."""
-    _require("module", drive.module, drive.module > 0, "must be greater than zero")
-    if pressure_angle:
-        angle_holds = 0 < drive.pressure_angle <= _MAXIMUM_PRESSURE_ANGLE
-        _require("pressure_angle", drive.pressure_angle, angle_holds, "must be between 0 and 45°")
-    for side in SIDES:
-        body = body_of(drive, side)
-        for name in GearBody._fields:
-            if getattr(body, name) is not None:
-                _require(f"{side}.{name}", getattr(body, name), True, "")
-        whole = body.teeth >= 3 and body.teeth == round(body.teeth)
-        _require(f"{side}.teeth", body.teeth, whole, "must be a whole number of at least 3")
-        for name in ("addendum", "dedendum", "face_width"):
-            value = getattr(body, name)
-            _require(f"{side}.{name}", value, value > 0, "must be greater than zero")
-        for name in ("fillet_radius", "bore_radius"):
-            value = getattr(body, name)
-            _require(f"{side}.{name}", value, value >= 0, "must not be negative")
-
-
-def _require(key: str, value: Any, holds: bool, rule: str) -> None:
-    if not math.isfinite(value):
-        raise InputError(f"drive.{key}", value, "must be a finite number")
-    if not holds:
-        name = key.rpartition(".")[2]
-        shown = f"{math.degrees(value):.4g}°" if name == "pressure_angle" else value
-        raise InputError(f"drive.{key}", _millimetres(value) if name in _LENGTHS else shown, rule)
-
-
-def replaced(drive: Drive, side: Side, **changes: Any) -> Drive:
-    """Return the drive with some numbers of one body changed."""
-    return drive._replace(**{side: body_of(drive, side)._replace(**changes)})
-
-
-def boundary(holds: Callable[[float], bool], bad: float, good: float) -> float | None:
-    """Find the value nearest to `bad` that obeys a rule, rounded to 0.001 on the safe side.
-
-    None if `good` breaks the rule too.
-    """
-    if not holds(good):
-        return None
-    sign = 1 if good > bad else -1
-    for _ in range(30):
-        middle = (bad + good) / 2
-        bad, good = (bad, middle) if holds(middle) else (middle, good)
-    return sign * math.ceil(sign * good * 1000) / 1000
-
-
-def _advice(limit: float | None, bound: str, otherwise: str) -> str:
-    return otherwise if limit is None else f"use {bound} {limit:.7g}"
-
-
-def _millimetres(length: float) -> str:
-    return f"{1e3 * length:.4g} mm"
-
-
 def _check_centre_distance(family: Family, drive: Drive) -> None:
     if drive.centre_distance is None:
         return
     given = drive.centre_distance
-    _require("centre_distance", given, given > 0, "must be greater than zero")
+    require("centre_distance", given, given > 0, "must be greater than zero")
     if not family.involute:
         rule = f"teeth of the family {family.name} are conjugate at one centre distance only"
         remedy = "leave centre_distance out, or use involutes, which mesh at any"
-        raise InputError("drive.centre_distance", _millimetres(given), rule, remedy)
+        raise InputError("drive.centre_distance", millimetres(given), rule, remedy)
 
 
 def _check_backlash(assembly: Assembly) -> None:
@@ -144,8 +85,8 @@ def _check_root(assembly: Assembly, side: Side) -> None:
         rule = "the teeth would be cut past the axis"
         raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, "use a smaller one or more teeth")
     if not body.bore_radius < root:
-        rule = f"the bore reaches the root circle, whose radius is {_millimetres(root)}"
-        raise InputError(f"drive.{side}.bore_radius", _millimetres(body.bore_radius), rule, "use less")
+        rule = f"the bore reaches the root circle, whose radius is {millimetres(root)}"
+        raise InputError(f"drive.{side}.bore_radius", millimetres(body.bore_radius), rule, "use less")
 
 
 def _check_rack_corners(assembly: Assembly, side: Side) -> None:
@@ -164,7 +105,7 @@ def _check_rack_corners(assembly: Assembly, side: Side) -> None:
         )
     rule = "the rack's flanks meet before they reach its tip"
     maximum = boundary(lambda value: fits(dedendum=value), body.dedendum, body.fillet_radius)
-    remedy = _advice(maximum, "at most", "use a smaller pressure angle")
+    remedy = advice(maximum, "at most", "use a smaller pressure angle")
     raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, remedy)
 
 
@@ -179,7 +120,7 @@ def _check_undercut(assembly: Assembly, side: Side) -> None:
         return Assembly(family, replaced(drive, side, profile_shift=shift))
 
     rule = (
-        f"the rack undercuts the working part of the flank up to the radius {_millimetres(tooth.form_radius)}"
+        f"the rack undercuts the working part of the flank up to the radius {millimetres(tooth.form_radius)}"
     )
     otherwise = "use more teeth, a larger pressure angle or a smaller dedendum"
     if family.parameters:
@@ -189,7 +130,7 @@ def _check_undercut(assembly: Assembly, side: Side) -> None:
         minimum = boundary(lambda value: bool(shifted(value).tooth(side).overrun <= 0), shift, shift + 2)
         if minimum is not None:  # less will do where the undercut stays below the lowest contact
             minimum = boundary(lambda value: not _undercut(shifted(value), side), shift, minimum)
-        remedy = _advice(minimum, "at least", otherwise)
+        remedy = advice(minimum, "at least", otherwise)
         raise InputError(f"drive.{side}.profile_shift", body.profile_shift, rule, remedy)
     raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, otherwise)
 
@@ -214,12 +155,12 @@ def _check_tip(assembly: Assembly, side: Side) -> None:
         return thickness(Assembly(family, changed).tooth(side)) > 0
 
     if not tooth.tip_radius > tooth.form_radius:
-        rule = f"nothing is left of the flank, which begins at the radius {_millimetres(tooth.form_radius)}"
+        rule = f"nothing is left of the flank, which begins at the radius {millimetres(tooth.form_radius)}"
         raise InputError(*_tip_key(drive, side), rule, "use a larger one")
     if thickness(tooth) > 0:
         _check_rounding(assembly, side)
         return
-    rule = f"the tip is pointed (thickness {_millimetres(thickness(tooth))})"
+    rule = f"the tip is pointed (thickness {millimetres(thickness(tooth))})"
     if body.tip_radius is None and family.shiftable and body.profile_shift > 0:
         maximum = boundary(
             lambda shift: blunt(replaced(drive, side, profile_shift=shift)), body.profile_shift, 0.0
@@ -240,8 +181,8 @@ def _check_rounding(assembly: Assembly, side: Side) -> None:
         largest = half * cosine / (1.0 - sine)
         rule = "the rounded edges of the tip meet"
         given = body.tip_break / (1.0 - sine)
-        remedy = f"use at most {_millimetres(largest)}"
-        raise InputError(f"drive.{side}.tip_rounding", _millimetres(given), rule, remedy)
+        remedy = f"use at most {millimetres(largest)}"
+        raise InputError(f"drive.{side}.tip_rounding", millimetres(given), rule, remedy)
 
 
 def _tip_key(drive: Drive, side: Side) -> tuple[str, Any]:
@@ -249,7 +190,7 @@ def _tip_key(drive: Drive, side: Side) -> tuple[str, Any]:
     body = body_of(drive, side)
     if body.tip_radius is None:
         return f"drive.{side}.addendum", body.addendum
-    return f"drive.{side}.tip_radius", _millimetres(body.tip_radius)
+    return f"drive.{side}.tip_radius", millimetres(body.tip_radius)
 
 
 def _refuse_tip(drive: Drive, side: Side, rule: str, holds: Callable[[Drive], bool], minimum: float) -> None:
@@ -275,7 +216,7 @@ def _check_clearance(assembly: Assembly, side: Side) -> None:
 
     clearance = tip_clearance(assembly, side)
     if not clearance > 0:
-        rule = f"the tip reaches {_millimetres(-clearance)} below the root circle of the {mate_of(side)}"
+        rule = f"the tip reaches {millimetres(-clearance)} below the root circle of the {mate_of(side)}"
         _refuse_tip(assembly.drive, side, rule, clear, assembly.tooth(side).form_radius)
 
 
@@ -287,7 +228,7 @@ def _check_contact_ratio(assembly: Assembly) -> None:
         distance = assembly.drive.centre_distance
         if distance is not None and (usable := _usable_centre_distance(assembly, distance)) is not None:
             remedy = f"use at most {usable:.7g} mm, or larger addenda"
-            raise InputError("drive.centre_distance", _millimetres(distance), rule, remedy)
+            raise InputError("drive.centre_distance", millimetres(distance), rule, remedy)
         raise InputError(*_tip_key(assembly.drive, "pinion"), rule, remedy)
 
 
@@ -311,12 +252,12 @@ def _interference(assembly: Assembly, side: Side) -> str:
         return f"the tip reaches past the end of any flank of the {side}"
     if not contact >= form:
         return (
-            f"the tip touches the {side} at the radius {_millimetres(contact)}, in the fillet: "
-            f"the flank begins at {_millimetres(form)}"
+            f"the tip touches the {side} at the radius {millimetres(contact)}, in the fillet: "
+            f"the flank begins at {millimetres(form)}"
         )
     gap = tip_corner_gap(assembly, side)
     if gap < -_OVERLAP_TOLERANCE * assembly.drive.module:
-        return f"the corner of the tip cuts {_millimetres(-gap)} into the fillet of the {side}"
+        return f"the corner of the tip cuts {millimetres(-gap)} into the fillet of the {side}"
     return ""
 
 

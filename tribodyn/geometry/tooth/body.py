@@ -1,15 +1,68 @@
 """The whole gear from one tooth: its polygon, its mass and its inertia about the axis."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Side, body_of
-from tribodyn.geometry.tooth.tooth import ToothOutline, thickness_half_angle, tooth_outline
+from tribodyn.geometry.tooth.tooth import (
+    Tooth,
+    fillet_point,
+    flank_point,
+    thickness_half_angle,
+)
 from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt
 from tribodyn.numerics.shapes import Array, Float
+
+
+class ToothOutline(NamedTuple):
+    """Half a tooth as points, from the root circle over the fillet and the flank to the tip circle.
+
+    Parameters
+    ----------
+    fillet_x, fillet_y, flank_x, flank_y : array
+        Points (m) in the tooth's frame; the fillet's last point is the flank's first.
+    root_radius, form_radius, tip_radius : radii of the root circle, of the junction and of the tip circle, m
+    root_half_angle : angle between the tooth's axis and the point where the fillet meets the root circle, rad
+    tip_half_thickness : half thickness at the tip circle, m; negative where the tooth would be pointed
+    """
+
+    fillet_x: Float[Array, " fillet"]
+    fillet_y: Float[Array, " fillet"]
+    flank_x: Float[Array, " flank"]
+    flank_y: Float[Array, " flank"]
+    root_radius: Any
+    form_radius: Any
+    tip_radius: Any
+    root_half_angle: Any
+    tip_half_thickness: Any
+
+
+def tooth_outline(tooth: Tooth, flank_points: int = 60, fillet_points: int = 30) -> ToothOutline:
+    """Points of half a tooth: even steps of r along the flank, of the rack's normal along the fillet.
+
+    The fillet starts at the root circle; its last point is the flank's first.
+    """
+    along = np.linspace(0.0, 1.0, flank_points)
+    flank_x, flank_y = flank_point(
+        tooth, tooth.form_distance + along * (tooth.tip_distance - tooth.form_distance)
+    )
+    along = np.linspace(0.0, 1.0, fillet_points)
+    fillet_x, fillet_y = fillet_point(tooth, np.pi / 2 + along * (tooth.form_angle - np.pi / 2))
+    return ToothOutline(
+        fillet_x=fillet_x,
+        fillet_y=fillet_y,
+        flank_x=flank_x,
+        flank_y=flank_y,
+        root_radius=tooth.root_radius,
+        form_radius=tooth.form_radius,
+        tip_radius=tooth.tip_radius,
+        root_half_angle=tooth.half_angle + tooth.corner_x / tooth.path.pinion_pitch_radius,
+        tip_half_thickness=flank_y[-1],
+    )
+
 
 #: Points of the root circle below half a tooth and of its tip circle, beside the ends of fillet and flank.
 ROOT_POINTS, TIP_POINTS = 4, 3

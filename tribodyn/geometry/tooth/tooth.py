@@ -68,29 +68,6 @@ class Tooth(NamedTuple):
     tip_radius: Any
 
 
-class ToothOutline(NamedTuple):
-    """Half a tooth as points, from the root circle over the fillet and the flank to the tip circle.
-
-    Parameters
-    ----------
-    fillet_x, fillet_y, flank_x, flank_y : array
-        Points (m) in the tooth's frame; the fillet's last point is the flank's first.
-    root_radius, form_radius, tip_radius : radii of the root circle, of the junction and of the tip circle, m
-    root_half_angle : angle between the tooth's axis and the point where the fillet meets the root circle, rad
-    tip_half_thickness : half thickness at the tip circle, m; negative where the tooth would be pointed
-    """
-
-    fillet_x: Float[Array, " fillet"]
-    fillet_y: Float[Array, " fillet"]
-    flank_x: Float[Array, " flank"]
-    flank_y: Float[Array, " flank"]
-    root_radius: Any
-    form_radius: Any
-    tip_radius: Any
-    root_half_angle: Any
-    tip_half_thickness: Any
-
-
 class ToothContact(NamedTuple):
     """Where the mate touches a tooth and how its normal load stands to the tooth's axis.
 
@@ -278,27 +255,3 @@ def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact
     chi = pitch_half_angle + arctan2(x, pitch_radius + y) - rotation
     load_angle = body_path.pressure_angle(r) - pitch_half_angle + rotation
     return ToothContact(distance * cos(chi), distance * sin(chi), load_angle)
-
-
-def tooth_outline(tooth: Tooth, flank_points: int = 60, fillet_points: int = 30) -> ToothOutline:
-    """Points of half a tooth: even steps of r along the flank, of the rack's normal along the fillet.
-
-    The fillet starts at the root circle; its last point is the flank's first.
-    """
-    along = np.linspace(0.0, 1.0, flank_points)
-    flank_x, flank_y = flank_point(
-        tooth, tooth.form_distance + along * (tooth.tip_distance - tooth.form_distance)
-    )
-    along = np.linspace(0.0, 1.0, fillet_points)
-    fillet_x, fillet_y = fillet_point(tooth, np.pi / 2 + along * (tooth.form_angle - np.pi / 2))
-    return ToothOutline(
-        fillet_x=fillet_x,
-        fillet_y=fillet_y,
-        flank_x=flank_x,
-        flank_y=flank_y,
-        root_radius=tooth.root_radius,
-        form_radius=tooth.form_radius,
-        tip_radius=tooth.tip_radius,
-        root_half_angle=tooth.half_angle + tooth.corner_x / tooth.path.pinion_pitch_radius,
-        tip_half_thickness=flank_y[-1],
-    )
