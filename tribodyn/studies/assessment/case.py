@@ -4,8 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from tribodyn.studies.assessment.layout import LAYOUT
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.case import GearCase
+from tribodyn.studies.protocol.cost import FINITE_ELEMENTS, load_sharing, recorded, steady_states, total
+from tribodyn.studies.protocol.estimate import Driver, Estimate
 from tribodyn.tribology.lubricant import LubricantData
 
 
@@ -70,3 +73,22 @@ class AssessmentCase(GearCase):
     quality: Quality
     settings: AssessmentSettings
     limits: Mapping[str, Any]
+
+
+#: Positions of the slow rotation, and places of one pair's path among them.
+_POSITIONS, _PLACES = 60, 120
+
+
+def estimate(case: AssessmentCase) -> Estimate:
+    """What a run of a case takes."""
+    settings = case.settings
+    return total(
+        (
+            Driver("assessment.speeds", settings.speeds, 46),
+            Driver("assessment.samples", settings.samples, 16),
+        ),
+        recorded(LAYOUT, {"roll_angle": _PLACES}, outlines=True),
+        load_sharing(float(_POSITIONS) * (1 + len(settings.torque_shares)), 1.0, _POSITIONS),
+        steady_states(settings.speeds, len(settings.friction_laws), settings.samples),
+        FINITE_ELEMENTS,
+    )

@@ -1,10 +1,35 @@
 """A case of the dynamics of a gear pair: everything one simulation needs to know, in SI units."""
 
+import math
 from dataclasses import dataclass
 
 from tribodyn.dynamics.data import BearingData
+from tribodyn.dynamics.parameters import STATES
+from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.solve.data import SolverData
 from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.gears.shared import LAYOUT
+from tribodyn.studies.protocol.cost import (
+    MARCHED_SAMPLE,
+    PAIRS,
+    SAMPLE_BYTES,
+    in_memory,
+    marching,
+    mesh_table,
+    recorded,
+    total,
+)
+from tribodyn.studies.protocol.estimate import Driver, Estimate
+
+#: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
+#: and an attribute of a record holds no longer spectrum.
+WIDEST_WINDOW = 400
+#: Mesh cycles until most steady states are found.
+STEADY_CYCLES = 60
+#: Stiffness of a mesh over width and modulus of elasticity: 20 N/(mm µm) of steel, ISO 6336-1.
+_MESH_STIFFNESS = 0.1
+#: How often the window's samples are held; share of a record that its summary and pictures read at once.
+_WINDOW_HELD, _READ = 2.0, 0.05
 
 
 @dataclass(frozen=True)
@@ -21,3 +46,83 @@ class Case(LubricatedCase):
     bearings: tuple[BearingData, BearingData]
     solver: SolverData
     output: OutputData
+
+
+def window_of(cycles: int) -> int:
+    """Mesh cycles at the end of a run that its means are of: a quarter of them, at most `WIDEST_WINDOW`."""
+    return max(1, min(cycles // 4, WIDEST_WINDOW))
+
+
+def estimate(case: Case) -> Estimate:
+    """What a run of a case takes."""
+    samples, cycles = float(case.output.samples_per_cycle), float(case.solver.cycles)
+    sides = 1 if case.mesh.backlash is None else 2
+    sizes = {"time": int(samples * cycles) + 1, "pair": PAIRS * sides, "dof": 6}
+    record = recorded(LAYOUT, sizes, _READ)
+    block, window = min(max(cycles / 4.0, 1.0), 50.0) * samples, window_of(int(cycles)) * samples
+    return total(
+        _drivers(case),
+        record,
+        _table(case),
+        in_memory(block * sides, SAMPLE_BYTES),
+        in_memory(_WINDOW_HELD * window, record.record / (samples * cycles + 1.0)),
+        _marching(case, cycles),
+    )
+
+
+def estimate_in_sweep(case: Case, cycles: int, window: int, together: int) -> Estimate:
+    """What a case of a sweep takes that marches so many mesh cycles, and the memory of those together."""
+    samples = float(case.output.samples_per_cycle)
+    marched = () if cycles == STEADY_CYCLES else (Driver("--transient", cycles, STEADY_CYCLES),)
+    return total(
+        (*_drivers(case), *marched),
+        _table(case)._replace(record=0.0),
+        in_memory(3.0 * together * window * samples, STATES * 8.0),
+        in_memory(window * samples, SAMPLE_BYTES),
+        _marching(case, float(cycles), together=True),
+        Estimate(seconds=MARCHED_SAMPLE * window * samples),
+    )
+
+
+def _drivers(case: Case) -> tuple[Driver, ...]:
+    """Keys that make a case large."""
+    return (
+        Driver("output.samples_per_cycle", case.output.samples_per_cycle, 200),
+        Driver("solver.cycles", case.solver.cycles, 20),
+        Driver("mesh.points", case.mesh.points, 65),
+        Driver("mesh.slices", case.mesh.slices, 21),
+    )
+
+
+def _table(case: Case) -> Estimate:
+    mesh = case.mesh
+    return mesh_table(
+        float(mesh.points), 1 if mesh.backlash is None else 2, mesh.slices if mesh.at_load else None
+    )
+
+
+def _marching(case: Case, cycles: float, *, together: bool = False) -> Estimate:
+    solver, samples = case.solver, case.output.samples_per_cycle
+    return marching(
+        cycles, _radians(case), solver.method, float(solver.max_steps), samples, together=together
+    )
+
+
+def _radians(case: Case) -> float:
+    """Radians of about the fastest oscillation in a mesh cycle: of the mesh, or of a gear on its bearing."""
+    mesh, drive = case.mesh, case.drive
+    bodies = [body_of(drive, side) for side in SIDES]
+    modulus, density = (
+        min(getattr(material, name) for material in case.materials) for name in ("youngs_modulus", "density")
+    )
+    width = min(body.face_width for body in bodies)
+    stiffness = mesh.stiffness if mesh.stiffness is not None else _MESH_STIFFNESS * modulus * width
+    bores = [(drive.module * body.teeth / 2) ** 2 - body.bore_radius**2 for body in bodies]
+    masses = [
+        max(density * math.pi * area * body.face_width, 1e-9)
+        for area, body in zip(bores, bodies, strict=True)
+    ]
+    bearings = [max(bearing.stiffness_x, bearing.stiffness_y) for bearing in case.bearings]
+    of_mesh = stiffness * (2.0 / masses[0] + 2.0 / masses[1])
+    fastest = math.sqrt(max(of_mesh, *(k / m for k, m in zip(bearings, masses, strict=True))))
+    return 2.0 * math.pi / (drive.pinion.teeth * case.operating.pinion_speed) * fastest

@@ -19,7 +19,7 @@ from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 from tribodyn.studies.gear_pair.assumptions import judge_balance, judge_block
-from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.gear_pair.case import Case, window_of
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures, warning_of
@@ -32,9 +32,6 @@ from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Checked, Progress, RunResult
 from tribodyn.tribology.closure import exceeded_limits, law_figures
 
-#: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
-#: and an attribute of a record holds no longer spectrum.
-WIDEST_WINDOW = 400
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
 REGULAR = "regular"
 AVERAGED = "radius and entrainment vanish; averaged over the contact's own half width"
@@ -165,11 +162,6 @@ def _by_standard(prepared: PreparedPair) -> dict[str, float]:
     duty = operating.pinion_speed, operating.gear_torque
     found = rated(prepared.assembly, case.materials, prepared.masses, case.quality, duty)
     return {"dynamic_factor_iso": found.dynamic.factor, "resonance_ratio_iso": found.dynamic.resonance_ratio}
-
-
-def window_of(cycles: int) -> int:
-    """Mesh cycles at the end of a run that its means are of: a quarter of them, at most `WIDEST_WINDOW`."""
-    return max(1, min(cycles // 4, WIDEST_WINDOW))
 
 
 class RunStatistics:

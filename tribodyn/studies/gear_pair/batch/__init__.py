@@ -12,8 +12,7 @@ from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
 from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate, tabulated
-from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.estimate import STEADY_CYCLES, swept
+from tribodyn.studies.gear_pair.case import STEADY_CYCLES, Case, estimate_in_sweep
 from tribodyn.studies.gear_pair.prepare import prepare, table_key
 from tribodyn.studies.gear_pair.sweep_layout import layout_of, row_bytes
 from tribodyn.studies.protocol.estimate import Estimate
@@ -69,7 +68,9 @@ class GearPairs:
     def estimate(self, case: Case, settings: SweepSettings, total: int, width: int) -> Estimate:
         """What one of so many cases takes."""
         together = min(total, self.size_of_chunk(settings, total, width))
-        taken = swept(case, STEADY_CYCLES if settings.steady else settings.cycles, settings.window, together)
+        taken = estimate_in_sweep(
+            case, STEADY_CYCLES if settings.steady else settings.cycles, settings.window, together
+        )
         return taken._replace(record=row_bytes(settings))
 
     def sharing(self, case: Case) -> Hashable:
