@@ -5,18 +5,18 @@ def main() -> None:
     """Run the command line; the entry point of the `tribodyn` command."""
     import sys
 
-    from tribodyn.cli.signals import end_when_asked, said_of, status_of
+    from tribodyn.cli.signals import end_when_asked, message_of, status_of
 
     end_when_asked()
     try:
         _main()
     except (KeyboardInterrupt, SystemExit) as end:
         # before a verb has begun; typer ends without a word then
-        asked = getattr(end.__context__, "__cause__", None) if isinstance(end, SystemExit) else end
-        if not isinstance(asked, KeyboardInterrupt):
+        interruption = getattr(end.__context__, "__cause__", None) if isinstance(end, SystemExit) else end
+        if not isinstance(interruption, KeyboardInterrupt):
             raise
-        sys.stderr.write(f"{said_of(asked)}\n")
-        raise SystemExit(status_of(asked)) from None
+        sys.stderr.write(f"{message_of(interruption)}\n")
+        raise SystemExit(status_of(interruption)) from None
 
 
 def _main() -> None:

@@ -9,7 +9,7 @@ from typing import NoReturn, ParamSpec
 
 import typer
 
-from tribodyn.cli.signals import said_of, silence, status_of
+from tribodyn.cli.signals import message_of, silence, status_of
 from tribodyn.errors import NO_ROOM, InputError, OutputError, SimulationError, harmless
 
 DONE = 0
@@ -36,7 +36,7 @@ def verb(function: Callable[Arguments, None]) -> Callable[Arguments, None]:
             complain(str(error))
             raise typer.Exit(BAD_INPUT if isinstance(error, InputError) else SIMULATION_FAILED) from None
         except KeyboardInterrupt as error:
-            complain(said_of(error))
+            complain(message_of(error))
             raise typer.Exit(status_of(error)) from None
         except BrokenPipeError:
             # the reader of a pipe has gone

@@ -29,8 +29,8 @@ def write_json(path: Path, data: dict[str, Any], force: bool) -> None:
     """Write `data` into a file that says who made it; raises as `write_output`."""
     from tribodyn.numerics.output_files import write_output
 
-    said = {"generator": "tribodyn", **plain(data)}
-    write_output(path, json.dumps(said, indent=2, ensure_ascii=False) + "\n", force=force)
+    marked = {"generator": "tribodyn", **plain(data)}
+    write_output(path, json.dumps(marked, indent=2, ensure_ascii=False) + "\n", force=force)
 
 
 def _escaped(text: str) -> str:

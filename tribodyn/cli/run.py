@@ -112,9 +112,9 @@ def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | Non
     files = result.summary.get("files", {}).values()
     if shown.json:
         more = {"pictures": [str(path) for path in drawn], **({"report": str(page)} if page else {})}
-        said = _as_json(result.path)
-        top = {name: said["summary"].get(name) for name in loaded.study.top()}
-        print_json({**said, **top, **more})
+        data = _as_json(result.path)
+        top = {name: data["summary"].get(name) for name in loaded.study.top()}
+        print_json({**data, **top, **more})
     else:
         typer.echo(f"record   {quoted_path(result.path)}")
         for file in files:

@@ -17,20 +17,20 @@ class Terminated(KeyboardInterrupt):
 
 def end_when_asked() -> None:
     """Let SIGTERM end a verb as Ctrl-C does, and SIGHUP: the terminal is closed, or the connection lost."""
-    asked = [signal.SIGTERM]
+    signals = [signal.SIGTERM]
     hangup = getattr(signal, "SIGHUP", None)  # none on Windows
     if hangup is not None and signal.getsignal(hangup) is not signal.SIG_IGN:  # as under nohup
-        asked.append(hangup)
+        signals.append(hangup)
 
     def terminate(_number: int, _frame: object) -> NoReturn:
-        for number in asked:  # once is enough: what follows is the conclusion of the record
+        for number in signals:  # once is enough: what follows is the conclusion of the record
             signal.signal(number, signal.SIG_IGN)
         for stream in (sys.stdout, sys.stderr):
             if _has_gone(stream):
                 silence(stream)
         raise Terminated("terminated by a signal")
 
-    for number in asked:
+    for number in signals:
         signal.signal(number, terminate)
 
 
@@ -39,7 +39,7 @@ def status_of(error: KeyboardInterrupt) -> int:
     return TERMINATED if isinstance(error, Terminated) else INTERRUPTED
 
 
-def said_of(error: KeyboardInterrupt) -> str:
+def message_of(error: KeyboardInterrupt) -> str:
     """What ended a verb, what it keeps and how to go on."""
     return "; ".join([str(error) or "interrupted", *getattr(error, "__notes__", ())])
 

@@ -277,16 +277,16 @@ def _pair(value: Any) -> Any:
 
 def _limits(problem: LineContact, rheology: Rheology, friction: float) -> tuple[str, ...]:
     """Say where oils do not follow the laws used."""
-    said = []
+    limits = []
     exponent = problem.fluid.pressure_viscosity * problem.hertz_pressure
     if exponent > SOLID:
-        said.append(
+        limits.append(
             f"α p_H {exponent:.0f} is above {SOLID:g}: an oil so stiff is a solid, whose film and friction "
             f"are extrapolated"
         )
     if friction > CREDIBLE and rheology.law != "limiting":
-        said.append(
+        limits.append(
             f'the "{rheology.law}" film bears more shear than any oil: friction coefficient {friction:.3g} '
             f'above {CREDIBLE:g}; rheology="limiting" bounds it'
         )
-    return tuple(said)
+    return tuple(limits)

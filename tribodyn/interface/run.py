@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from tribodyn.interface import datasets, shown
-from tribodyn.interface.animation import Animation, check_teeth
 from tribodyn.interface.scenario import Source, scenario
 from tribodyn.interface.words import in_python
 from tribodyn.record import trust
@@ -158,7 +157,7 @@ class Run:
             return write_report(records, path or f"{self.path.stem}.html", force=force)
 
     @in_python()
-    def animate(self, *others: "Run") -> Animation:
+    def animate(self, *others: "Run") -> shown.Animation:
         """Roll the teeth through mesh, with the path of contact and the loads of the pairs.
 
         Parameters
@@ -168,7 +167,7 @@ class Run:
 
         Returns
         -------
-        Animation
+        shown.Animation
             Shows itself in a notebook; `html` is its page.
 
         Raises
@@ -179,8 +178,8 @@ class Run:
         from tribodyn.studies.pages.page import report
 
         with records_of([self, *others]) as records:
-            check_teeth(records)
-            return Animation(report(records, figures=False))
+            shown.check_teeth(records)
+            return shown.Animation(report(records, figures=False))
 
     @in_python()
     def save(self, path: str | Path, *, force: bool = False) -> Path:

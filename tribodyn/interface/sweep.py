@@ -89,27 +89,29 @@ class Sweep:
             return sweep_figure(name, [record], at)
 
     def __repr__(self) -> str:
-        return f"<tribodyn sweep: {self.scenario.get('title', self.path.stem)} [{self._said()}], {self.path}>"
+        return (
+            f"<tribodyn sweep: {self.scenario.get('title', self.path.stem)} [{self._state()}], {self.path}>"
+        )
 
     def _repr_html_(self) -> str:
         """Title, size, a small picture and the dataset, for notebooks."""
         study = study_of(self.scenario)
         return shown.block(
-            shown.heading(str(self.scenario.get("title", self.path.stem)), self._said()),
+            shown.heading(str(self.scenario.get("title", self.path.stem)), self._state()),
             shown.picture_of_sweep(self.data, study),
             self.data._repr_html_(),
         )
 
-    def _said(self) -> str:
+    def _state(self) -> str:
         """How many cases there are, and what became of them."""
         cases, failed = self.summary.get("cases"), self.summary.get("failed")
         counted = f", {cases} cases" if cases is not None else ""
-        said = f"{self.status}{counted}" + (f", {failed} failed" if failed else "")
-        judged = self.data[trust.TRUST].values if trust.TRUST in self.data else ()
+        state = f"{self.status}{counted}" + (f", {failed} failed" if failed else "")
+        verdicts = self.data[trust.TRUST].values if trust.TRUST in self.data else ()
         for verdict in (trust.OUTSIDE, trust.EXTRAPOLATED):
-            if count := int(np.sum(np.asarray(judged) == trust.VERDICTS[verdict])):
-                said += f", {count} {verdict}"
-        return said
+            if count := int(np.sum(np.asarray(verdicts) == trust.VERDICTS[verdict])):
+                state += f", {count} {verdict}"
+        return state
 
 
 @in_python()

@@ -91,9 +91,9 @@ def _opened(file: str) -> _Library | None:
         library = ctypes.CDLL(file)
     except OSError:
         return None
-    for told, changed in _NAMES:
-        if hasattr(library, told) and hasattr(library, changed):
-            threads, set_threads = getattr(library, told), getattr(library, changed)
+    for getter, setter in _NAMES:
+        if hasattr(library, getter) and hasattr(library, setter):
+            threads, set_threads = getattr(library, getter), getattr(library, setter)
             threads.argtypes, threads.restype = (), ctypes.c_int
             set_threads.argtypes, set_threads.restype = (ctypes.c_int,), None
             return _Library(threads, set_threads)

@@ -136,9 +136,9 @@ def kept_or_made(
 def _remove_left(folder: str, name: str) -> None:
     """Remove what killed processes left of a file; whoever still writes it does without."""
     trusted = trusted_folder(folder)
-    for left in trusted.glob(f"{escape(name)}.*.tmp") if trusted else ():
+    for remains in trusted.glob(f"{escape(name)}.*.tmp") if trusted else ():
         with suppress(OSError):
-            left.unlink()
+            remains.unlink()
 
 
 def _known(folder: str, name: str, read: Callable[[bytes], T | None]) -> T | None:

@@ -135,10 +135,10 @@ def _kill(process: "subprocess.Popen[bytes]") -> None:
     process.kill()
 
 
-def tell(process: "subprocess.Popen[bytes]", said: bytes) -> None:
+def tell(process: "subprocess.Popen[bytes]", content: bytes) -> None:
     """Write to a child's standard input; raises OSError where it has ended."""
     assert process.stdin is not None
-    process.stdin.write(said)
+    process.stdin.write(content)
     process.stdin.flush()
 
 
@@ -153,12 +153,12 @@ def answer(process: "subprocess.Popen[bytes]", limit: float, *, line: bool = Fal
     timer.daemon = True
     timer.start()
     try:
-        said = process.stdout.readline() if line else process.stdout.read()
+        content = process.stdout.readline() if line else process.stdout.read()
     finally:
         timer.cancel()
     if late.is_set():
         raise TimeoutError(f"no answer within {limit:g} s")
-    return said
+    return content
 
 
 def begin(target: str, *words: str) -> None:
@@ -189,10 +189,10 @@ def _pass_on(outer: Any, inner: Any) -> NoReturn:
     while True:
         # Windows waits for sockets alone, and no process inherits a pipe there
         if os.name == "nt" or select.select([outer], [], [], _LOOK_EVERY)[0]:
-            said = outer.read(65536)
-            if not said:
+            content = outer.read(65536)
+            if not content:
                 _end_all()
-            inner.write(said)
+            inner.write(content)
         elif os.getppid() != parent:
             _end_all()
 
@@ -229,12 +229,12 @@ def in_a_copy(work: Callable[[], bytes], limit: float) -> bytes:
     if child == 0:
         _work_as_a_copy(work, writing, limit)
     os.close(writing)
-    said, status = b"", None
+    content, status = b"", None
     try:
         if not select.select([reading], [], [], limit)[0]:
             raise TimeoutError(f"no answer within {limit:g} s")
         while part := os.read(reading, 65536):
-            said += part
+            content += part
         _, status = os.waitpid(child, 0)
     finally:
         os.close(reading)
@@ -243,7 +243,7 @@ def in_a_copy(work: Callable[[], bytes], limit: float) -> bytes:
             os.waitpid(child, 0)
     if status:
         raise ChildProcessError("the copy crashed")
-    return said
+    return content
 
 
 def _work_as_a_copy(work: Callable[[], bytes], writing: int, limit: float) -> NoReturn:
@@ -284,12 +284,12 @@ def run_program(command: Sequence[str], limit: float) -> "subprocess.CompletedPr
 
     process = start(f"{__name__}:_supervise", *command)
     try:
-        said = answer(process, limit)
+        content = answer(process, limit)
     finally:
         end(process)
-    if not said:
+    if not content:
         raise OSError(f"{command[0]} could not be run")
-    status, *printed = pickle.loads(said)
+    status, *printed = pickle.loads(content)
     return subprocess.CompletedProcess(command, status, *(text.decode(errors="replace") for text in printed))
 
 

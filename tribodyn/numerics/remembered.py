@@ -46,10 +46,10 @@ def remembered(most: int) -> Callable[[F], F]:
         @functools.wraps(function)
         def call(*arguments: Any) -> Any:
             try:
-                asked = _Call(arguments)
+                wanted = _Call(arguments)
             except TypeError:
                 return function(*arguments)
-            return known(asked)
+            return known(wanted)
 
         return cast(F, call)
 

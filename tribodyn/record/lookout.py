@@ -47,12 +47,12 @@ def through_a_child(look: Look, path: Path) -> str:
 def forked(look: Look, path: Path) -> str:
     """Call it in a copy of this process."""
     try:
-        said = child.in_a_copy(lambda: look(path)[:_LONGEST].encode(errors="replace"), TIME_LIMIT)
+        reply = child.in_a_copy(lambda: look(path)[:_LONGEST].encode(errors="replace"), TIME_LIMIT)
     except TimeoutError:
         return _hung(TIME_LIMIT)
     except ChildProcessError:
         return CRASHED
-    return said.decode()
+    return reply.decode()
 
 
 def _hung(limit: float) -> str:
@@ -126,8 +126,8 @@ def serve(module: str, name: str) -> None:
     look: Look = getattr(import_module(module), name)
     call = forked if hasattr(os, "fork") else _in_itself
     for line in sys.stdin.buffer:
-        said = call(look, Path(os.fsdecode(bytes.fromhex(line.decode()))))
-        sys.stdout.buffer.write(said.encode(errors="replace").hex().encode() + b"\n")
+        reply = call(look, Path(os.fsdecode(bytes.fromhex(line.decode()))))
+        sys.stdout.buffer.write(reply.encode(errors="replace").hex().encode() + b"\n")
         sys.stdout.buffer.flush()
 
 

@@ -36,9 +36,9 @@ class Record(OpenRecord):
     @cached_property
     def axis(self) -> str:
         """Name of the axis on which the run went on: "time", "phase" in slow rotation, "frequency"."""
-        said = self.attrs.get("axis")
-        if said:
-            return str(said)
+        named = self.attrs.get("axis")
+        if named:
+            return str(named)
         for name in ("time", "phase", "frequency"):  # a record of 0.1.0, which does not say it
             if name in self._file:
                 return name
@@ -59,8 +59,8 @@ class Record(OpenRecord):
     @cached_property
     def kind(self) -> str:
         """Kind of the study; a record of 0.1.0 of an efficiency says so in its scenario only."""
-        said = str(self.attrs.get("kind", ""))
-        return said if "datasets" in self.attrs else str(self.scenario.get("kind", said))
+        named = str(self.attrs.get("kind", ""))
+        return named if "datasets" in self.attrs else str(self.scenario.get("kind", named))
 
     @cached_property
     def samples(self) -> int:

@@ -66,9 +66,9 @@ def blamed(path: Path, error: BaseException | None) -> Exception | None:
 
 def reason_of(error: Exception) -> str:
     """What a file's error says, on one line; an exception that says nothing of itself by its name."""
-    said = " ".join(str(error).split()).strip("'\"")
-    plain = isinstance(error, (ValueError, OSError, RuntimeError)) and said
-    return said if plain else f"{type(error).__name__}: {said}".rstrip(": ")
+    text = " ".join(str(error).split()).strip("'\"")
+    plain = isinstance(error, (ValueError, OSError, RuntimeError)) and text
+    return text if plain else f"{type(error).__name__}: {text}".rstrip(": ")
 
 
 def check_sound(path: Path) -> None:

@@ -90,7 +90,7 @@ class SweepWriter:
     force : replace an existing record, and what an unfinished sweep left
     resume : go on with what an unfinished sweep left, if there is anything
 
-    Raises InputError see `writer.check_target`; also where what is left belongs to another sweep.
+    Raises InputError as `writer.check_target`, and where what is left belongs to another sweep.
     """
 
     def __init__(self, path: str | Path, head: SweepHead, *, force: bool = False, resume: bool = False):

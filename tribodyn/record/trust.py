@@ -137,8 +137,8 @@ def heat_of(flash_rise: Any, temperature: float | None) -> dict[str, Any]:
 
 def verdict(summary: Mapping[str, Any]) -> str:
     """`INSIDE`, `OUTSIDE`, `EXTRAPOLATED`, or "" where nothing was judged."""
-    said = summary.get(TRUST)
-    return said if said in VERDICTS else ""
+    found = summary.get(TRUST)
+    return found if found in VERDICTS else ""
 
 
 def number(summary: Mapping[str, Any]) -> int:
@@ -160,14 +160,14 @@ def warnings(summary: Mapping[str, Any]) -> list[str]:
 
 def brief(summary: Mapping[str, Any]) -> str:
     """The same without values, for the remark on a case of a sweep; "" where it is not outside."""
-    said = [rule.short(float(known["value"])) for rule, known in _broken(summary) if not rule.extrapolates]
-    return f"{OUTSIDE}: {', '.join(said)}" if said else ""
+    broken = [rule.short(float(known["value"])) for rule, known in _broken(summary) if not rule.extrapolates]
+    return f"{OUTSIDE}: {', '.join(broken)}" if broken else ""
 
 
 def attributes(summary: Mapping[str, Any]) -> dict[str, str]:
     """What the root of a record says: the verdict, and the reasons, one per line."""
-    said = verdict(summary)
-    return {TRUST: said, REASONS: "\n".join(reasons(summary))} if said else {}
+    found = verdict(summary)
+    return {TRUST: found, REASONS: "\n".join(reasons(summary))} if found else {}
 
 
 def _broken(summary: Mapping[str, Any]) -> Iterator[tuple[Rule, Mapping[str, Any]]]:
@@ -183,18 +183,18 @@ def _broken(summary: Mapping[str, Any]) -> Iterator[tuple[Rule, Mapping[str, Any
 def _sentence(rule: Rule, known: Mapping[str, Any]) -> str:
     value, limit = float(known["value"]), float(known["limit"])
     side = "at least" if value < limit else "at most"
-    said = f"{rule.label} {rule.shown(value)}, {side} {rule.shown(limit)}"
+    sentence = f"{rule.label} {rule.shown(value)}, {side} {rule.shown(limit)}"
     if known.get("share") is not None:
-        said += f", outside {_share(float(known['share']))}"
+        sentence += f", outside {_share(float(known['share']))}"
     places = [
         text.format(float(known[name])) if name != "pair" else text.format(int(known[name]))
         for name, text in _PLACES.items()
         if known.get(name) is not None
     ]
-    return f"{said}, worst {', '.join(places)}" if places else said
+    return f"{sentence}, worst {', '.join(places)}" if places else sentence
 
 
-#: How places are said.
+#: How places are written.
 _PLACES = {
     "time": "at t = {:.4g} s",
     "mesh_cycle": "mesh cycle {:.4g}",

@@ -89,20 +89,20 @@ def cases_withheld(block: Mapping[str, Any]) -> dict[str, Any]:
 
 def warnings(summary: Mapping[str, Any]) -> list[str]:
     """What to warn of: what lies outside the model, what the study says, and figures that are withheld."""
-    return trust.warnings(summary) + _said(summary)
+    return trust.warnings(summary) + _own_remarks(summary)
 
 
 def remarks(summary: Mapping[str, Any]) -> list[str]:
     """The same for one of many cases: without values, so that equal ones can be counted."""
-    return [remark for remark in (trust.brief(summary), *_said(summary)) if remark]
+    return [remark for remark in (trust.brief(summary), *_own_remarks(summary)) if remark]
 
 
-def _said(summary: Mapping[str, Any]) -> list[str]:
-    said = [str(summary["warning"])] if summary.get("warning") else []
+def _own_remarks(summary: Mapping[str, Any]) -> list[str]:
+    found = [str(summary["warning"])] if summary.get("warning") else []
     by_reason: dict[str, list[str]] = {}
     for name, why in reasons(summary).items():
         by_reason.setdefault(why, []).append(name)
-    return said + [f"withheld: {', '.join(names)}, {why}" for why, names in by_reason.items()]
+    return found + [f"withheld: {', '.join(names)}, {why}" for why, names in by_reason.items()]
 
 
 def warned(remark: str) -> str:

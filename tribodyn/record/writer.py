@@ -105,7 +105,7 @@ class RecordWriter:
     force : replace an existing record, and the remains of an unfinished run
     code : see `schema.CODE`
 
-    Raises InputError see `check_target`; also where the file system refuses the file or has no room for it.
+    Raises InputError as `check_target`, and where the file system refuses the file or has no room for it.
     """
 
     def __init__(
@@ -223,7 +223,7 @@ class RecordWriter:
         summary : dict
         trim : whether it may have fewer samples than it has room for
 
-        Raises ValueError if samples are missing. OutputError If there is no room for the copy with the
+        Raises ValueError if samples are missing, OutputError if there is no room for the copy with the
         summary: the samples are kept under the temporary name.
         """
         if self.written != self.samples and not trim:

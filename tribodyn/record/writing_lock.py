@@ -56,7 +56,7 @@ class WritingLock:
         while self._number is None:
             number = _opened(self._path)
             try:
-                if not _taken(number):
+                if not _lock(number):
                     raise _busy(path, number)
                 _refuse_other(self._path, number)
                 if _is(number, self._path):  # otherwise its last owner removed it just now
@@ -90,7 +90,7 @@ def refuse_if_written(path: Path) -> None:
             raise _no_lock(lock_path(path)) from error
         return
     try:
-        if not _taken(number):
+        if not _lock(number):
             raise _busy(path, number)
         _refuse_other(lock_path(path), number)
     finally:
@@ -153,7 +153,7 @@ def _no_lock(path: Path) -> InputError:
     return InputError("output", str(path), "stands where the lock of this record would", "move it away")
 
 
-def _taken(number: int) -> bool:
+def _lock(number: int) -> bool:
     """Lock an open file until it is closed; whether that was possible."""
     try:
         if find_spec("fcntl"):

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from tribodyn.scenario import units
-from tribodyn.scenario.quantity import Quantity, Table, Text
+from tribodyn.scenario.quantity import Column, CurveTable, Quantity, Table, Text
 
 Torque = Annotated[float, Quantity(units.TORQUE)]
 Inertia = Annotated[float, Quantity(units.not_negative(units.INERTIA))]
@@ -34,3 +34,34 @@ def head_of(scenario: Any, toml: str, sha256: str) -> dict[str, str]:
         "toml": toml,
         "sha256": sha256,
     }
+
+
+RollAngles = Annotated[Column, units.ANGLE_KIND]
+
+
+class TorqueCurve(CurveTable):
+    """Torque over time that is added to the load; held constant outside the points."""
+
+    time: Annotated[Column, units.TIME]
+    torque: Annotated[Column, units.TORQUE]
+
+
+class StiffnessCurve(CurveTable):
+    """Stiffness of a single pair over the pinion's roll angle from the pitch point."""
+
+    roll_angle: RollAngles
+    stiffness: Annotated[Column, units.positive(units.STIFFNESS)]
+
+
+class ErrorCurve(CurveTable):
+    """Error of a pair's flanks over the pinion's roll angle from the pitch point."""
+
+    roll_angle: RollAngles
+    error: Annotated[Column, units.LENGTH]
+
+
+class LoadCurve(CurveTable):
+    """Normal load of a pair over the pinion's roll angle from the pitch point; below 0 it counts as 0."""
+
+    roll_angle: RollAngles
+    normal_load: Annotated[Column, units.FORCE]

@@ -198,17 +198,17 @@ def _put_under(known: _References, key: Key, folder: str) -> None:
     if not isinstance(name, str):
         raise InputError(dotted, quoted(name), "not the name of a model", "write a name in quotes")
     file = find_model(name, folder, dotted, _referring(known, (*key, LIKE)))
-    said_in = {leaf: origins.of((*key, *leaf)) for leaf in _leaves(table)}
+    written_in = {leaf: origins.of((*key, *leaf)) for leaf in _leaves(table)}
     holder[key[-1]] = _merged(read_toml(file), {name: value for name, value in table.items() if name != LIKE})
     origins.put(key, str(file))
-    for leaf, where in said_in.items():
+    for leaf, where in written_in.items():
         origins.put((*key, *leaf), where)
 
 
 def _referring(known: _References, key: Key) -> Path:
     """Return the file that names another at `key`; what --set names, the scenario might have named."""
-    said_in = known.origins.of(key)
-    return known.path if said_in == OVERRIDES else Path(said_in)
+    written_in = known.origins.of(key)
+    return known.path if written_in == OVERRIDES else Path(written_in)
 
 
 def _merged(under: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:

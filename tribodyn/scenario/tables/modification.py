@@ -6,7 +6,7 @@ from pydantic import Field
 
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Relief
 from tribodyn.scenario import units
-from tribodyn.scenario.curves import ErrorCurve
+from tribodyn.scenario.common import ErrorCurve
 from tribodyn.scenario.quantity import NotNegative, Quantity, Switch, Table, csv_file, written
 
 Amount = Annotated[float, Quantity(units.not_negative(units.RELIEF))]

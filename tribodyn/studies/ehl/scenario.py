@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.curves import LoadCurve
+from tribodyn.scenario.common import LoadCurve
 from tribodyn.scenario.quantity import Switch, Table, csv_or_record, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.studies.ehl.case import EhlCase

@@ -13,8 +13,16 @@ from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
-from tribodyn.scenario.common import Angle, Error, Inertia, Torque, TorsionalDamping
-from tribodyn.scenario.curves import ErrorCurve, StiffnessCurve, TorqueCurve
+from tribodyn.scenario.common import (
+    Angle,
+    Error,
+    ErrorCurve,
+    Inertia,
+    StiffnessCurve,
+    Torque,
+    TorqueCurve,
+    TorsionalDamping,
+)
 from tribodyn.scenario.quantity import (
     Count,
     NotNegative,
