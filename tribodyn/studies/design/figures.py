@@ -60,8 +60,12 @@ def _feasible(record: Record) -> np.ndarray:
     return record["feasible"][searched(record)] == 1
 
 
+def _found(record: Record) -> bool:
+    return record.samples > 0 and "objective" in record.summary
+
+
 def _required(record: Record) -> None:
-    if not record.samples or "objective" not in record.summary:
+    if not _found(record):
         raise InputError("record", str(record.path), "holds no design to draw", "run the scenario again")
 
 
@@ -153,9 +157,10 @@ def _draw_values(axes: Axes, record: Record) -> None:
     """Free keys over their ranges: start, best, and those candidates that come within a tenth of it."""
     entries = record.scenario["design"]["free"]
     names = [name for name in record if name.startswith("free_")]
-    values, feasible = _Shown(record).values * np.sign(_Shown(record).factor), _feasible(record)
+    shown, feasible = _Shown(record), _feasible(record)
+    values = shown.values * np.sign(shown.factor)
     least = np.nanmin(np.where(feasible, values, np.nan))
-    span = abs(np.nan_to_num(_first(record, "objective_start")) * _Shown(record).factor)
+    span = abs(np.nan_to_num(_first(record, "objective_start")) * shown.factor)
     near = feasible & (values <= least + 0.1 * abs(least or span))
     keys = [naming_key(entry["key"]) for entry in entries]
     labels = []
@@ -233,20 +238,22 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
     first, second = (_Shown(records[0], place) for place in (0, 1))
     for number, record in enumerate(records):
         color = PALETTE[number % len(PALETTE)]
-        one, two, feasible = _Shown(record, 0), _Shown(record, 1), _feasible(record)
-        axes.plot(one.values[feasible], two.values[feasible], ".", color=color, markersize=3, alpha=0.35)
+        views, feasible = [_Shown(record, place) for place in (0, 1)], _feasible(record)
+        x, y = (view.values[feasible] for view in views)
+        axes.plot(x, y, ".", color=color, markersize=3, alpha=0.35)
         found = record.summary.get("front", {})
         x, y = (
-            view.factor * np.atleast_1d(found[name])
-            for view, name in zip((one, two), OBJECTIVES, strict=True)
+            view.factor * np.atleast_1d(found[name]) for view, name in zip(views, OBJECTIVES, strict=True)
         )
         label = record_label(record) if len(records) > 1 else "front"
         axes.plot(x, y, "o-", color=color, markersize=3.5, label=label)
         start = record.summary.get("objective_start")
         if start is not None:
-            axes.plot(abs(one.factor) * start[0], abs(two.factor) * start[1], "s", color=START, label="start")
-        best = record.summary["objective"]
-        axes.plot(abs(one.factor) * best[0], abs(two.factor) * best[1], "D", color=BEST, label="compromise")
+            x, y = (abs(view.factor) * value for view, value in zip(views, start, strict=True))
+            axes.plot(x, y, "s", color=START, label="start")
+        ends = zip(views, record.summary["objective"], strict=True)
+        x, y = (abs(view.factor) * value for view, value in ends)
+        axes.plot(x, y, "D", color=BEST, label="compromise")
     axes.set_xlabel(first.label)
     axes.set_ylabel(second.label)
     axes.margins(x=0.05)
@@ -254,34 +261,17 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
     axes.legend()
 
 
-def _together(draw: Any, height: float) -> Any:
-    """A figure of one panel with all records in it."""
+def _panel(draw: Any, height: float = 1.3, together: bool = False) -> Any:
+    """A figure of one panel, with the first record or all of them in it."""
 
     def figure(records: Sequence[Record], _view: View) -> Figure:
-        drawn = new_figure(WIDTH, height * PANEL_HEIGHT)
-        axes = drawn.subplots()
-        for record in records:
+        for record in records if together else records[:1]:
             _required(record)
-        draw(axes, records)
-        return drawn
-
-    return figure
-
-
-def _alone(draw: Any, height: float = 1.3) -> Any:
-    """A figure with one panel."""
-
-    def figure(records: Sequence[Record], _view: View) -> Figure:
-        _required(records[0])
         drawn = new_figure(WIDTH, height * PANEL_HEIGHT)
-        draw(drawn.subplots(), records[0])
+        draw(drawn.subplots(), records if together else records[0])
         return drawn
 
     return figure
-
-
-def _found(record: Record) -> bool:
-    return record.samples > 0 and "objective" in record.summary
 
 
 def _two(record: Record) -> bool:
@@ -291,14 +281,14 @@ def _two(record: Record) -> bool:
 DRAWINGS: Mapping[str, Drawing] = {
     "overview": Drawing("history, start and best, free keys, what the best depends on", _overview, _found),
     "history": Drawing(
-        "objective of every candidate, and the best so far", _together(_draw_history, 1.4), _found
+        "objective of every candidate, and the best so far", _panel(_draw_history, 1.4, together=True), _found
     ),
     "duties": Drawing(
-        "first objective at each duty, at the start and at the best", _alone(_draw_duties), _found
+        "first objective at each duty, at the start and at the best", _panel(_draw_duties), _found
     ),
-    "free-keys": Drawing("where in their ranges good values lie", _alone(_draw_values), _found),
+    "free-keys": Drawing("where in their ranges good values lie", _panel(_draw_values), _found),
     "sensitivities": Drawing(
-        "change of the objective with one key or tolerance moved", _alone(_draw_sensitivities), _found
+        "change of the objective with one key or tolerance moved", _panel(_draw_sensitivities), _found
     ),
-    "front": Drawing("the front of two objectives", _together(_draw_front, 1.6), _two),
+    "front": Drawing("the front of two objectives", _panel(_draw_front, 1.6, together=True), _two),
 }

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from math import isfinite
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.resolve import toml_value
@@ -31,7 +31,6 @@ from tribodyn.studies.design.case import (
 )
 from tribodyn.studies.protocol.study import Study
 
-T = TypeVar("T")
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*?)?\s*$", re.ASCII)
 _CONSTRAINT = re.compile(r"\s*([A-Za-z][\w.-]*)\s*(<=|>=|≤|≥|<|>)\s*(\S.*?)\s*$")
 
@@ -56,33 +55,27 @@ def parts_of_design(table: Any, sources: Sources) -> Parts:
     """
     errors: list[InputError] = []
     studies = {name: source.study for name, source in sources.items()}
-    units = units_by_figure(studies)
 
-    def collect(some: Sequence[T], read: Callable[[int, T], Any]) -> list[Any]:
+    def collect(place: str, some: Sequence[Any], read: Callable[..., Any], *more: Any) -> list[Any]:
         found = []
-        for number, candidate in enumerate(some):
+        for number, entry in enumerate(some):
             try:
-                found.append(read(number, candidate))
+                found.append(read(f"{place}.{number}", entry, *more))
             except InputError as error:
                 errors.append(error)
         return found
 
-    free = collect(table.free, lambda number, entry: _free(f"design.free.{number}", entry, sources))
+    free = collect("design.free", table.free, _free, sources)
     if not table.free:
         rule, remedy = "nothing is free", 'add { key = "…", from = "…", to = "…" }'
         errors.append(InputError("design.free", "[]", rule, remedy))
     errors += _twice(free)
-    objectives = collect([None], lambda _, __: _objectives(table, studies))
-    constraints = collect(
-        table.subject_to,
-        lambda number, text: _constraint(f"design.subject_to.{number}", text, studies, units),
-    )
+    objectives = collect("design", [table], _objectives, studies)
+    constraints = collect("design.subject_to", table.subject_to, _constraint, studies)
     errors += _contradictions(constraints)
-    duties = collect(table.duty, lambda number, entry: _duty(number, entry, free, sources))
-    tolerances = collect(
-        table.tolerance, lambda number, entry: _tolerance(f"design.tolerance.{number}", entry, sources)
-    )
-    collect(list(flat(table.confirm)), lambda _, key: require_key("design.confirm", key, sources))
+    duties = collect("design.duty", table.duty, _duty, free, sources)
+    tolerances = collect("design.tolerance", table.tolerance, _tolerance, sources)
+    collect("", list(flat(table.confirm)), lambda _, key: require_key("design.confirm", key, sources))
     key_names = apart([naming_key(entry.keys) for entry in free])
     names = apart([tolerance.key for tolerance in tolerances])
     return Parts(
@@ -154,24 +147,20 @@ def _require(place: str, keys: Sequence[str], values: Sequence[Any], sources: So
 
 def _number(place: str, value: Any, kind: Kind | None) -> tuple[float, str, str]:
     """Number in SI, unit as written, SI unit."""
-    magnitude, unit, units = _magnitude(place, value, kind)
-    if not isfinite(magnitude):
-        raise InputError(place, quoted(value), "not a finite number", 'write such as 0.3 or "3 mm"')
-    return magnitude, unit, units
-
-
-def _magnitude(place: str, value: Any, kind: Kind | None) -> tuple[float, str, str]:
     if kind is not None:
         try:
-            magnitude = to_si(value, kind)
+            found = to_si(value, kind), _unit_of(value), kind.si.replace("**", "")
         except NotAQuantity as error:
             raise InputError(place, quoted(value), error.rule, error.remedy) from None
-        return magnitude, _unit_of(value), kind.si.replace("**", "")
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return float(value), "", "1"
-    if (base := base_units(value)) is not None:
-        return base[0], _unit_of(str(value)), base[1]
-    raise InputError(place, quoted(value), "neither a number nor a quantity", 'write 0.3 or "3 mm"')
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        found = float(value), "", "1"
+    elif (base := base_units(value)) is not None:
+        found = base[0], _unit_of(str(value)), base[1]
+    else:
+        raise InputError(place, quoted(value), "neither a number nor a quantity", 'write 0.3 or "3 mm"')
+    if not isfinite(found[0]):
+        raise InputError(place, quoted(value), "not a finite number", 'write such as 0.3 or "3 mm"')
+    return found
 
 
 def _unit_of(value: str) -> str:
@@ -200,7 +189,7 @@ def _twice(free: Sequence[Free]) -> list[InputError]:
     return errors
 
 
-def _objectives(table: Any, studies: Mapping[str, Study]) -> tuple[Objective, ...]:
+def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[Objective, ...]:
     if (table.minimise is None) == (table.maximise is None):
         rule = "missing" if table.minimise is None else "contradicts maximise"
         remedy = 'add minimise = "…", the name of a figure' if table.minimise is None else "give one of them"
@@ -209,21 +198,21 @@ def _objectives(table: Any, studies: Mapping[str, Study]) -> tuple[Objective, ..
         name = figure_name("design.maximise", table.maximise, studies)
         return (Objective(f"-{name}", ((name, -1.0),)),)
     given = table.minimise
-    if isinstance(given, str):
-        name = figure_name("design.minimise", given, studies)
-        return (Objective(name, ((name, 1.0),)),)
-    if isinstance(given, (list, tuple)) and given and all(isinstance(name, str) for name in given):
-        if len(given) > 2:
-            rule = f"{len(given)} objectives; a front has two"
-            raise InputError("design.minimise", quoted(list(given)), rule, "bound the others: subject_to")
-        names = [figure_name(f"design.minimise.{i}", name, studies) for i, name in enumerate(given)]
-        if len(set(names)) < len(names):
-            raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another figure")
-        return tuple(Objective(name, ((name, 1.0),)) for name in names)
-    if isinstance(given, (list, tuple)) and given:
+    if not isinstance(given, (str, list, tuple)) or given in ([], ()):
+        remedy = 'write minimise = "peak_to_peak", a list of two, or [{ figure = "…", weight = 1.0 }, …]'
+        raise InputError("design.minimise", quoted(given), "not the name of a figure", remedy)
+    if not isinstance(given, str) and not all(isinstance(name, str) for name in given):
         return (_weighted(given, studies),)
-    remedy = 'write minimise = "peak_to_peak", a list of two, or [{ figure = "…", weight = 1.0 }, …]'
-    raise InputError("design.minimise", quoted(given), "not the name of a figure", remedy)
+    places = {"design.minimise": given}
+    if not isinstance(given, str):
+        places = {f"design.minimise.{number}": name for number, name in enumerate(given)}
+    if len(places) > 2:
+        rule = f"{len(places)} objectives; a front has two"
+        raise InputError("design.minimise", quoted(list(given)), rule, "bound the others: subject_to")
+    names = [figure_name(place, name, studies) for place, name in places.items()]
+    if len(set(names)) < len(names):
+        raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another figure")
+    return tuple(Objective(name, ((name, 1.0),)) for name in names)
 
 
 def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> Objective:
@@ -234,18 +223,14 @@ def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> Objective:
             remedy = 'write { figure = "peak_to_peak", weight = 0.5 }'
             raise InputError(place, quoted(entry), "not a figure and its weight", remedy)
         weight = entry.get("weight", 1.0)
-        if (
-            isinstance(weight, bool)
-            or not isinstance(weight, (int, float))
-            or not isfinite(weight)
-            or not weight
-        ):
+        number = isinstance(weight, (int, float)) and not isinstance(weight, bool)
+        if not number or not isfinite(weight) or not weight:
             raise InputError(f"{place}.weight", quoted(weight), "not a weight", "write a number such as 0.5")
         terms.append((figure_name(f"{place}.figure", entry["figure"], studies), float(weight)))
     return Objective(" + ".join(f"{weight:g} {name}" for name, weight in terms), tuple(terms))
 
 
-def _constraint(place: str, text: str, studies: Mapping[str, Study], units: Mapping[str, str]) -> Constraint:
+def _constraint(place: str, text: str, studies: Mapping[str, Study]) -> Constraint:
     match = _CONSTRAINT.match(text)
     if match is None:
         remedy = 'write "contact_ratio >= 1.3" or "hertz_pressure_max <= 1.5 GPa"'
@@ -254,7 +239,7 @@ def _constraint(place: str, text: str, studies: Mapping[str, Study], units: Mapp
     sign = 1.0 if match[2] in ("<=", "≤", "<") else -1.0
     if match[3] == START:
         return Constraint(text, name, sign, START)
-    unit = units[name]
+    unit = units_by_figure(studies)[name]
     value = toml_value(match[3])
     if isinstance(value, float) and not isfinite(value):
         raise InputError(place, quoted(text), "not a finite limit", "write a number, with its unit if any")
@@ -284,12 +269,12 @@ def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
     return errors
 
 
-def _duty(number: int, table: Any, free: Sequence[Free], sources: Sources) -> WeightedDuty:
+def _duty(place: str, table: Any, free: Sequence[Free], sources: Sources) -> WeightedDuty:
     keys = flat(table.set)
     for key in keys:
-        _require(f"design.duty.{number}.set", (key,), (keys[key],), sources)
+        _require(f"{place}.set", (key,), (keys[key],), sources)
         if any(key in other.keys for other in free):
-            raise InputError(f"design.duty.{number}.set", quoted(key), "is free too", "choose one of them")
+            raise InputError(f"{place}.set", quoted(key), "is free too", "choose one of them")
     name = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in keys.items())
     return WeightedDuty(table.weight, keys, name)
 

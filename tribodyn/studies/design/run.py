@@ -24,7 +24,7 @@ from tribodyn.studies.design.candidates.archive import (
     Unfinished,
     resolutions,
 )
-from tribodyn.studies.design.candidates.candidates import cases_of, chosen, share_of, start_of
+from tribodyn.studies.design.candidates.candidates import cases_of, chosen, shares_of, start_of
 from tribodyn.studies.design.candidates.converged import Converged, converged
 from tribodyn.studies.design.candidates.pool import Cluster, Evaluators, Figures, Pool, workers_for
 from tribodyn.studies.design.candidates.scoring import SLACK, Scoring
@@ -212,7 +212,7 @@ def _about(
 
     What stands in `moved`, of the search that this one goes on from, is not evaluated again.
     """
-    shares = np.array([share_of(free, best.values[free.keys[0]]) for free in case.free])
+    shares = shares_of(case, best.values)
     waiting: list[tuple[int, str, Future[Figures]]] = []
     for place, free in enumerate(case.free if case.sensitivities else ()):
         for name, step in ((LOWER, -MOVED), (UPPER, MOVED)):

@@ -66,6 +66,11 @@ def start_of(case: DesignCase) -> Float[Array, " free"]:
     return np.array([share_of(free, standing(case.scenarios, free.keys[0])) for free in case.free])
 
 
+def shares_of(case: DesignCase, values: Mapping[str, Any]) -> Float[Array, " free"]:
+    """Shares of the free keys' ranges at which a candidate's values are."""
+    return np.array([share_of(free, values[free.keys[0]]) for free in case.free])
+
+
 def chosen(case: DesignCase, shares: Sequence[float] | np.ndarray) -> Overrides:
     """Values of all free keys at shares of their ranges."""
     return {

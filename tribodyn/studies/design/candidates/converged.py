@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.studies.design.candidates.archive import Archive, Candidate, Levels, SpentError, resolutions
-from tribodyn.studies.design.candidates.candidates import share_of
+from tribodyn.studies.design.candidates.candidates import shares_of
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.layout import FACTORS
 from tribodyn.studies.design.methods import SMOOTH
@@ -127,10 +127,6 @@ def _near(coarse: Archive, fine: Archive, members: list[Candidate]) -> list[Cand
     return nearest[: max(KEPT, len(members))]
 
 
-def _shares(case: DesignCase, candidate: Candidate) -> np.ndarray:
-    return np.array([share_of(free, candidate.values[free.keys[0]]) for free in case.free])
-
-
 def _best_of(archive: Archive, count: int) -> list[Candidate]:
     """The best feasible candidates, the nearest to holding where none is."""
     some = [candidate for candidate in archive.evaluations if candidate.score.feasible]
@@ -142,7 +138,7 @@ def _best_of(archive: Archive, count: int) -> list[Candidate]:
 def _asked(archive: Archive, some: list[Candidate], case: DesignCase) -> list[Candidate]:
     """Evaluate candidates on another resolution; gives them back."""
     with suppress(SpentError):
-        archive.score_all([_shares(case, candidate) for candidate in some])
+        archive.score_all([shares_of(case, candidate.values) for candidate in some])
     return some
 
 
@@ -158,12 +154,12 @@ def _search_about(archive: Archive, near: bool = False) -> None:
     most = max(2 * count + 2, int(SHARE * case.search.evaluations) // 2)
     view = Scalar(archive)
     with suppress(SpentError):
-        first = _shares(case, _best_of(archive, 1)[0])
+        first = shares_of(case, _best_of(archive, 1)[0].values)
         if near:
             minimise("cobyqa", view, first, min(most, 4 * (count + 1)), SIMPLEX)
             return
         minimise("cobyqa", view, first, most, RADIUS / 3)
-        best = _shares(case, _best_of(archive, 1)[0])
+        best = shares_of(case, _best_of(archive, 1)[0].values)
         steps = np.where(best > 0.5, -SIMPLEX, SIMPLEX)
         minimize(
             lambda shares: view.merit(archive.score(shares)),
@@ -177,7 +173,7 @@ def _search_about(archive: Archive, near: bool = False) -> None:
 def _stands(candidate: Candidate, levels: list[Archive], case: DesignCase) -> bool:
     """Whether a candidate's figures change little from level to level; its constraints hold on the last."""
     try:
-        several = [level.score(_shares(case, candidate)) for level in levels]
+        several = [level.score(shares_of(case, candidate.values)) for level in levels]
     except SpentError:
         return False
     values = np.array([score.objectives for score in several])

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.studies.design.candidates.archive import Archive, Candidate
-from tribodyn.studies.design.candidates.candidates import share_of
+from tribodyn.studies.design.candidates.candidates import shares_of
 from tribodyn.studies.design.methods.local import ended_when_spent, first_look, in_turn, minimise
 from tribodyn.studies.design.methods.population import PER_KEY
 from tribodyn.studies.design.methods.views import Scalar
@@ -52,8 +52,7 @@ def _under(archive: Archive, bound: float, most: int) -> None:
     keeping = [point for point in front(archive.evaluations) if point.score.objectives[1] <= bound]
     if keeping:
         best = min(keeping, key=lambda point: point.score.objectives[0])
-        start = [share_of(free, best.values[free.keys[0]]) for free in archive.case.free]
-        minimise("cobyqa", Scalar(archive, 0, bound), np.array(start), most)
+        minimise("cobyqa", Scalar(archive, 0, bound), shares_of(archive.case, best.values), most)
 
 
 def nsga2(archive: Archive, start: np.ndarray) -> None:

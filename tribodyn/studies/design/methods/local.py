@@ -8,7 +8,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.archive import Archive, SpentError
-from tribodyn.studies.design.candidates.candidates import chosen, share_of
+from tribodyn.studies.design.candidates.candidates import chosen, shares_of
 from tribodyn.studies.design.candidates.slopes import Derivatives, margin_slope, objective_slope
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.methods.views import Scalar
@@ -49,8 +49,7 @@ def rounds(name: str, view: Scalar) -> None:
     finest = archive.case.search.accuracy
     while best is not None and radius > finest and view.value(best.score) < before - GAIN:
         before = view.value(best.score)
-        place = [share_of(free, best.values[free.keys[0]]) for free in archive.case.free]
-        minimise(name, view, np.array(place), radius=radius)
+        minimise(name, view, shares_of(archive.case, best.values), radius=radius)
         best, radius = archive.best(), radius / 2
 
 
@@ -127,34 +126,26 @@ def minimise(
     def constraint(shares: np.ndarray) -> np.ndarray:
         return np.array(view.margins(view.archive.score(shares)))
 
-    gradient, jacobian = slopes_of(view, derivatives_of(view.archive.case) if name != "cobyqa" else None)
-    derivatives: dict[str, Any] = {} if name == "cobyqa" else {"jac": gradient}
-    constraints: Any = ()
-    if margins:
-        slopes: dict[str, Any] = {} if name == "cobyqa" else {"jac": jacobian, "hess": _curvature()}
-        constraints = (NonlinearConstraint(constraint, INSIDE, np.inf, **slopes),)
+    derivatives: dict[str, Any] = {}
+    slopes: dict[str, Any] = {}
+    most = most or search.evaluations
+    if name == "cobyqa":
+        options = {"initial_tr_radius": radius, "final_tr_radius": search.accuracy, "maxfev": most}
+    else:
+        gradient, jacobian = slopes_of(view, derivatives_of(view.archive.case))
+        derivatives, slopes = {"jac": gradient}, {"jac": jacobian, "hess": _curvature()}
+        options = {"ftol": 1e-6, "maxiter": most}
     if name == "trust-constr":
         derivatives["hess"] = _curvature()
-    options: dict[str, Any] = {
-        "cobyqa": {
-            "initial_tr_radius": radius,
-            "final_tr_radius": search.accuracy,
-            "maxfev": most or search.evaluations,
-        },
-        "slsqp": {"ftol": 1e-6, "maxiter": most or search.evaluations},
-        "trust-constr": {
-            "initial_tr_radius": radius,
-            "xtol": search.accuracy,
-            "maxiter": most or search.evaluations,
-        },
-    }[name]
+        options = {"initial_tr_radius": radius, "xtol": search.accuracy, "maxiter": most}
+    constraints: Any = (NonlinearConstraint(constraint, INSIDE, np.inf, **slopes),) if margins else ()
     minimize(
         function,
         np.clip(start, 0.0, 1.0),
         method=name.upper() if name != "trust-constr" else name,
         bounds=[(0.0, 1.0)] * count,
         constraints=constraints,
-        options=options,
+        options=options,  # pyright: ignore[reportArgumentType]
         **derivatives,
     )
 
