@@ -243,13 +243,7 @@ def pair_friction(
 
 
 def at_places(
-    pressure: Any,
-    radius: Any,
-    speeds: tuple[Any, Any],
-    friction: Any,
-    bulk: float,
-    flanks: Flanks,
-    oil: Oil,
+    pressure: Any, radius: Any, speeds: tuple[Any, Any], friction: Any, bulk: float, flanks: Flanks, oil: Oil
 ) -> Films:
     """Films at any places of the path from pressures, radii, speeds and friction there: method A.
 

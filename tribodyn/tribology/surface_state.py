@@ -15,12 +15,7 @@ from tribodyn.tribology.contact import (
     hertz_half_width,
     local_contact,
 )
-from tribodyn.tribology.law import (
-    ActiveFilm,
-    Closure,
-    FilmFunctions,
-    film_range_not_stated,
-)
+from tribodyn.tribology.law import ActiveFilm, Closure, FilmFunctions, film_range_not_stated
 
 
 class SurfaceState(NamedTuple):

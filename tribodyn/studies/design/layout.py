@@ -73,9 +73,7 @@ def layout_of(case: DesignCase) -> Layout:
         about = "how far the constraint holds, over its limit; negative where it does not"
         samples["margin"] = Variable((*along, "constraint"), "1", about)
     samples["case_figures"] = Variable(
-        (*along, "case", "figure"),
-        "1",
-        "figures of every duty and sample, SI",
+        (*along, "case", "figure"), "1", "figures of every duty and sample, SI"
     )
     if shapes_gears(case):
         about = "least distance of the gears from the limits of their existence, in modules"

@@ -201,12 +201,7 @@ def _why_none(case: DesignCase, archive: Archive) -> str:
 
 
 def _about(
-    case: DesignCase,
-    archive: Archive,
-    pool: Evaluators,
-    best: Candidate,
-    moved: Moved,
-    record: RecordWriter,
+    case: DesignCase, archive: Archive, pool: Evaluators, best: Candidate, moved: Moved, record: RecordWriter
 ) -> dict[str, Any]:
     """Evaluate about the best: each key and each tolerance moved alone; and once more as `confirm` says.
 

@@ -101,9 +101,7 @@ def parts_of(options: Sequence[str]) -> dict[str, str]:
 
 
 def loaded_search(
-    source: str | Path | Mapping[str, Any] | CaseHead,
-    design: Mapping[str, Any],
-    overrides: Mapping[str, Any],
+    source: str | Path | Mapping[str, Any] | CaseHead, design: Mapping[str, Any], overrides: Mapping[str, Any]
 ) -> Loaded:
     """Make the case of a search.
 

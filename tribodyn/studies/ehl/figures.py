@@ -10,16 +10,7 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post.figures.drawing import Drawing, always
 from tribodyn.post.figures.panel import View, record_title
-from tribodyn.post.style import (
-    GRID,
-    PALETTE,
-    PANEL_HEIGHT,
-    QUIET,
-    WIDTH,
-    house_style,
-    literal,
-    new_figure,
-)
+from tribodyn.post.style import GRID, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.tribology.ehl.start import survey_film
 

@@ -209,10 +209,7 @@ def case_for(case: CaseHead, positions: int) -> EhlCase:
 
 
 def ratios_over(
-    case: EhlCase,
-    loads: Sequence[float] = (),
-    speeds: Sequence[float] = (),
-    progress: Progress | None = None,
+    case: EhlCase, loads: Sequence[float] = (), speeds: Sequence[float] = (), progress: Progress | None = None
 ) -> list[LawRatio]:
     """Compare every law with the solved contact.
 

@@ -53,7 +53,7 @@ SQUEEZED: dict[str, Variable] = {
 TRACTION = {
     "traction": Variable(
         ("slide_to_roll",), "1", "friction coefficient where the load is highest, over slide-to-roll ratio"
-    ),
+    )
 }
 
 SCALES = {

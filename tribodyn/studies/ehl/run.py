@@ -38,11 +38,7 @@ _PROFILES = ("pressure", "film_thickness", "temperature_rise", "shear_stress")
 
 
 def run(
-    case: EhlCase,
-    output: str | Path | None = None,
-    *,
-    force: bool = False,
-    progress: Progress | None = None,
+    case: EhlCase, output: str | Path | None = None, *, force: bool = False, progress: Progress | None = None
 ) -> RunResult:
     """Run a case and write its record; see `study.Study.run`."""
     path = target(case, output, force)

@@ -7,14 +7,7 @@ from pydantic import Field
 
 from tribodyn.scenario import units
 from tribodyn.scenario.common import ScenarioHead, head_of
-from tribodyn.scenario.quantity import (
-    NotNegative,
-    Positive,
-    Quantity,
-    Table,
-    model_file,
-    written,
-)
+from tribodyn.scenario.quantity import NotNegative, Positive, Quantity, Table, model_file, written
 from tribodyn.scenario.tables.model_files import Described
 from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.studies.rolling.engagement import Mode, RollingFriction

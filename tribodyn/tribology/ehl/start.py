@@ -70,12 +70,7 @@ def _reduced_pressure(scale: float, fluid: Fluid) -> tuple[Array, Array]:
 
 
 def _loaded(
-    reduced: Reduced,
-    grid: FilmGrid,
-    pressure: Array,
-    end: float,
-    flow: float,
-    middle: float,
+    reduced: Reduced, grid: FilmGrid, pressure: Array, end: float, flow: float, middle: float
 ) -> FilmState:
     """Give pressures the contact's load, and the rigid film that leaves `middle` at X = 0."""
     pressure[0] = pressure[-1] = 0.0
