@@ -170,7 +170,7 @@ def palmgren(bearings: BearingDragData, speed: float, viscosity: float, density:
 
 @dataclass(frozen=True)
 class LossData:
-    """Which load-independent losses a case asks for; None: not asked for.
+    """Which load-independent losses a case requests; None: not requested.
 
     Parameters
     ----------
@@ -192,9 +192,9 @@ class LossData:
 
 
 def losses_of_pair(
-    asked: LossData, wheels: tuple[Wheel, Wheel], viscosity: float, density: float
+    data: LossData, wheels: tuple[Wheel, Wheel], viscosity: float, density: float
 ) -> dict[str, Loss]:
-    """Return the losses asked for by name: `churning`, `windage`, `bearings`.
+    """Return the requested losses by name: `churning`, `windage`, `bearings`.
 
     Parameters
     ----------
@@ -202,22 +202,22 @@ def losses_of_pair(
     viscosity, density : dynamic, of the oil that surrounds the gears, Pa·s; kg/m³
     """
     found: dict[str, Loss] = {}
-    if asked.churning is not None:
+    if data.churning is not None:
         dipping = [wheel for wheel in wheels if wheel.immersion > 0.0]
-        if asked.churning == "changenet-velex":
-            volume = asked.oil_volume or 0.0
+        if data.churning == "changenet-velex":
+            volume = data.oil_volume or 0.0
             parts = [changenet_velex(wheel, viscosity, density, volume) for wheel in dipping]
         else:
             parts = [iso_14179_1(wheel, viscosity, density) for wheel in dipping]
         found["churning"] = _sum(parts)
-    if asked.windage is not None:
-        windage = {"dawson": dawson, "anderson-loewenthal": anderson_loewenthal}[asked.windage]
+    if data.windage is not None:
+        windage = {"dawson": dawson, "anderson-loewenthal": anderson_loewenthal}[data.windage]
         found["windage"] = _sum([windage(wheel) for wheel in wheels])
-    if asked.bearings is not None:
+    if data.bearings is not None:
         found["bearings"] = _sum(
             [
                 palmgren(bearings, wheel.speed, viscosity, density)
-                for wheel, bearings in zip(wheels, asked.drag, strict=True)
+                for wheel, bearings in zip(wheels, data.drag, strict=True)
                 if bearings is not None
             ]
         )

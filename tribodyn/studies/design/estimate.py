@@ -21,10 +21,10 @@ def estimate(case: DesignCase) -> Estimate:
         more = resolutions(case, factor) if factor > 1 else {}
         if factor > 1 and not more:
             break
-        asked = cases_of(case, chosen(case, start_of(case)), more)
-        some = [_of_one(name, case, asked[0]) for name in case.scenarios]
+        cases = cases_of(case, chosen(case, start_of(case)), more)
+        some = [_of_one(name, case, cases[0]) for name in case.scenarios]
         several += some
-        seconds += candidates * len(asked) * sum(candidate.seconds for candidate in some)
+        seconds += candidates * len(cases) * sum(candidate.seconds for candidate in some)
     largest = max(several, key=lambda estimate: estimate.memory)
     names = names_of(case, [])
     scales = scales_of(case, names)

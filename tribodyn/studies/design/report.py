@@ -36,11 +36,13 @@ def sentences(record: Record) -> list[str]:
     search = record.scenario
     names = str(summary["objective_name"]).split(" and ")
     start, best = (np.atleast_1d(summary.get(f"objective{end}", np.nan)) for end in ("_start", ""))
-    said = []
+    found = []
     for place, name in enumerate(names):
         before = start[place] if place < len(start) and start[place] is not None else np.nan
-        said.append(f"{_quantity_or_name(search, name).title}: {_change(search, name, before, best[place])}.")
-    said += [
+        found.append(
+            f"{_quantity_or_name(search, name).title}: {_change(search, name, before, best[place])}."
+        )
+    found += [
         f"{key}: {summary.get('start', {}).get(key, 'not set')} at the start, {value} at the best."
         for key, value in summary.get("best", {}).items()
     ]
@@ -48,17 +50,19 @@ def sentences(record: Record) -> list[str]:
     known = summary.get("figures_best", {})
     for text, value in after.items():
         if name := _figure_in(text, known):
-            said.append(f"{text}: at its worst {_change(search, name, before.get(text), value)}.")
+            found.append(f"{text}: at its worst {_change(search, name, before.get(text), value)}.")
     if "resolution" in summary:
-        said.append(_resolution(search, names, summary))
+        found.append(_resolution(search, names, summary))
     if "objective_confirmed" in summary:
         ends = (summary[f"objective_{end}confirmed"] for end in ("start_", ""))
         change = _change(search, names[0], *ends)
-        said.append(f"Evaluated once more as design.confirm says: {change}.")
+        found.append(f"Evaluated once more as design.confirm says: {change}.")
     if "without_figures_message" in summary:
         count = summary["evaluations_without_figures"]
-        said.append(f"{count} candidates have no figures, most because: {summary['without_figures_message']}")
-    return said
+        found.append(
+            f"{count} candidates have no figures, most because: {summary['without_figures_message']}"
+        )
+    return found
 
 
 def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mapping[str, Any]) -> str:

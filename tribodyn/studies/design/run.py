@@ -144,10 +144,10 @@ def _started(
     case: DesignCase, start: Figures | None = None, client: Any = None
 ) -> Iterator[tuple[Evaluators, Figures]]:
     """Give what evaluates candidates, and the figures of the base scenario's cases as it stands."""
-    asked = cases_of(case, {})
-    workers = workers_for(case.search.evaluations * len(asked))
+    cases = cases_of(case, {})
+    workers = workers_for(case.search.evaluations * len(cases))
     with Cluster(case.scenarios, client) if client else Pool(case.scenarios, workers) as pool:
-        yield pool, start or pool.submit(asked).result()
+        yield pool, start or pool.submit(cases).result()
 
 
 def _search(case: DesignCase, archive: Archive, name: str) -> None:
@@ -220,8 +220,8 @@ def _about(
     for place in range(len(case.tolerances) if case.sensitivities else 0):
         for name, side in ((LOWER, -1.0), (UPPER, 1.0)):
             if (len(case.free) + place, name) not in moved:
-                asked = pool.submit(cases_of(case, best.values, archive.more, alone=(place, side)))
-                waiting.append((len(case.free) + place, name, asked))
+                figures = pool.submit(cases_of(case, best.values, archive.more, alone=(place, side)))
+                waiting.append((len(case.free) + place, name, figures))
     ends = [{}, best.values] if case.confirm else []
     confirming = [pool.submit(cases_of(case, values, {**archive.more, **case.confirm})) for values in ends]
     for (place, name), value in moved.items():

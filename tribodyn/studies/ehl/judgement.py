@@ -218,10 +218,10 @@ def ratios_over(
     loads, speeds : factors on torque and speed that span a map; none: no map
     progress : called with the share done, 0 … 1
     """
-    tell = progress or (lambda _share: None)
+    report = progress or (lambda _share: None)
     points = [(torque, speed) for torque in loads for speed in speeds]
     done = case.positions / (case.positions + AT_A_POINT * len(points))
-    found = _compared(case, lambda share: tell(done * share))
+    found = _compared(case, lambda share: report(done * share))
     medians: dict[tuple[str, str], list[float]] = {(value.what, value.law): [] for value in found}
     for number, (torque, speed) in enumerate(points):
         duty = replace(
@@ -231,7 +231,7 @@ def ratios_over(
         )
         for law in _compared(replace(case, operating=duty, positions=AT_A_POINT), lambda _share: None):
             medians[law.what, law.law].append(law.median)
-        tell(done + (1.0 - done) * (number + 1) / len(points))
+        report(done + (1.0 - done) * (number + 1) / len(points))
     width = max(len(speeds), 1)
     rows = range(0, len(points), width)
     maps = [[medians[law.what, law.law][row : row + width] for row in rows] for law in found]

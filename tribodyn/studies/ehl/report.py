@@ -74,14 +74,14 @@ def sentences(record: Record) -> list[str]:
     summary = record.summary
     given = summary.get("loads") == "given"
     loads = "given loads" if given else "quasi-static loads with friction, without inertia"
-    said = [f"Steady contacts, one after another, under {loads}."]
-    said.extend(_squeeze_sentences(summary))
+    found = [f"Steady contacts, one after another, under {loads}."]
+    found.extend(_squeeze_sentences(summary))
     if (residual := summary.get("residual_max")) is not None:
-        said.append(f"Flow and load are balanced to {residual:.1e}.")
+        found.append(f"Flow and load are balanced to {residual:.1e}.")
     solved, of = summary.get("positions_solved"), summary.get("positions")
     if solved is not None and of is not None and solved < of:
-        said.append(f"At {of - solved} of {of} positions the pair carries nothing or no solution was found.")
-    return said
+        found.append(f"At {of - solved} of {of} positions the pair carries nothing or no solution was found.")
+    return found
 
 
 def _squeeze_sentences(summary: Any) -> list[str]:
@@ -89,12 +89,12 @@ def _squeeze_sentences(summary: Any) -> list[str]:
     restarts, solved = summary.get("transient_restarts"), summary.get("transient_positions_solved")
     if restarts is None or solved is None:
         return []
-    said = [
+    found = [
         "Beside them the same way with squeeze, from the steady film of the first position on: shear and "
         "heat quasi-steady, jumps of the load spread over the time in which the oil passes half a contact."
     ]
     if missing := summary.get("positions_solved", solved) - solved:
-        said.append(f"With squeeze {missing} positions were not reached; the film began anew behind them.")
+        found.append(f"With squeeze {missing} positions were not reached; the film began anew behind them.")
     elif restarts:
-        said.append(f"With squeeze the film began anew {restarts} times.")
-    return said
+        found.append(f"With squeeze the film began anew {restarts} times.")
+    return found

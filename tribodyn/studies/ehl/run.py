@@ -23,7 +23,7 @@ from tribodyn.studies.ehl.along_path import (
 )
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import BEGIN, END, PLACES, SAMPLES, layout_of
-from tribodyn.studies.ehl.squeezed import SteadyContact, kept, squeezed
+from tribodyn.studies.ehl.squeezed import SteadyContact, squeezed, steady_of
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Checked, Progress, RunResult
@@ -124,7 +124,7 @@ def solve(study: PreparedEhl, over: PairWay, progress: Progress) -> dict[str, Ar
             for name, value in values.items():
                 arrays[name][at] = value
             if case.transient:
-                steady[at] = kept(found)
+                steady[at] = steady_of(found)
         flat = solved_at(contact, over, seen, at, case.step, smooth=True)
         if flat is not None:
             arrays["central_film_smooth"][at] = flat.solution.central_film_thickness

@@ -61,7 +61,7 @@ class Stretch(NamedTuple):
     loads: tuple[Array, Array]
 
 
-def kept(found: CoupledSolution) -> SteadyContact:
+def steady_of(found: CoupledSolution) -> SteadyContact:
     """Return what is kept of a steady contact."""
     solution = found.solution
     rise = np.zeros((len(solution.place), LAYERS)) if found.heat is None else found.heat.layers

@@ -56,12 +56,12 @@ def march(
     known, before = [start], [_snapshot(start, float(times[0]))]
     for goal in times[1:]:
         whole = shorter = float(goal) - before[-1].time
-        while (left := float(goal) - before[-1].time) > 1e-9 * whole:
-            step = min(left, shorter)
+        while (missing := float(goal) - before[-1].time) > 1e-9 * whole:
+            step = min(missing, shorter)
             if len(before) == 2:
                 step = min(step, _GROWTH * (before[1].time - before[0].time))
             # equal parts, so that no sliver is left
-            step = left / math.ceil(left / step - 1e-9)
+            step = missing / math.ceil(missing / step - 1e-9)
             found = _stepped(instant_at, before[-1].time + step, before, known)
             if found is None:
                 shorter = 0.5 * step

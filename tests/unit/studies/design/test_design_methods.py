@@ -41,7 +41,8 @@ class Formulas:
 
 def search(formulas: Formulas, **design: Any) -> tuple[Archive, list[Any]]:
     free = [{"key": key, "from": -1.0, "to": 1.0} for key in KEYS]
-    case = loaded_search("load-contact-18-36", {"free": free, "minimise": F, **design}, {}).case
+    keys = {"free": free, **({} if "maximise" in design else {"minimise": F}), **design}
+    case = loaded_search("load-contact-18-36", keys, {}).case
     start = formulas.submit([{}]).result()
     kept: list[Any] = []
     archive = Archive(case, start, formulas, kept.append)  # pyright: ignore[reportArgumentType]
@@ -107,7 +108,7 @@ def test_the_best_of_a_kinked_figure():
 
 def test_more_of_a_figure():
     formulas = Formulas(**{G: lambda x, y: 5.0 - bowl(x, y)})
-    archive, _ = search(formulas, minimise=None, maximise=G)
+    archive, _ = search(formulas, maximise=G)
     found = headline(archive.case, archive)
     assert found["objective"] == pytest.approx(4.0, abs=1e-3)
     assert found["objective_start"] == 5.0 - bowl(0.0, 0.0)

@@ -9,7 +9,7 @@ import tribodyn as td
 from tribodyn.record.reader import open_record
 from tribodyn.studies.ehl.along_path import contact_for, prepare, seen_by, solved_at, way
 from tribodyn.studies.ehl.loads import loads_of_record
-from tribodyn.studies.ehl.squeezed import kept, squeezed
+from tribodyn.studies.ehl.squeezed import squeezed, steady_of
 from tribodyn.studies.protocol.load import load
 
 RECORDS = Path(__file__).parents[3] / "fixtures" / "records-0.1.0"
@@ -81,7 +81,7 @@ def test_the_film_begins_anew_behind_a_loss_of_contact():
     over, contact = way(study), contact_for(study.case)
     seen = seen_by(study, over, None, "none")
     solved = {at: solved_at(contact, over, seen, at, 0.2) for at in (1, 2, 5, 6, 7)}
-    steady = [kept(one) if (one := solved.get(at)) else None for at in range(8)]
+    steady = [steady_of(one) if (one := solved.get(at)) else None for at in range(8)]
     found = squeezed(over, study.case, contact, steady, lambda _share: None)
     film = found["transient_central_film_thickness"]
     assert list(np.isfinite(film)) == [one is not None for one in steady]

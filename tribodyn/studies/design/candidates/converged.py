@@ -43,7 +43,7 @@ class Converged(NamedTuple):
     Attributes
     ----------
     archive : of the last resolution
-    stands : whether the figures stand; None where that was not asked
+    stands : whether the figures stand; None where that was not tested
     evaluations : on finer resolutions
     """
 
@@ -113,8 +113,8 @@ def _near(coarse: Archive, fine: Archive, members: list[Candidate]) -> list[Cand
     The nearest of them, at most as many as there are members, or `KEPT`.
     """
     known = {candidate.numbers: candidate.score for candidate in fine.evaluations}
-    asked = [member for member in members if member.numbers in known]
-    moved = [np.subtract(known[request.numbers].objectives, request.score.objectives) for request in asked]
+    both = [member for member in members if member.numbers in known]
+    moved = [np.subtract(known[same.numbers].objectives, same.score.objectives) for same in both]
     # what is left of errors of first order is as much again
     changes = 2.0 * np.nanmax(np.abs(moved), axis=0, initial=TINY)
     some = [other for other in coarse.evaluations if other.score.feasible and other.numbers not in known]

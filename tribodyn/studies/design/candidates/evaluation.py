@@ -56,10 +56,10 @@ def evaluate(
     found: list[dict[str, Any] | str] = [{} for _ in several]
     for name, data in scenarios.items():
         schema = study_of(data).table(data)
-        asked = [own(name, schema, overrides, scenarios) for overrides in several]
-        once = {json.dumps(request, sort_keys=True): request for request in asked}
+        requests = [own(name, schema, overrides, scenarios) for overrides in several]
+        once = {json.dumps(request, sort_keys=True): request for request in requests}
         known = dict(zip(once, _figures(data, list(once.values()), workers), strict=True))
-        for place, request in enumerate(asked):
+        for place, request in enumerate(requests):
             found[place] = _with(found[place], name, known[json.dumps(request, sort_keys=True)])
     return found
 

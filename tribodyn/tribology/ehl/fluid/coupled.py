@@ -116,9 +116,9 @@ def solve_coupled(
         target = _packed(found, warmed)
         if not np.all(np.isfinite(target)):
             raise _diverged(problem, rounds)
-        wished = mixing.next(_packed(closure, rise), target)
+        trial = mixing.next(_packed(closure, rise), target)
         while True:
-            closure, rise = _unpacked(wished)
+            closure, rise = _unpacked(trial)
             try:
                 solution = solve_steady(problem, solution, closure=closure)
                 break
@@ -126,7 +126,7 @@ def solve_coupled(
                 share *= 0.5
                 if share < _LEAST_SHARE:
                     raise
-                wished = mixing.shorter(share)
+                trial = mixing.shorter(share)
         friction = _friction(solution, shear, rheology)
         known = (solution.central_film_thickness, friction, float(np.max(warmed)))
         least = (0.0, 1e-3 * problem.line_load, 1e-2)

@@ -86,8 +86,8 @@ def newtonian_stress(stress: Array, scale: Array, rheology: Rheology) -> tuple[A
         return stress, np.ones_like(stress)
     ratio = stress / scale
     if rheology.law == "eyring":
-        held = np.clip(ratio, -_MOST_EYRING, _MOST_EYRING)
-        return scale * np.sinh(held), np.cosh(held)
+        clipped = np.clip(ratio, -_MOST_EYRING, _MOST_EYRING)
+        return scale * np.sinh(clipped), np.cosh(clipped)
     size = np.abs(ratio)
     index = rheology.carreau_index
     rate = np.maximum(size, np.maximum(size, 1e-300) ** (1.0 / index))

@@ -141,8 +141,8 @@ def _answer(process: "subprocess.Popen[bytes] | None") -> Array | None:
     if process is None:
         return None
     assert process.stdout is not None
-    said = process.stdout.read()
-    return pickle.loads(said) if process.wait() == 0 else None
+    answer = process.stdout.read()
+    return pickle.loads(answer) if process.wait() == 0 else None
 
 
 def serve() -> None:
