@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from marked_block import put
 
-from tribodyn.compliance.sharing.load_sharing import flexibility
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
@@ -40,7 +40,7 @@ def figures(
     flexible: PairFlexibility, modifications: Modifications, torque: float, coupled: bool
 ) -> list[str]:
     loaded: LoadedContact = roll_through(
-        flexible, modifications, torque, POSITIONS, slices=SLICES, coupled=coupled
+        LoadedFlanks(flexible, modifications, SLICES, coupled), torque, POSITIONS
     )
     at = np.unravel_index(np.argmin(np.abs(loaded.roll)), loaded.roll.shape)
     return [

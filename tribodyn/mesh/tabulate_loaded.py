@@ -15,11 +15,10 @@ import numpy as np
 
 from tribodyn.compliance.fem.gear_compliance import without_neighbours
 from tribodyn.compliance.sharing.condensed import Condensed, condense
-from tribodyn.compliance.sharing.flank_gap import flank_gap, relief_rolls
-from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility, share_load
+from tribodyn.compliance.sharing.flank_gap import relief_rolls
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import reach
 from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved, check_torque
-from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import back_flanks, uneven_teeth
@@ -69,9 +68,9 @@ def tabulate_loaded(
     behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
     sides = [front, front._replace(modifications=behind)] if back else [front]
     for flanks in sides:
-        check_contact(flanks.flexible, flanks.modifications, torque, flanks.slices)
+        check_contact(flanks, torque)
     # where the mesh vibrates by more than this reach, contact begins too late in the model
-    reaches = [reach(*flanks[:2], torque, *flanks[2:]) for flanks in sides]
+    reaches = [reach(flanks, torque) for flanks in sides]
     limits = min(start for start, _ in reaches), max(end for _, end in reaches)
     pitch = assembly.pitch_angle
     kinks = [0.0] if assembly.family.corner else []
@@ -134,12 +133,10 @@ def _pressed(
     error: Float[Array, "position pair"],
 ) -> Condensed:
     """Pairs (position, pair) of one side at the operating torque."""
-    flexible, modifications, slices, coupled = flanks
-    assembly = flexible.assembly
-    gap = error[..., None] + flank_gap(
-        assembly, modifications, geometry, face_positions(flexible.width, slices)
-    )
-    shared = share_load(flexible, roll, gear_torque, 0.0, gap, slices, coupled)
-    check_resolved(assembly, shared, modifications, gear_torque)
-    full = gear_torque / pair_geometry(assembly, np.zeros(1)).motion.gear_normal_arm[0]
-    return condense(flexible, geometry, geometry.gap[..., None] + gap, shared, _MINIMUM_SHARE * full, coupled)
+    flexible = flanks.flexible
+    gap = error[..., None] + flanks.gap(geometry)
+    shared = flanks.share(roll, gear_torque, 0.0, gap)
+    check_resolved(flanks, shared, gear_torque)
+    full = gear_torque / pair_geometry(flexible.assembly, np.zeros(1)).motion.gear_normal_arm[0]
+    whole = geometry.gap[..., None] + gap
+    return condense(flexible, geometry, whole, shared, _MINIMUM_SHARE * full, flanks.coupled)

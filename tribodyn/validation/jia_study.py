@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.sharing.load_sharing import flexibility
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
@@ -74,7 +74,7 @@ def rolled(name: Name, state: FaceState = FaceState()) -> LoadedContact:
         misalignment=Misalignment(in_plane=state.misalignment * ARC_MINUTE),
     )
     torque = PINION_TORQUE * teeth.gear.teeth / teeth.pinion.teeth
-    return roll_through(flexible, modifications, torque, POSITIONS, slices=SLICES, coupled=state.coupled)
+    return roll_through(LoadedFlanks(flexible, modifications, SLICES, state.coupled), torque, POSITIONS)
 
 
 class Maximum(NamedTuple):

@@ -8,11 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.sharing.flank_gap import flank_gap
-from tribodyn.compliance.sharing.load_sharing import effective_contact_ratio, extended_rolls, share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, effective_contact_ratio, extended_rolls
 from tribodyn.compliance.sharing.loaded_contact import reach
 from tribodyn.compliance.sharing.loaded_rules import check_contact
-from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions
+from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
 from tribodyn.mesh.power_flow import efficiency
@@ -70,14 +69,13 @@ def load_contact(
     torque, way = abs(gear_torque), math.copysign(1.0, gear_torque)
     if way < 0.0:
         modifications = back_flanks(modifications, float(assembly.path.pressure_angle(0.0)))
-    check_contact(flexible, modifications, torque, slices)
+    flanks = LoadedFlanks(flexible, modifications, slices, coupled)
+    check_contact(flanks, torque)
     ratio = assembly.path.pinion_pitch_radius / assembly.path.gear_pitch_radius
-    limits = reach(flexible, modifications, torque, slices, coupled, _REACH)
+    limits = reach(flanks, torque, _REACH)
     roll = extended_rolls(assembly, limits, positions)
-    geometry = pair_geometry(assembly, roll)
-    gap = flank_gap(assembly, modifications, geometry, face_positions(flexible.width, slices))
-    shared = share_load(flexible, roll, torque, way * friction_coefficient, gap, slices, coupled)
-    sliding = np.abs(geometry.motion.sliding)
+    shared = flanks.share(roll, torque, way * friction_coefficient)
+    sliding = np.abs(pair_geometry(assembly, roll).motion.sliding)
     loss = friction_coefficient * shared.normal_load * sliding
     gear, lost = gear_torque * ratio, float(np.mean(np.sum(loss, axis=1)))
     return LoadContact(

@@ -5,6 +5,7 @@ import pytest
 
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import (
+    LoadedFlanks,
     effective_contact_ratio,
     extended_rolls,
     flexibility,
@@ -44,14 +45,26 @@ EVERYTHING = Modifications(
 )
 
 
+def rolled(pair, modifications, torque, positions, cycles=1, friction_coefficient=0.0, **face):
+    return roll_through(
+        LoadedFlanks(pair, modifications, **face), torque, positions, cycles, friction_coefficient
+    )
+
+
+def error_of(pair, modifications, torque, positions, cycles=1, friction_coefficient=0.0, **face):
+    return loaded_error(
+        LoadedFlanks(pair, modifications, **face), torque, positions, cycles, friction_coefficient
+    )
+
+
 @pytest.fixture(scope="module")
 def pair():
     return flexibility(assemble(FAMILY, DRIVE), (STEEL, STEEL), lead=True)
 
 
 def test_nothing_modified_is_the_plane_model(pair):
-    found = roll_through(pair, UNMODIFIED, TORQUE, 60)
-    sliced = roll_through(pair, UNMODIFIED, TORQUE, 60, slices=9, coupled=False)
+    found = rolled(pair, UNMODIFIED, TORQUE, 60)
+    sliced = rolled(pair, UNMODIFIED, TORQUE, 60, slices=9, coupled=False)
     plane = share_load(pair, found.roll, TORQUE)
     np.testing.assert_allclose(found.normal_load, plane.normal_load, rtol=1e-9, atol=1e-6)
     np.testing.assert_allclose(sliced.normal_load, plane.normal_load, rtol=1e-8, atol=1e-5)
@@ -59,7 +72,7 @@ def test_nothing_modified_is_the_plane_model(pair):
     assert np.all(np.abs(found.unloaded) < 1e-12)
     np.testing.assert_allclose(np.ptp(sliced.line_load, axis=-1), 0.0, atol=1e-6 * sliced.line_load.max())
     np.testing.assert_allclose(sliced.root_tension, found.root_tension * np.ones(9), rtol=1e-6, atol=1e3)
-    limits = reach(pair, UNMODIFIED, TORQUE, 1, True)
+    limits = reach(LoadedFlanks(pair), TORQUE)
     roll = extended_rolls(pair.assembly, limits, 60)
     expected = effective_contact_ratio(roll, share_load(pair, roll, TORQUE), PITCH)
     assert found.contact_ratio == pytest.approx(expected, abs=2e-3)
@@ -67,7 +80,7 @@ def test_nothing_modified_is_the_plane_model(pair):
 
 @pytest.mark.parametrize("friction", [0.0, 0.1])
 def test_torque_balances_with_everything_modified(pair, friction):
-    found = roll_through(pair, EVERYTHING, TORQUE, 30, friction_coefficient=friction, slices=15)
+    found = rolled(pair, EVERYTHING, TORQUE, 30, friction_coefficient=friction, slices=15)
     motion = pair_geometry(pair.assembly, found.roll).motion
     lever = motion.gear_normal_arm + np.sign(motion.signed_distance) * friction * motion.gear_friction_arm
     np.testing.assert_allclose(np.sum(found.normal_load * lever, axis=1), TORQUE, rtol=1e-9)
@@ -81,7 +94,7 @@ def test_torque_balances_with_everything_modified(pair, friction):
 @pytest.mark.parametrize("tilt", [4e-4, 5e-3])
 def test_the_other_tilt_is_the_mirror_image(pair, tilt):
     one, other = (
-        roll_through(pair, Modifications(misalignment=Misalignment(sign * tilt)), TORQUE, 12, slices=21)
+        rolled(pair, Modifications(misalignment=Misalignment(sign * tilt)), TORQUE, 12, slices=21)
         for sign in (1, -1)
     )
     np.testing.assert_allclose(one.line_load, other.line_load[..., ::-1], atol=1e-6 * one.line_load.max())
@@ -120,7 +133,7 @@ def test_loads_converge_with_the_slices(pair):
     tilted = Modifications(misalignment=Misalignment(5e-4))
     loads, deflection, stress = [], [], []
     for slices in (21, 42, 84):
-        found = roll_through(pair, tilted, TORQUE, 3, slices=slices)
+        found = rolled(pair, tilted, TORQUE, 3, slices=slices)
         load = found.line_load[1, np.argmax(found.normal_load[1])]
         loads.append(load.reshape(21, -1).mean(axis=1) / load.mean())
         deflection.append(found.deflection[1])
@@ -133,8 +146,8 @@ def test_loads_converge_with_the_slices(pair):
 
 def test_free_ends_give_way_more_and_leave_their_load_to_the_places_next_to_them(pair):
     """Plane strain in the middle of the face; the very ends are softer, what is next to them carries more."""
-    plane = roll_through(pair, UNMODIFIED, TORQUE, 12)
-    free = roll_through(pair, UNMODIFIED, TORQUE, 12, slices=42)
+    plane = rolled(pair, UNMODIFIED, TORQUE, 12)
+    free = rolled(pair, UNMODIFIED, TORQUE, 12, slices=42)
     softer = free.deflection / plane.deflection
     assert np.all(softer > 1.01)
     assert np.all(softer < 1.04)
@@ -151,15 +164,13 @@ def test_free_ends_give_way_more_and_leave_their_load_to_the_places_next_to_them
 
 def test_slices_that_hold_each_other_even_out_less(pair):
     tilted = Modifications(misalignment=Misalignment(5e-4))
-    held, free = (
-        roll_through(pair, tilted, TORQUE, 6, slices=21, coupled=coupled) for coupled in (True, False)
-    )
+    held, free = (rolled(pair, tilted, TORQUE, 6, slices=21, coupled=coupled) for coupled in (True, False))
     assert np.nanmin(held.face_load_factor / free.face_load_factor) > 1.05
 
 
 def test_misalignment_costs_stiffness_and_strains_the_roots_of_one_end(pair):
-    straight = roll_through(pair, UNMODIFIED, TORQUE, 12)
-    tilted = roll_through(pair, Modifications(misalignment=Misalignment(5e-4)), TORQUE, 12, slices=21)
+    straight = rolled(pair, UNMODIFIED, TORQUE, 12)
+    tilted = rolled(pair, Modifications(misalignment=Misalignment(5e-4)), TORQUE, 12, slices=21)
     assert np.all(tilted.mesh_stiffness < straight.mesh_stiffness * 1.001)
     assert tilted.root_tension.max() > 1.2 * straight.root_tension.max()
     # at the end of the face that is loaded more, and more even than the load, which the tooth spreads
@@ -173,7 +184,7 @@ def test_misalignment_costs_stiffness_and_strains_the_roots_of_one_end(pair):
 def test_pitch_errors_are_the_unloaded_error_of_their_teeth(pair):
     errors = np.zeros(18)
     errors[1] = 6e-6
-    found = roll_through(
+    found = rolled(
         pair, Modifications(pinion=FlankModification(pitch_error=tuple(errors))), 1.0, 40, cycles=3
     )
     # tooth 1 enters at phase 1: it leaves the error where no other tooth is on the path, from ε − 1 on
@@ -189,7 +200,7 @@ def test_relief_of_the_tips_is_best_near_its_design_torque(pair):
     """Harris' map: long linear relief as deep as a pair deflects leaves the smallest error at that torque."""
     torques = [80.0, 160.0, TORQUE, 500.0, 640.0]
     plain, relieved = (
-        np.array([np.ptp(loaded_error(pair, modified, torque, 40)) for torque in torques])
+        np.array([np.ptp(error_of(pair, modified, torque, 40)) for torque in torques])
         for modified in (UNMODIFIED, TIPS)
     )
     assert np.all(np.diff(plain) > 0)
@@ -213,7 +224,7 @@ def test_pairs_reach_as_far_as_deflections_gaps_and_errors_let_their_corners_tou
         gear=EVERYTHING.gear._replace(tip=Relief(20e-6, 5.4e-3), pitch_error=(5e-6, *[0.0] * 34, -2e-6)),
     )
     assembly, face = pair.assembly, face_positions(pair.width, 3)
-    limits = reach(pair, modified, TORQUE, 3, True, factor)
+    limits = reach(LoadedFlanks(pair, modified, 3), TORQUE, factor)
     start, end = assembly.roll_limits
     # of one pair at the pitch point, from first touch
     middle = np.zeros((1, 1))
@@ -238,7 +249,7 @@ def test_pairs_follow_their_teeth_through_several_cycles(pair):
     errors = 4e-6 * np.cos(1.7 * np.arange(18.0))
     modified = Modifications(LONG._replace(pitch_error=tuple(errors)), LONG)
     positions, cycles = 3, 2
-    found = roll_through(pair, modified, TORQUE, positions, cycles)
+    found = rolled(pair, modified, TORQUE, positions, cycles)
     start, _ = pair.assembly.roll_limits
     arm = 54e-3 * np.cos(ANGLE)
     for t in range(positions * cycles):
@@ -258,8 +269,8 @@ def test_pairs_follow_their_teeth_through_several_cycles(pair):
 
 
 def test_stiffness_is_the_slope_of_the_force_on_the_pitch_circles(pair):
-    found = roll_through(pair, TIPS, TORQUE, 2, friction_coefficient=0.04)
-    error, more = found.deflection, loaded_error(pair, TIPS, 1.001 * TORQUE, 2, friction_coefficient=0.04)
+    found = rolled(pair, TIPS, TORQUE, 2, friction_coefficient=0.04)
+    error, more = found.deflection, error_of(pair, TIPS, 1.001 * TORQUE, 2, friction_coefficient=0.04)
     # one pitch circle's force is the torque over its radius; the local part stiffens with the load
     np.testing.assert_allclose(found.mesh_stiffness, 1e-3 * TORQUE / 54e-3 / (more - error), rtol=2e-4)
 
@@ -267,15 +278,15 @@ def test_stiffness_is_the_slope_of_the_force_on_the_pitch_circles(pair):
 def test_unless_said_flanks_have_no_friction(pair):
     """And the face is one slice; both ways to the deflection say the same."""
     found, without = (
-        loaded_error(pair, TIPS, TORQUE, 2),
-        loaded_error(pair, TIPS, TORQUE, 2, friction_coefficient=0.0, slices=1),
+        error_of(pair, TIPS, TORQUE, 2),
+        error_of(pair, TIPS, TORQUE, 2, friction_coefficient=0.0, slices=1),
     )
     np.testing.assert_array_equal(found, without)
-    np.testing.assert_array_equal(roll_through(pair, TIPS, TORQUE, 2).deflection, without)
+    np.testing.assert_array_equal(rolled(pair, TIPS, TORQUE, 2).deflection, without)
 
 
 def test_slices_are_pressed_as_hertz_says(pair):
-    found = roll_through(pair, EVERYTHING, TORQUE, 2, slices=4)
+    found = rolled(pair, EVERYTHING, TORQUE, 2, slices=4)
     np.testing.assert_allclose(found.slice_position, WIDTH * np.array([-3.0, -1.0, 1.0, 3.0]) / 8, rtol=1e-12)
     modulus = 207e9 / 2 / (1 - 0.3**2)
     carried = 0
@@ -311,7 +322,7 @@ def test_contact_ratio_under_load_counts_across_the_seam_of_cycles(positions, be
 def test_relief_keeps_corners_from_touching(pair):
     deep = LONG._replace(tip=Relief(20e-6, 5.4e-3))
     plain, relieved = (
-        roll_through(pair, modified, TORQUE, 120) for modified in (UNMODIFIED, Modifications(deep, deep))
+        rolled(pair, modified, TORQUE, 120) for modified in (UNMODIFIED, Modifications(deep, deep))
     )
     start, end = pair.assembly.roll_limits
     outside = (plain.roll < start - 1e-6) | (plain.roll > end + 1e-6)
@@ -335,4 +346,4 @@ def test_relief_keeps_corners_from_touching(pair):
 )
 def test_what_cannot_be_is_refused(pair, modified, torque, slices, message):
     with pytest.raises(InputError, match=message):
-        roll_through(pair, modified, torque, 6, slices=slices)
+        rolled(pair, modified, torque, 6, slices=slices)

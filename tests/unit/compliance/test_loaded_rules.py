@@ -8,6 +8,7 @@ import pytest
 
 from tests.support.faces_in_slices import DRIVE, STEEL, WIDTH
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved, check_torque
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.errors import InputError
@@ -30,18 +31,18 @@ def contact_width(torque):
 
 def test_a_torque_that_flattens_the_contact_beyond_the_face_is_refused():
     most = 300.0 * (WIDTH / contact_width(300.0)) ** 2  # the width grows with the square root
-    check_contact(PAIR, UNMODIFIED, 0.999 * most, 1)
+    check_contact(LoadedFlanks(PAIR, UNMODIFIED, 1), 0.999 * most)
     with pytest.raises(InputError, match=r"flattens the contact to 27 mm, wider than the face"):
-        check_contact(PAIR, UNMODIFIED, 1.001 * most, 1)
+        check_contact(LoadedFlanks(PAIR, UNMODIFIED, 1), 1.001 * most)
 
 
 @pytest.mark.parametrize("torque", [80.0, 700.0])
 def test_slices_are_at_least_as_wide_as_the_contact(torque):
     most = int(WIDTH / contact_width(torque))
-    check_contact(PAIR, TILTED, torque, most)
+    check_contact(LoadedFlanks(PAIR, TILTED, most), torque)
     said = f"at {torque:g} N m, {contact_width(torque) * 1e3:.2g} mm"
     with pytest.raises(InputError, match=said) as refused:
-        check_contact(PAIR, TILTED, torque, most + 1)
+        check_contact(LoadedFlanks(PAIR, TILTED, most + 1), torque)
     assert refused.value.remedy == f"give at most {most}"
 
 
@@ -59,7 +60,7 @@ def resolved(slices, first, second, modified=TILTED):
         load[position, 0, :light] = 1.0
         load[position, 1, :heavy] = 100.0
     shared: Any = SimpleNamespace(slice_load=load, normal_load=load.sum(axis=-1))
-    check_resolved(PAIR.assembly, shared, modified, 250.0)
+    check_resolved(LoadedFlanks(PAIR, modified), shared, 250.0)
 
 
 def test_the_heaviest_pair_must_stand_on_enough_slices_everywhere():

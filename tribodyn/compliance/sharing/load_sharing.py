@@ -29,7 +29,7 @@ from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, body_of
-from tribodyn.geometry.flanks.corner_contact import pair_geometry, part_of
+from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.blas_threads import one_blas_thread
@@ -261,7 +261,7 @@ class LoadedFlanks(NamedTuple):
     Attributes
     ----------
     flexible : with `lead` where slices hold each other
-    modifications : without pitch errors: all teeth are alike
+    modifications : of flanks and axes
     slices : equal slices of the face
     coupled : whether slices hold each other through the teeth and bodies
     """
@@ -271,15 +271,27 @@ class LoadedFlanks(NamedTuple):
     slices: int = 1
     coupled: bool = True
 
+    def face(self) -> Float[Array, " slice"]:
+        """Middles of the slices, m from the middle of the face."""
+        return face_positions(self.flexible.width, self.slices)
+
+    def gap(self, geometry: PairGeometry) -> Float[Array, "*pair slice"]:
+        """What modifications and misalignment leave open, `flank_gap`, m; pitch errors apart."""
+        return flank_gap(self.flexible.assembly, self.modifications, geometry, self.face())
+
     def share(
         self,
         roll: Float[Array, "position pair"],
         gear_torque: float,
         friction_coefficient: Float[Array, "position pair"] | float = 0.0,
+        gap: Float[Array, "position pair slice"] | None = None,
     ) -> SharedLoad:
-        """Share the gear's torque among pairs at the roll angles (position, pair), see `share_load`."""
-        flexible = self.flexible
-        geometry = pair_geometry(flexible.assembly, roll)
-        face = face_positions(flexible.width, self.slices)
-        gap = flank_gap(flexible.assembly, self.modifications, geometry, face)
-        return share_load(flexible, roll, gear_torque, friction_coefficient, gap, self.slices, self.coupled)
+        """Share the gear's torque among pairs at the roll angles (position, pair), see `share_load`.
+
+        `gap`: default that of `gap`.
+        """
+        if gap is None:
+            gap = self.gap(pair_geometry(self.flexible.assembly, roll))
+        return share_load(
+            self.flexible, roll, gear_torque, friction_coefficient, gap, self.slices, self.coupled
+        )

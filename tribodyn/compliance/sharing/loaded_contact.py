@@ -10,12 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.compliance.sharing.face_root_stress import root_stress
-from tribodyn.compliance.sharing.flank_gap import flank_gap, pitch_gap
-from tribodyn.compliance.sharing.load_sharing import SharedLoad, half_width, share_load
+from tribodyn.compliance.sharing.flank_gap import pitch_gap
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, SharedLoad, half_width
 from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved
-from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, roll_at_gap
-from tribodyn.geometry.flanks.modification import Modifications
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
 
@@ -69,27 +67,21 @@ class LoadedContact(NamedTuple):
 
 @one_blas_thread()
 def roll_through(
-    flexible: PairFlexibility,
-    modifications: Modifications,
+    flanks: LoadedFlanks,
     gear_torque: float,
     positions: int,
     cycles: int = 1,
     friction_coefficient: float = 0.0,
-    slices: int = 1,
-    coupled: bool = True,
 ) -> LoadedContact:
     """Roll a pair of gears slowly through some mesh cycles.
 
     Parameters
     ----------
-    flexible : `load_sharing.flexibility` of the drive, with `lead`
-    modifications : of flanks and axes
+    flanks : with `lead` in their `load_sharing.flexibility`
     gear_torque : T_g > 0, N m, constant
     positions : equal steps of a mesh cycle
     cycles : mesh cycles: more than one where pitch errors make teeth differ
     friction_coefficient : μ, the same for all
-    slices : equal slices of the face
-    coupled : whether slices hold each other through the teeth and bodies
 
     Raises
     ------
@@ -99,9 +91,8 @@ def roll_through(
     SimulationError
         If no state of contact is found.
     """
-    phase, roll, geometry, gap, shared = _rolled(
-        flexible, modifications, gear_torque, positions, cycles, friction_coefficient, slices, coupled
-    )
+    phase, roll, geometry, gap, shared = _rolled(flanks, gear_torque, positions, cycles, friction_coefficient)
+    flexible, _, slices, coupled = flanks
     line_load = shared.slice_load * (slices / flexible.width)
     half = half_width(flexible, geometry.motion.relative_curvature[..., None], line_load)
     total = shared.normal_load
@@ -112,7 +103,7 @@ def roll_through(
     return LoadedContact(
         phase=phase,
         roll=roll,
-        slice_position=face_positions(flexible.width, slices),
+        slice_position=flanks.face(),
         deflection=shared.deflection,
         unloaded=_unloaded(geometry, gap),
         normal_load=total,
@@ -128,23 +119,17 @@ def roll_through(
 
 
 def loaded_error(
-    flexible: PairFlexibility,
-    modifications: Modifications,
+    flanks: LoadedFlanks,
     gear_torque: float,
     positions: int,
     cycles: int = 1,
     friction_coefficient: float = 0.0,
-    slices: int = 1,
-    coupled: bool = True,
 ) -> Float[Array, " position"]:
     """Loaded static transmission error ξ alone, m; parameters and errors as those of `roll_through`.
 
     At several torques it makes Harris' map (S. L. Harris, Proc. IMechE 172 (1958) 87).
     """
-    rolled = _rolled(
-        flexible, modifications, gear_torque, positions, cycles, friction_coefficient, slices, coupled
-    )
-    return rolled.shared.deflection
+    return _rolled(flanks, gear_torque, positions, cycles, friction_coefficient).shared.deflection
 
 
 class _Rolled(NamedTuple):
@@ -158,18 +143,11 @@ class _Rolled(NamedTuple):
 
 
 def _rolled(
-    flexible: PairFlexibility,
-    modifications: Modifications,
-    gear_torque: float,
-    positions: int,
-    cycles: int,
-    friction_coefficient: float,
-    slices: int,
-    coupled: bool,
+    flanks: LoadedFlanks, gear_torque: float, positions: int, cycles: int, friction_coefficient: float
 ) -> _Rolled:
-    check_contact(flexible, modifications, gear_torque, slices)
-    limits = reach(flexible, modifications, gear_torque, slices, coupled)
-    assembly = flexible.assembly
+    check_contact(flanks, gear_torque)
+    limits = reach(flanks, gear_torque)
+    assembly = flanks.flexible.assembly
     pitch = assembly.pitch_angle
     start, _ = assembly.roll_limits
     ages = _ages(limits, start, pitch)
@@ -177,39 +155,30 @@ def _rolled(
     cycle = np.arange(positions * cycles) // positions
     roll = start + pitch * ((phase - cycle)[:, None] + ages)
     geometry = pair_geometry(assembly, roll)
-    gap = flank_gap(assembly, modifications, geometry, face_positions(flexible.width, slices))
-    gap = gap + pitch_gap(modifications, cycle[:, None] - ages)[..., None]
-    shared = share_load(flexible, roll, gear_torque, friction_coefficient, gap, slices, coupled)
-    check_resolved(assembly, shared, modifications, gear_torque)
+    gap = flanks.gap(geometry) + pitch_gap(flanks.modifications, cycle[:, None] - ages)[..., None]
+    shared = flanks.share(roll, gear_torque, friction_coefficient, gap)
+    check_resolved(flanks, shared, gear_torque)
     return _Rolled(phase, roll, geometry, gap, shared)
 
 
-def reach(
-    flexible: PairFlexibility,
-    modifications: Modifications,
-    gear_torque: float,
-    slices: int,
-    coupled: bool,
-    factor: float = REACH,
-) -> tuple[float, float]:
+def reach(flanks: LoadedFlanks, gear_torque: float, factor: float = REACH) -> tuple[float, float]:
     """Pinion angles (rad) between which a pair can touch: corners up to a gap of `factor` deflections.
 
     The deflection is that of a single pair at the pitch point, from first touch. Relief of the tips keeps the
     corners that much further away.
     """
-    assembly = flexible.assembly
-    face = face_positions(flexible.width, slices)
+    assembly, modifications = flanks.flexible.assembly, flanks.modifications
     at_pitch_point = np.zeros((1, 1))
     geometry = pair_geometry(assembly, at_pitch_point)
-    gap = flank_gap(assembly, modifications, geometry, face)
-    single = share_load(flexible, at_pitch_point, gear_torque, 0.0, gap, slices, coupled)
+    gap = flanks.gap(geometry)
+    single = flanks.share(at_pitch_point, gear_torque, 0.0, gap)
     arm = np.cos(geometry.motion.pressure_angle[0, 0])
     deflection = float(single.deflection[0] * arm - np.min(gap))
 
     start, end = assembly.roll_limits
     pitch = assembly.pitch_angle
     roll = start + pitch * np.arange(0.0, (end - start) / pitch, 1.0 / _PHASES)
-    nearest = _nearest(flexible, modifications, roll, face)
+    nearest = _nearest(flanks, roll)
     whole = np.full(math.ceil(len(roll) / _PHASES) * _PHASES, np.inf)
     whole[: len(roll)] = nearest
     # what the pairs leave open at the worst phase while nothing is loaded, and the errors of single teeth
@@ -220,7 +189,7 @@ def reach(
         if len(flank.pitch_error)
     ]
     most = factor * deflection + open_between + float(sum(errors))
-    before, beyond = _nearest(flexible, modifications, np.array([start, end]), face)
+    before, beyond = _nearest(flanks, np.array([start, end]))
     return roll_at_gap(assembly, (most - float(before), most - float(beyond)))
 
 
@@ -230,15 +199,9 @@ def _ages(limits: tuple[float, float], start: float, pitch: float) -> Int[Array,
     return np.arange(last, first - 1, -1)
 
 
-def _nearest(
-    flexible: PairFlexibility,
-    modifications: Modifications,
-    roll: Float[Array, "*pair"],
-    face: Float[Array, " slice"],
-) -> Float[Array, "*pair"]:
+def _nearest(flanks: LoadedFlanks, roll: Float[Array, "*pair"]) -> Float[Array, "*pair"]:
     """Minimum gap along the face at each angle on the path, m."""
-    geometry = pair_geometry(flexible.assembly, roll)
-    return np.min(flank_gap(flexible.assembly, modifications, geometry, face), axis=-1)
+    return np.min(flanks.gap(pair_geometry(flanks.flexible.assembly, roll)), axis=-1)
 
 
 def _unloaded(geometry: PairGeometry, gap: Float[Array, "position pair slice"]) -> Float[Array, " position"]:

@@ -3,14 +3,11 @@
 import numpy as np
 
 from tribodyn.compliance.sharing.flank_gap import check_modifications, maximum_along_lead
-from tribodyn.compliance.sharing.load_sharing import SharedLoad, half_width
-from tribodyn.compliance.sharing.slices import PairFlexibility
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, SharedLoad, half_width
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import (
     MINIMUM_SLICES,
-    Modifications,
     too_few_slices,
     vary_along_lead,
 )
@@ -23,15 +20,14 @@ def check_torque(gear_torque: float) -> None:
         raise InputError("operating.gear_torque", gear_torque, rule, 'write a torque such as "500 N*m"')
 
 
-def check_contact(
-    flexible: PairFlexibility, modifications: Modifications, gear_torque: float, slices: int
-) -> None:
+def check_contact(flanks: LoadedFlanks, gear_torque: float) -> None:
     """Refuse loads that drive nothing, modifications that are none, too few slices for them, and too many.
 
     A slice must be as wide as its contact: the loads of narrower ones are not line loads to each other.
 
     Raises InputError, which names the key, the rule and a value that obeys it.
     """
+    flexible, modifications, slices, _ = flanks
     check_torque(gear_torque)
     check_modifications(flexible.assembly, modifications)
     if broken := too_few_slices(slices, vary_along_lead(modifications)):
@@ -55,18 +51,16 @@ def check_contact(
         )
 
 
-def check_resolved(
-    assembly: Assembly, shared: SharedLoad, modifications: Modifications, gear_torque: float
-) -> None:
+def check_resolved(flanks: LoadedFlanks, shared: SharedLoad, gear_torque: float) -> None:
     """Refuse what leaves the heaviest pair on fewer slices than a distribution along the face needs."""
     slices = shared.slice_load.shape[-1]
-    if slices < MINIMUM_SLICES or not vary_along_lead(modifications):
+    if slices < MINIMUM_SLICES or not vary_along_lead(flanks.modifications):
         return
     heaviest = np.argmax(shared.normal_load, axis=1)[:, None, None]
     touching = np.sum(np.take_along_axis(shared.slice_load, heaviest, axis=1)[:, 0] > 0.0, axis=-1)
     if np.any(touching < MINIMUM_SLICES):
         raise InputError(
-            *maximum_along_lead(assembly, modifications),
+            *maximum_along_lead(flanks.flexible.assembly, flanks.modifications),
             f"lifts the flanks off each other: at {gear_torque:g} N m only {int(np.min(touching))} "
             f"of {slices} slices carry the heaviest pair",
             "give less, or more torque; or more mesh.slices, to resolve so narrow a contact",

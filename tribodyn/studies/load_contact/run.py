@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility, share_load
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, loaded_error, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.errors import SimulationError
@@ -75,16 +75,9 @@ def roll(study: PreparedTeeth, gear_torque: float) -> LoadedContact:
 def _contact(study: PreparedTeeth, gear_torque: float) -> tuple[Any, ...]:
     """Arguments of `roll_through` and `loaded_error`."""
     case = study.case
-    return (
-        study.flexible,
-        case.mesh.modifications,
-        gear_torque,
-        case.positions_per_cycle,
-        case.cycles,
-        case.friction_coefficient,
-        case.mesh.slices,
-        case.mesh.slice_coupling,
-    )
+    mesh = case.mesh
+    flanks = LoadedFlanks(study.flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
+    return flanks, gear_torque, case.positions_per_cycle, case.cycles, case.friction_coefficient
 
 
 def run(

@@ -1,6 +1,7 @@
 """Quasi-static efficiency along the path: balance with friction, limits, other methods, records."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -134,7 +135,7 @@ def test_a_cycloidal_path_gives_veciana_closed_form(studies, law):
 def test_torque_ratio_and_single_pair_agree_on_vanishing_radii(studies, law):
     """Both average the contact at the pitch point over its own width."""
     study = studies["efficiency-cycloidal-23-47"]
-    found = efficiencies(study._replace(duty=under(study, law)))
+    found = efficiencies(replace(study, duty=under(study, law)))
     loss = 1 - found["efficiency_single_pair"]
     assert abs(found["efficiency_single_pair"] - found["efficiency_torque_ratio"]) < loss**2
 
