@@ -82,7 +82,7 @@ def _module(base: str, attribute: str, known: dict[str, Path]) -> str:
 
 
 def folder(module: str) -> str:
-    """Return the folder of the package that a module lies in: ``tribodyn.solve.data`` -> ``solve``."""
+    """Return the folder of the package that a module lies in: ``tribodyn.solve.methods`` -> ``solve``."""
     return [*module.split("."), ""][1]
 
 

@@ -10,7 +10,7 @@ from tribodyn.solve.branch.continuation import Leg
 from tribodyn.solve.branch.family import FOLD, MERGING, PERIOD_DOUBLING
 from tribodyn.solve.branch.gear_pairs import UnstableRange, followed_states
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
+from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import DOWN, UP, frequency_response
 from tribodyn.studies.gear_pair.prepare import prepare, tables
@@ -98,7 +98,7 @@ def test_round_the_fold_of_a_gear_pair():
     assert values[-1] == pytest.approx(480.0)
     assert np.all(np.diff(modulus) > 0.0)
     assert modulus[0] > 1.0
-    scale = absolute_tolerances(model, 1.0, mesh_deflection(model, first.state))
+    scale = state_scales(model, first.state)
     for value, steady in list(zip(values.tolist(), beyond.steadies, strict=True))[:: len(values) - 1]:
         assert steady.kind == "unstable"
         end = gear_march(model_at(0, value), steady.state, 1, 1e-10 * scale)[-1]

@@ -9,7 +9,7 @@ from tests.support.foreign_marching import Compared, Reported, compared, gear_ma
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DIRECTIONS, DONE
 from tribodyn.solve.orbit.gear_map import moving_states
-from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
+from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_response
 from tribodyn.studies.gear_pair.prepare import prepare, tables
@@ -107,7 +107,7 @@ def test_a_gear_pair(number: int, tmp_path: Path):
         located = [record["end_value"][:, way].ravel() for way in (0, 1)]
     model = model_at(first)
     moving = moving_states(model)
-    scale = absolute_tolerances(model, 1.0, mesh_deflection(model, states[0, 0]))
+    scale = state_scales(model, states[0, 0])
 
     def march(value: float, state: np.ndarray, cycles: int) -> np.ndarray:
         full = np.zeros(len(scale))

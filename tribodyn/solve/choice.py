@@ -9,7 +9,7 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.initial import accelerations
 from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF, SWITCHING
-from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
+from tribodyn.solve.tolerances import state_scales
 
 _DISTANCE = CHANNELS.index("signed_distance")
 #: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one, with
@@ -42,7 +42,7 @@ def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
     over the phase; it is sampled finely where a pair's friction reverses, a short and possibly stiff stretch.
     """
     phases, segments = _places(model)
-    scale = absolute_tolerances(model, 1.0, mesh_deflection(model, state))[:MECHANICAL]
+    scale = state_scales(model, state)[:MECHANICAL]
     shift = np.zeros((MECHANICAL, STATES))
     shift[:, :MECHANICAL] = SHARE * np.diag(scale)
     shape = (len(phases), MECHANICAL, STATES)

@@ -47,9 +47,9 @@ class TableScales(NamedTuple):
 
     Attributes
     ----------
-    stiffness : see `mean_stiffness`
-    per_torque : deflection per torque, `static_deflection(model, 1.0)`, m/(N m)
-    gap_slope : see `gap_slope`
+    stiffness : of one pair, from its mean compliance over the mesh cycle, N/m
+    per_torque : deflection per torque, m/(N m)
+    gap_slope : largest slope of the gaps over the pinion's rotation, m/rad
     """
 
     stiffness: float
@@ -57,9 +57,16 @@ class TableScales(NamedTuple):
     gap_slope: float
 
 
-def mean_stiffness(model: Model) -> float:
-    """Stiffness of one pair, from its mean compliance over the mesh cycle, N/m."""
-    return 1.0 / float(np.mean(np.asarray(model.table.channel)[..., _COMPLIANCE, 0]))
+def table_scales(model: Model) -> TableScales:
+    """The scales of a model's table."""
+    channel, boundary = np.asarray(model.table.channel), np.asarray(model.table.boundary)
+    widths = np.diff(boundary) * float(model.table.pitch_angle) / channel.shape[1]
+    steepest = np.max(np.abs(channel[..., _GAP, 1]), axis=1) * np.asarray(model.table.in_contact)
+    return TableScales(
+        1.0 / float(np.mean(channel[..., _COMPLIANCE, 0])),
+        static_deflection(model, 1.0),
+        float(np.max(np.max(steepest, axis=-1) / widths)),
+    )
 
 
 def _mass(model: Model) -> float:
@@ -78,78 +85,70 @@ def absolute_tolerances(
     model: Model,
     rtol: float,
     deflection: float,
-    stiffness: float | None = None,
+    scales: TableScales | None = None,
     energy: float | None = None,
 ) -> Float[Array, " state"]:
     """Rtol times the scale of every state, from the static deflection of the mesh (m).
 
     Displacements scale with the deflection, velocities with the deflection times the mesh's natural
-    frequency, works with a share of an energy (J; None: that transmitted in one mesh cycle). `stiffness` is
-    that of `mean_stiffness`, if known.
+    frequency, works with a share of an energy (J; None: that transmitted in one mesh cycle). `scales` are
+    those of the table, if known.
     """
-    mechanics, table = model.mechanics, model.table
-    pinion_radius = float(table.pinion_pitch_radius)
-    stiffness = stiffness or mean_stiffness(model)
-    frequency = np.sqrt(stiffness / _mass(model))
-    velocity = deflection * frequency
+    pinion_radius = float(model.table.pinion_pitch_radius)
+    stiffness = (scales or table_scales(model)).stiffness
+    velocity = deflection * np.sqrt(stiffness / _mass(model))
     scale = np.empty(STATES)
     scale[list(DISPLACEMENTS)] = deflection
     scale[list(VELOCITIES)] = velocity
     scale[[SLIP, MOTOR_SLIP]] = velocity / pinion_radius
     scale[TWIST] = deflection / pinion_radius
-    scale[LAG] = deflection / pinion_radius / mechanics.nominal_speed
+    scale[LAG] = deflection / pinion_radius / model.mechanics.nominal_speed
     energy = _transmitted(model, deflection, stiffness) if energy is None else energy
     scale[list(WORKS)] = SHARE_OF_WORKS * energy
     return rtol * scale
 
 
-def mesh_deflection(model: Model, state: Float[Array, " state"], per_torque: float | None = None) -> float:
-    """`loaded_deflection`, at least the width over which contact sets in; m."""
-    loaded = loaded_deflection(model, state, per_torque)
-    return max(loaded, float(model.mechanics.contact_width), MINIMUM_DEFLECTION)
+def state_scales(model: Model, state: Float[Array, " state"]) -> Float[Array, " state"]:
+    """Sizes of all states by the deflection that the mesh has in a state or would have under the load."""
+    scales = table_scales(model)
+    return absolute_tolerances(model, 1.0, max(_loaded(model, state, scales), _least(model)), scales)
 
 
-def loaded_deflection(model: Model, state: Float[Array, " state"], per_torque: float | None = None) -> float:
+def _least(model: Model) -> float:
+    """Smallest deflection that tolerances are scaled by, at least the width over which contact sets in; m."""
+    return max(float(model.mechanics.contact_width), MINIMUM_DEFLECTION)
+
+
+def _loaded(model: Model, state: Float[Array, " state"], scales: TableScales) -> float:
     """Deflection that the mesh has in a state or would have under its load, without the bearings; m.
 
-    The load is the largest that constant part, harmonics and table can add up to. `per_torque` is
-    `static_deflection(model, 1.0)`, if known.
+    The load is the largest that constant part, harmonics and table can add up to.
     """
-    mechanics = model.mechanics
+    mechanics, table = model.mechanics, model.table
     torque = abs(float(mechanics.load_torque)) + float(np.sum(np.abs(mechanics.load_amplitudes)))
     torque += float(np.max(np.abs(mechanics.load_torques), initial=0.0))
-    per_torque = static_deflection(model, 1.0) if per_torque is None else per_torque
-    pairs = np.asarray(model.table.channel)[0, 0, np.asarray(model.table.in_contact)[0] > 0, :, 0]
-    side = np.asarray(model.table.side)[np.asarray(model.table.in_contact)[0] > 0]
+    there = np.asarray(table.in_contact)[0] > 0
+    pairs, side = np.asarray(table.channel)[0, 0, there, :, 0], np.asarray(table.side)[there]
     along, across = state[XI] + state[X_P] - state[X_G], state[Y_P] - state[Y_G]
     pressed = side * along * pairs[:, _COSINE] + across * pairs[:, _SINE] - pairs[:, _GAP]
-    return max(float(np.max(pressed)), per_torque * torque)
+    return max(float(np.max(pressed)), scales.per_torque * torque)
 
 
-def gap_slope(model: Model) -> float:
-    """Largest slope of the gaps over the pinion's rotation, m/rad."""
-    channel, boundary = np.asarray(model.table.channel), np.asarray(model.table.boundary)
-    widths = np.diff(boundary) * float(model.table.pitch_angle) / channel.shape[1]
-    steepest = np.max(np.abs(channel[..., _GAP, 1]), axis=1) * np.asarray(model.table.in_contact)
-    return float(np.max(np.max(steepest, axis=-1) / widths))
-
-
-def energy_scale(model: Model, loaded: float, scales: TableScales) -> float:
+def _energy(model: Model, loaded: float, scales: TableScales) -> float:
     """Energy that works are measured by, J.
 
     That transmitted in one mesh cycle; where there is no load, the kinetic energy that the gaps give, and at
     least the strain energy over the width in which contact sets in.
     """
-    mechanics = model.mechanics
-    width = max(float(mechanics.contact_width), MINIMUM_DEFLECTION)
-    moved = _mass(model) * (scales.gap_slope * float(mechanics.nominal_speed)) ** 2
-    return max(_transmitted(model, loaded, scales.stiffness), moved, scales.stiffness * width**2)
+    moved = _mass(model) * (scales.gap_slope * float(model.mechanics.nominal_speed)) ** 2
+    strain = scales.stiffness * _least(model) ** 2
+    return max(_transmitted(model, loaded, scales.stiffness), moved, strain)
 
 
 def tolerances_from(
     model: Model, state: Float[Array, " state"], rtol: float, max_steps: int
 ) -> StepTolerances:
-    """StepTolerances scaled by the deflection that the mesh has in `state` or would have under the load."""
+    """Tolerances scaled by the deflection that the mesh has in `state` or would have under the load."""
     return StepTolerances(rtol, tolerances_of_many([model], state[None], rtol)[0], max_steps)
 
 
@@ -161,13 +160,11 @@ def tolerances_of_many(
     tolerances = np.empty((len(models), STATES))
     for case, model in enumerate(models):
         if id(model.table) not in known:
-            known[id(model.table)] = TableScales(
-                mean_stiffness(model), static_deflection(model, 1.0), gap_slope(model)
-            )
+            known[id(model.table)] = table_scales(model)
         scales = known[id(model.table)]
-        deflection = mesh_deflection(model, states[case], scales.per_torque)
-        energy = energy_scale(model, loaded_deflection(model, states[case], scales.per_torque), scales)
-        tolerances[case] = absolute_tolerances(model, rtol, deflection, scales.stiffness, energy)
+        loaded = _loaded(model, states[case], scales)
+        deflection, energy = max(loaded, _least(model)), _energy(model, loaded, scales)
+        tolerances[case] = absolute_tolerances(model, rtol, deflection, scales, energy)
     # no relative part, see `step_control.RELATIVE`: in its place that of the deflection
     tolerances[:, list(DISPLACEMENTS)] *= 2.0
     return tolerances

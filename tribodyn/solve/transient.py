@@ -20,7 +20,7 @@ MAXIMUM_CYCLES = 50
 
 
 class TransientSettings(NamedTuple):
-    """How to integrate; see `data.SolverData`.
+    """How to integrate; see `methods.SolverData`.
 
     Attributes
     ----------

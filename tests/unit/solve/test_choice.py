@@ -13,7 +13,7 @@ from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIDING_KI
 from tribodyn.solve import choice
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF, SWITCHING
-from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
+from tribodyn.solve.tolerances import state_scales
 
 
 def test_places_lie_closely_where_friction_reverses(prepared):
@@ -36,7 +36,7 @@ def test_steps_are_those_of_the_largest_eigenvalue_at_every_place(prepared):
     model = prepared("crc-23-47", **{"friction.sliding": "kinematic", "mesh.points": 5}).model
     state = static_equilibrium(model)
     phases, segments = choice._places(model)
-    scale = absolute_tolerances(model, 1.0, mesh_deflection(model, state))
+    scale = state_scales(model, state)
     radii = []
     for phase, segment in zip(phases[::12], segments[::12], strict=True):
         columns = []

@@ -22,7 +22,7 @@ from tribodyn.solve.initial import accelerations
 from tribodyn.solve.march import jacobian
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import Place
-from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
+from tribodyn.solve.tolerances import state_scales
 
 #: Bearings of which no two are alike.
 BEARINGS = {
@@ -53,7 +53,7 @@ def test_every_column_is_that_of_central_differences(prepared, monkeypatch, rng,
     y = random_state(rng, float(model.mechanics.nominal_speed))
     y[5] = 40e-6  # well in contact
     f = accelerations(y, phase, segment, model)
-    scale = absolute_tolerances(model, 1.0, mesh_deflection(model, y))
+    scale = state_scales(model, y)
     found = Differences(np.zeros(STATES), np.full((STATES, MECHANICAL), np.nan), np.zeros(STATES))
     place = Place(phase, 0.0, segment, float(model.table.boundary[1]))
     kept = y.copy()

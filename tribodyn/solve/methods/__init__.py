@@ -4,9 +4,10 @@ A file is imported when its method is used: those of JAX and SciPy take long to 
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from tribodyn.errors import unknown_name
 
@@ -68,6 +69,17 @@ _INTEGRATORS = {
     Runs.SCIPY: "tribodyn.solve.scipy_integrator:ScipyIntegrator",
     Runs.JAX: "tribodyn.solve.jax.integrator:DiffraxIntegrator",
 }
+
+
+@dataclass(frozen=True)
+class SolverData:
+    """Method, relative tolerance, mesh cycles to run, steps allowed per cycle, and where the run starts."""
+
+    method: str = "auto"
+    rtol: float = 1e-6
+    cycles: int = 20
+    max_steps: int = 1_000_000
+    initial: Literal["static", "unloaded"] = "static"
 
 
 def solver(name: str) -> str:

@@ -32,7 +32,7 @@ from tribodyn.solve.ensemble import march
 from tribodyn.solve.integrator import MAX_STEPS, REASONS, Status
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.period_map import DIFFERENCE, Marched, Tangent, by_differences
-from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
+from tribodyn.solve.tolerances import state_scales
 
 
 def moving_states(model: Model) -> tuple[int, ...]:
@@ -79,10 +79,7 @@ class GearMap:
         self.solvers = [choose(solver, m, y).method for m, y in zip(models, starts, strict=True)]
         self.blur = 0.0 if self.exact else DIFFERENCE
         self.scale = np.array(
-            [
-                absolute_tolerances(model, 1.0, mesh_deflection(model, start))[self.moving]
-                for model, start in zip(models, starts, strict=True)
-            ]
+            [state_scales(model, start)[self.moving] for model, start in zip(models, starts, strict=True)]
         )
 
     @property

@@ -186,16 +186,8 @@ def _advance(state, parameters, periods, strobes, tangent, figures, with_tangent
             step = min(remaining, _longest(a))
             if with_tangent:
                 for column, d in ((0, b), (1, c)):
-                    _series(
-                        side,
-                        parameters,
-                        frequency * time,
-                        tangent[0, column],
-                        tangent[1, column],
-                        False,
-                        d,
-                        cosine,
-                    )
+                    dx, dv = tangent[0, column], tangent[1, column]
+                    _series(side, parameters, frequency * time, dx, dv, False, d, cosine)
                     step = min(step, _longest(d))
             whole = step
             turned = side
@@ -246,13 +238,14 @@ class Rows(NamedTuple):
 def march_rows(states, parameters, periods, into, with_tangent, with_figures, buffer):
     """March rows (R, 2) with parameters (R, 5) over some periods; fills `into`, a `Rows`."""
     for row in range(states.shape[0]):
+        strobes, tangent, figures = into.strobes[row], into.tangents[row], into.figures[row]
         into.status[row] = _advance(
             states[row],
             parameters[row],
             periods,
-            into.strobes[row],
-            into.tangents[row],
-            into.figures[row],
+            strobes,
+            tangent,
+            figures,
             with_tangent,
             with_figures,
             buffer,
@@ -281,38 +274,31 @@ class OscillatorMap:
         self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int, fine: bool = True
     ) -> Marched:
         """See `period_map.PeriodMap`; always as fine as rounding allows."""
-        strobes, _, _, reasons = self._run(states, cases, periods, False, False)
-        return Marched(strobes, reasons)
+        rows, reasons = self._run(states, cases, periods, False, False)
+        return Marched(rows.strobes, reasons)
 
     def tangent(self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int) -> Tangent:
         """See `period_map.PeriodMap`; by the variational equation."""
-        strobes, tangents, _, reasons = self._run(states, cases, periods, True, False)
-        return Tangent(strobes[:, -1], tangents, reasons)
+        rows, reasons = self._run(states, cases, periods, True, False)
+        return Tangent(rows.strobes[:, -1], rows.tangents, reasons)
 
     def figures(
         self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int
     ) -> Float[Array, "row figure"]:
         """Integrals and extremes (R, 6) over some periods, see INTEGRAL and the others."""
-        return self._run(states, cases, periods, False, True)[2]
+        return self._run(states, cases, periods, False, True)[0].figures
 
-    def _run(self, states, cases, periods, with_tangent, with_figures):
-        rows = len(states)
-        figures = np.zeros((rows, FIGURES))
-        figures[:, MAXIMUM], figures[:, MINIMUM] = -np.inf, np.inf
+    def _run(
+        self, states: np.ndarray, cases: np.ndarray, periods: int, with_tangent: bool, with_figures: bool
+    ) -> tuple[Rows, list[str]]:
+        count = len(states)
         into = Rows(
-            strobes=np.full((rows, periods, 2), np.nan),
-            tangents=np.tile(np.eye(2), (rows, 1, 1)),
-            figures=figures,
-            status=np.zeros(rows, dtype=np.int64),
+            strobes=np.full((count, periods, 2), np.nan),
+            tangents=np.tile(np.eye(2), (count, 1, 1)),
+            figures=np.zeros((count, FIGURES)),
+            status=np.zeros(count, dtype=np.int64),
         )
-        march_rows(
-            np.ascontiguousarray(states, dtype=float),
-            self.parameters[cases],
-            periods,
-            into,
-            with_tangent,
-            with_figures,
-            np.zeros((4, DEGREE + 1)),
-        )
-        reasons = [REASONS.get(int(code), "") for code in into.status]
-        return into.strobes, into.tangents, into.figures, reasons
+        into.figures[:, MAXIMUM], into.figures[:, MINIMUM] = -np.inf, np.inf
+        begin, buffer = np.ascontiguousarray(states, dtype=float), np.zeros((4, DEGREE + 1))
+        march_rows(begin, self.parameters[cases], periods, into, with_tangent, with_figures, buffer)
+        return into, [REASONS.get(int(code), "") for code in into.status]

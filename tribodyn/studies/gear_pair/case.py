@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from tribodyn.dynamics.data import BearingData
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.geometry.drive import SIDES, body_of
-from tribodyn.solve.data import SolverData
+from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.shared import LAYOUT
 from tribodyn.studies.protocol.cost import (

@@ -1,13 +1,10 @@
 """Many cases of a gear pair's dynamics, evaluated together: steady states, or marches of a given length."""
 
-from collections.abc import Hashable, Sequence
-
-import numpy as np
+from collections.abc import Sequence
 
 from tribodyn.dynamics.modes import MODES, MODES_WITH_SHAFT
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.errors import InputError
-from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
@@ -16,7 +13,7 @@ from tribodyn.studies.gear_pair.case import STEADY_CYCLES, Case, estimate_in_swe
 from tribodyn.studies.gear_pair.prepare import prepare, table_key
 from tribodyn.studies.gear_pair.sweep_layout import layout_of, row_bytes
 from tribodyn.studies.protocol.estimate import Estimate
-from tribodyn.studies.sweeping.batch import Batch, Chunk
+from tribodyn.studies.sweeping.batch import Batch
 
 #: Mesh cycles that the search for a steady state may take, that its window has (whole periods), and points of
 #: the section of a motion that has no period.
@@ -34,6 +31,9 @@ class GearPairs:
     """See `sweeping.batch.Batch`."""
 
     states = STATES
+    layout = staticmethod(layout_of)
+    sharing = staticmethod(table_key)
+    evaluate = staticmethod(evaluate)
 
     def settings(self, cases: Sequence[Case], transient: int | None, engine: str) -> SweepSettings:
         """How the cases are brought to their windows."""
@@ -56,10 +56,6 @@ class GearPairs:
             raise InputError("--unstable", None, rule, "omit one")
         return settings._replace(followed=settings.steady, unstable=unstable)
 
-    def layout(self, settings: SweepSettings) -> SweepLayout:
-        """Figures, the window of the transmission error, Poincaré section, modes, and the state."""
-        return layout_of(settings)
-
     def size_of_chunk(self, settings: SweepSettings, total: int, width: int) -> int:
         """Cases to be evaluated together, by the room that their windows take."""
         by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * STATES * 8)))
@@ -73,19 +69,11 @@ class GearPairs:
         )
         return taken._replace(record=row_bytes(settings))
 
-    def sharing(self, case: Case) -> Hashable:
-        """What the table of the mesh depends on."""
-        return table_key(case)
-
     def check(self, case: Case, settings: SweepSettings) -> None:
         """Prepare a case; a steady state needs a load that does not change with time."""
         model = prepare(case, tabulated(case)).model
         if settings.steady:
             refuse_time_dependent(model)
-
-    def evaluate(self, chunk: Chunk, settings: SweepSettings, workers: int | None) -> dict[str, np.ndarray]:
-        """Bring every case to its window and sum it up."""
-        return evaluate(chunk, settings, workers)
 
 
 BATCH: Batch = GearPairs()
