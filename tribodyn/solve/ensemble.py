@@ -55,7 +55,7 @@ def march(
         start of a run)
     first_cycle : whole mesh cycles done before; with the phase and the lag they give the time
     method : "auto": explicit, and where that takes too many steps what `choice.choose` gives; or a method's
-        name, see `methods`; those of diffrax are mapped over the cases, see `jax_ensemble`
+        name, see `methods`; those of diffrax are mapped over the cases, see `jax.ensemble`
     extremes : whether to seek the extremes of the motion over the window, between its samples too
     workers : threads; by default as many as cores that this process may use
     progress : called with the share done, 0 … 1

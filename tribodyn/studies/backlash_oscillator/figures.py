@@ -141,26 +141,25 @@ def _finish(
     panels[-1].set_xlabel(ABSCISSA)
     drawn.align_ylabels()
     several = len(records) > 1
-    handles = [
-        Line2D([], [], color=QUIET if several else PALETTE[direction], linestyle=LINES[direction])
+    key: dict[str, dict[str, Any]] = {
+        f"frequency {WORDS[direction]}": {
+            "color": QUIET if several else PALETTE[direction],
+            "linestyle": LINES[direction],
+        }
         for direction in (UP, DOWN)
-    ]
-    labels = [f"frequency {WORDS[direction]}" for direction in (UP, DOWN)]
+    }
     if any("unstable_frequency" in record for record in records):
-        handles.append(Line2D([], [], color=QUIET, **UNSTABLE))
-        labels.append("unstable")
+        key["unstable"] = UNSTABLE
     if losing:
-        handles.append(Line2D([], [], color=QUIET, linewidth=4.5, alpha=0.4))
-        labels.append("contact lost for part of the period")
+        key["contact lost for part of the period"] = {"linewidth": 4.5, "alpha": 0.4}
         if any("end_frequency" in record for record in records):
-            handles.append(Line2D([], [], color=QUIET, linestyle="", marker="^", **END))
-            labels.append("a branch ends (a)")
+            key["a branch ends (a)"] = {"linestyle": "", "marker": "^", **END}
         if any(np.any(record["stable"] == 0.0) for record in records):
-            handles.append(Line2D([], [], color=QUIET, linestyle="", marker="^", markersize=3.5))
-            labels.append("not periodic")
+            key["not periodic"] = {"linestyle": "", "marker": "^", "markersize": 3.5}
         if any(np.nanmax(record["back_contact_fraction"], initial=0.0) > 0.0 for record in records):
-            handles.append(Line2D([], [], color=QUIET, linestyle=":"))
-            labels.append("contact on the back side (b)")
+            key["contact on the back side (b)"] = {"linestyle": ":"}
+    handles = [Line2D([], [], **({"color": QUIET} | style)) for style in key.values()]
+    labels = list(key)
     if several:
         handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles
         labels = [*map(record_label, records), *labels]

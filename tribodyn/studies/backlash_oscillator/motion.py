@@ -255,13 +255,8 @@ def march_rows(states, parameters, periods, into, with_tangent, with_figures, bu
 class OscillatorMap:
     """The oscillator's map over a period of the excitation, as `period_map.PeriodMap`.
 
-    Parameters
-    ----------
-    parameters : rows of ζ, F_m, F_e, ε, Ω
-
-    Notes
-    -----
-    The state is (x, dx/dτ) where cos Ωτ = 1, in units of the half backlash; it is its own scale.
+    Its parameters are rows (C, 5) of ζ, F_m, F_e, ε, Ω. The state is (x, dx/dτ) where cos Ωτ = 1, in units of
+    the half backlash; it is its own scale.
     """
 
     blur = 0.0
