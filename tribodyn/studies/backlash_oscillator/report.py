@@ -4,27 +4,7 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
 
-REPORTED: Reported = {
-    "Response": quantities(
-        "points",
-        "points_of_longer_period",
-        "points_not_periodic",
-        "points_quasi_periodic",
-        "points_chaotic",
-        "points_failed",
-        "rms_max",
-        "rms_max_frequency",
-        "contact_loss_from",
-        "contact_loss_to",
-        "contact_loss_fraction_max",
-        "back_contact_fraction_max",
-        "bistable_from",
-        "bistable_to",
-    ),
-    "Solver": quantities("wall_time"),
-}
-
-SWEPT = quantities(
+_OF_THE_WAYS = (
     "rms_max",
     "rms_max_frequency",
     "contact_loss_from",
@@ -33,9 +13,15 @@ SWEPT = quantities(
     "back_contact_fraction_max",
     "bistable_from",
     "bistable_to",
-    "points_not_periodic",
-    "points_of_longer_period",
 )
+_COUNTED = ("points_quasi_periodic", "points_chaotic", "points_failed")
+REPORTED: Reported = {
+    "Response": quantities(
+        "points", "points_of_longer_period", "points_not_periodic", *_COUNTED, *_OF_THE_WAYS
+    ),
+    "Solver": quantities("wall_time"),
+}
+SWEPT = quantities(*_OF_THE_WAYS, "points_not_periodic", "points_of_longer_period")
 
 
 def sentences(record: Record) -> list[str]:
