@@ -8,6 +8,7 @@ One compiled program serves all cases that differ in numbers alone; it is kept i
 
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
@@ -157,17 +158,13 @@ def check_keys(keys: Sequence[str], numbers: Mapping[str, Number]) -> None:
             raise InputError("wrt", quoted(str(key)), "no key to differentiate by", mean + there)
 
 
+@dataclass(frozen=True)
 class _Structure:
     """A case, equal to all others that differ in their numbers alone."""
 
-    def __init__(self, text: str, case: Any, numbers: Mapping[str, Number]) -> None:
-        self.text, self.case, self.numbers = text, case, numbers
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Structure) and self.text == other.text
-
-    def __hash__(self) -> int:
-        return hash(self.text)
+    text: str
+    case: Any = field(compare=False)
+    numbers: Mapping[str, Number] = field(compare=False)
 
 
 def _without(case: Any, numbers: Mapping[str, Number]) -> str:
