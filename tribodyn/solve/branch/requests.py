@@ -74,8 +74,8 @@ def fulfil(
     alike: dict[tuple[type, int], list[int]] = {}
     for number, request in requests.items():
         if isinstance(request, FollowArc):
-            *seed, size = request
-            turn = follow_arc(family, lines[number], Seed(*seed), size, tolerance=tolerance)
+            seed = Seed(request.value, request.state, request.period, request.way)
+            turn = follow_arc(family, lines[number], seed, request.size, tolerance=tolerance)
             results[number] = _refused(request, "")._replace(turn=turn)
         else:
             periods = 0 if isinstance(request, Relax) else request[-1]

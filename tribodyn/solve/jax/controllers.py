@@ -24,7 +24,7 @@ _Controller: Any = diffrax.AbstractAdaptiveStepSizeController
 class _CountingSteps(_Controller):
     """A controller around another one, with its tolerances, and a count in its state."""
 
-    controller: diffrax.AbstractAdaptiveStepSizeController
+    controller: Any
 
     @property
     def rtol(self) -> Any:

@@ -94,8 +94,8 @@ class Queue(NamedTuple):
     def results(self) -> Ensemble:
         """Results of the cases, in the order of the queue."""
         extremes = Extremes(self.measure, self.at, self.segment, self.extreme_state)
-        first = self._fields.index("state")
-        return Ensemble(*self[first : first + len(Ensemble._fields) - 1], extremes)
+        counts = self.status, self.reached, self.steps, self.evaluations
+        return Ensemble(self.state, self.samples, *counts, extremes)
 
 
 def empty_lanes(

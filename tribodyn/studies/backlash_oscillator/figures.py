@@ -158,7 +158,7 @@ def _finish(
             key["not periodic"] = {"linestyle": "", "marker": "^", "markersize": 3.5}
         if any(np.nanmax(record["back_contact_fraction"], initial=0.0) > 0.0 for record in records):
             key["contact on the back side (b)"] = {"linestyle": ":"}
-    handles = [Line2D([], [], **({"color": QUIET} | style)) for style in key.values()]
+    handles = [Line2D([], [], **{"color": QUIET, **style}) for style in key.values()]
     labels = list(key)
     if several:
         handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles

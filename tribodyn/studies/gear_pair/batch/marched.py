@@ -100,7 +100,7 @@ def marched(
     before = cycles - window
     sections = max(0, min(points, cycles) - window)
     led = march(models, states, cycles=before, window=sections, samples=1, **solver)
-    good = np.flatnonzero(led.status == Status.DONE)
+    good = np.flatnonzero(led.status == Status.DONE).tolist()
     ran = march(
         [models[i] for i in good],
         led.state[good],
@@ -112,7 +112,7 @@ def marched(
         extremes=True,
         **solver,
     )
-    rows = {int(i): row for row, i in enumerate(good)}
+    rows = {i: row for row, i in enumerate(good)}
     outcomes = []
     for i, model in enumerate(models):
         part, row = (ran, rows[i]) if i in rows else (led, i)
