@@ -9,7 +9,7 @@ import numpy as np
 
 from tribodyn.dynamics.recorded import DOF, SAMPLES, scales_of
 from tribodyn.record.writer import RecordWriter
-from tribodyn.studies.gears.shared import LAYOUT
+from tribodyn.studies.gears.case import LAYOUT
 
 
 def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:

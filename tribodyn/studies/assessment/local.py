@@ -18,7 +18,7 @@ from tribodyn.studies.assessment.standard import flanks_of, oil_of
 _WIDEST = 0.1
 
 
-class Local(NamedTuple):
+class LocalValues(NamedTuple):
     """Values along the path of contact, and those at the points A to E.
 
     Attributes
@@ -58,7 +58,7 @@ def point_angles(assembly: Assembly) -> Float[Array, " point"]:
 
 def local_of(
     case: AssessmentCase, assembly: Assembly, along: Mapping[str, Any], figures: Mapping[str, Any]
-) -> Local:
+) -> LocalValues:
     """Evaluate method A; SimulationError where no place has a Hertz contact.
 
     Parameters
@@ -103,7 +103,7 @@ def local_of(
         oil_of(case),
     )
     sliding = np.abs(speeds[0] - speeds[1])
-    return Local(roll, load, 1.0 / motion.relative_curvature, sliding, films, points)
+    return LocalValues(roll, load, 1.0 / motion.relative_curvature, sliding, films, points)
 
 
 def bulk_of(case: AssessmentCase, assembly: Assembly, figures: Mapping[str, Any]) -> float:

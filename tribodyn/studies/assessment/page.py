@@ -1,4 +1,4 @@
-"""The report of an assessment: a first page for whoever asked, the details on those behind it."""
+"""The report of an assessment: a first page for whoever asks, the details on those behind it."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -19,11 +19,11 @@ from tribodyn.record.reader import Record, open_record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.judged import LIMITS
+from tribodyn.studies.assessment.margins import LIMITS
 from tribodyn.studies.assessment.pictures import pictures
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.protocol.load import load
-from tribodyn.studies.protocol.part import Curve
+from tribodyn.studies.protocol.part import ReportCurve
 from tribodyn.studies.protocol.study import Study
 
 _RPM = 30.0 / math.pi
@@ -48,13 +48,13 @@ def page(record: Record) -> str:
             case: AssessmentCase = load(scenario).case
         except InputError as error:  # the file that it names is gone with this block
             raise error.moved(lambda _: str(record.path)) from None
-    asked = parts.asked_of(case)
-    taking_part = parts.parts(asked)
+    request = parts.request_of(case)
+    taking_part = parts.parts(request)
     behind = parts.folder_of(Path(record.path))
     done = parts.kept(taking_part, behind)
-    curves: list[Curve] = []
+    curves: list[ReportCurve] = []
     if done is not None:
-        for _, answer in parts.answers(taking_part, asked, done):
+        for _, answer in parts.answers(taking_part, request, done):
             curves += answer.curves
     title = str(record.scenario.get("title", record.label))
     picture = inline(pictures(record, curves), "error, vibration, film, losses")
@@ -252,7 +252,7 @@ def _list(heading: str, said: Mapping[str, str]) -> str:
     return f'<section class="small"><h2>{heading}</h2><ul>{items}</ul></section>'
 
 
-def _part(study: Study, title: str, done: Sequence[parts.Done]) -> str:
+def _part(study: Study, title: str, done: Sequence[parts.TaskResult]) -> str:
     """Picture and summary of the first record of a part; of rows their extremes stand on the first page."""
     from tribodyn.post.page.page import summary_tables
     from tribodyn.studies.pages.pictures import overview

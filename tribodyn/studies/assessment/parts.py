@@ -31,7 +31,7 @@ from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.gears.by_standard import base_pitch_deviation
 from tribodyn.studies.protocol.evaluated import evaluated
 from tribodyn.studies.protocol.load import loaded_from, table_of
-from tribodyn.studies.protocol.part import Answer, Asked, Done, Role, Task
+from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult
 from tribodyn.studies.protocol.study import Progress, Study
 
 
@@ -39,11 +39,11 @@ class Part(NamedTuple):
     """A study that takes part, its role and its tasks."""
 
     study: Study
-    role: Role
+    role: Contribution
     tasks: tuple[Task, ...]
 
 
-def asked_of(case: AssessmentCase) -> Asked:
+def request_of(case: AssessmentCase) -> Request:
     """What a case asks the studies."""
     data, settings = tomllib.loads(case.toml), case.settings
     first, last = settings.speed_range
@@ -57,7 +57,7 @@ def asked_of(case: AssessmentCase) -> Asked:
     }
     assembly = Assembly(family(case.family), case.drive)
     _, pitch_deviation = base_pitch_deviation(assembly, case.quality)
-    return Asked(
+    return Request(
         case.title,
         tables,
         case.operating.pinion_speed,
@@ -70,11 +70,11 @@ def asked_of(case: AssessmentCase) -> Asked:
     )
 
 
-def parts(asked: Asked) -> tuple[Part, ...]:
+def parts(request: Request) -> tuple[Part, ...]:
     """Studies of the registry that take part, in order, with their tasks."""
     found = [(study, role) for _, study in STUDIES.items() if (role := study.role()) is not None]
     return tuple(
-        Part(study, role, tuple(role.tasks(asked)))
+        Part(study, role, tuple(role.tasks(request)))
         for study, role in sorted(found, key=lambda one: one[1].order)
     )
 
@@ -99,7 +99,7 @@ def folder_of(record: Path) -> Path:
 
 def results(
     all_parts: tuple[Part, ...], folder: Path, progress: Progress | None = None, *, force: bool = False
-) -> dict[str, Done]:
+) -> dict[str, TaskResult]:
     """Run every task, or take up what an earlier call left; results by name of the task.
 
     Raises
@@ -119,7 +119,7 @@ def results(
         _require_unchanged(task, folder)
     folder.mkdir(parents=True, exist_ok=True)
     report = progress or (lambda _share: None)
-    done: dict[str, Done] = {}
+    done: dict[str, TaskResult] = {}
     for number, (study, task) in enumerate(every):
         announce(f"{number + 1}/{len(every)}, {task.about}")
         report(number / len(every))
@@ -128,12 +128,12 @@ def results(
         except (InputError, SimulationError) as error:
             if task.needed:
                 raise
-            done[task.name] = Done(folder / task.name, failures=(f"{task.about}: {error}",))
+            done[task.name] = TaskResult(folder / task.name, failures=(f"{task.about}: {error}",))
     report(1.0)
     return done
 
 
-def kept(all_parts: tuple[Part, ...], folder: Path) -> dict[str, Done] | None:
+def kept(all_parts: tuple[Part, ...], folder: Path) -> dict[str, TaskResult] | None:
     """Results that an earlier call left, as `results` gives them; None where a needed one is missing.
 
     Raises
@@ -141,26 +141,26 @@ def kept(all_parts: tuple[Part, ...], folder: Path) -> dict[str, Done] | None:
     InputError
         If a part was changed since it was written.
     """
-    done: dict[str, Done] = {}
+    done: dict[str, TaskResult] = {}
     for part in all_parts:
         for task in part.tasks:
             _require_unchanged(task, folder)
             found = _kept_rows(task, folder) if task.values else _kept_run(task, folder)
             if found is None and task.needed:
                 return None
-            done[task.name] = found or Done(folder / task.name, failures=(task.about,))
+            done[task.name] = found or TaskResult(folder / task.name, failures=(task.about,))
     return done
 
 
 def answers(
-    all_parts: tuple[Part, ...], asked: Asked, done: Mapping[str, Done]
-) -> Iterator[tuple[Part, Answer]]:
+    all_parts: tuple[Part, ...], request: Request, done: Mapping[str, TaskResult]
+) -> Iterator[tuple[Part, Findings]]:
     """What every study says of its results."""
     for part in all_parts:
-        yield part, part.role.answer(asked, {task.name: done[task.name] for task in part.tasks})
+        yield part, part.role.answer(request, {task.name: done[task.name] for task in part.tasks})
 
 
-def _run(study: Study, task: Task, folder: Path) -> Done:
+def _run(study: Study, task: Task, folder: Path) -> TaskResult:
     found = _kept_run(task, folder)
     if found is not None:
         return found
@@ -170,25 +170,25 @@ def _run(study: Study, task: Task, folder: Path) -> Done:
         if result.status != COMPLETE:
             raise SimulationError(f"{task.about}: {result.message}")
     with open_record(path) as record:
-        return Done(path, record.summary)
+        return TaskResult(path, record.summary)
 
 
-def _kept_run(task: Task, folder: Path) -> Done | None:
+def _kept_run(task: Task, folder: Path) -> TaskResult | None:
     """A record of the same scenario by the same code; None: there is none."""
     if not _is_current(task, folder):
         return None
     with open_record(_file(task, folder)) as record:
-        return Done(_file(task, folder), record.summary)
+        return TaskResult(_file(task, folder), record.summary)
 
 
-def _kept_rows(task: Task, folder: Path) -> Done | None:
+def _kept_rows(task: Task, folder: Path) -> TaskResult | None:
     """Rows of the same cases by the same code; None: there are none."""
     if not _is_current(task, folder):
         return None
     path = _file(task, folder)
     data = json.loads(path.read_text(encoding="utf-8"))
     rows = {name: np.array(row, dtype=float) for name, row in data["figures"].items()}
-    return Done(path, rows=rows, failures=tuple(data["failures"]))
+    return TaskResult(path, rows=rows, failures=tuple(data["failures"]))
 
 
 def _first(task: Task) -> Any:
@@ -206,8 +206,8 @@ def _seal(task: Task, folder: Path) -> Path:
 
 def _origin(task: Task) -> str:
     """Digest of everything that the part of a task depends on."""
-    asked = [_first(task).sha256, task.key, list(task.values), computing_digest()]
-    return hashlib.sha256(json.dumps(asked).encode()).hexdigest()
+    parts = [_first(task).sha256, task.key, list(task.values), computing_digest()]
+    return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
 
 
 @contextmanager
@@ -255,7 +255,7 @@ def _require_unchanged(task: Task, folder: Path) -> None:
         )
 
 
-def _varied(study: Study, task: Task, folder: Path) -> Done:
+def _varied(study: Study, task: Task, folder: Path) -> TaskResult:
     """Figures of every case: together, where the study evaluates cases so."""
     found = _kept_rows(task, folder)
     if found is not None:
@@ -272,7 +272,9 @@ def _varied(study: Study, task: Task, folder: Path) -> Done:
     path = _file(task, folder)
     with _sealing(task, folder):
         write_output(path, json.dumps(data, indent=1), force=True)
-    return Done(path, rows={name: np.array(row) for name, row in rows.items()}, failures=tuple(failures))
+    return TaskResult(
+        path, rows={name: np.array(row) for name, row in rows.items()}, failures=tuple(failures)
+    )
 
 
 def _figures(study: Study, cases: list[Any]) -> tuple[dict[str, list[float]], list[str]]:

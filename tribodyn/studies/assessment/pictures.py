@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
-from tribodyn.studies.protocol.part import Curve
+from tribodyn.studies.protocol.part import ReportCurve
 
 
-def pictures(record: Record, curves: Sequence[Curve]) -> Figure:
+def pictures(record: Record, curves: Sequence[ReportCurve]) -> Figure:
     """Curves of the other studies, then the specific film along the path and the losses by friction law."""
     with house_style():
         panels = len(curves) + 2
@@ -29,7 +29,7 @@ def pictures(record: Record, curves: Sequence[Curve]) -> Figure:
     return figure
 
 
-def _curve(axes: Axes, curve: Curve) -> None:
+def _curve(axes: Axes, curve: ReportCurve) -> None:
     for number, (label, values) in enumerate(curve.lines.items()):
         axes.plot(curve.x, values, color=PALETTE[number % len(PALETTE)], label=label)
     if curve.mark is not None:

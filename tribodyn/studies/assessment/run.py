@@ -16,11 +16,11 @@ from tribodyn.quantities.scatter import SPREAD, scatter
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
+from tribodyn.studies.assessment.assumptions import assumed, extrapolated
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.judged import judged
 from tribodyn.studies.assessment.layout import LAYOUT
-from tribodyn.studies.assessment.local import Local, local_of
-from tribodyn.studies.assessment.said import assumed, extrapolated
+from tribodyn.studies.assessment.local import LocalValues, local_of
+from tribodyn.studies.assessment.margins import margins_and_limits
 from tribodyn.studies.assessment.simulated import simulated_part
 from tribodyn.studies.assessment.standard import iso_part, standard_of, strength_of
 from tribodyn.studies.gears.check import sheet_tables, with_oil
@@ -35,8 +35,8 @@ WITHOUT_UNIT, SPREAD_OF = ("limits", "samples"), "_spread"
 def check(case: AssessmentCase) -> Checked:
     """Check a case and what it asks of the other studies; say what gears and oil it describes."""
     sheet = geometry_sheet(assembled(case))
-    asked = parts.asked_of(case)
-    tasks = [task for part in parts.parts(asked) for task in part.tasks]
+    request = parts.request_of(case)
+    tasks = [task for part in parts.parts(request) for task in part.tasks]
     for task in tasks:
         if task.needed:
             parts.case_of(task, {task.key: task.values[0]} if task.values else {})
@@ -80,7 +80,7 @@ def figures(case: AssessmentCase) -> dict[str, Any]:
 
 def assessed(
     case: AssessmentCase, folder: Path, progress: Progress | None = None, force: bool = False
-) -> tuple[Local, dict[str, Any]]:
+) -> tuple[LocalValues, dict[str, Any]]:
     """Run the parts into a folder and put them together: values along the path, and the summary.
 
     Raises
@@ -90,13 +90,13 @@ def assessed(
     """
     begun = perf_counter()
     assembly = assembled(case)
-    asked = parts.asked_of(case)
-    taking_part = parts.parts(asked)
+    request = parts.request_of(case)
+    taking_part = parts.parts(request)
     done = parts.results(taking_part, folder, progress, force=force)
     found_there: dict[str, Any] = {}
     along: dict[str, Any] = {}
     spread: dict[str, dict[str, float]] = {}
-    for _, answer in parts.answers(taking_part, asked, done):
+    for _, answer in parts.answers(taking_part, request, done):
         found_there |= answer.figures
         along |= answer.along
         spread |= {name: _scatter(values) for name, values in answer.spread.items()}
@@ -119,7 +119,7 @@ def assessed(
         "simulated": own,
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
         **{f"{name}_spread": [one[part] for part in SPREAD] for name, one in spread.items()},
-        **judged(case, found, strength_of(case), local, found_there, spread),
+        **margins_and_limits(case, found, strength_of(case), local, found_there, spread),
         "assumed": _numbered(assumed(case, found is not None)),
         "extrapolated": _numbered(extrapolated(taking_part, done)),
         **_trust(done, {task.name for part in taking_part for task in part.tasks if task.needed}),
@@ -157,7 +157,7 @@ def _failed(case: AssessmentCase, path: Path, message: str, force: bool) -> RunR
         return RunResult(record.fail(message, {}), "failed", message, {})
 
 
-def _arrays(local: Local) -> dict[str, Any]:
+def _arrays(local: LocalValues) -> dict[str, Any]:
     films = local.films
     return {
         "roll_angle": local.roll_angle,
@@ -172,7 +172,7 @@ def _arrays(local: Local) -> dict[str, Any]:
     }
 
 
-def _trust(done: dict[str, parts.Done], needed: Collection[str]) -> dict[str, Any]:
+def _trust(done: dict[str, parts.TaskResult], needed: Collection[str]) -> dict[str, Any]:
     """Outside the model where any part is; laws extrapolated where those of a `needed` one are."""
     judged = {name: one.summary for name, one in done.items() if TRUST in one.summary}
     for verdict, parts_of in ((OUTSIDE, judged), (EXTRAPOLATED, needed)):

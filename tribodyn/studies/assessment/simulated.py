@@ -8,7 +8,7 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.local import Local
+from tribodyn.studies.assessment.local import LocalValues
 from tribodyn.studies.assessment.standard import ZERO_CELSIUS, by_point
 
 #: Figure of the simulation -> its name by the standards.
@@ -22,7 +22,7 @@ _NAMES = {
 def simulated_part(
     case: AssessmentCase,
     assembly: Assembly,
-    local: Local,
+    local: LocalValues,
     figures: Mapping[str, Any],
     spread: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tribodyn.studies.efficiency import STUDY
-from tribodyn.studies.protocol.part import Answer, Asked, Done, Role, Task
+from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult
 
 _TASK = "efficiency-"
 _FIGURES = (
@@ -22,15 +22,15 @@ _FIGURES = (
 )
 
 
-def tasks(asked: Asked) -> tuple[Task, ...]:
+def tasks(request: Request) -> tuple[Task, ...]:
     """One mesh cycle by every friction law."""
-    tables = asked.tables
+    tables = request.tables
     shared = {
-        "title": asked.title,
+        "title": request.title,
         "kind": STUDY.kind,
         "drive": tables["drive"],
         "lubricant": tables["lubricant"],
-        "operating": asked.operating(),
+        "operating": request.operating(),
         "mesh": {"compliance": "fem", **tables.get("mesh", {})},
         **{name: tables[name] for name in ("temperature", "losses") if name in tables},
     }
@@ -39,16 +39,16 @@ def tasks(asked: Asked) -> tuple[Task, ...]:
             f"{_TASK}{law}",
             f"film and losses, {law}",
             {**shared, "friction": {"law": law}},
-            needed=law == asked.laws[0],
+            needed=law == request.laws[0],
         )
-        for law in asked.laws
+        for law in request.laws
     )
 
 
-def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
+def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     """Figures by the first law, and the losses by all of them."""
-    first = done[f"{_TASK}{asked.laws[0]}"].summary
-    summaries = {law: done[f"{_TASK}{law}"].summary for law in asked.laws}
+    first = done[f"{_TASK}{request.laws[0]}"].summary
+    summaries = {law: done[f"{_TASK}{law}"].summary for law in request.laws}
     losses = {law: float(found["power_friction_mean"]) for law, found in summaries.items() if found}
     values = np.array(list(losses.values()))
     power = float(first["power_in_mean"])
@@ -60,7 +60,7 @@ def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
         "efficiency_lowest": 1.0 - float(values.max()) / power,
         "efficiency_highest": 1.0 - float(values.min()) / power,
     }
-    return Answer(figures)
+    return Findings(figures)
 
 
-ROLE = Role(3, "Film, friction and losses", tasks, answer)
+ROLE = Contribution(3, "Film, friction and losses", tasks, answer)

@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.shared import LAYOUT
+from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
 from tribodyn.studies.protocol.cost import (
     FINITE_ELEMENTS,
     PAIRS,

@@ -33,10 +33,10 @@ from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
+from tribodyn.studies.gears.case import LAYOUT
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.gears.oil import oil_data
 from tribodyn.studies.gears.prepare import PreparedGears, assembled, at_tooth_temperature
-from tribodyn.studies.gears.shared import LAYOUT
 from tribodyn.studies.gears.temperature import contact_figures, thermal_figures
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Checked, Progress, RunResult

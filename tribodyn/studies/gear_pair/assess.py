@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.studies.gear_pair import STUDY
-from tribodyn.studies.protocol.part import Answer, Asked, Curve, Done, Role, Task
+from tribodyn.studies.protocol.part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
 
 _TASK, _SAMPLES = "steady-states", "steady-states-samples"
 #: Slices of the face of the samples, which are inclined to each other: dynamic factors within 0.02 % of 21.
@@ -18,37 +18,37 @@ _RISE = 0.02
 _LOST = 1e-6
 
 
-def tasks(asked: Asked) -> tuple[Task, ...]:
+def tasks(request: Request) -> tuple[Task, ...]:
     """A steady state at every speed, and of every sample of deviations at the duty.
 
     The oil is taken as it enters, for friction hardly moves the loads.
     """
-    tables = asked.tables
+    tables = request.tables
     scenario = {
-        "title": asked.title,
+        "title": request.title,
         "kind": STUDY.kind,
         "drive": tables["drive"],
         "lubricant": tables["lubricant"],
         "bearings": tables["bearings"],
-        "operating": asked.operating(),
+        "operating": request.operating(),
         "mesh": {"compliance": "fem", "damping_ratio": tables["damping_ratio"], **tables.get("mesh", {})},
-        "friction": {"law": asked.laws[0]},
+        "friction": {"law": request.laws[0]},
     }
-    speeds = [f"{speed!r} rad/s" for speed in asked.speeds]
+    speeds = [f"{speed!r} rad/s" for speed in request.speeds]
     found = [Task(_TASK, "steady states over the speed", scenario, "operating.pinion_speed", speeds)]
-    if asked.samples:
+    if request.samples:
         sliced = scenario | {"mesh": {"slices": _SLICES, **scenario["mesh"]}}
-        numbers = [str(number) for number in range(1, asked.samples + 1)]
+        numbers = [str(number) for number in range(1, request.samples + 1)]
         about = "steady states, samples of deviations"
         found.append(Task(_SAMPLES, about, sliced, "mesh.deviation_sample", numbers, needed=False))
     return tuple(found)
 
 
-def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
+def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     """Dynamic factor at the duty and over the speed, its maxima, and where contact is lost."""
     rows = done[_TASK].rows
-    speeds, factor = np.asarray(asked.speeds), rows["dynamic_factor"]
-    at_duty = int(np.argmin(np.abs(speeds - asked.pinion_speed)))
+    speeds, factor = np.asarray(request.speeds), rows["dynamic_factor"]
+    at_duty = int(np.argmin(np.abs(speeds - request.pinion_speed)))
     lost = np.nan_to_num(rows["contact_loss_fraction"]) > _LOST
     figures: dict[str, Any] = {
         "dynamic_factor": float(factor[at_duty]),
@@ -70,17 +70,17 @@ def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
             "contact_loss_fraction_max": float(np.nanmax(rows["contact_loss_fraction"])),
         }
     rpm = 30.0 / math.pi
-    curve = Curve(
+    curve = ReportCurve(
         "Dynamic factor over the speed",
         "Speed of the pinion (rpm)",
         "K_v",
         speeds * rpm,
         {"": factor},
-        asked.pinion_speed * rpm,
+        request.pinion_speed * rpm,
     )
     samples = done[_SAMPLES].rows if _SAMPLES in done else {}
     names = ("dynamic_factor", "transmission_error_peak_to_peak") if samples else ()
-    return Answer(figures, curves=(curve,), spread={name: samples[name] for name in names})
+    return Findings(figures, curves=(curve,), spread={name: samples[name] for name in names})
 
 
 def maxima(values: np.ndarray) -> list[int]:
@@ -98,4 +98,4 @@ def maxima(values: np.ndarray) -> list[int]:
     return sorted(found, key=lambda i: -values[i])
 
 
-ROLE = Role(2, "Steady states over the speed", tasks, answer)
+ROLE = Contribution(2, "Steady states over the speed", tasks, answer)

@@ -7,8 +7,7 @@ from tribodyn.dynamics.data import BearingData
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.solve.methods import SolverData
-from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.shared import LAYOUT
+from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
 from tribodyn.studies.protocol.cost import (
     MARCHED_SAMPLE,
     PAIRS,

@@ -21,13 +21,17 @@ from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, tra
 from tribodyn.studies.gear_pair.assumptions import judge_balance, judge_block
 from tribodyn.studies.gear_pair.case import Case, window_of
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
-from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures, warning_of
 from tribodyn.studies.gears.by_standard import rated
+from tribodyn.studies.gears.case import LAYOUT
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.gears.oil import oil_data
-from tribodyn.studies.gears.shared import LAYOUT
-from tribodyn.studies.gears.temperature import contact_figures, thermal_figures
+from tribodyn.studies.gears.temperature import (
+    MOST_MOTIONS,
+    at_own_temperature,
+    contact_figures,
+    thermal_figures,
+)
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Checked, Progress, RunResult
 from tribodyn.tribology.closure import exceeded_limits, law_figures
@@ -50,7 +54,7 @@ def run(
     """
     path = target(case, output, force)
     result = _run(case, path, force, progress)
-    for _ in range(MOST - 1):
+    for _ in range(MOST_MOTIONS - 1):
         if result.status != "complete":
             break
         warm, lost = result.summary.get("bulk_temperature"), result.summary["power_friction_mean"]

@@ -6,15 +6,24 @@ Plain frozen dataclasses, so that the physics never meets pydantic or pint. Pair
 from dataclasses import dataclass, field
 
 from tribodyn.dynamics.data import OperatingData
+from tribodyn.dynamics.recorded import DOF_SCALE, PAIR, SAMPLES
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
+from tribodyn.geometry.sheet.outlines import GEOMETRY
+from tribodyn.mesh.cycle import MESH_CYCLE
 from tribodyn.mesh.data import MeshData
+from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.losses import LossData
 from tribodyn.tribology.lubricant import LubricantData
+
+#: Of records over time.
+LAYOUT = Layout(
+    TIME, SAMPLES, {"pair": PAIR, "dof": DOF_SCALE}, groups={"mesh_cycle": MESH_CYCLE, "geometry": GEOMETRY}
+)
 
 
 @dataclass(frozen=True, kw_only=True)

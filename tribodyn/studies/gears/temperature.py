@@ -9,8 +9,9 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
+from tribodyn.geometry.families import family
 from tribodyn.standards.micropitting import LUBRICATION_FACTORS, bulk_rise
 from tribodyn.tribology.bulk_temperature import (
     Heat,
@@ -25,6 +26,8 @@ from tribodyn.tribology.losses import Loss, LossData, Wheel, losses_of_pair
 from tribodyn.tribology.lubricant import LubricantData, lubricant_at
 from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, specific_heat
 
+#: Difference of temperatures that is not worth another motion, K; motions of a case at most.
+CLOSE, MOST_MOTIONS = 0.1, 5
 #: Share of the heat of tooth friction that either gear takes.
 SHARE = 0.5
 
@@ -102,13 +105,27 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
     return latest[0]
 
 
-def bulk_temperature_of_loss(case: Any, assembly: Assembly, mesh_loss: float) -> float:
-    """Bulk temperature, K, of a case with a known mean loss to tooth friction, W."""
-    known = replace(case, temperature=replace(case.temperature, mesh_loss=mesh_loss))
-    thermal = thermal_state(known, assembly, lambda _: mesh_loss)
+def at_own_temperature(case: Any, bulk_temperature: float | None, mesh_loss: float) -> Any | None:
+    """Return the case at the bulk temperature that its motion's loss gives; None where it was run there.
+
+    A case begins at the temperature of its quasi-static loss, from which vibration moves it.
+
+    Parameters
+    ----------
+    case : case
+        As it was run, its oil as it enters the mesh.
+    bulk_temperature : float or None
+        At which it was run, K; None: it asks for none.
+    mesh_loss : float
+        Mean loss of its motion to tooth friction, W.
+    """
+    if bulk_temperature is None or not mesh_loss >= 0.0:
+        return None
+    again = replace(case, temperature=replace(case.temperature, mesh_loss=mesh_loss))
+    thermal = thermal_state(again, assemble(family(case.family), case.drive), lambda _: mesh_loss)
     assert thermal is not None
     assert thermal.temperatures is not None
-    return thermal.temperatures.bulk
+    return None if abs(thermal.temperatures.bulk - bulk_temperature) <= CLOSE else again
 
 
 def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, Loss]:

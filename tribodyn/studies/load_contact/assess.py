@@ -9,7 +9,7 @@ from tribodyn.record.reader import open_record
 from tribodyn.standards.load_factors import transverse_load_factor
 from tribodyn.studies.load_contact import STUDY
 from tribodyn.studies.load_contact.rolled import over_roll
-from tribodyn.studies.protocol.part import Answer, Asked, Curve, Done, Role, Task
+from tribodyn.studies.protocol.part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
 
 _TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-contact-samples"
 #: Mesh cycles in which a deviating tooth is seen from its entry to its exit, up to ε_α = 3.
@@ -32,31 +32,31 @@ _FIGURES = (
 _SCATTERED = ("face_load_factor", "loaded_transmission_error_peak_to_peak")
 
 
-def tasks(asked: Asked) -> tuple[Task, ...]:
+def tasks(request: Request) -> tuple[Task, ...]:
     """Slow rotation at the duty's torque, the error over all torques; with a deviating tooth, and samples.
 
     One tooth of the pinion stands f_pb − y_α ahead of all others: it carries more at its entry and its exit.
     """
     operating = {
-        "gear_torque": f"{asked.gear_torque!r} N*m",
-        "gear_torques": [f"{torque!r} N*m" for torque in asked.torques],
+        "gear_torque": f"{request.gear_torque!r} N*m",
+        "gear_torques": [f"{torque!r} N*m" for torque in request.torques],
     }
     scenario = {
-        "title": asked.title,
+        "title": request.title,
         "kind": STUDY.kind,
-        "drive": asked.tables["drive"],
+        "drive": request.tables["drive"],
         "operating": operating,
-        "mesh": dict(asked.tables.get("mesh", {})),
+        "mesh": dict(request.tables.get("mesh", {})),
     }
     found = [Task(_TASK, "loaded error, pressures, root stresses", scenario)]
     at_duty = scenario | {"operating": {"gear_torque": operating["gear_torque"]}}
     deviating = at_duty | {
-        "drive": _with_deviating_tooth(at_duty["drive"], asked.pitch_deviation),
+        "drive": _with_deviating_tooth(at_duty["drive"], request.pitch_deviation),
         "output": {"cycles": _CYCLES},
     }
     found.append(Task(_DEVIATING, "load sharing with a pitch deviation", deviating, needed=False))
-    if asked.samples:
-        numbers = [str(number) for number in range(1, asked.samples + 1)]
+    if request.samples:
+        numbers = [str(number) for number in range(1, request.samples + 1)]
         about = "load sharing, samples of deviations"
         found.append(Task(_SAMPLES, about, at_duty, "mesh.deviation_sample", numbers, needed=False))
     return tuple(found)
@@ -70,7 +70,7 @@ def _with_deviating_tooth(drive: Mapping[str, Any], deviation: float) -> dict[st
     return {**drive, "pinion": {**pinion, "modification": modification}}
 
 
-def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
+def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     """Figures, loads and pressures of one pair over its roll angle, and the error over the torque."""
     summary = done[_TASK].summary
     with open_record(done[_TASK].path) as record:
@@ -89,15 +89,15 @@ def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
         factors = [transverse_load_factor(one, accurate) if np.isfinite(one) else one for one in shared]
         scattered["transverse_load_factor"] = np.array(factors)
     along = {"roll_angle": roll, "normal_load": load, "hertz_pressure": pressure}
-    curve = Curve(
+    curve = ReportCurve(
         "Loaded transmission error, peak to peak",
         "Torque on the gear (N m)",
         "Peak to peak (µm)",
         torques,
         {"": 1e6 * np.asarray(spread)},
-        asked.gear_torque,
+        request.gear_torque,
     )
-    return Answer(figures, along, (curve,), scattered)
+    return Findings(figures, along, (curve,), scattered)
 
 
-ROLE = Role(1, "Loaded contact", tasks, answer)
+ROLE = Contribution(1, "Loaded contact", tasks, answer)

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 
-class Asked(NamedTuple):
-    """What an assessment is asked.
+class Request(NamedTuple):
+    """What an assessment asks of the studies.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Task(NamedTuple):
     needed: bool = True
 
 
-class Done(NamedTuple):
+class TaskResult(NamedTuple):
     """What a task gave.
 
     Attributes
@@ -100,7 +100,7 @@ class Done(NamedTuple):
     failures: Sequence[str] = ()
 
 
-class Curve(NamedTuple):
+class ReportCurve(NamedTuple):
     """A picture for the report: named lines over an axis, in the units that the labels say."""
 
     title: str
@@ -111,7 +111,7 @@ class Curve(NamedTuple):
     mark: float | None = None
 
 
-class Answer(NamedTuple):
+class Findings(NamedTuple):
     """What a study found.
 
     Attributes
@@ -120,18 +120,18 @@ class Answer(NamedTuple):
         Numbers by name, SI units, see `docs/assessment.md`.
     along : mapping
         Arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch point).
-    curves : sequence of Curve
+    curves : sequence of ReportCurve
     spread : mapping
         Values (samples,) of figures by name, over the samples of deviations; NaN where one failed.
     """
 
     figures: Mapping[str, Any]
     along: Mapping[str, Any] = MappingProxyType({})
-    curves: Sequence[Curve] = ()
+    curves: Sequence[ReportCurve] = ()
     spread: Mapping[str, np.ndarray] = MappingProxyType({})
 
 
-class Role(NamedTuple):
+class Contribution(NamedTuple):
     """The part that a study plays.
 
     Attributes
@@ -141,12 +141,12 @@ class Role(NamedTuple):
     title : str
         Heading of its results.
     tasks : callable
-        Asked -> its tasks.
+        Request -> its tasks.
     answer : callable
-        (Asked, results of its tasks by name) -> Answer.
+        (Request, results of its tasks by name) -> Findings.
     """
 
     order: int
     title: str
-    tasks: Callable[[Asked], Sequence[Task]]
-    answer: Callable[[Asked, Mapping[str, Done]], Answer]
+    tasks: Callable[[Request], Sequence[Task]]
+    answer: Callable[[Request, Mapping[str, TaskResult]], Findings]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.reader import Record
     from tribodyn.scenario.quantity import Table
-    from tribodyn.studies.protocol.part import Role
+    from tribodyn.studies.protocol.part import Contribution
     from tribodyn.studies.protocol.verb import Verb
     from tribodyn.studies.sweeping.batch import Batch
 
@@ -278,7 +278,7 @@ class Study:
         """How many cases are evaluated together; None: one after the other, by `figures`."""
         return self._part("batch", "BATCH", optional=True)
 
-    def role(self) -> "Role | None":
+    def role(self) -> "Contribution | None":
         """The part that it plays in an assessment of a drive; None: it plays none."""
         return self._part("assess", "ROLE", optional=True)
 

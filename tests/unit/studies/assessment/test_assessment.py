@@ -18,7 +18,7 @@ from tribodyn.geometry.families import family, involute
 from tribodyn.record.reader import open_record
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
 from tribodyn.studies.assessment.local import local_of, point_angles
-from tribodyn.studies.assessment.parts import asked_of
+from tribodyn.studies.assessment.parts import request_of
 from tribodyn.studies.assessment.standard import path_of
 from tribodyn.studies.protocol.load import load_scenario
 
@@ -230,8 +230,8 @@ def test_an_oil_without_its_data_sheet_is_refused(tmp_path: Path):
 
 
 def test_the_temperature_of_the_teeth_can_be_asked_for_otherwise(tmp_path: Path):
-    given = asked_of(short_case(KIND, tmp_path, temperature__model="oil"))
-    absent = asked_of(short_case(KIND, tmp_path, assessment__lubrication="spray"))
+    given = request_of(short_case(KIND, tmp_path, temperature__model="oil"))
+    absent = request_of(short_case(KIND, tmp_path, assessment__lubrication="spray"))
     assert given.tables["temperature"]["model"] == "oil"
     assert absent.tables["temperature"] == {"model": "iso", "lubrication": "spray"}
     assert absent.pinion_speed in absent.speeds

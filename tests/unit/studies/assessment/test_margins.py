@@ -6,7 +6,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from tribodyn.studies.assessment.judged import _by_standard
+from tribodyn.studies.assessment.margins import _by_standard
 
 CASE = cast(Any, SimpleNamespace(oil_temperature=353.15))
 FOUND = cast(

@@ -1,11 +1,11 @@
 from tribodyn.studies.efficiency.assess import tasks
-from tribodyn.studies.protocol.part import Asked
+from tribodyn.studies.protocol.part import Request
 
 
 def test_an_assessment_needs_the_first_law_only():
     tables = {"drive": "d", "lubricant": "l", "oil_temperature": "80 degC"}
     laws = ("schlenk", "niemann", "masjedi-khonsari")
-    asked = Asked("pair", tables, 100.0, 96.0, (96.0,), (100.0,), laws, 1e-6, 0)
-    done = tasks(asked)
+    request = Request("pair", tables, 100.0, 96.0, (96.0,), (100.0,), laws, 1e-6, 0)
+    done = tasks(request)
     assert [one.scenario["friction"]["law"] for one in done] == list(laws)
     assert [one.needed for one in done] == [True, False, False]

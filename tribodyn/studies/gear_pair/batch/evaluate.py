@@ -25,10 +25,10 @@ from tribodyn.studies.gear_pair.batch.marched import Outcome, marched
 from tribodyn.studies.gear_pair.batch.steady import PreparedAt, legs_of, prepared_between, steady
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import PreparedPair, Tabulated, prepare, table_key, tables
-from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import warning_of
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
 from tribodyn.studies.gears.rounded import remarks_in_brief
+from tribodyn.studies.gears.temperature import MOST_MOTIONS, at_own_temperature
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, fill_ends
 
@@ -72,7 +72,7 @@ def evaluate(chunk: Chunk, settings: SweepSettings, workers: int | None = None) 
     workers : threads; by default one per core
     """
     rows = _evaluate(chunk, settings, workers)
-    for _ in range(MOST - 1):
+    for _ in range(MOST_MOTIONS - 1):
         again = _at_own_temperature(chunk, rows)
         if not again:
             break

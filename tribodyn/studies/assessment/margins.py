@@ -10,11 +10,11 @@ from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards import flash_temperature, integral_temperature
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.local import Local
+from tribodyn.studies.assessment.local import LocalValues
 from tribodyn.studies.assessment.standard import ZERO_CELSIUS, Standard, Strength
 
 
-class Limit(NamedTuple):
+class StandardLimit(NamedTuple):
     """A limit of the scenario; `least`: the quantity must be at least the limit, else at most."""
 
     label: str
@@ -23,24 +23,26 @@ class Limit(NamedTuple):
 
 
 #: Name of a limit -> what it is.
-LIMITS: dict[str, Limit] = {
-    "scuffing_flash": Limit("Scuffing S_B, flash temperature", QUANTITIES["S_B"], least=True),
-    "scuffing_integral": Limit("Scuffing S_intS, integral temp.", QUANTITIES["S_intS"], least=True),
-    "micropitting": Limit("Micropitting S_λ", QUANTITIES["S_lambda"], least=True),
-    "dynamic_factor": Limit("Dynamic factor K_v", QUANTITIES["dynamic_factor"]),
-    "hertz_pressure": Limit("Hertz pressure with K_v", QUANTITIES["hertz_pressure_max"]),
-    "root_tension": Limit("Root tension", QUANTITIES["pinion_root_tension_max"]),
-    "loaded_error": Limit("Loaded error, peak to peak", QUANTITIES["loaded_transmission_error_peak_to_peak"]),
+LIMITS: dict[str, StandardLimit] = {
+    "scuffing_flash": StandardLimit("Scuffing S_B, flash temperature", QUANTITIES["S_B"], least=True),
+    "scuffing_integral": StandardLimit("Scuffing S_intS, integral temp.", QUANTITIES["S_intS"], least=True),
+    "micropitting": StandardLimit("Micropitting S_λ", QUANTITIES["S_lambda"], least=True),
+    "dynamic_factor": StandardLimit("Dynamic factor K_v", QUANTITIES["dynamic_factor"]),
+    "hertz_pressure": StandardLimit("Hertz pressure with K_v", QUANTITIES["hertz_pressure_max"]),
+    "root_tension": StandardLimit("Root tension", QUANTITIES["pinion_root_tension_max"]),
+    "loaded_error": StandardLimit(
+        "Loaded error, peak to peak", QUANTITIES["loaded_transmission_error_peak_to_peak"]
+    ),
 }
-#: Limit -> the figure that it bounds, of those that scatter.
+#: StandardLimit -> the figure that it bounds, of those that scatter.
 _SCATTERED = {"dynamic_factor": "dynamic_factor", "loaded_error": "loaded_transmission_error_peak_to_peak"}
 
 
-def judged(
+def margins_and_limits(
     case: AssessmentCase,
     found: Standard | None,
     strength: Strength,
-    local: Local,
+    local: LocalValues,
     figures: Mapping[str, Any],
     spread: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:
@@ -103,7 +105,7 @@ def _by_standard(case: AssessmentCase, found: Standard, strength: Strength) -> d
     return margins
 
 
-def _by_simulation(case: AssessmentCase, strength: Strength, local: Local) -> dict[str, float]:
+def _by_simulation(case: AssessmentCase, strength: Strength, local: LocalValues) -> dict[str, float]:
     films = local.films
     contact = films.bulk_temperature + float(np.nanmax(films.flash_rise))
     margins = {"theta_B": contact - ZERO_CELSIUS}

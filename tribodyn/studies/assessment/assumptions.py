@@ -7,7 +7,7 @@ from typing import Any
 from tribodyn.post.report import EXCEEDED
 from tribodyn.record.reader import open_record
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.parts import Done, Part
+from tribodyn.studies.assessment.parts import Part, TaskResult
 from tribodyn.tribology.lubricant import oil_values
 
 #: Words by which a study says that a law is used outside its range.
@@ -64,7 +64,7 @@ def _models(tables: Mapping[str, Any]) -> list[tuple[str, str]]:
     return found
 
 
-def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, Done]) -> list[str]:
+def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, TaskResult]) -> list[str]:
     """Where laws are used outside their range, and what could not be computed."""
     said, beside = [], []
     for part in taking_part:
