@@ -248,19 +248,8 @@ def _normal_contact(i, segment, cell, u, y, model, work):
 def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
     """Fill `work` with everything about every contact.
 
-    Parameters
-    ----------
-    segment, cell : int
-        Where in the mesh cycle's table; the segment is given, never derived from the phase.
-    u : float
-        Position in the cell, 0 … 1.
-    cells_per_radian : float
-        Cells of the table per radian of pinion rotation in this segment.
-    y : (STATES,)
-        State, see `parameters`.
-    model : Model
-    work : mapping
-        Receives `work[quantity, slot]`.
+    The segment is given, never derived from the phase; `u` is the position in the cell, 0 … 1, and
+    `cells_per_radian` counts the table's cells per pinion rotation. `work` receives `work[quantity, slot]`.
     """
     approach(segment, cell, u, cells_per_radian, y, model, work)
     elastic_loads(segment, cell, u, model, work)

@@ -20,33 +20,19 @@ class BearingData:
 class OperatingData:
     """How the drive is driven and loaded.
 
-    Parameters
+    Attributes
     ----------
-    source : {"speed", "torque"}
-        Prescribed pinion speed, or a torque source with inertia.
-    pinion_speed : float
-        Nominal speed ω_p, rad/s; with a torque source also the speed at the start.
-    gear_torque : float
-        T_g, the constant part of the load, N m.
-    pinion_torque : float or None
-        Torque of the source at nominal speed, N m; None: balances `gear_torque` without losses.
-    drive_inertia : float
-        Inertia of the source, kg m².
-    shaft_stiffness : float or None
-        Torsional stiffness of the shaft between source and pinion, N m/rad; None: rigid.
-    shaft_damping : float
-        Its damping, N m s/rad.
-    speed_regulation : float
-        The source's torque falls by this per rad/s above `pinion_speed`, N m s/rad.
-    torque_table : Table or None
-        Torque over time (s, N m) added to `gear_torque`; held constant before its first and after its last
-        point.
-    torque_harmonics : tuple of (float, float, float)
-        (amplitude N m, angular frequency rad/s, phase rad) of cosines added to the load.
-    load_inertia : float
-        Inertia of the load, kg m², on the gear's shaft.
-    load_damping : float
-        Load torque that grows with speed above nominal gear speed, N m s/rad.
+    source : prescribed pinion speed, or a torque source with inertia
+    pinion_speed : nominal speed ω_p, rad/s; with a torque source also the speed at the start
+    gear_torque : T_g, the constant part of the load, N m
+    pinion_torque : of the source at nominal speed, N m; None: balances `gear_torque` without losses
+    drive_inertia : of the source, kg m²
+    shaft_stiffness, shaft_damping : of the shaft between source and pinion, N m/rad (None: rigid), N m s/rad
+    speed_regulation : fall of the source's torque per speed above `pinion_speed`, N m s/rad
+    torque_table : torque over time (s, N m) added to `gear_torque`; constant before and after its points
+    torque_harmonics : (amplitude N m, angular frequency rad/s, phase rad) of cosines added to the load
+    load_inertia : on the gear's shaft, kg m²
+    load_damping : load torque per gear speed above nominal, N m s/rad
     """
 
     source: Literal["speed", "torque"]

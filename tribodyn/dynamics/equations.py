@@ -82,26 +82,11 @@ def load_torque(time, gear_slip, mechanics):
 
 @law
 def derivatives(phase, cycle, segment, y, model, work, dy):
-    """Derivative of the state with respect to phase, per mesh cycle.
+    """Fill `dy` with the derivative of the state by phase, per mesh cycle, and `work` with the contacts.
 
-    Parameters
-    ----------
-    phase : float
-        Phase in the mesh cycle, 0 … 1, inside `segment`.
-    cycle : float
-        Whole mesh cycles before this one; with the phase and the lag it gives the time.
-    segment : int
-        Which pairs are in contact, given explicitly.
-    y : (STATES,)
-    model : Model
-    work, dy : mappings
-        Receive `work[quantity, slot]` and `dy[state]`.
-
-    Returns
-    -------
-    powers : tuple
-        Power of drive, load, tooth friction (≥ 0: lost), damping (lost), parametric work, W; and the
-        drive torque on the pinion or motor, N m.
+    The phase, 0 … 1, lies inside `segment`, which says what pairs are in contact; `cycle` counts the mesh
+    cycles before. Returns the powers of drive, load, tooth friction (≥ 0: lost), damping (lost) and
+    parametric work, W, and the drive torque on the pinion or motor, N m.
     """
     mechanics, table, options = model.mechanics, model.table, model.options
     cell, u, cells_per_radian = locate(phase, segment, table)

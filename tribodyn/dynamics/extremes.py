@@ -121,19 +121,7 @@ def highest_loaded(i, segment, cell, u, model, work):
 
 @law
 def measure(phase, segment, y, model, work, measures):
-    """Fill `measures`, those of pairs off the path of contact left out.
-
-    Parameters
-    ----------
-    phase : float
-        Inside `segment`.
-    segment : int
-    y : (STATES,)
-    model : Model
-    work : mapping
-        As `contact_forces` left it, or `normal_contacts`.
-    measures : mapping
-    """
+    """Fill `measures`, those of pairs off the path of contact left out; `work` is from `normal_contacts`."""
     measure_loads(segment, y, model, work, measures)
     cell, u, _ = locate(phase, segment, model.table)
     for i in range(model.table.side.shape[0]):
@@ -215,18 +203,8 @@ def _see(far, first, phase, measures):
 def measure_end(idle, phase, step, segment, y, model, work, measures):
     """Fill the row `END` of a search; by laws only where a pair may be near an extreme, or its turn has come.
 
-    Where they are left out they are `LOWEST`.
-
-    Parameters
-    ----------
-    idle : bool
-        Of no interest.
-    phase, step : float
-        The end of a step, and its length.
-    segment, y, model, work
-        As in `measure`.
-    measures : mapping
-        The rows of a search.
+    Where they are left out they are `LOWEST`, and everywhere in lanes that are `idle`. `phase` is the end of
+    a step, `measures` has the rows of a search.
     """
     measure_loads(segment, y, model, work, measures[END])
     count = measures[SEEN, COUNT] + 1.0
@@ -247,10 +225,7 @@ def measure_end(idle, phase, step, segment, y, model, work, measures):
 
 @law
 def measure_inside(idle, row, phase, segment, y, model, work, measures):
-    """Fill a row of a search inside a step; by laws only where both ends of the step may be extreme.
-
-    The other arguments are those of `measure_end`.
-    """
+    """Fill a row of a search inside a step; by laws only where both ends of the step were so measured."""
     measure_loads(segment, y, model, work, measures[row])
     cell, u, _ = locate(phase, segment, model.table)
     for i in range(model.table.side.shape[0]):

@@ -50,15 +50,10 @@ def outputs(
 
     Parameters
     ----------
-    cycles : (n,)
-        Mesh cycles since the start, whole and fraction.
-    states : (n, STATES)
-    model : Model
-        With NumPy arrays.
-    segment : (n,) int, optional
-        Segment of each sample: on a boundary it says on which side. By default the one that begins there.
-    shares : bool
-        Whether those of `UNRECORDED` are among them, (n, pairs, limits).
+    cycles : mesh cycles since the start, whole and fraction
+    model : with NumPy arrays
+    segment : of each sample: on a boundary it says on which side; by default the one that begins there
+    shares : whether those of `UNRECORDED` are among them, (n, pairs, limits)
 
     Returns
     -------
