@@ -14,7 +14,7 @@ from numba.core.typeconv.castgraph import Conversion
 from numba.core.typing.templates import AbstractTemplate, signature
 from numba.extending import lower_builtin, lower_cast, models, register_model
 
-from tribodyn.kernels.lanes.vectors import FUSE, intrinsic, of_operator
+from tribodyn.kernels.lanes.vectors import FUSE, broadcast, intrinsic, of_operator
 
 #: Directions that a number carries its derivatives in: two AVX-512 registers, four of AVX2.
 DIRECTIONS = 16
@@ -74,14 +74,8 @@ def taken_apart(context, builder, kind, number):
     return dual.value, dual.slope
 
 
-def _splat(builder, value):
-    first = builder.insert_element(ir.Constant(SLOPES, ir.Undefined), value, _INT32(0))
-    zeros = ir.Constant(ir.VectorType(_INT32, DIRECTIONS), [0] * DIRECTIONS)
-    return builder.shuffle_vector(first, ir.Constant(SLOPES, ir.Undefined), zeros)
-
-
 def _times(builder, factor, slope):
-    return builder.fmul(_splat(builder, factor), slope, flags=FUSE)
+    return builder.fmul(broadcast(builder, factor, DIRECTIONS), slope, flags=FUSE)
 
 
 def no_slope():

@@ -12,19 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, types
-from numba.core.typing.templates import (
-    AbstractTemplate,
-    AttributeTemplate,
-    infer_getattr,
-    signature,
-)
-from numba.extending import (
-    lower_builtin,
-    lower_getattr,
-    lower_getattr_generic,
-    models,
-    register_model,
-)
+from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr, signature
+from numba.extending import lower_builtin, lower_getattr, lower_getattr_generic, models, register_model
 
 from tribodyn.kernels.lanes.arrays import ALIGNMENT, indices_of, row_at, subscripts
 from tribodyn.kernels.lanes.vectors import (
@@ -63,15 +52,10 @@ class Field(NamedTuple):
 
     Attributes
     ----------
-    name : str
-    ndim : int
-        Axes of the table; 0: a number.
-    row : int
-        Among the block's numbers or addresses.
-    first_length : int
-        Where the table's shape begins among all lengths.
-    shared : bool
-        Whether the table is the same in every lane.
+    ndim : axes of the table; 0: a number
+    row : among the block's numbers or addresses
+    first_length : where the table's shape begins among all lengths
+    shared : whether the table is the same in every lane
     """
 
     name: str
@@ -95,11 +79,8 @@ class LaneRecord(NamedTuple):
 
     Attributes
     ----------
-    fields : tuple of Field
-    numbers : (F, WIDTH) float64
-    addresses : (T, WIDTH) int64
-    lengths : (L,) int64
-        Shapes of all tables, one after the other; the same in every lane.
+    numbers, addresses : (F, WIDTH) float64, (T, WIDTH) int64
+    lengths : (L,) int64, shapes of all tables, one after the other; the same in every lane
     """
 
     fields: tuple[Field, ...]

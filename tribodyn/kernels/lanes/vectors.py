@@ -69,11 +69,11 @@ class _VectorModel(models.PrimitiveModel):
         super().__init__(manager, vector, _LLVM[vector.kind])
 
 
-def broadcast(builder, value):
+def broadcast(builder, value, width=WIDTH):
     """The same scalar in every lane."""
-    vector = ir.VectorType(value.type, WIDTH)
+    vector = ir.VectorType(value.type, width)
     first = builder.insert_element(ir.Constant(vector, ir.Undefined), value, INT64(0))
-    zeros = ir.Constant(ir.VectorType(ir.IntType(32), WIDTH), [0] * WIDTH)
+    zeros = ir.Constant(ir.VectorType(ir.IntType(32), width), [0] * width)
     return builder.shuffle_vector(first, ir.Constant(vector, ir.Undefined), zeros)
 
 

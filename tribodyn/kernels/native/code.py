@@ -22,14 +22,10 @@ class Compiled(NamedTuple):
 
     Attributes
     ----------
-    symbol : str
-        Name of the entry, see `Code`.
-    returns, single
-        As for `Code`.
-    needs : list of str
-        Names that the code does not define.
-    body : bytes
-        The object file.
+    symbol : name of the entry, see `Code`
+    returns, single : as for `Code`
+    needs : names that the code does not define
+    body : the object file
     """
 
     symbol: str
@@ -44,12 +40,9 @@ class Code(NamedTuple):
 
     Attributes
     ----------
-    address : int
-        Of a C function `int32 entry(arguments, results)` on blocks of words, see `arguments`.
-    returns : str
-        A letter of the struct module for every number that it returns; empty: it returns None.
-    single : bool
-        Whether it returns a number and not a tuple.
+    address : of a C function `int32 entry(arguments, results)` on blocks of words, see `arguments`
+    returns : a letter of the struct module for every number that it returns; empty: it returns None
+    single : whether it returns a number and not a tuple
     """
 
     address: int

@@ -25,12 +25,9 @@ class FunctionLayout(NamedTuple):
 
     Attributes
     ----------
-    function : callable
-    identity : str
-        Name, and a digest of the function and of all that it refers to; of a function whose code may not be
-        kept, a number that is this process's own.
-    kept : bool
-        Whether machine code that contains the function may be kept on disk.
+    identity : name, and a digest of the function and of all that it refers to; of a function whose code may
+        not be kept, a number that is this process's own
+    kept : whether machine code that contains the function may be kept on disk
     """
 
     function: Callable[..., Any]
