@@ -41,22 +41,24 @@ def path_points(module: float, angle: float, bend: float) -> np.ndarray:
 def shapes(draw, name: str, module: float, teeth: tuple[float, float], angle: float):
     """Shape of a family's drive, in a range where most of them can be made."""
     if name == "cycloidal":
-        return cycloidal.Shape(*(draw(st.floats(0.16, 0.4)) * module * teeth[0] for _ in range(2)))
+        return cycloidal.CycloidShape(*(draw(st.floats(0.16, 0.4)) * module * teeth[0] for _ in range(2)))
     if name == "parabolic":
-        return parabolic.Shape(draw(st.floats(0.15, 0.38)), draw(st.floats(0.15, 0.38)))
+        return parabolic.ParabolaShape(draw(st.floats(0.15, 0.38)), draw(st.floats(0.15, 0.38)))
     if name == "circular-arc":
         diameter = st.one_of(st.floats(12.0, 80.0), st.floats(-200.0, -60.0))
-        return circular_arc.Shape(draw(diameter) * module, draw(diameter) * module)
+        return circular_arc.ArcShape(draw(diameter) * module, draw(diameter) * module)
     if name == "s-gear":
-        return s_gear.Shape(draw(st.floats(1.4, 1.8)), draw(st.floats(1.6, 1.9)))
+        return s_gear.SGearShape(draw(st.floats(1.4, 1.8)), draw(st.floats(1.6, 1.9)))
     if name == "points":
-        return points.Shape(path_points(module, angle, draw(st.floats(-0.06, 0.06))))
+        return points.PointsShape(path_points(module, angle, draw(st.floats(-0.06, 0.06))))
     if name == "spline":
         count = draw(st.integers(5, 9))
         trend = draw(st.floats(-0.06, 0.06)) * np.linspace(-1.0, 1.0, count)
         waves = [draw(st.floats(-0.006, 0.006)) for _ in range(count)]
         values = draw(st.floats(0.33, 0.42)) + trend + waves
-        return spline.Shape(values, None, draw(st.floats(5.0, 7.0)) * module, draw(st.floats(-0.02, 0.02)))
+        return spline.SplineShape(
+            values, None, draw(st.floats(5.0, 7.0)) * module, draw(st.floats(-0.02, 0.02))
+        )
     return ()
 
 

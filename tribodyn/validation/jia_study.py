@@ -98,9 +98,9 @@ def maximum_pressure(name: Name, state: FaceState = FaceState(), away: float = 0
     return _maximum(run, run.pressure * far[..., None])
 
 
-def maximum_root_stress(name: Name, tension: bool, state: FaceState = FaceState()) -> tuple[float, float]:
+def maximum_root_stress(name: Name, tension: bool) -> tuple[float, float]:
     """Maximum root stress of pinion and gear over mesh cycle and face, Pa, as an amount."""
-    run = rolled(name, state)
+    run = rolled(name)
     stress = run.root_tension if tension else -run.root_compression
     pinion, gear = np.nanmax(stress, axis=(1, 2, 3))
     return float(pinion), float(gear)

@@ -5,6 +5,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
+from tests.support.involute_forms import closed_form_contact_ratio
 from tribodyn.geometry.drive import Drive, GearBody, reference_radius, tip_radius
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.path import (
@@ -132,7 +133,7 @@ class TestInvolute:
     def test_contact_ratio(self, drive):
         path, start, end = limits(involute.FAMILY, drive)
         computed = contact_ratio(path, start, end, drive.pinion.teeth)
-        assert computed == pytest.approx(involute.closed_form_contact_ratio(drive), rel=1e-12)
+        assert computed == pytest.approx(closed_form_contact_ratio(drive), rel=1e-12)
 
     def test_curvatures_and_speeds(self, drive):
         path, start, end = limits(involute.FAMILY, drive)

@@ -4,7 +4,7 @@ import math
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius, tip_radius
+from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, PerContact
 from tribodyn.numerics.elementary import arctan2, cos, maximum, namespace, sin, sqrt, tan
@@ -105,18 +105,6 @@ def _generating_shift(drive: Drive, side: Side) -> Any:
     """Shift of the rack that leaves the tooth its thickness, m: x_E m = x m + A_sn/(2 tan α) (ISO 21771)."""
     body = body_of(drive, side)
     return drive.module * body.profile_shift + body.thickness_allowance / (2 * tan(drive.pressure_angle))
-
-
-def closed_form_contact_ratio(drive: Drive) -> Any:
-    """Transverse contact ratio (ISO 21771): length of the line of action between the tip circles / p_b."""
-    working = working_pressure_angle(drive)
-    stretch = cos(drive.pressure_angle) / cos(working)
-    length = 0.0
-    for side in ("pinion", "gear"):
-        pitch = reference_radius(drive, side) * stretch
-        base = pitch * cos(working)
-        length = length + sqrt(tip_radius(drive, side) ** 2 - base**2) - pitch * sin(working)
-    return length / (math.pi * drive.module * cos(drive.pressure_angle))
 
 
 def normal_backlash(drive: Drive) -> Any:
