@@ -2,22 +2,16 @@
 
 from typing import Any
 
-from tribodyn.numerics.elementary import absolute, law, log, maximum, minimum
-from tribodyn.tribology.ehl.table.lookup import LIMITS, RANGE, clipped, in_table, polynomial
+from tribodyn.numerics.elementary import law
+from tribodyn.tribology.ehl.table.lookup import LIMITS, RANGE, asperity_share, in_table, polynomial, variables
 from tribodyn.tribology.law import FilmLaw, LawInput
 
 
 @law
 def solved_film(contact, surfaces, parameters):
     """Ln of the mean gap on the line of centres (m), 1, and the asperities' share."""
-    box = parameters
-    x = clipped(log(contact.line_load), box.line_load, box.line_load_half)
-    y = clipped(log(contact.entrainment), box.entrainment, box.entrainment_half)
-    z = clipped(log(contact.curvature), box.curvature, box.curvature_half)
-    ratio = maximum(absolute(contact.sliding) / contact.entrainment, 1e-9)
-    s = clipped(log(ratio), box.slide_to_roll, box.slide_to_roll_half)
-    share = polynomial(box.share, x, y, z, s)
-    return polynomial(box.film, x, y, z, s), 1.0, maximum(minimum(share, 1.0), 0.0)
+    x, y, z, s = variables(contact, parameters)
+    return polynomial(parameters.film, x, y, z, s), 1.0, asperity_share(parameters, x, y, z, s)
 
 
 def _table(given: LawInput) -> Any:

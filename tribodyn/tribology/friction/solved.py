@@ -2,16 +2,17 @@
 
 from typing import Any
 
-from tribodyn.numerics.elementary import absolute, law, log, maximum, minimum
+from tribodyn.numerics.elementary import law
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.table.lookup import (
     LIMITS,
     RANGE,
-    clipped,
+    asperity_share,
     in_table,
     mixed_friction,
     most_of_film,
     polynomial,
+    variables,
 )
 from tribodyn.tribology.law import FrictionLaw, LawInput
 
@@ -19,16 +20,11 @@ from tribodyn.tribology.law import FrictionLaw, LawInput
 @law
 def solved_friction(contact, film, surfaces, parameters):
     """Friction coefficient of film and asperities together."""
-    box = parameters
-    x = clipped(log(contact.line_load), box.line_load, box.line_load_half)
-    y = clipped(log(contact.entrainment), box.entrainment, box.entrainment_half)
-    z = clipped(log(contact.curvature), box.curvature, box.curvature_half)
-    ratio = maximum(absolute(contact.sliding) / contact.entrainment, 1e-9)
-    s = clipped(log(ratio), box.slide_to_roll, box.slide_to_roll_half)
-    share = maximum(minimum(polynomial(box.share, x, y, z, s), 1.0), 0.0)
+    x, y, z, s = variables(contact, parameters)
+    share = asperity_share(parameters, x, y, z, s)
     half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
-    most = most_of_film(contact.line_load, half_width, box.limit, box.floor)
-    return mixed_friction(polynomial(box.friction, x, y, z, s), share, most, box.rubbing)
+    most = most_of_film(contact.line_load, half_width, parameters.limit, parameters.floor)
+    return mixed_friction(polynomial(parameters.friction, x, y, z, s), share, most, parameters.rubbing)
 
 
 @law

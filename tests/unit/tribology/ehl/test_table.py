@@ -19,7 +19,7 @@ from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.table import points
 from tribodyn.tribology.ehl.table import table as tables
 from tribodyn.tribology.ehl.table.lookup import TERMS, mixed_friction, polynomial
-from tribodyn.tribology.ehl.table.lookup import clipped as held_at
+from tribodyn.tribology.ehl.table.lookup import clipped as clipped_at
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.film.solved import solved_film
 from tribodyn.tribology.friction import friction_law
@@ -300,7 +300,7 @@ def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
     # where the film is saturated or slides hardly nothing overflows
     assert mixed_friction(900.0, 0.2, 0.05, 0.1) == pytest.approx(0.8 * 0.05 + 0.02)
     assert mixed_friction(-900.0, 0.2, 0.05, 0.1) == pytest.approx(0.02)
-    assert [held_at(one, 2.0, 0.5) for one in (1.0, 1.75, 2.0, 2.5, 9.0)] == [-1.0, -0.5, 0.0, 1.0, 1.0]
+    assert [clipped_at(one, 2.0, 0.5) for one in (1.0, 1.75, 2.0, 2.5, 9.0)] == [-1.0, -0.5, 0.0, 1.0, 1.0]
 
 
 def test_a_contact_of_a_table_is_that_of_the_case():

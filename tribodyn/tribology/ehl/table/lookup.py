@@ -1,6 +1,6 @@
 """Values of a table of solved contacts, as laws read them: polynomials of four variables."""
 
-from tribodyn.numerics.elementary import exp, law, maximum, minimum
+from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum
 
 #: Powers of load and sliding together with twice those of speed and curvature, at most: along load and
 #: sliding an oil goes from the Newtonian to the limiting stress.
@@ -46,6 +46,24 @@ def _nested(powers: tuple[str, ...], terms: list[tuple[int, ...]], first: int) -
 exec(f"def polynomial(table, x, y, z, s):\n    return {_nested(('x', 'y', 'z', 's'), TERMS, 0)}")
 polynomial = law(globals()["polynomial"])
 polynomial.__doc__ = "Sum of table[n] x^i y^j z^k s^m over the powers in the order of `TERMS`."
+
+
+@law
+def variables(contact, table):
+    """The table's four variables at a contact: load, entrainment, curvature, slide-to-roll ratio."""
+    ratio = maximum(absolute(contact.sliding) / contact.entrainment, 1e-9)
+    return (
+        clipped(log(contact.line_load), table.line_load, table.line_load_half),
+        clipped(log(contact.entrainment), table.entrainment, table.entrainment_half),
+        clipped(log(contact.curvature), table.curvature, table.curvature_half),
+        clipped(log(ratio), table.slide_to_roll, table.slide_to_roll_half),
+    )
+
+
+@law
+def asperity_share(table, x, y, z, s):
+    """Share of the load that asperities carry, 0 … 1."""
+    return maximum(minimum(polynomial(table.share, x, y, z, s), 1.0), 0.0)
 
 
 @law
