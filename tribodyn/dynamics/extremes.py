@@ -53,7 +53,7 @@ ROWS = 8
 COUNT, AT, UNTIL = 0, LOAD, PRESSURE
 #: Laws are evaluated at every step where a pair, at so many times the rate of change between its last
 #: evaluations, might become extreme in the next one, and elsewhere at every so many steps.
-CAUTION, EVERY = 3.0, 4.0
+CAUTION, EVERY = 2.0, 4.0
 
 
 class Extremes(NamedTuple):

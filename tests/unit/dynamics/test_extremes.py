@@ -193,10 +193,10 @@ def test_far_from_extremes_laws_are_evaluated_at_every_fourth_step(prepared):
 
 @pytest.mark.parametrize("near", [0, 1])
 def test_a_pair_is_evaluated_where_its_own_surfaces_may_become_extreme(near, prepared):
-    """At three times the faster of the last two rates, before the end of the next step."""
+    """At twice the faster of the last two rates, before the end of the next step."""
     model, measures, work, y, place = loaded_search(prepared)
     step, values = 1e-3, measures[START].copy()
-    for short, steps in ((7.0, [0, 2, 3]), (4.0, [0, 1, 2, 3])):
+    for short, steps in ((4.6, [0, 2, 3]), (2.6, [0, 1, 2, 3])):
         begin_surfaces(*place, model, measures)
         measures[SEEN, COUNT] = 0.0
         measures[EXTREME] = 1e100
