@@ -18,7 +18,7 @@ from tribodyn.studies.protocol.run import run
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 PANELS = (
-    panels.TRANSMISSION_ERROR,
+    panels.DEFLECTION,
     panels.NORMAL_LOAD,
     panels.FRICTION_FORCE,
     panels.FILM_THICKNESS,
@@ -33,8 +33,8 @@ def comparison(records: list[Record]):
         figure = new_figure(11.0, 6.2)
         axes = figure.subplots(2, 3).ravel()
         draw_path(axes[0], records[0])
-        for panel, quantity in zip(axes[1:], PANELS, strict=True):
-            draw(panel, records, quantity, view, first=panel in (axes[1], axes[2]))
+        for panel, trace in zip(axes[1:], PANELS, strict=True):
+            draw(panel, records, trace, view, first=panel in (axes[1], axes[2]))
         for letter, panel in zip("abcdef", axes, strict=True):
             mark_panel(panel, letter)
         legend(figure, axes[1:], records, view)

@@ -42,8 +42,8 @@ GRID = 11.0, 6.6, 2, 3
 OVERVIEW: dict[str, Any] = {"left": 0.74, "right": 0.42, "top": 0.85, "bottom": 0.5, "between": (0.86, 1.0)}
 #: Titles of its panels a, and b to f.
 PATH = "Teeth and path of contact"
-QUANTITIES = (
-    panels.TRANSMISSION_ERROR,
+TRACES = (
+    panels.DEFLECTION,
     panels.NORMAL_LOAD,
     panels.FRICTION_FORCE,
     panels.FILM_THICKNESS,
@@ -61,9 +61,9 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
     else:
         draw_path(rows[0, 0], record)
         mark_panel(rows[0, 0], "a", PATH)
-    for letter, axes, quantity in zip("bcdef", rows.flat[1:], QUANTITIES, strict=True):
-        names = draw(axes, [record], quantity, view)
-        mark_panel(axes, letter, quantity.title, names)
+    for letter, axes, trace in zip("bcdef", rows.flat[1:], TRACES, strict=True):
+        names = draw(axes, [record], trace, view)
+        mark_panel(axes, letter, trace.title, names)
     legend(drawn, list(rows.flat[1:]), [record], view)
     drawn.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
     if isinstance(drawn, Figure) and len(drawn.axes) == rows.size:
@@ -74,10 +74,10 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
 def prepare_overview() -> None:
     """Do what needs no record: make the grid of panels, read the formulas."""
     prepare_grid(*GRID)
-    titles = [PATH, *(quantity.title for quantity in QUANTITIES)]
+    titles = [PATH, *(trace.title for trace in TRACES)]
     marked = [panel_title(letter, title) for letter, title in zip("abcdef", titles, strict=True)]
     names = [f"${name}$" for name in ("B_g", "C_p", "P", "C_g", "B_p")]
-    read_formulas([*marked, *(quantity.label for quantity in QUANTITIES), *names], STYLE["font.size"])
+    read_formulas([*marked, *(trace.label for trace in TRACES), *names], STYLE["font.size"])
     read_formulas([*names, KEY_POINTS + ALONE], STYLE["legend.fontsize"])
 
 
@@ -115,7 +115,9 @@ DRAWINGS: dict[str, Drawing] = {
     "overview": Drawing(
         "path of contact, transmission error, load, friction, film, efficiency", overview_figure
     ),
-    "transmission-error": _over_phase("transmission-error", "transmission error of every pair"),
+    "transmission-error": _over_phase(
+        "transmission-error", "transmission error, and deflection along the normal of every pair"
+    ),
     "spectrum": Drawing("spectrum of the rotational transmission error, with the modes", spectrum_figure),
     "normal-load": _over_phase("normal-load", "normal load of every pair"),
     "friction": _over_phase("friction", "friction force and coefficient"),

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from tribodyn.post.cycles import last_cycles
 from tribodyn.post.figures.panel import (
     MOST_CYCLES_DRAWN,
-    Quantity,
+    Trace,
     View,
     abscissa,
     draw,
@@ -19,42 +19,36 @@ from tribodyn.post.figures.panel import (
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
-TRANSMISSION_ERROR = Quantity(
-    "transmission_error_normal", 1e6, "Deflection along each pair's normal", "$δ$", "µm"
+TRANSMISSION_ERROR = Trace("transmission_error_rotational", "Transmission error", "$r_pθ_p - r_gθ_g$", "µm")
+DEFLECTION = Trace("transmission_error_normal", "Deflection along each pair's normal", "$δ$", "µm")
+NORMAL_LOAD = Trace("normal_load", "Normal load of each pair", "$F_n$", "N", from_zero=True)
+FRICTION_FORCE = Trace(
+    "friction_force", "Friction force on the pinion", "$F_f$", "N", flag="friction_in_range"
 )
-NORMAL_LOAD = Quantity("normal_load", 1.0, "Normal load of each pair", "$F_n$", "N", from_zero=True)
-FRICTION_FORCE = Quantity(
-    "friction_force", 1.0, "Friction force on the pinion", "$F_f$", "N", flag="friction_in_range"
+FRICTION_COEFFICIENT = Trace(
+    "friction_coefficient", "Friction coefficient", "$µ$", "–", from_zero=True, flag="friction_in_range"
 )
-FRICTION_COEFFICIENT = Quantity(
-    "friction_coefficient", 1.0, "Friction coefficient", "$µ$", "–", from_zero=True, flag="friction_in_range"
-)
-FILM_THICKNESS = Quantity(
-    "central_film_thickness", 1e6, "Film thickness", "$h_c$", "µm", flag="closure_in_range"
-)
-FILM_PARAMETER = Quantity(
+FILM_THICKNESS = Trace("central_film_thickness", "Film thickness", "$h_c$", "µm", flag="closure_in_range")
+FILM_PARAMETER = Trace(
     "film_parameter",
-    1.0,
     "Film parameter: film thickness over roughness",
     "$λ = h_c/σ$",
     "–",
     from_zero=True,
     flag="closure_in_range",
 )
-ENTRAINMENT = Quantity("entrainment_speed", 1.0, "Entrainment speed, mean of both flanks", "$u$", "m/s")
-SLIDING = Quantity("sliding_speed", 1.0, "Sliding speed, pinion less gear", "$v_s$", "m/s")
-HERTZ_PRESSURE = Quantity("hertz_pressure", 1e-9, "Hertz pressure, maximum in the contact", "$p_H$", "GPa")
-FLASH_TEMPERATURE = Quantity(
-    "flash_temperature_rise", 1.0, "Flash temperature rise", "$ΔT$", "K", from_zero=True
+ENTRAINMENT = Trace("entrainment_speed", "Entrainment speed, mean of both flanks", "$u$", "m/s")
+SLIDING = Trace("sliding_speed", "Sliding speed, pinion less gear", "$v_s$", "m/s")
+HERTZ_PRESSURE = Trace("hertz_pressure", "Hertz pressure, maximum in the contact", "$p_H$", "GPa")
+FLASH_TEMPERATURE = Trace("flash_temperature_rise", "Flash temperature rise", "$ΔT$", "K", from_zero=True)
+STIFFNESS = Trace(
+    "mesh_stiffness", "Stiffness of each pair along its normal", "$k_i$", "N/µm", from_zero=True
 )
-STIFFNESS = Quantity(
-    "mesh_stiffness", 1e-6, "Stiffness of each pair along its normal", "$k_i$", "N/µm", from_zero=True
-)
-EFFICIENCY = Quantity("efficiency", 100.0, "Efficiency at each moment", "$η$", "%")
+EFFICIENCY = Trace("efficiency", "Efficiency at each moment", "$η$", "%")
 
 #: Figures by name: the panels of each, from top to bottom.
-PANELS: dict[str, tuple[Quantity, ...]] = {
-    "transmission-error": (TRANSMISSION_ERROR,),
+PANELS: dict[str, tuple[Trace, ...]] = {
+    "transmission-error": (TRANSMISSION_ERROR, DEFLECTION),
     "normal-load": (NORMAL_LOAD,),
     "friction": (FRICTION_FORCE, FRICTION_COEFFICIENT),
     "film": (FILM_THICKNESS, FILM_PARAMETER),
@@ -72,13 +66,13 @@ def over_phase(name: str, records: Sequence[Record], view: View) -> Figure:
     panels = PANELS[name]
     figure = new_figure(WIDTH, (PANEL_HEIGHT + 0.15) * len(panels) + 0.5)
     rows = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
-    for letter, axes, quantity in zip("abc", rows, panels, strict=False):
-        names = draw(axes, records, quantity, view, first=axes is rows[0], last=axes is rows[-1])
-        title = quantity.title
-        if quantity is STIFFNESS:
+    for letter, axes, trace in zip("abc", rows, panels, strict=False):
+        names = draw(axes, records, trace, view, first=axes is rows[0], last=axes is rows[-1])
+        title = trace.title
+        if trace is STIFFNESS:
             draw_total_stiffness(axes, records, view)
             title = "Stiffness of each pair, and of all pairs together along the pitch tangent"
-        if quantity is FILM_PARAMETER:
+        if trace is FILM_PARAMETER:
             draw_lubrication(axes)
         mark_panel(axes, letter if len(panels) > 1 else "", title, names)
     figure.align_ylabels()

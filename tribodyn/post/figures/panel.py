@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 from tribodyn.post.cycles import Window, key_points, last_cycles, pair_curve
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal
+from tribodyn.quantities.quantity import SHOWN
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 
@@ -50,31 +51,27 @@ class View(NamedTuple):
     asked: bool = False
 
 
-class Quantity(NamedTuple):
+class Trace(NamedTuple):
     """A dataset and how engineers read it.
 
     Attributes
     ----------
-    dataset : str
-    factor : float
-        From SI.
-    title : str
-        In words.
-    symbol, unit : str
-        For the axis.
-    from_zero : bool
-        Whether the axis starts at 0.
-    flag : str
-        Dataset that says where the law behind it is inside its range, if any.
+    symbol, unit : for the axis
+    from_zero : whether the axis starts at 0
+    flag : dataset that says where the law behind it is inside its range, if any
     """
 
     dataset: str
-    factor: float
     title: str
     symbol: str
     unit: str
     from_zero: bool = False
     flag: str = ""
+
+    @property
+    def factor(self) -> float:
+        """From SI to the unit."""
+        return SHOWN.get(self.unit, ("", 1.0))[1]
 
     @property
     def label(self) -> str:
@@ -102,7 +99,7 @@ def abscissa(window: Window, view: View) -> np.ndarray:
 def draw(
     axes: Axes,
     records: Sequence[Record],
-    quantity: Quantity,
+    trace: Trace,
     view: View,
     first: bool = True,
     last: bool = True,
@@ -122,7 +119,7 @@ def draw(
     for number, record in enumerate(records):
         window = last_cycles(record, view.cycles)
         x = abscissa(window, view)
-        values = record[quantity.dataset] * quantity.factor
+        values = record[trace.dataset] * trace.factor
         color = PALETTE[number % len(PALETTE)] if several else PALETTE[0]
         if window.phase[-1] > MOST_CYCLES_DRAWN:
             shown += _draw_ranges(axes, record, values, window, x, color)
@@ -135,9 +132,9 @@ def draw(
                 shade = PALETTE[(number if several else position) % len(PALETTE)]
                 axes.plot(*curve, color=shade, linestyle=PAIR_STYLES.get(pair, "-"), label=pair_label(pair))
                 shown.append(curve[1])
-        _shade_extrapolated(axes, record, quantity, window, x, color if several else "")
-    axes.set_ylabel(quantity.label)
-    scale(axes, shown, quantity.from_zero)
+        _shade_extrapolated(axes, record, trace, window, x, color if several else "")
+    axes.set_ylabel(trace.label)
+    scale(axes, shown, trace.from_zero)
     if last:
         axes.set_xlabel(abscissa_label(view))
     return mark_key_points(axes, records, view, first)
@@ -173,14 +170,14 @@ def cycle_ranges(
 
 
 def _shade_extrapolated(
-    axes: Axes, record: Record, quantity: Quantity, window: Window, x: np.ndarray, own: str = ""
+    axes: Axes, record: Record, trace: Trace, window: Window, x: np.ndarray, own: str = ""
 ) -> None:
     """Shade where a law is outside its range for any pair under load; in a record's `own` colour if given."""
-    if quantity.flag not in record:
+    if trace.flag not in record:
         return
-    outside = (record[quantity.flag] == 0) & (record["normal_load"] > 0.0)
+    outside = (record[trace.flag] == 0) & (record["normal_load"] > 0.0)
     outside = np.any(outside[window.part], axis=1)
-    color, label = EXTRAPOLATED[quantity.flag]
+    color, label = EXTRAPOLATED[trace.flag]
     if own:
         color, label = f"{own}18", f"{label}: {record_label(record)}"
     edges = np.flatnonzero(np.diff(np.concatenate([[0], outside.astype(int), [0]])))

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.post.cycles import last_cycles
 from tribodyn.post.figures import over_phase as quantities
-from tribodyn.post.figures.panel import Quantity, View, abscissa, draw, legend
+from tribodyn.post.figures.panel import Trace, View, abscissa, draw, legend
 from tribodyn.post.figures.spectrum import steady_spectrum
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record, open_record
@@ -46,7 +46,7 @@ def _level(axes: Axes, value: float, text: str, color: str, part: tuple[float, f
 
 
 def _compared(
-    quantity: Quantity, printed: Callable[[Axes, Sequence[Record]], None] | None, records: Path
+    quantity: Trace, printed: Callable[[Axes, Sequence[Record]], None] | None, records: Path
 ) -> Figure:
     """Draw a quantity of both drives over one mesh cycle, with what the paper prints of it."""
     view = View(1)
@@ -127,7 +127,7 @@ def spectrum(records: Path) -> Figure:
 
 
 FIGURES: dict[str, Callable[[Path], Figure]] = {
-    "transmission-error": partial(_compared, quantities.TRANSMISSION_ERROR, None),
+    "transmission-error": partial(_compared, quantities.DEFLECTION, None),
     "spectrum": spectrum,
     "normal-load": normal_load,
     "friction-force": partial(_compared, quantities.FRICTION_FORCE, _friction),

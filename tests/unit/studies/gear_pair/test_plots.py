@@ -36,7 +36,7 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> list[Record]:
 
 
 LABELS = {
-    "transmission-error": ["$δ$ (µm)"],
+    "transmission-error": ["$r_pθ_p - r_gθ_g$ (µm)", "$δ$ (µm)"],
     "spectrum": ["Amplitude (µm)"],
     "normal-load": ["$F_n$ (N)"],
     "friction": ["$F_f$ (N)", "$µ$ (–)"],
@@ -77,7 +77,7 @@ def test_figures_can_be_saved_for_print(records: list[Record], tmp_path: Path, e
 
 
 def test_units_are_converted(records: list[Record]):
-    _, error = curve(figure("transmission-error", records[:1]), "pair 1")
+    _, error = curve(figure("transmission-error", records[:1]), "pair 1", axes=1)
     _, stiffness = curve(figure("mesh-stiffness", records[:1]), "pair 1")
     window = last_cycles(records[0])
     assert np.nanmax(error) == pytest.approx(
