@@ -122,20 +122,20 @@ def _courses(scenario: Scenario, condition: str) -> tuple[list[float], list[floa
 def _by_hoehn(scenario: Scenario) -> str:
     """Höhn's H_v is the same at every operating condition, and so is the course of his efficiency."""
     course = ", ".join(f"{100 * value:.3f}" for value in _courses(scenario, "OC1")[0])
-    said = f"{scenario}, x = {', '.join(f'{shift:g}' for shift in SHIFTS[scenario])}, by Höhn OC1 {course}"
+    text = f"{scenario}, x = {', '.join(f'{shift:g}' for shift in SHIFTS[scenario])}, by Höhn OC1 {course}"
     if scenario == "S1":
-        return f"{said}: tips and sliding unchanged, Höhn's value cannot move"
+        return f"{text}: tips and sliding unchanged, Höhn's value cannot move"
     best, back = peak(scenario)
     formula, integral = equal_load_efficiencies(scenario, SHIFTS[scenario][-1], "OC1")
     over = (1.0 - formula) / (1.0 - integral) - 1.0
     return (
-        f"{said}: at every condition rises to x = {best:.3f} and is below x = 0 only beyond {back:.3f}; "
+        f"{text}: at every condition rises to x = {best:.3f} and is below x = 0 only beyond {back:.3f}; "
         f"at x = 0.7 Höhn's formula overstates the loss by {100 * over:.1f} %"
     )
 
 
 def _by_load_contact(scenario: Scenario) -> list[str]:
-    said = []
+    sentences = []
     for condition in CONDITIONS:
         _, values = _courses(scenario, condition)
         steps = np.diff(values)
@@ -145,5 +145,5 @@ def _by_load_contact(scenario: Scenario) -> list[str]:
             highest = int(np.argmax(values))
             course = "rises" if highest == len(shifts) - 1 else f"largest of these at {shifts[highest]:g}"
         figures = ", ".join(f"{100 * value:.3f}" for value in values)
-        said.append(f"{scenario} by load contact {condition} {figures}: {course}")
-    return said
+        sentences.append(f"{scenario} by load contact {condition} {figures}: {course}")
+    return sentences

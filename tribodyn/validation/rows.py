@@ -90,10 +90,10 @@ class Row(NamedTuple):
         """Write a field as a table for people shows it."""
         value = getattr(self, name)
         if name == "tolerance" and self.tolerance_reason and self.tolerance_share:
-            said = self._amount(name, value)
+            shown = self._amount(name, value)
             if self.part or self.tolerance_kind != "relative":
-                said = f"{said}, {of_part(self.tolerance_share, self.part or 'value')}"
-            return f"{said}: {self.tolerance_reason}"
+                shown = f"{shown}, {of_part(self.tolerance_share, self.part or 'value')}"
+            return f"{shown}: {self.tolerance_reason}"
         if name == "difference" and self.part_difference is not None:
             return f"{self._amount(name, value)}, {of_part(self.part_difference, self.part, '+')}"
         if name == "verdict" and self.hangs_on_choice:
@@ -176,7 +176,7 @@ def compare(
     if compared == "implementation":
         text = f"compared with another implementation: {row['independent']:g}"
         note = "; ".join(part for part in (note, text) if part)
-    difference, verdict = _judged(row, computed)
+    difference, verdict = _verdict(row, computed)
     return Row(
         row["id"],
         row["quantity"],
@@ -193,7 +193,7 @@ def compare(
         _part_difference(row, computed),
         _tolerance_share(row),
         row.get("tolerance_reason", ""),
-        Otherwise(*otherwise, *_judged(row, otherwise[1])) if otherwise else None,
+        Otherwise(*otherwise, *_verdict(row, otherwise[1])) if otherwise else None,
     )
 
 
@@ -209,7 +209,7 @@ def _value(row: dict[str, Any]) -> Any:
     return row["independent"] if row["published"] is None else row["published"]
 
 
-def _judged(row: dict[str, Any], computed: Any) -> tuple[Any, str]:
+def _verdict(row: dict[str, Any], computed: Any) -> tuple[Any, str]:
     """Difference and verdict of a computed value."""
     value: Any = _value(row)
     tolerance, kind = row["tolerance"], row["tolerance_kind"]
@@ -266,11 +266,11 @@ def counts(rows: Iterable[Row]) -> dict[str, dict[str, int]]:
 
 def counted(rows: Iterable[Row]) -> str:
     """The same in words."""
-    said = []
+    sentences = []
     for kind, count in counts(rows).items():
         words = {DIRECTION: "agree", _CHOSEN: f"of them {_CHOSEN}"}
         parts = [
             f"{number} {words.get(name, name)}" for name, number in count.items() if number and name != "rows"
         ]
-        said.append(f"{count['rows']} {KINDS[kind][count['rows'] != 1]}: {', '.join(parts)}")
-    return "; ".join(said)
+        sentences.append(f"{count['rows']} {KINDS[kind][count['rows'] != 1]}: {', '.join(parts)}")
+    return "; ".join(sentences)

@@ -79,8 +79,8 @@ def _efficiencies(tables: dict[Law, Efficiencies]) -> dict[str, tuple[Any, ...]]
 
     def both(value: Callable[[Efficiencies], Any]) -> tuple[float, str, tuple[str, float]]:
         a, b = float(value(literal)), float(value(other))
-        said = f"reading A (as printed) {a:.4g}, reading B (maximum pressure, own speeds) {b:.4g}"
-        return a, said, ("reading B", b)
+        readings = f"reading A (as printed) {a:.4g}, reading B (maximum pressure, own speeds) {b:.4g}"
+        return a, readings, ("reading B", b)
 
     exact = "; ".join(
         f"{name} {100 - table.cycloid[0, 1]:.3f} -> {100 - table.exact_speeds[1]:.3f}, "
