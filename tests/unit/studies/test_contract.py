@@ -28,7 +28,7 @@ from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.pages.pictures import compare, figure, names, summary_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.studies.protocol.study import CaseHead, Checked, RunResult, Study
+from tribodyn.studies.protocol.study import CaseHead, CheckResult, RunResult, Study
 from tribodyn.studies.protocol.template import filled
 
 KINDS = tuple(STUDIES)
@@ -100,7 +100,7 @@ def test_a_mistake_is_one_line_and_leaves_nothing(kind: str, verb: str, tmp_path
 @pytest.mark.parametrize("kind", RUNS)
 def test_a_case_is_checked(kind: str, tmp_path: Path):
     checked = STUDIES[kind].check(short_case(kind, tmp_path))
-    assert isinstance(checked, Checked)
+    assert isinstance(checked, CheckResult)
     assert checked.data
     for table in checked.tables:
         assert table.title

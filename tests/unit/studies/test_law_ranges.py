@@ -5,13 +5,13 @@ import pytest
 from tribodyn.numerics.elementary import law
 from tribodyn.studies.gear_pair.run import check
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.protocol.study import Checked
+from tribodyn.studies.protocol.study import CheckResult
 from tribodyn.tribology.closure import with_laws
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FrictionLaw
 
 
-def checked(**changes: str) -> Checked:
+def checked(**changes: str) -> CheckResult:
     settings = {name.replace("__", "."): value for name, value in changes.items()}
     return check(load_scenario("involute-23-47", settings))
 

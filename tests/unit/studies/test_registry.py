@@ -36,7 +36,7 @@ from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.scenario.quantity import Table, Text
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import CaseHead, Checked, RunResult, Study, TextTable
+from tribodyn.studies.protocol.study import CaseHead, CheckResult, RunResult, Study, TextTable
 
 TEMPLATE = 'title = "TITLE"\\nkind = "pendulum"\\nlength = 1.0\\n'
 STUDY = Study("pendulum", "a pendulum of small swing", __name__, "the angle of a pendulum over time")
@@ -63,7 +63,8 @@ def case_of(scenario, toml, sha256):
 
 
 def check(case):
-    return Checked({"period": case.period}, [TextTable("Pendulum", ("quantity", "value"), [("period", "s")])])
+    table = TextTable("Pendulum", ("quantity", "value"), [("period", "s")])
+    return CheckResult({"period": case.period}, [table])
 
 
 def figures(case):

@@ -26,13 +26,13 @@ from tribodyn.studies.assessment.standard import iso_part, standard_of, strength
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Checked, Progress, RunResult
+from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 
 #: What is no number, or has the unit of what is compared; what ends the name of a scatter.
 WITHOUT_UNIT, SPREAD_OF = ("limits", "samples"), "_spread"
 
 
-def check(case: AssessmentCase) -> Checked:
+def check(case: AssessmentCase) -> CheckResult:
     """Check a case and what it asks of the other studies; say what gears and oil it describes."""
     sheet = geometry_sheet(assembled(case))
     request = parts.request_of(case)
@@ -40,7 +40,7 @@ def check(case: AssessmentCase) -> Checked:
     for task in tasks:
         if task.needed:
             parts.case_of(task, {task.key: task.values[0]} if task.values else {})
-    found = Checked({"geometry": sheet, "tasks": [task.name for task in tasks]}, sheet_tables(sheet))
+    found = CheckResult({"geometry": sheet, "tasks": [task.name for task in tasks]}, sheet_tables(sheet))
     return with_oil(found, case.lubricant)
 
 

@@ -3,15 +3,15 @@
 import numpy as np
 
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
-from tribodyn.studies.protocol.study import Checked, TextTable
+from tribodyn.studies.protocol.study import CheckResult, TextTable
 
 
-def check(case: BacklashOscillatorCase) -> Checked:
+def check(case: BacklashOscillatorCase) -> CheckResult:
     """Print what linear theory predicts."""
     figures = linear_figures(case)
     rows = [(name, "none" if value is None else f"{value:.6g}") for name, value in figures.items()]
     table = TextTable("Linear theory, while contact lasts", ("quantity", "value"), rows)
-    return Checked({"linear": figures}, (table,))
+    return CheckResult({"linear": figures}, (table,))
 
 
 def linear_figures(case: BacklashOscillatorCase) -> dict[str, float | None]:

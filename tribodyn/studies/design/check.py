@@ -4,10 +4,10 @@ from tribodyn.studies.design.candidates.candidates import samples_of
 from tribodyn.studies.design.candidates.sources import standing
 from tribodyn.studies.design.case import DesignCase, Free
 from tribodyn.studies.design.methods import method_of
-from tribodyn.studies.protocol.study import Checked, TextTable
+from tribodyn.studies.protocol.study import CheckResult, TextTable
 
 
-def check(case: DesignCase) -> Checked:
+def check(case: DesignCase) -> CheckResult:
     """Check a case and say what is searched."""
     name, reason = method_of(case)
     starts = [standing(case.scenarios, free.keys[0]) for free in case.free]
@@ -39,7 +39,7 @@ def check(case: DesignCase) -> Checked:
             ),
         ),
     )
-    return Checked(data, tables)
+    return CheckResult(data, tables)
 
 
 def bounds(free: Free) -> str:

@@ -39,7 +39,7 @@ from tribodyn.studies.gears.oil import oil_data
 from tribodyn.studies.gears.prepare import PreparedGears, assembled, at_tooth_temperature
 from tribodyn.studies.gears.temperature import contact_figures, thermal_figures
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Checked, Progress, RunResult
+from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
 from tribodyn.tribology.friction.coulomb import constant
 from tribodyn.tribology.surface_state import fraction_in_range
@@ -100,7 +100,7 @@ def prepare(case: EfficiencyCase) -> PreparedEfficiency:
     return PreparedEfficiency(case, assembly, cycle, thermal, duty_of(case), flanks)
 
 
-def check(case: EfficiencyCase) -> Checked:
+def check(case: EfficiencyCase) -> CheckResult:
     """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
     study = prepare(case)
     return check_gears(study, study.duty.closure)

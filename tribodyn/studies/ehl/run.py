@@ -26,7 +26,7 @@ from tribodyn.studies.ehl.layout import BEGIN, END, PLACES, SAMPLES, layout_of
 from tribodyn.studies.ehl.squeezed import SteadyContact, squeezed, steady_of
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Checked, Progress, RunResult
+from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 
 Array = Any
 
@@ -69,7 +69,7 @@ def run(
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def check(case: EhlCase) -> Checked:
+def check(case: EhlCase) -> CheckResult:
     """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
     return check_gears(prepare(case))
 

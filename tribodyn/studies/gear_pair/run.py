@@ -33,7 +33,7 @@ from tribodyn.studies.gears.temperature import (
     thermal_figures,
 )
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Checked, Progress, RunResult
+from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import exceeded_limits, law_figures
 
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
@@ -66,7 +66,7 @@ def run(
     return result
 
 
-def check(case: Case) -> Checked:
+def check(case: Case) -> CheckResult:
     """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
     prepared = prepare(case)
     return check_gears(prepared, prepared.model.closure, prepared.masses)

@@ -12,7 +12,7 @@ from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
 from tribodyn.studies.gears.oil import oil_data, oil_remarks, oil_table
 from tribodyn.studies.gears.prepare import PreparedGears
-from tribodyn.studies.protocol.results import Checked, TextTable
+from tribodyn.studies.protocol.results import CheckResult, TextTable
 from tribodyn.tribology.closure import (
     Lubricated,
     duty_range,
@@ -30,7 +30,9 @@ from tribodyn.tribology.surface_state import range_shares
 _NAMES = {"closure_exceeded": "film law", "friction_exceeded": "friction law"}
 
 
-def check_gears(prepared: PreparedGears[Any], closure: Closure | None = None, masses: Any = None) -> Checked:
+def check_gears(
+    prepared: PreparedGears[Any], closure: Closure | None = None, masses: Any = None
+) -> CheckResult:
     """What `check` prints of gears whose mesh is tabulated.
 
     Parameters
@@ -50,7 +52,7 @@ def check_gears(prepared: PreparedGears[Any], closure: Closure | None = None, ma
     return checked if closure is None else _with_laws(checked, case, closure)
 
 
-def with_oil(checked: Checked, lubricant: LubricantData) -> Checked:
+def with_oil(checked: CheckResult, lubricant: LubricantData) -> CheckResult:
     """Return what `check` prints with the lubricant added, under the key `lubricant`."""
     return checked._replace(
         data={**checked.data, "lubricant": oil_data(lubricant)},
@@ -59,7 +61,7 @@ def with_oil(checked: Checked, lubricant: LubricantData) -> Checked:
     )
 
 
-def _with_laws(checked: Checked, case: Lubricated, closure: Closure) -> Checked:
+def _with_laws(checked: CheckResult, case: Lubricated, closure: Closure) -> CheckResult:
     """Add the laws in use, their ranges, and where the nominal duty leaves them."""
     outside = _exceeded(case, closure)
     rows = [(law.table, law.name, law.stated or "none stated") for law in laws_of(case)]
@@ -90,7 +92,7 @@ def sheet_and_stiffness(
     pair: tuple[float, float],
     masses: Any = None,
     remark: str = "",
-) -> Checked:
+) -> CheckResult:
     """The sheet of gears, and how stiff they are.
 
     Parameters
@@ -134,7 +136,7 @@ def sheet_and_stiffness(
     if reference is not None:
         about["iso_6336_1"] = reference
     data = {"geometry": sheet, "stiffness": about}
-    return Checked(data, (*sheet_tables(sheet), table, *tables), remarks)
+    return CheckResult(data, (*sheet_tables(sheet), table, *tables), remarks)
 
 
 def _reference(

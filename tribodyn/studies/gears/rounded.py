@@ -3,7 +3,7 @@
 import tomllib
 
 from tribodyn.scenario.tables.centre_distance import RoundedDistance
-from tribodyn.studies.protocol.results import Checked, TextTable
+from tribodyn.studies.protocol.results import CheckResult, TextTable
 
 #: The same for one of many cases: without values, so that equal remarks can be counted.
 BRIEF = "the centre distance is taken as that without backlash, within the rounding of the printed digits"
@@ -18,7 +18,7 @@ def rounded_in(toml: str) -> RoundedDistance | None:
     return rounded_distance_of(tomllib.loads(toml).get("drive", {}))
 
 
-def with_rounding(checked: Checked, toml: str) -> Checked:
+def with_rounding(checked: CheckResult, toml: str) -> CheckResult:
     """What `check` says, with how the centre distance of the scenario is rounded."""
     rounded = rounded_in(toml)
     if rounded is None:
@@ -27,7 +27,7 @@ def with_rounding(checked: Checked, toml: str) -> Checked:
     rows = [(name, f"{value:.6g} {unit}") for name, (value, unit) in lines.items()]
     data = checked.data | {"geometry": checked.data["geometry"] | lines}
     table = TextTable("Printed digits", ("quantity", "value"), rows)
-    return Checked(data, (*checked.tables, table), (*checked.remarks, rounded.remark()))
+    return CheckResult(data, (*checked.tables, table), (*checked.remarks, rounded.remark()))
 
 
 def remarks_in_brief(toml: str) -> list[str]:

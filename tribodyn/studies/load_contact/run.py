@@ -26,7 +26,7 @@ from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.film import FaceFilm, film_over_face
 from tribodyn.studies.load_contact.layout import BODIES, LAYOUT, OILED
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Checked, Progress, RunResult
+from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 
 
 class PreparedTeeth(NamedTuple):
@@ -128,7 +128,7 @@ def run(
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def check(case: LoadContactCase) -> Checked:
+def check(case: LoadContactCase) -> CheckResult:
     """Check a case, and say what gears it describes and how stiff they are."""
     study = prepare(case)
     assembly = study.flexible.assembly

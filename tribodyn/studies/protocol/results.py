@@ -36,7 +36,7 @@ class TextTable(NamedTuple):
     rows: Sequence[Sequence[str]]
 
 
-class Checked(NamedTuple):
+class CheckResult(NamedTuple):
     """What `check` says of a sound case: data for programs, tables and remarks for people."""
 
     data: dict[str, Any]

@@ -18,7 +18,7 @@ from tribodyn.studies.protocol.estimate import (
     refuse_large,
     share_of_limits,
 )
-from tribodyn.studies.protocol.results import Checked as Checked
+from tribodyn.studies.protocol.results import CheckResult as CheckResult
 from tribodyn.studies.protocol.results import RunResult as RunResult
 from tribodyn.studies.protocol.results import TextTable as TextTable
 
@@ -81,7 +81,7 @@ class Study:
     scenario      ``Scenario``, the schema of a file; ``table_for(data)``, that of a file with these data
                   (optional); ``case_of(scenario, toml, sha256)``, its case, a `CaseHead` and more
     rules         ``broken_rules(scenario)``, errors for the rules that tie keys together (optional; scenario)
-    check         ``check(case) -> Checked``; raises InputError where the case cannot be run (run)
+    check         ``check(case) -> CheckResult``; raises InputError where the case cannot be run (run)
     run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; and
                   ``figures(case) -> dict``, its figures without a record (optional: to be swept)
     report        ``REPORTED``, heading -> quantities of the summary; ``sentences(record)``, how far it is
@@ -158,7 +158,7 @@ class Study:
         estimate = self._part("estimate", "estimate", optional=True)
         return estimate(case) if estimate else Estimate()
 
-    def check(self, case: Any, *, allow_large: bool = False) -> Checked:
+    def check(self, case: Any, *, allow_large: bool = False) -> CheckResult:
         """Check a case and say what it describes, and what a run takes where that is much, without a run.
 
         Raises InputError where it cannot be run, or takes more than `allow_large` permits.

@@ -1,19 +1,19 @@
 """What `check` says of a gear with rolling elements."""
 
 from tribodyn.studies.gears.check import with_unit
-from tribodyn.studies.protocol.study import Checked, TextTable
+from tribodyn.studies.protocol.study import CheckResult, TextTable
 from tribodyn.studies.rolling.geometry import RollingDrive, element_radius_limits
 from tribodyn.studies.rolling.run import prepare
 from tribodyn.studies.rolling.scenario import RollingCase
 
 
-def check(case: RollingCase) -> Checked:
+def check(case: RollingCase) -> CheckResult:
     """Check a case, and say what gear it describes."""
     prepare(case)
     sheet = geometry_sheet(case.drive)
     rows = [("mode", case.mode), *((name, with_unit(*value)) for name, value in sheet.items())]
     table = TextTable("Gear with rolling elements", ("quantity", "value"), rows)
-    return Checked({"mode": case.mode, "geometry": sheet}, (table,))
+    return CheckResult({"mode": case.mode, "geometry": sheet}, (table,))
 
 
 def geometry_sheet(drive: RollingDrive) -> dict[str, tuple[float | int, str]]:

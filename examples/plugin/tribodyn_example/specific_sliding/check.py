@@ -2,12 +2,12 @@
 
 from tribodyn.geometry.sheet.sheet import geometry_sheet
 from tribodyn.studies.gears.check import sheet_tables
-from tribodyn.studies.protocol.study import Checked
+from tribodyn.studies.protocol.study import CheckResult
 from tribodyn_example.specific_sliding.scenario import SlidingCase
 from tribodyn_example.specific_sliding.sliding import sliding_of
 
 
-def check(case: SlidingCase) -> Checked:
+def check(case: SlidingCase) -> CheckResult:
     """Check a case, and say what gears it describes."""
     sheet = geometry_sheet(sliding_of(case).assembly)
-    return Checked({"geometry": sheet}, sheet_tables(sheet))
+    return CheckResult({"geometry": sheet}, sheet_tables(sheet))
