@@ -54,7 +54,7 @@ class Comparison(NamedTuple):
     conditions : dict
         Dotted key of the scenario -> what each record's says, for the keys in which they differ.
     withheld : tuple of dict
-        Of every record: name of a figure that is withheld -> why.
+        Of every record: name of a quantity that is withheld -> why.
     warnings : tuple of tuple of str
         What every record warns of.
     """

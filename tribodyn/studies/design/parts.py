@@ -192,7 +192,9 @@ def _twice(free: Sequence[Free]) -> list[InputError]:
 def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[Objective, ...]:
     if (table.minimise is None) == (table.maximise is None):
         rule = "missing" if table.minimise is None else "contradicts maximise"
-        remedy = 'add minimise = "…", the name of a figure' if table.minimise is None else "give one of them"
+        remedy = (
+            'add minimise = "…", the name of a quantity' if table.minimise is None else "give one of them"
+        )
         raise InputError("design.minimise", None, rule, remedy)
     if table.maximise is not None:
         name = figure_name("design.maximise", table.maximise, studies)
@@ -200,7 +202,7 @@ def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[
     given = table.minimise
     if not isinstance(given, (str, list, tuple)) or given in ([], ()):
         remedy = 'write minimise = "peak_to_peak", a list of two, or [{ figure = "…", weight = 1.0 }, …]'
-        raise InputError("design.minimise", quoted(given), "not the name of a figure", remedy)
+        raise InputError("design.minimise", quoted(given), "not the name of a quantity", remedy)
     if not isinstance(given, str) and not all(isinstance(name, str) for name in given):
         return (_weighted(given, studies),)
     places = {"design.minimise": given}

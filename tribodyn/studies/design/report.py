@@ -60,7 +60,7 @@ def sentences(record: Record) -> list[str]:
     if "without_figures_message" in summary:
         count = summary["evaluations_without_figures"]
         found.append(
-            f"{count} candidates have no figures, most because: {summary['without_figures_message']}"
+            f"{count} candidates have no quantities, most because: {summary['without_figures_message']}"
         )
     return found
 

@@ -52,7 +52,7 @@ def units_by_figure(studies: Mapping[str, Study]) -> dict[str, str]:
 
 
 def figure_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
-    """Return the full name of a figure.
+    """Return the full name of a quantity.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def figure_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
     """
     if not isinstance(name, str):
         first = next(iter(evaluated_quantities(studies[BASE])), "")
-        raise InputError(place, quoted(name), "not the name of a figure", f"such as {first}")
+        raise InputError(place, quoted(name), "not the name of a quantity", f"such as {first}")
     part, dot, figure = name.partition(".")
     if not dot:
         part, figure = BASE, name
@@ -73,7 +73,7 @@ def figure_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
     known = evaluated_quantities(study)
     full = study.short_names().get(figure, figure)
     if full not in known:
-        what = f"figure of studies of kind {study.kind}"
+        what = f"quantity of studies of kind {study.kind}"
         raise unknown_name(place, figure, [*study.short_names(), *known], what)
     return _joined(part, full)
 
