@@ -12,14 +12,11 @@ from scipy.integrate import solve_ivp
 
 from tools.peers import steady
 from tribodyn.dynamics.equations import derivatives, engagement
-from tribodyn.dynamics.extremes import no_extremes
 from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE
 from tribodyn.solve.choice import choose
-from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
 from tribodyn.solve.orbit.period_map import by_differences
-from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances, tolerances_from
 from tribodyn.solve.transient import make_integrator
 
@@ -198,38 +195,6 @@ def test_extremes_cost_a_run_at_most_a_tenth(prepared, name, overrides):
     assert ratio < 1.1
 
 
-def test_extremes_cost_lanes_at_most_a_tenth(prepared):
-    """32 speeds, of 20 mesh cycles as a sweep has it: extremes over the last quarter."""
-    speeds = np.linspace(100.0, 600.0, 32)
-    models = [prepared("crc-23-47", **{"operating.pinion_speed": f"{speed} rad/s"}).model for speed in speeds]
-    states = np.array([static_equilibrium(model) for model in models])
-
-    def marched(extremes):
-        march(models, states, cycles=20, window=5, samples=SAMPLES, rtol=RTOL, workers=1, extremes=extremes)
-
-    ratio = calm_ratio(lambda: marched(True), lambda: marched(False), 1.1, least=5)
-    print(f"lanes with extremes take {ratio:.3f} of those without")
-    assert ratio < 1.1
-
-
-def test_extremes_cost_steady_states_at_most_a_tenth(prepared, monkeypatch):
-    speeds = np.linspace(100.0, 600.0, 8)
-    models = [prepared("crc-23-47", **{"operating.pinion_speed": f"{speed} rad/s"}).model for speed in speeds]
-    sought = GearMap.integrate
-
-    def found(extremes):
-        def integrate(*arguments, **others):
-            *result, ours = sought(*arguments, **{**others, "extremes": extremes})
-            return *result, ours if extremes else no_extremes(len(arguments[2]))
-
-        monkeypatch.setattr(GearMap, "integrate", integrate)
-        steady_states(models, samples=SAMPLES, workers=1)
-
-    ratio = calm_ratio(lambda: found(True), lambda: found(False), 1.1, least=4)
-    print(f"steady states with extremes take {ratio:.3f} of those without")
-    assert ratio < 1.1
-
-
 def test_native_kernel(case, benchmark):
     """For comparison over time with pytest-benchmark; asserts nothing about the clock."""
     samples = benchmark(native, *case, 20)
@@ -263,30 +228,3 @@ def test_a_derivative_costs_less_than_the_marches_of_its_differences(prepared, c
     with capsys.disabled():
         print(f"\na derivative takes {ratio:.2f} of the time of {1 + state.shape[1]} marches ({law})")
     assert ratio < 1.0
-
-
-@pytest.mark.parametrize(("speed", "maximum"), [("10 rad/s", 2.0), ("100 rad/s", 1.2), ("300 rad/s", 1.2)])
-def test_dynamic_sliding_costs_little_more_than_kinematic(prepared, speed, maximum):
-    runs = {}
-    for sliding in ("kinematic", "dynamic"):
-        model = prepared("crc-23-47", **{"operating.pinion_speed": speed, "friction.sliding": sliding}).model
-        state = static_equilibrium(model)
-        tolerances = tolerances_from(model, state, RTOL, 10**6)
-        runs[sliding] = (
-            make_integrator(choose("auto", model, state).method, model, SAMPLES, tolerances),
-            state,
-        )
-    best, ratio = dict.fromkeys(runs, float("inf")), float("inf")
-    for turn in range(
-        100
-    ):  # in turn, so that other load on the machine meets both; until both met a calm one
-        for sliding, (integrator, state) in runs.items():
-            integrator.started = False
-            begun = process_time()
-            integrator.integrate(state, 0, 20)
-            best[sliding] = min(best[sliding], process_time() - begun)
-        ratio = best["dynamic"] / best["kinematic"]
-        if turn >= 15 and ratio < maximum:
-            break
-    print(f"dynamic over kinematic sliding at {speed}: {ratio:.2f}")
-    assert ratio < maximum

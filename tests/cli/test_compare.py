@@ -9,9 +9,7 @@ from typer.testing import CliRunner
 
 from tests.support import synthetic_record
 from tribodyn.cli.app import app
-from tribodyn.post.compare import comparison_table
 from tribodyn.record.reader import open_record
-from tribodyn.studies.pages.pictures import compare as side_by_side
 from tribodyn.studies.pages.pictures import names
 
 SHORT = ("--set", "solver.cycles=2")
@@ -99,32 +97,6 @@ def test_runs_at_unequal_load_say_so(both):
     )
     assert result["different_conditions"] == {"operating.gear_torque": ["500 N*m", "300 N*m"]}
     assert result["kept"] == result["pictures"] == []
-
-
-def test_existing_records_are_replaced_with_force_only(both):
-    _, folder = both
-    refused = compare("crc-23-47", "involute-23-47", *SHORT, "-o", str(folder))
-    assert refused.exit_code == 2
-    assert "--force" in refused.stderr
-
-
-def test_labels_of_equal_names_are_told_apart_by_their_folders(tmp_path: Path):
-    for folder in ("before", "after"):
-        (tmp_path / folder).mkdir()
-    paths = [
-        synthetic_record.write(tmp_path / folder / "drive.h5", cycles=2, per_cycle=40)
-        for folder in ("before", "after")
-    ]
-    records = [open_record(path) for path in paths]
-    comparison = side_by_side(records)
-    assert comparison.labels == ("before/drive", "after/drive")
-    assert all(
-        difference in (0.0, None)
-        for rows in comparison.groups.values()
-        for row in rows
-        for difference in row.differences()
-    )
-    comparison_table(comparison)
 
 
 @pytest.mark.parametrize(

@@ -290,25 +290,3 @@ def test_modules_that_cannot_be_imported_are_a_line_each_where_they_would_be_lis
     assert "masjedi-khonsari" in json.loads(listed.stdout)["laws"]
     assert "GearPairScenario" in json.loads(schema.stdout)["$defs"]
     assert 'did you mean "xu"?' in unknown.stderr
-
-
-IMPOSTORS = {
-    "a string": ("LAW = 'a law'", "offers a str, expected a FrictionLaw"),
-    "another name": ("from tribodyn.tribology.friction.none import LAW", 'it calls itself "none"'),
-}
-
-
-@pytest.mark.parametrize("what", IMPOSTORS)
-def test_what_is_not_what_it_should_be(plugin, tmp_path, what):
-    text, said = IMPOSTORS[what]
-    source = plugin.packages / "tribodyn_example" / "stribeck.py"
-    sound = source.read_text(encoding="utf-8")
-    try:
-        source.write_text(text + "\n", encoding="utf-8")
-        used = plugin("check", plugin.scenario(GEARS), folder=tmp_path, status=2)
-        listed = plugin("list", "laws", folder=tmp_path)
-    finally:
-        source.write_text(sound, encoding="utf-8")
-    assert said in used.stderr
-    assert "stribeck" not in listed.stdout
-    assert "stribeck" in listed.stderr

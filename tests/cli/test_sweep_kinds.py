@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 from tests.support.short_studies import SHORT, short_case, written_template
 from tribodyn.cli.app import app
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.record.sweep_schema import DONE, FAILED
+from tribodyn.record.sweep_schema import DONE
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.run import run as run_case
 from tribodyn.sweep.engines import LocalEngine
@@ -154,15 +154,3 @@ def test_a_stopped_sweep_goes_on_to_the_same_record(tmp_path: Path):
         for name in a:
             if isinstance(a[name], h5py.Dataset):
                 assert a[name][...].tobytes() == b[name][...].tobytes(), name
-
-
-def test_a_case_that_fails_says_why_beside_the_others(tmp_path: Path):
-    """Of two lever arms of rolling resistance, with the longer the gear locks."""
-    path = tmp_path / "sweep.h5"
-    words = ["--vary", "friction.rolling_arm=0.01,5mm", "--set", "output.samples_per_cycle=8"]
-    invoked("sweep", written_template("irefc", tmp_path), *words, "-o", path)
-    with SweepRecord(path) as record:
-        assert record["status"].tolist() == [DONE, FAILED]
-        assert "the gear locks" in record["message"][1]
-        assert np.isfinite(record["efficiency"]).tolist() == [True, False]
-        assert record.failures()[0][0] == {"rolling_arm": 0.005}

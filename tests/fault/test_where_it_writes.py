@@ -22,30 +22,6 @@ def record(path: Path, force: bool = True) -> None:
         writer.finish({})
 
 
-@pytest.mark.parametrize("name", ["run.h5", "run.partial.h5"])
-@pytest.mark.parametrize("other", ["text", "HDF5", "pipe", "link to text", "link to nothing"])
-def test_force_replaces_nothing_but_records(name: str, other: str, tmp_path: Path):
-    import h5py
-
-    target, elsewhere = tmp_path / name, tmp_path / "elsewhere"
-    elsewhere.write_bytes(PRECIOUS)
-    if other == "text":
-        target.write_bytes(PRECIOUS)
-    elif other == "HDF5":
-        with h5py.File(target, "w") as file:
-            file.attrs["format"] = "another"
-    elif other == "pipe":
-        os.mkfifo(target)
-    else:
-        target.symlink_to(elsewhere if other == "link to text" else tmp_path / "nothing")
-    before = target.lstat()
-    with pytest.raises(InputError, match="not a record of tribodyn"):
-        record(tmp_path / "run.h5")
-    assert os.path.samestat(before, target.lstat())
-    assert elsewhere.read_bytes() == PRECIOUS
-    assert {path.name for path in tmp_path.iterdir()} == {name, "elsewhere"}
-
-
 def test_a_link_to_a_record_may_be_named(tmp_path: Path):
     record(tmp_path / "first.h5")
     content = (tmp_path / "first.h5").read_bytes()

@@ -7,7 +7,7 @@ import pytest
 
 from tests.support.twelve_teeth import few_cells
 from tribodyn.compliance.fem.cache import cached_gear_compliance
-from tribodyn.compliance.fem.gear_compliance import FreeEnds, GearCompliance
+from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.tooth.tooth import cut_tooth
@@ -75,33 +75,3 @@ def test_runs_at_the_same_time_agree(tmp_path, monkeypatch):
         found = pool.starmap(solve, [(0.3,), (0.3,)])
     assert same(*found)
     assert len(list((tmp_path / "fem").iterdir())) == 1
-
-
-def any_ends(waves: int, width: float = 1.0) -> FreeEnds:
-    """Any numbers of the right shape, for they take no time."""
-    both = waves, waves
-    sizes = [(waves,), (3,), (2, *both, 3), (2, *both, 5, 3, 3), (2, *both, 5, 2, 4, 3)]
-    return FreeEnds(*(np.full(size, width) for size in sizes))
-
-
-def test_loads_that_vary_are_solved_only_where_asked_for_and_kept_apart(folder, monkeypatch):
-    ends = "tribodyn.compliance.fem.free_ends.free_ends"
-    asked = []
-    monkeypatch.setattr(ends, lambda *given: asked.append(given) or any_ends(len(given[-2]), given[-1]))
-    plane = solve()
-    assert plane.lead is None
-    first = solve(width=0.02)
-    assert same(plane, first._replace(lead=None, ends=None))
-    assert first.lead is not None
-    for waves in (first.lead.wave_number, asked[0][-2]):  # over the module
-        assert 0.2 < waves[-1] * DRIVE.module < 20.0
-    assert {"ends", "lead"} < {file.name.partition("-")[0] for file in folder.iterdir()}
-    monkeypatch.setattr("tribodyn.compliance.fem.gear.gear_compliance", None)
-    monkeypatch.setattr("tribodyn.compliance.fem.gear.lead_harmonics", None)
-    wider = solve(width=0.03)  # needs the ends alone
-    assert not same(first, wider)
-    assert len(list(folder.iterdir())) == 4
-    monkeypatch.setattr(ends, None)
-    assert same(first, solve(width=0.02))
-    assert same(wider, solve(width=0.03))
-    assert same(plane, solve())

@@ -59,11 +59,6 @@ def test_estimate_counts_what_there_is(monkeypatch, level, components):
     assert memory_needed(level, components) == pytest.approx(dense + factors, rel=0.13 / level)
 
 
-def test_end_faces_need_theirs_whatever_the_level():
-    assert memory_needed(1, 3) == mesh_memory._ENDS < memory_needed(8, 3)
-    assert memory_needed(1, 2) < memory_needed(1, 3)
-
-
 @pytest.mark.skipif(not STATUS.exists(), reason="the system does not tell a process's peak of memory")
 @pytest.mark.parametrize(("components", "level"), [pytest.param(2, 4, marks=pytest.mark.soak), (3, 3)])
 def test_estimate_meets_the_peak_of_a_process(components, level):
@@ -101,7 +96,3 @@ def test_the_level_that_is_named_fits(monkeypatch, components, available):
 def test_level_below_one_is_refused():
     with pytest.raises(InputError, match="no cells"):
         check_level(0, 2)
-
-
-def test_more_memory_than_a_machine_has_is_not_said_to_be_free():
-    assert 0 < mesh_memory.available_memory() < 2.0**50

@@ -137,15 +137,3 @@ def test_reverse_mode_gives_the_same_gradient(family, values, teeth):
     (forward, *_), _ = compiled_derivatives(family)(values, teeth)
     _, backward = compiled_ratios(family)(batch(values), teeth)
     np.testing.assert_allclose(backward[0], forward, rtol=1e-10, atol=1e-10)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("family", "values", "teeth"), CASES)
-def test_a_thousand_drives_at_once(family, values, teeth):
-    many = batch(values)
-    ratios, gradients = compiled_ratios(family)(many, teeth)
-    assert ratios.shape == (len(many),)
-    assert np.all(np.isfinite(gradients))
-    for i in range(0, len(many), 250):
-        drive = DRIVES[family.name](many[i], teeth)
-        assert ratios[i] == pytest.approx(float(ratio_of(family, drive)), rel=1e-12)

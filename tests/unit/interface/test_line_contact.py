@@ -139,38 +139,3 @@ def test_what_no_oil_bears_is_said():
     assert "limiting" in contact.limits[0]
     assert "limiting" in repr(contact)
     assert td.line_contact(**GIVEN).limits == ()
-
-
-@pytest.mark.soak
-def test_two_hundred_random_contacts(rng):
-    """Whatever the oil, the law and the heat: finite, bounded by the limiting stress, or one error."""
-    solved = 0
-    for _ in range(200):
-        given: dict[str, Any] = {
-            "line_load": 10 ** rng.uniform(3.5, 6.2),
-            "radius": 10 ** rng.uniform(-3, -1),
-            "entrainment_speed": 10 ** rng.uniform(-1.5, 1.5),
-            "viscosity": 10 ** rng.uniform(-2.3, 1),
-            "pressure_viscosity": rng.uniform(5e-9, 60e-9),
-            "viscosity_pressure_index": rng.choice([0.3, 0.6, 0.8, 1.0]),
-            "effective_modulus": 226.37e9,
-            "rheology": rng.choice(["limiting", "eyring", "carreau"]).item(),
-            "temperature_viscosity": rng.choice([0.0, 0.03, 0.06]),
-            "roughness": rng.choice([None, 1e-7, 1e-6]),
-        }
-        given["sliding_speed"] = given["entrainment_speed"] * rng.uniform(-1.5, 1.5)
-        if rng.random() < 0.5:
-            given["temperature_viscosity"] = None
-        try:
-            contact = td.line_contact(**given)
-        except (td.InputError, td.SimulationError):
-            continue
-        solved += 1
-        arrays = (contact.pressure, contact.film_thickness, contact.temperature, contact.shear_stress)
-        assert all(np.all(np.isfinite(one)) for one in arrays)
-        assert np.isfinite(contact.friction_coefficient)
-        if given["rheology"] == "limiting":
-            most = np.trapezoid(2e6 + 0.05 * contact.pressure, contact.x) / given["line_load"]
-            most += 0.12 * contact.asperity_load_ratio
-            assert abs(contact.friction_coefficient) <= most * (1.0 + 1e-9)
-    assert solved > 150

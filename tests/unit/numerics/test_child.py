@@ -113,16 +113,6 @@ def test_it_inherits_no_file_and_no_state_of_signals(tmp_path):
     assert (open_files, blocked, group) == ("[]", "set()", "True")
 
 
-def test_what_is_read_by_lines_or_at_once_is_what_was_told():
-    process = child.start(
-        "builtins:exec", "import sys\nfor line in sys.stdin.buffer: print(len(line), flush=True)"
-    )
-    for size in (1, 10, 70_000, 3_000_000):
-        child.tell(process, b"x" * (size - 1) + b"\n")
-        assert child.answer(process, 60.0, line=True) == b"%d\n" % size
-    child.end(process)
-
-
 PATHS = {
     "safe": ("-P", ""),
     "its first entry": ("", ""),

@@ -38,9 +38,6 @@ from tribodyn.record.withheld import remarked, remarks, warned, warnings
 from tribodyn.studies.pages.pictures import summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.studies.sweeping.batch import Chunk
-from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import settings_of
 
 DOCS = Path(__file__).parents[3] / "docs"
 
@@ -198,19 +195,6 @@ def test_an_absurd_load_is_loud(tmp_path):
     assert shown.stdout.splitlines()[1].startswith(OUTSIDE)
     usual = run(load_scenario("involute-23-47", {"solver.cycles": 2}), tmp_path / "usual.h5")
     assert (usual.trust, usual.reasons) == (INSIDE, [])
-
-
-def test_a_sweep_of_gear_pairs_judges_every_case():
-    """From the usual load to an absurd one."""
-    grid = Grid("involute-23-47", ["operating.gear_torque=500 N*m,500 kN*m"], {})
-    settings = settings_of(grid, 2)
-    numbers = np.arange(2)
-    rows = grid.batch.evaluate(Chunk(numbers, tuple(grid.case((i,)) for i in range(2))), settings, 1)
-    assert rows["status"].tolist() == [DONE, DONE]
-    assert rows["trust"].tolist() == [1, 0]
-    assert OUTSIDE not in rows["message"][0]
-    assert "warning: outside the model: " in rows["message"][1]
-    assert "Hertz pressure above 4 GPa" in rows["message"][1]
 
 
 def test_extrapolated_laws_are_no_excess():

@@ -6,12 +6,8 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.scenario.sources import names, shipped
-from tribodyn.solve.methods import SOLVERS, solver
 from tribodyn.studies.protocol.load import load, load_scenario
-from tribodyn.tribology.film import FILM_LAWS, film_law
-from tribodyn.tribology.friction import FRICTION_LAWS, friction_law
 
 SCENARIO = """
 title = "a scenario"
@@ -169,21 +165,3 @@ def test_physics_errors_are_given_the_file(written):
         raise InputError("drive.pinion.teeth", 5, "too few", "more")
     with pytest.raises(InputError, match=r"^output = "), loaded.naming():
         raise InputError("output", "x.h5", "the file exists")
-
-
-def test_registries_know_their_names_and_suggest_near_ones():
-    assert {family(name).name for name in FAMILIES} == set(FAMILIES)
-    assert {solver(name) for name in SOLVERS} == set(SOLVERS)
-    assert {friction_law(name).name for name in FRICTION_LAWS} == set(FRICTION_LAWS)
-    assert {film_law(name).name for name in FILM_LAWS} == set(FILM_LAWS)
-    assert all(law.film in FILM_LAWS for _, law in FRICTION_LAWS.items())
-    keys = {name: [key.name for key in law.keys] for name, law in FRICTION_LAWS.items() if law.keys}
-    assert keys == {"coulomb": ["coefficient"]}
-    for lookup, wrong, right in (
-        (family, "involut", "involute"),
-        (friction_law, "colomb", "coulomb"),
-        (film_law, "moss", "moes"),
-        (solver, "rado", "radau"),
-    ):
-        with pytest.raises(InputError, match=f'did you mean "{right}"'):
-            lookup(wrong)

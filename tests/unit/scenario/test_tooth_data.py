@@ -102,19 +102,6 @@ def test_contradictions_are_named():
         load_drive(both, {"drive.pinion.mean_roughness": "0.4 um"})
 
 
-@pytest.mark.parametrize(
-    ("symbol", "key"),
-    [
-        ("A_sne", "thickness_allowance"),
-        ("T_sn", "thickness_tolerance"),
-        ("W_k", "span"),
-        ("M_d", "over_pins"),
-    ],
-)
-def test_symbols_of_a_drawing_are_told_their_keys(symbol, key):
-    assert f'did you mean "{key}"?' in refused(**{f"pinion__{symbol}": "30 mm"})
-
-
 def test_other_families_have_no_span():
     with pytest.raises(InputError, match="crc have no measure over a span"):
         load_drive("liu-ni-crc-23-47", {"drive.pinion.span": "30 mm", "drive.pinion.span_teeth": 3})

@@ -43,14 +43,6 @@ SIZES = [
     Size("irefc", {"output__samples_per_cycle": 2000}),
     Size("backlash-oscillator", {}),
 ]
-#: Smaller runs, and one whose memory is far beyond what no estimate counts.
-MORE = [
-    Size("gear-pair", {"solver__cycles": 100, "output__samples_per_cycle": 200}),
-    Size("efficiency", {"output__samples_per_cycle": 500}),
-    Size("efficiency", {"output__samples_per_cycle": 30000}),
-    Size("load-contact", {"output__positions_per_cycle": 60, "mesh__slices": 21}),
-    Size("irefc", {"output__samples_per_cycle": 300}),
-]
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +53,7 @@ def warm() -> set[str]:
 
 @pytest.mark.parametrize(
     "size",
-    [*SIZES, *(pytest.param(one, marks=pytest.mark.soak) for one in MORE)],
+    SIZES,
     ids=lambda one: f"{one.kind}-{'-'.join(map(str, one.more.values()))}",
 )
 def test_estimates_are_true(size: Size, tmp_path: Path, warm: set[str]):
@@ -114,19 +106,6 @@ def test_what_is_too_large_is_refused_by_the_key_to_reduce(name: str):
     assert "allow_large=True" in error.value.remedy
 
 
-@pytest.mark.parametrize(
-    ("said", "words"),
-    [
-        (Estimate(3 * 2.0**30, 2048.0, 30.0), "3 GiB of memory, a record of 2 KiB and 30 s"),
-        (Estimate(2.0**20, 2.0**31, 600.0), "1 MiB of memory, a record of 2 GiB and 10 minutes"),
-        (Estimate(2.0**20, 2.0**20, 7200.0), "2 hours"),
-        (Estimate(2.0**20, 2.0**20, 86400.0 * 30, (), 86400.0), "31 days"),
-    ],
-)
-def test_estimates_in_words(said: Estimate, words: str):
-    assert words in described(said)
-
-
 LARGE = {
     "gear-pair": [
         ("output.samples_per_cycle", 10**9),
@@ -169,14 +148,3 @@ def test_lifted_it_goes_on_to_the_work(kind: str, tmp_path: Path, monkeypatch):
     with pytest.raises(InputError, match="allow-large"):
         run(case, tmp_path / "small.h5")
     assert run(case, tmp_path / "small.h5", allow_large=True).status == "complete"
-
-
-def test_check_says_what_is_large(tmp_path: Path, monkeypatch):
-    case = short_case("irefc", tmp_path)
-    small = STUDIES["irefc"].check(case)
-    assert small.data["estimate"]["record"] > 0.0
-    assert not any("A run takes" in remark for remark in small.remarks)
-    said = STUDIES["irefc"].estimate(case)
-    limits = LIMITS._replace(memory=2.0 * said.memory)
-    monkeypatch.setattr("tribodyn.studies.protocol.estimate.LIMITS", limits)
-    assert f"A run takes about {described(said)}." in STUDIES["irefc"].check(case).remarks

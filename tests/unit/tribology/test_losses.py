@@ -1,6 +1,5 @@
 """Load-independent losses: formulas by hand in engineers' units, limits, orders of power."""
 
-import itertools
 import math
 from dataclasses import replace
 
@@ -142,29 +141,10 @@ def test_losses_of_both_gears_are_added_and_limits_said_once():
             assert found["bearings"].power == pytest.approx(sum(one.power for one in shafts))
 
 
-def test_in_the_second_regime_viscosity_has_no_effect():
-    fast = WHEEL._replace(speed=3000 * RPM)
-    thin, thinner = (changenet_velex(fast, one, 850.0, 1e-3).power for one in (0.03, 0.01))
-    assert thin == pytest.approx(thinner)
-    # ω³ Fr^−0.88: ω^1.24
-    faster = changenet_velex(fast._replace(speed=6000 * RPM), 0.01, 850.0, 1e-3).power
-    assert faster / thinner == pytest.approx(2**1.24)
-
-
-def test_regimes_of_churning_join_without_a_step():
-    powers = [changenet_velex(WHEEL._replace(speed=n * RPM), *OIL, 1e-3).power for n in range(800, 1600, 4)]
-    assert max(abs(b / a - 1) for a, b in itertools.pairwise(powers)) < 0.03
-
-
 def test_a_gear_that_does_not_dip_churns_nothing():
     assert Wheel(*WHEEL[:7]) == WHEEL._replace(immersion=0.0)
     assert changenet_velex(WHEEL._replace(immersion=0.0), *OIL, 1e-3).power == 0.0
     assert iso_14179_1(WHEEL._replace(immersion=0.0), *OIL).power == 0.0
-
-
-def test_churning_of_both_formulas_is_of_the_same_order():
-    one, other = changenet_velex(WHEEL, *OIL, 1e-3).power, iso_14179_1(WHEEL, *OIL).power
-    assert 0.2 < one / other < 5.0
 
 
 def test_iso_14179_1_by_hand():
@@ -175,16 +155,6 @@ def test_iso_14179_1_by_hand():
     teeth = 7.37 * dip * viscosity * 750**3 * 165**4.7 * 24 * rough / (0.2 * 1e26)
     sides = 1.474 * dip * viscosity * 750**3 * 165**5.7 / (0.2 * 1e26)
     assert power == pytest.approx(1e3 * (teeth + sides), rel=1e-9)
-
-
-def test_windage_of_both_formulas_is_of_the_same_order_and_grows_alike():
-    large = Wheel(10000 * RPM, 150e-3, 154e-3, 151e-3, 30e-3, 4e-3, 75.0)
-    one, other = dawson(large).power, anderson_loewenthal(large).power
-    assert 0.5 < one / other < 2.0
-    assert dawson(large._replace(speed=2 * large.speed)).power / one == pytest.approx(2**2.9)
-    assert anderson_loewenthal(large._replace(speed=2 * large.speed)).power / other == pytest.approx(2**2.8)
-    assert not dawson(large).exceeded
-    assert dawson(WHEEL).exceeded
 
 
 def test_drag_of_bearings_by_hand():

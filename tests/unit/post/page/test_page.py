@@ -3,7 +3,6 @@
 import html
 import re
 from pathlib import Path
-from typing import Any, cast
 
 import h5py
 import numpy as np
@@ -14,9 +13,8 @@ import tribodyn as td
 from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tribodyn.cli.app import app
 from tribodyn.interface.run import Run
-from tribodyn.post.page import pdf
 from tribodyn.post.page.rolling_teeth import rolling_teeth
-from tribodyn.post.page.series import MOST_INTERVALS, MOST_SAMPLES, extrapolated, in_engineers_units, thinned
+from tribodyn.post.page.series import MOST_SAMPLES, extrapolated, thinned
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import open_any
 from tribodyn.studies.pages.page import write_report
@@ -111,20 +109,6 @@ def test_what_is_thinned_keeps_its_extremes_and_its_gaps(rng):
     np.testing.assert_array_equal(thinned(short)[1], short)
 
 
-@pytest.mark.parametrize(
-    ("value", "unit", "shown"),
-    [
-        (2.5e-6, "m", (2.5, "µm")),
-        (0.25e9, "Pa", (250.0, "MPa")),
-        (3.0, "kg", (3.0, "kg")),
-        (0.0, "m", (0.0, "mm")),
-    ],
-)
-def test_units_are_those_in_which_the_maximum_reads_best(value, unit, shown):
-    scaled, name = in_engineers_units(np.array([0.0, value, np.nan]), unit)
-    assert (scaled[1], name) == (pytest.approx(shown[0]), shown[1])
-
-
 def test_extrapolated_intervals_cover_what_the_flags_say(crc):
     with open_record(crc.path) as record:
         found = extrapolated(record)
@@ -133,21 +117,6 @@ def test_extrapolated_intervals_cover_what_the_flags_say(crc):
     for first, last in found.get("film_parameter", []):
         covered[first : last + 1] = True
     np.testing.assert_array_equal(covered, outside)
-
-
-def test_of_many_intervals_the_shortest_gaps_are_closed():
-    count = 4 * MOST_INTERVALS
-    flag = np.tile([[0.0], [1.0]], (count, 1))
-    flag[100:200] = 1.0
-    record = {"closure_in_range": flag, "normal_load": np.ones_like(flag)}
-    intervals = extrapolated(cast(Any, record))["film_parameter"]
-    assert len(intervals) == MOST_INTERVALS
-    inside = [
-        interval for interval in intervals if 100 <= interval[0] < 200 or interval[0] < 100 < interval[1]
-    ]
-    assert not inside
-    assert intervals[0][0] == 0
-    assert intervals[-1][1] == 2 * count - 2
 
 
 def test_a_load_contact_page_has_maps_to_the_edges_of_the_face(tmp_path: Path):
@@ -256,9 +225,3 @@ def test_a_hostile_record_does_nothing(hostile):
     dom = shown(hostile.as_uri())
     assert 'data-ready="yes"' in dom
     assert "data-hit" not in dom.split("<script")[0]
-
-
-def test_without_a_browser_nothing_is_printed(page, monkeypatch):
-    monkeypatch.setattr(pdf, "browser", lambda: None)
-    with pytest.raises(td.InputError, match="install Chromium"):
-        pdf.print_page(page)

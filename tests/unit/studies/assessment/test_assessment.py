@@ -47,44 +47,6 @@ def assessed(folder: Path) -> dict:
     return assess(folder)
 
 
-def test_iso_part_is_the_standards_formulas_written_out(assessed: dict):
-    # 18/36, m 3 mm, α 20°, b 26.7 mm, a 81 mm; 20 kW at 1800 rpm; Ra 0.8 µm; VG 220 at 80 °C, dip
-    iso, factors = assessed["iso"], assessed["load_factors"]
-    assert set(iso) == ISO
-    assert all(set(iso[name]) == {"worst", *POINTS} for name in ("theta_M", "mu_m", "h_Y", "lambda_GF"))
-    angle, base = (
-        math.radians(20.0),
-        (27.0 * math.cos(math.radians(20.0)), 54.0 * math.cos(math.radians(20.0))),
-    )
-    tips = [math.sqrt(tip**2 - r**2) for tip, r in zip((30.0, 57.0), base, strict=True)]
-    pitch = 2.0 * math.pi * base[0] / 18.0
-    first, second = ((tip - r * math.tan(angle)) / pitch for tip, r in zip(tips, base, strict=True))
-    losses = (first**2 + second**2 + 1.0 - first - second) * (1 / 18 + 1 / 36) * math.pi
-    assert iso["H_v"] == pytest.approx(losses, rel=1e-9)
-
-    def viscosity(celsius: float) -> float:
-        def double(value: float) -> float:
-            return math.log10(math.log10(value + 0.7))
-
-        slope = (double(220.0) - double(19.0)) / math.log10(373.15 / 313.15)
-        at = double(220.0) - slope * math.log10((celsius + 273.15) / 313.15)
-        return (10.0 ** (10.0**at) - 0.7) * 1e-6 * (890.0 - 0.7 * (celsius + 273.15 - 289.0))
-
-    speed = 1800.0 * math.pi / 30.0
-    load = 20e3 / speed / (base[0] * 1e-3) / 26.7  # F_bt/b, N/mm
-    load *= factors["K_A"] * factors["K_v"] * factors["K_Halpha"] * factors["K_Hbeta"]
-    radius = 18.0 * math.sin(angle)  # of 27 and 54 mm
-    speeds = 2.0 * speed * 27e-3 * math.sin(angle)
-    roughness = 2.2 * (0.8 / radius) ** 0.25
-    friction = 0.045 * (load / (speeds * radius)) ** 0.2 * (1e3 * viscosity(80.0)) ** -0.05 * roughness
-    assert iso["mu_m"]["C"] == pytest.approx(friction, rel=1e-6)
-    bulk = 80.0 + 7400.0 * (20.0 * friction * losses / (81.0 * 26.7)) ** 0.72 / 1.2
-    assert iso["theta_M"]["worst"] == pytest.approx(bulk, abs=1e-6)
-    assert iso["loss"] == pytest.approx(20e3 * friction * losses, rel=1e-6)
-    assert iso["h_Y"]["worst"] == min(iso["h_Y"][name] for name in POINTS)
-    assert iso["lambda_GF"]["A"] == pytest.approx(iso["h_Y"]["A"] / 0.8e-6)
-
-
 def test_the_simulation_stands_beside_it(assessed: dict):
     own, iso = assessed["simulated"], assessed["iso"]
     assert set(own) >= ISO

@@ -10,16 +10,13 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.mathtext import MathTextParser
 
 from tests.support import record_samples, synthetic_record
-from tests.support.synthetic_record import PITCH_ANGLE, SPEED, approach_and_recess
+from tests.support.synthetic_record import PITCH_ANGLE, approach_and_recess
 from tribodyn.errors import InputError
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.post.cycles import key_points, last_cycles, pair_curve
-from tribodyn.post.figures.over_mesh import prepare_overview
 from tribodyn.post.figures.path_of_contact import gears_in_mesh, key_positions
-from tribodyn.post.style import house_style, painted, save
 from tribodyn.record.reader import Record, open_record
 from tribodyn.studies import STUDIES
 from tribodyn.studies.pages.pictures import figure, overview
@@ -69,11 +66,6 @@ def test_axes_carry_engineers_units(records: list[Record], name: str):
     last = {"spectrum": "Frequency (kHz)", "path-of-contact": "Along the pitch tangent (mm)"}
     assert drawn.axes[-1].get_xlabel().startswith(last.get(name, "Phase (mesh cycles)"))
     assert all(axes.get_title(loc="left") for axes in drawn.axes)
-
-
-@pytest.mark.parametrize("ending", ["pdf", "svg"])
-def test_figures_can_be_saved_for_print(records: list[Record], tmp_path: Path, ending: str):
-    assert save(figure("film", records), tmp_path / f"picture.{ending}").stat().st_size > 1000
 
 
 def test_units_are_converted(records: list[Record]):
@@ -154,28 +146,6 @@ def test_each_pair_is_followed_to_the_end_of_its_cycle(records: list[Record]):
     np.testing.assert_allclose(slope, slope[0], rtol=1e-9)
 
 
-def test_records_are_compared_by_colour_with_a_legend(records: list[Record]):
-    drawn = figure("friction", records)
-    legend = [text.get_text() for text in drawn.legends[0].get_texts()]
-    assert legend[:4] == ["slippery", "rough", "pair 1 (entered last)", "pair 0 (before it)"]
-    assert all(label.startswith("friction law extrapolated") for label in legend[4:])
-    curves = [line for line in drawn.axes[0].lines if str(line.get_label()).startswith("pair")]
-    assert len(curves) == 4
-    assert len({line.get_color() for line in curves}) == 2
-    assert texts(drawn).count("$C_p$") == 4
-
-
-def test_harmonics_of_the_mesh_are_marked(records: list[Record]):
-    drawn = figure("spectrum", records[:1])
-    named = texts(drawn)
-    assert named[0] == "$f_m$"
-    assert named[4] == "5$f_m$"
-    frequency = SPEED / PITCH_ANGLE
-    assert f"{frequency:.4g} Hz" in drawn.axes[0].get_title(loc="left")
-    places = next(np.asarray(line.get_xdata()) for line in drawn.axes[0].lines if line.get_marker() == "o")
-    np.testing.assert_allclose(places, 1e-3 * frequency * np.arange(1, 13), rtol=1e-12)
-
-
 def test_key_points_lie_on_the_path(records: list[Record]):
     """Distances along the involute's straight path: whole pitches and the approach from the tip circles."""
     start, end = approach_and_recess()
@@ -216,27 +186,6 @@ def test_the_overview_keeps_its_labels_in_the_figure_and_apart(records: list[Rec
     for upper, lower in zip(boxes[:3], boxes[3:], strict=True):
         assert upper.y0 >= lower.y1
     assert min(box.y0 for box in boxes) >= max(legend.get_window_extent().y1 for legend in drawn.legends)
-
-
-def test_an_overview_prepared_before_its_record_is_the_same(records: list[Record]):
-    """And no formula is left to read, in pairs of gears with a contact ratio between 1 and 2."""
-
-    def picture() -> np.ndarray:
-        drawn = overview(records[0])
-        with house_style():
-            return painted(drawn)
-
-    known = cast(Any, MathTextParser)._parse_cached
-
-    def formulas_read() -> int:
-        return known.cache_info().misses
-
-    known.cache_clear()
-    prepare_overview()
-    ready = formulas_read()
-    first = picture()
-    assert formulas_read() == ready
-    assert np.array_equal(first, picture())
 
 
 def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):

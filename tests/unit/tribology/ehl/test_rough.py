@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tests.support.line_contacts import REFERENCES, by_moes
+from tests.support.line_contacts import REFERENCES
 from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.asperities import Roughness, asperity_pressure, mean_gap, pressure_flow_factor
 from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
@@ -78,30 +78,6 @@ def test_unless_told_otherwise_ground_steel():
     assert Roughness(1e-7) == (1e-7, 0.05, 0.01, 0.12)
 
 
-#: M, L, p_H, z, σ of contacts that Newton's method does not reach at once.
-STEEP = [
-    (1621.0, 5.12, 2e9, 0.6, 3.46e-7),
-    (4.13, 2.18, 0.7e9, 0.6, 8.59e-7),
-    (83.1, 14.6, 0.1e9, 0.6, 8.4e-8),
-]
-
-
-@pytest.mark.parametrize(("load", "material", "pressure", "index", "height"), STEEP)
-def test_contacts_that_are_roughened_by_steps(load, material, pressure, index, height):
-    """The density of the asperities is raised, or their height: the whole roughness at the end."""
-    problem = by_moes(load, material, pressure, index, True)._replace(roughness=Roughness(height))
-    found = solve_steady(problem, step=0.4)
-    grid, reduced = found.grid, reduced_problem(problem)
-    assert found.reduced == reduced
-    values = rough_residual(found.state, reduced, grid, newtonian(grid))[0]
-    assert np.max(np.abs(values[: grid.end])) <= 1e-9 * found.state.flow
-    whole = np.trapezoid(found.pressure, found.place)
-    assert whole == pytest.approx(problem.line_load, rel=1e-9)
-    assert found.steps > 41
-    own = asperity_pressure(found.film_thickness, problem.roughness, problem.effective_modulus)[0]
-    np.testing.assert_allclose(found.asperity_pressure, own, rtol=1e-9)
-
-
 def test_mean_gap_and_flow_factor():
     """h_T = ∫ (h + s) φ(s) ds over what does not overlap; both tend to those of smooth surfaces."""
     height = 0.5e-6
@@ -144,11 +120,6 @@ def test_load_is_shared(height):
         solution.asperity_load_ratio * PROBLEM.line_load, rel=1e-9
     )
     assert np.all(solution.mean_gap > 0.0)
-
-
-def test_rougher_surfaces_rub_more():
-    shares = [solve_steady(rough(height)).asperity_load_ratio for height in (0.1e-6, 0.2e-6, 0.4e-6, 0.8e-6)]
-    assert np.all(np.diff(shares) > 0.0)
 
 
 def test_heat_of_rubbing_is_balanced():

@@ -20,7 +20,7 @@ from tribodyn.tribology.ehl.grid import film_width, made, placed
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.squeeze import Snapshot, cells, faces, mesh_speed, squeeze_of, stored
 from tribodyn.tribology.ehl.start import _reduced_pressure, first_state, survey_film
-from tribodyn.tribology.ehl.steady import _parabola, reduced_problem, solve_steady
+from tribodyn.tribology.ehl.steady import reduced_problem, solve_steady
 
 LENGTH, FORCE, TIME, KELVIN = 1.7, 0.6, 2.3, 1.9
 PRESSURE = FORCE / LENGTH**2
@@ -108,14 +108,6 @@ def test_viscosity_of_a_warm_fluid(index):
     above, below = (fluids.relative_density(p + by, oil)[0] for by in (1e4, -1e4))
     np.testing.assert_allclose(by_pressure, (above - below) / 2e4, rtol=1e-5)
     assert fluids.log_viscosity(np.array([1e12]), oil)[0][0] == fluids.MAXIMUM_LOG_VISCOSITY or index < 1
-
-
-def test_figures_of_a_parabola():
-    place = np.array([-0.9, -0.5, -0.2, 0.2, 0.35, 0.8])
-    value = 3.0 + 2.0 * (place - 0.3) ** 2
-    assert _parabola(place, value, 4) == pytest.approx((3.18, 3.0))
-    assert _parabola(place, value, 5)[1] == pytest.approx(3.0)
-    assert _parabola(place, 4.0 - place, 0)[0] == pytest.approx(4.0)
 
 
 @pytest.mark.parametrize("number", [0, 1])

@@ -141,39 +141,6 @@ class Instants:
         return list(march(lambda _: Instant(SMOOTH), times, start))
 
 
-def test_a_step_that_fails_is_halved_and_grows_again(monkeypatch):
-    """Each at most twice the one before, equal parts of what is left, and every time is met."""
-    instants = Instants(monkeypatch, 0.3)
-    assert instants.march([0.0, 1.0, 1.5, 4.0]) == pytest.approx([1.0, 1.5, 4.0])
-    made = [0.0, *(time for time, good in instants.tried if good)]
-    steps = np.diff(made)
-    assert np.all(steps > 0.0)
-    assert np.all(steps <= 0.3 + 1e-12)
-    assert np.all(steps[1:] <= 2.0 * steps[:-1] + 1e-12)
-    assert [time for time in made if time in (1.0, 1.5, 4.0)] == [1.0, 1.5, 4.0]
-    assert instants.tried[0] == (1.0, False)
-    assert instants.tried[1] == (0.5, False)
-    assert instants.tried[2] == (0.25, True)
-    # what is left, cut into as few equal parts as steps of at most a quarter allow
-    np.testing.assert_allclose(steps[:4], 0.25)
-
-
-def test_steps_that_work_go_from_time_to_time(monkeypatch):
-    instants = Instants(monkeypatch, 10.0)
-    times = [0.0, 1.0, 2.0, 3.5, 9.5]
-    assert instants.march(times) == pytest.approx(times[1:])
-    tried = [time for time, _ in instants.tried]
-    # 6 after a step of 1.5: two of 3
-    assert tried == pytest.approx([1.0, 2.0, 3.5, 6.5, 9.5])
-
-
-def test_the_shortest_step_is_a_sixty_fourth(monkeypatch):
-    instants = Instants(monkeypatch, 0.0)
-    with pytest.raises(SimulationError, match=r"after 2 s .*start again"):
-        instants.march([2.0, 3.0])
-    assert [time - 2.0 for time, _ in instants.tried] == pytest.approx([2.0**-n for n in range(7)])
-
-
 def test_the_steady_contact_is_the_slow_limit():
     """The departure falls with the rate of change."""
     departures = []
