@@ -54,10 +54,10 @@ from tribodyn.solve.march.step_control import (
     RETRY,
     collected,
     cut_at_stop,
-    judged,
     next_step,
     refused,
     step_error,
+    step_outcome,
     unbounded,
     weighed_error,
 )
@@ -177,7 +177,7 @@ def judge(evaluations, segment, model, block, queue, march):
         weighed = weighed_error(step * embedded_difference(k, i), y[i], new[i], atol[i], rtol)
         worst, total = collected(worst, total, weighed)
     error = step_error(worst, total)
-    accepted, undefined, lost, stalled = judged(error, step, model.mechanics.nominal_speed + new[SLIP])
+    accepted, undefined, lost, stalled = step_outcome(error, step, model.mechanics.nominal_speed + new[SLIP])
     stalled, lost = running & stalled, running & lost
     accepted = running & accepted & ~stalled
     runaway = accepted & unbounded(new, model.table)

@@ -20,10 +20,10 @@ from tribodyn.solve.march.step_control import (
     RETRY,
     collected,
     cut_at_stop,
-    judged,
     next_step,
     refused,
     step_error,
+    step_outcome,
     unbounded,
     weighed_error,
 )
@@ -189,7 +189,9 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                     )
                     worst, total = collected(worst, total, weighed)
                 error = step_error(worst, total)
-                accepted, undefined, lost, stalled = judged(error, step, nominal_speed + buffer[STATE, SLIP])
+                accepted, undefined, lost, stalled = step_outcome(
+                    error, step, nominal_speed + buffer[STATE, SLIP]
+                )
                 if lost:
                     return Status.NOT_FINITE.value, cycle + phase, step, steps, evaluations, written
                 if stalled:

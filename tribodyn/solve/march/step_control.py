@@ -73,7 +73,7 @@ def step_error(worst, total):
 
 
 @law
-def judged(error, step, speed_after):
+def step_outcome(error, step, speed_after):
     """What a step attempted is: accepted; not finite; not finite and too small to try again; at rest.
 
     `error` is over the tolerance, and not a number where any state's is not.
