@@ -20,16 +20,11 @@ class InputError(Exception):
 
     Parameters
     ----------
-    key : str
-        Where the value stands, dotted: ``drive.pinion.profile_shift``.
-    value : object
-        What was given, or None where the key is missing.
-    rule : str
-        What is wrong with it, or which rule it breaks.
-    remedy : str
-        What to write instead.
-    file : str
-        The file that the key stands in.
+    key : where the value stands, dotted: ``drive.pinion.profile_shift``
+    value : what was given, or None where the key is missing
+    rule : what is wrong with it, or which rule it breaks
+    remedy : what to write instead
+    file : the file that the key stands in
     """
 
     key: str
@@ -72,8 +67,7 @@ class SimulationError(Exception):
 
     Parameters
     ----------
-    reason : str
-        Why, in a sentence that the user can act on.
+    reason : why, in a sentence that the user can act on
     time : float, optional
         Simulated time reached, s; none where time is not simulated.
     """
@@ -91,12 +85,9 @@ class OutputError(Exception):
 
     Parameters
     ----------
-    file : str
-        What could not be written.
-    reason : str
-        Why, in the system's words.
-    kept : str
-        What there is of the results, and where.
+    file : what could not be written
+    reason : why, in the system's words
+    kept : what there is of the results, and where
     """
 
     file: str

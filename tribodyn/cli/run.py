@@ -68,8 +68,6 @@ def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | Non
     Parameters
     ----------
     made : gives the case
-    shown : Shown
-    output : Path or None
     **how
         Further arguments of `protocol.run.run`.
     """

@@ -57,9 +57,9 @@ class ToothCompliance(NamedTuple):
     ----------
     bending, shear, axial : strain energy of the beam, m/N
     foundation : body under the tooth, alone on it, m/N
-    root_load : array, (..., 3)
-        Load on the root circle per unit normal load, (N, T, M/root radius) in the sense of `foundation`, up
-        to a common sign, with the body turned over so that the loaded flank lies counter-clockwise.
+    root_load : (..., 3); load on the root circle per unit normal load, (N, T, M/root radius) in the sense of
+        `foundation`, up to a common sign, with the body turned over so that the loaded flank lies
+        counter-clockwise
     """
 
     bending: PerContact
@@ -124,8 +124,8 @@ class LoadedTooth(NamedTuple):
     ----------
     tooth : as its rack cuts it
     path : working path, seen from the body
-    pitch_half_angle, root_half_angle : float
-        Half thickness angle on the working pitch circle and on the root circle, rad.
+    pitch_half_angle, root_half_angle : half thickness angle on the working pitch circle and on the root
+        circle, rad
     body : bore and face width
     side : {"pinion", "gear"}
         Which of the two.

@@ -92,8 +92,8 @@ def theoretical_stiffness(
     Parameters
     ----------
     teeth, profile_shift : z and x of the gear with fewer teeth and of its mate
-    pressure_angle, helix_angle : float
-        α_n and β, rad: of helical gears the virtual numbers of teeth z/(cos² β_b cos β) count.
+    pressure_angle, helix_angle : α_n and β, rad: of helical gears the virtual numbers of teeth z/(cos² β_b
+        cos β) count
 
     References
     ----------

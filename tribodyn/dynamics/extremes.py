@@ -61,12 +61,9 @@ class Extremes(NamedTuple):
 
     Attributes
     ----------
-    measure : (EXTREMES,)
-        `LOWEST` where there is none.
-    cycles : (EXTREMES,)
-        Mesh cycles since the start, whole and fraction.
-    segment : (EXTREMES,)
-        Segment of the mesh cycle: at a boundary it says on which side.
+    measure : (EXTREMES,); `LOWEST` where there is none
+    cycles : (EXTREMES,); mesh cycles since the start, whole and fraction
+    segment : (EXTREMES,); segment of the mesh cycle: at a boundary it says on which side
     state : (EXTREMES, STATES)
     """
 

@@ -132,12 +132,8 @@ class Model(NamedTuple):
 
     Attributes
     ----------
-    table : mesh.cycle.Polynomials
-    mechanics : Mechanics
-    surfaces : Surfaces
     film, friction : NamedTuple
         Parameters that the laws in use read; of the types that these define.
-    options : Options
     """
 
     table: Any

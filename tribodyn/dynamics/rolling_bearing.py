@@ -27,7 +27,6 @@ class RollingBearing:
 
     Attributes
     ----------
-    type : BearingType
     elements : Z, number of rolling elements
     diameter : D of a rolling element, m; of balls alone
     length : l, effective length of a roller, m; of rollers alone

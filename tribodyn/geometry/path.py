@@ -71,9 +71,9 @@ class Kinematics(NamedTuple):
     pinion_friction_arm, gear_friction_arm : arms of the friction force, r + r_p sin α and r_g sin α − r, m
     pinion_curvature, gear_curvature : curvatures of the flanks, 1/m, convex > 0. Curvature and not radius,
         because a radius is infinite where a flank is straight
-    relative_curvature : array
-        Their sum, one over the equivalent radius, 1/m. Like the flanks' own it is huge but finite where the
-        equivalent radius vanishes: at the pitch point of a path whose pressure angle is zero there.
+    relative_curvature : their sum, one over the equivalent radius, 1/m. Like the flanks' own it is huge but
+        finite where the equivalent radius vanishes: at the pitch point of a path whose pressure angle is zero
+        there.
     pinion_speed, gear_speed : speeds of the contact along each flank, m per radian of pinion rotation
     entrainment, sliding : half the sum and the difference of the two, m per radian
     """

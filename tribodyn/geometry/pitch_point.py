@@ -33,8 +33,8 @@ class PitchPoint(NamedTuple):
     Parameters
     ----------
     length : M, m: the equivalent radius averaged over a contact at P is √(M a)
-    speed_per_radius : float
-        Entrainment (m per rad of the pinion) over equivalent radius (m), the mean of both sides of P, 1/rad.
+    speed_per_radius : entrainment (m per rad of the pinion) over equivalent radius (m), the mean of both
+        sides of P, 1/rad
     """
 
     length: Any

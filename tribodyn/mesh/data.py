@@ -30,8 +30,8 @@ class MeshData:
     contact_width : width in deflection over which contact sets in smoothly, m
     backlash : normal backlash at the pitch point, m; None: back flanks never touch
     points : nodes of the table per segment of the mesh cycle
-    error_harmonics : tuple of (int, float, float)
-        (order of the mesh frequency, amplitude m, phase rad) of cosines in the static transmission error.
+    error_harmonics : (int, float, float); (order of the mesh frequency, amplitude m, phase rad) of cosines in
+        the static transmission error
     error_table : static transmission error of a pair over roll angle (rad, m)
     modifications : what is missing on the flanks, and misalignment; with ``compliance = "fem"``
     slices : slices along the face, with ``compliance = "fem"``

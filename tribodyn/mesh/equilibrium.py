@@ -88,8 +88,8 @@ def contacts(
     Parameters
     ----------
     cycle : A segment begins wherever a pair passes the pitch point, as for a family with a corner there
-    gear_torque, pinion_speed : float
-        N m and rad/s; a negative torque where the gear drives, on back flanks that are like the driving ones.
+    gear_torque, pinion_speed : N m and rad/s; a negative torque where the gear drives, on back flanks that
+        are like the driving ones
     averaged : average radius and entrainment over the contact where they vanish at the pitch point
     """
     xp = namespace(*cycle, gear_torque, pinion_speed, *closure.surfaces)

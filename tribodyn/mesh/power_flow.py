@@ -64,8 +64,7 @@ def friction_loss(
     ----------
     cycle : the table; its `side` must not be traced
     normal_load : (S, N, Q), load of each pair at the nodes, N; smooth in every segment
-    friction_coefficient : array, () or (S, N, Q)
-        μ ≥ 0.
+    friction_coefficient : (); μ ≥ 0
     """
     xp = namespace(*cycle, normal_load, friction_coefficient)
     pairs = cycle.front_pairs
@@ -87,8 +86,7 @@ def mean_efficiency(
     ----------
     cycle : the table; may be traced, but for `side`
     gear_torque : N m, ≠ 0; negative where the gear drives, on back flanks that are like the driving ones
-    friction_coefficient : array, () or (S, N, Q)
-        μ ≥ 0.
+    friction_coefficient : (); μ ≥ 0
     normal_load : (S, N, Q), optional; of `equilibrium`, N; default: loads of `quasi_static` without friction:
         the error is of the order of the loss squared
     """

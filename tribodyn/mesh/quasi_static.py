@@ -19,8 +19,8 @@ class QuasiStatic(NamedTuple):
 
     Parameters
     ----------
-    normal_load : array, (S, N, Q)
-        Load of each pair along its normal, N; 0 where it is not in contact or a gap keeps it from touching.
+    normal_load : (S, N, Q); load of each pair along its normal, N; 0 where it is not in contact or a gap
+        keeps it from touching
     deflection : (S, N), r_p θ_p − r_g θ_g, by which the pinion is ahead of the gear on the pitch circles, m
     mesh_stiffness : (S, N), force on the pitch circles over the part of the deflection that the load makes,
         N/m: along the pitch tangent, all pairs together, secant where the Hertz contact is load-dependent
@@ -97,8 +97,7 @@ def cycle_integral(
     Parameters
     ----------
     cycle : for boundaries
-    values : array, (S, N) or (S, N, Q)
-        At the nodes.
+    values : (S, N); at the nodes
     upto : array, broadcasts with (S, Q)
         Phases; in a segment that ends before, the whole segment counts.
 

@@ -8,28 +8,21 @@ class Parameter(NamedTuple):
 
     Parameters
     ----------
-    name : str
-        Key in the scenario, and name under which the family or law receives the value.
-    kind : str
-        "number" for a plain number; "path" for points x, y (m) of a path; else the name of a quantity that is
-        written with a unit, as `tribodyn.scenario.units.QUANTITIES` has it: "length", "pressure", "dynamic
+    name : key in the scenario, and name under which the family or law receives the value
+    kind : "number" for a plain number; "path" for points x, y (m) of a path; else the name of a quantity that
+        is written with a unit, as `tribodyn.scenario.units.QUANTITIES` has it: "length", "pressure", "dynamic
         viscosity". "signed length" is a length of either sign.
-    about : str
-        What it means, in a line.
+    about : what it means, in a line
     default : float, optional
         Value where the scenario gives none, in SI units; None: the scenario must give it.
-    source : str
-        Where the default comes from: no number stands without a source.
+    source : where the default comes from: no number stands without a source
     allowed : {"", "any", "not negative", "positive"}
         Signs that are allowed; "": any for a plain number, positive for a quantity with a unit.
-    example : str
-        A good value as TOML writes it, for messages; "": one that fits the kind.
-    listed : bool
-        Whether the key takes a list of such values; the family or law receives an array.
-    optional : bool
-        Whether the scenario may leave out a key without a default; the family or law then receives None.
-    fixed : bool
-        Whether figures cannot be differentiated by it, because it says where the other values stand.
+    example : A good value as TOML writes it, for messages; "": one that fits the kind
+    listed : whether the key takes a list of such values; the family or law receives an array
+    optional : whether the scenario may leave out a key without a default; the family or law then receives
+        None
+    fixed : whether figures cannot be differentiated by it, because it says where the other values stand
     """
 
     name: str

@@ -10,7 +10,6 @@ class Variable(NamedTuple):
     Parameters
     ----------
     dims : dimensions; none of a single number
-    units, long_name : str
     dtype : type in the file, as NumPy names it
     fill : stands where nothing was written
     flags : meanings of whole numbers that stand for words, the first of them being `fill`; empty: none

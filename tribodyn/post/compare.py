@@ -27,10 +27,8 @@ class Row(NamedTuple):
 
     Parameters
     ----------
-    quantity : Quantity
-        What it is and how it is written.
-    values : tuple
-        SI, in the order of the records; None where a record lacks it.
+    quantity : what it is and how it is written
+    values : SI, in the order of the records; None where a record lacks it
     """
 
     quantity: Quantity
@@ -47,16 +45,11 @@ class Comparison(NamedTuple):
 
     Parameters
     ----------
-    labels, titles : tuple of str
-        Names of the records in table and legends, and titles of their scenarios.
-    groups : dict
-        Heading -> rows.
-    conditions : dict
-        Dotted key of the scenario -> what each record's says, for the keys in which they differ.
-    withheld : tuple of dict
-        Of every record: name of a quantity that is withheld -> why.
-    warnings : tuple of tuple of str
-        What every record warns of.
+    labels, titles : names of the records in table and legends, and titles of their scenarios
+    groups : heading -> rows
+    conditions : dotted key of the scenario -> what each record's says, for the keys in which they differ
+    withheld : of every record: name of a quantity that is withheld -> why
+    warnings : what every record warns of
     """
 
     labels: tuple[str, ...]
@@ -72,9 +65,7 @@ def compare(records: Sequence[Record], reported: Reported) -> Comparison:
 
     Parameters
     ----------
-    records : sequence of Record
-    reported : mapping
-        Heading -> quantities that are compared.
+    reported : heading -> quantities that are compared
 
     Raises
     ------

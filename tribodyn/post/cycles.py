@@ -20,12 +20,9 @@ class Window(NamedTuple):
     ----------
     part : slice
         The samples, both ends of the cycles included.
-    phase : (samples,)
-        Phase in mesh cycles, 0 at the first of these cycles.
-    time : (samples,)
-        Time, s, as recorded.
-    samples_per_cycle : int
-        Samples in one cycle.
+    phase : (samples,); phase in mesh cycles, 0 at the first of these cycles
+    time : (samples,); time, s, as recorded
+    samples_per_cycle : samples in one cycle
     """
 
     part: slice
@@ -44,10 +41,8 @@ class KeyPoint(NamedTuple):
 
     Attributes
     ----------
-    phase : float
-        0 … 1, mesh cycles.
-    names : dict
-        Number of the pair -> the point where it then is.
+    phase : 0 … 1, mesh cycles
+    names : number of the pair -> the point where it then is
     """
 
     phase: float
@@ -90,12 +85,9 @@ def pair_curve(
 
     Parameters
     ----------
-    values : (samples of the record, pairs)
-        Dataset over time and pair.
-    pair : int
-        Number of the pair.
-    abscissa : (samples of the window,)
-        Phase or time.
+    values : (samples of the record, pairs); dataset over time and pair
+    pair : number of the pair
+    abscissa : (samples of the window,); phase or time
     """
     numbers = record.pairs
     values = np.where(np.isnan(record["transmission_error_normal"]), np.nan, values)[window.part]

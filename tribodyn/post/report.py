@@ -23,11 +23,8 @@ def summary_table(record: Record, reported: Reported, sentences: Sequence[str]) 
 
     Parameters
     ----------
-    record : Record
-    reported : mapping
-        What the study of the record has in its summary.
-    sentences : sequence of str
-        What it says of how far the record is to be trusted.
+    reported : what the study of the record has in its summary
+    sentences : what it says of how far the record is to be trusted
     """
     title = Text(str(record.scenario.get("title", record.path.stem)), style="bold")
     parts: list[Any] = [title]

@@ -15,10 +15,9 @@ class Spectrum(NamedTuple):
 
     Attributes
     ----------
-    orders : (lines,)
-        Mesh orders: 1 is the mesh frequency.
-    amplitudes : (lines,)
-        Amplitude of the cosine at each order, in the unit of the signal; at order 0 the mean, with sign.
+    orders : (lines,); mesh orders: 1 is the mesh frequency
+    amplitudes : (lines,); amplitude of the cosine at each order, in the unit of the signal; at order 0 the
+        mean, with sign
     """
 
     orders: np.ndarray
@@ -41,10 +40,9 @@ def amplitude_spectrum(signal: np.ndarray, samples_per_cycle: int) -> Spectrum:
 
     Parameters
     ----------
-    signal : (samples,)
-        Samples at the phases k / samples_per_cycle; what exceeds whole cycles is left out at the beginning.
-    samples_per_cycle : int
-        Samples in one mesh cycle.
+    signal : (samples,); samples at the phases k / samples_per_cycle; what exceeds whole cycles is left out at
+        the beginning
+    samples_per_cycle : samples in one mesh cycle
 
     Raises
     ------

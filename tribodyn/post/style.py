@@ -163,10 +163,8 @@ class Margins(LayoutEngine):
 
     Parameters
     ----------
-    left, right, top, bottom : float
-        Around the grid; below it comes what a legend of the figure takes.
-    between : (float, float)
-        Panels, across and down.
+    left, right, top, bottom : around the grid; below it comes what a legend of the figure takes
+    between : (float, float); panels, across and down
     """
 
     _adjust_compatible = True
@@ -218,10 +216,8 @@ def inline(figure: Figure, about: str = "", share: float = INLINE) -> str:
     Parameters
     ----------
     figure : Figure
-    about : str
-        What it shows, for who cannot see it.
-    share : float
-        Its resolution over that of a file.
+    about : what it shows, for who cannot see it
+    share : its resolution over that of a file
     """
     dpi = share * STYLE["savefig.dpi"]
     with house_style():

@@ -25,9 +25,7 @@ def sweep_table(record: SweepRecord, quantities: Sequence[Quantity]) -> Group:
 
     Parameters
     ----------
-    record : SweepRecord
-    quantities : sequence of Quantity
-        Those shown; none: all, as the record describes them.
+    quantities : those shown; none: all, as the record describes them
     """
     # a record of an older version lacks figures that have been added since
     columns = [one for one in quantities if one.name in record]

@@ -27,9 +27,7 @@ class Head(NamedTuple):
     Attributes
     ----------
     kind : kind of study
-    layout : Layout
     scenario, sha256 : the resolved scenario as TOML, and its digest
-    created : datetime
     groups : name of a group of the layout -> arrays and numbers by name
     scales : values along the axes that the run does not go on along
     code : see `schema.CODE`; empty: nothing goes on with such a record

@@ -34,7 +34,6 @@ def through_a_child(look: Look, path: Path) -> str:
     Parameters
     ----------
     look : at module level; says what is wrong with a file, "" where nothing is
-    path : Path
 
     Returns
     -------

@@ -86,7 +86,6 @@ class SweepWriter:
     Parameters
     ----------
     path : final name of the record
-    head : SweepHead
     force : replace an existing record, and what an unfinished sweep left
     resume : go on with what an unfinished sweep left, if there is anything
 
@@ -139,8 +138,7 @@ class SweepWriter:
 
         Parameters
         ----------
-        cases : (n,) int
-            Numbers of the cases, increasing, the last dimension running fastest.
+        cases : (n,); numbers of the cases, increasing, the last dimension running fastest
         block : arrays (n, …) for every dataset of the layout
         """
         cases, block = np.asarray(cases), cases_withheld(block)

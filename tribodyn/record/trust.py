@@ -29,7 +29,6 @@ class Excess(NamedTuple):
     Attributes
     ----------
     value, limit : the value that is furthest outside, and the limit; SI
-    units : str
     share : share of the samples in which the rule is broken; None of a single number
     places : where the value is: time (s), mesh_cycle, pair, …
     """

@@ -13,7 +13,6 @@ class Rule(NamedTuple):
     ----------
     label : the quantity in words
     most : above it a result lies outside the model; SI
-    units : str
     about : why the limit is where it is
     least : below it likewise
     factor, unit, offset

@@ -220,7 +220,6 @@ class RecordWriter:
 
         Parameters
         ----------
-        summary : dict
         trim : whether it may have fewer samples than it has room for
 
         Raises ValueError if samples are missing, OutputError if there is no room for the copy with the

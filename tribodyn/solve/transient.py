@@ -69,11 +69,7 @@ class MarchedAgain:
 
     Parameters
     ----------
-    integrator : Integrator
-    model : Model
-    samples : int
-        Samples per mesh cycle, at least 1.
-    tolerances : StepTolerances
+    samples : samples per mesh cycle, at least 1
     """
 
     def __init__(self, integrator: Integrator, model: Model, samples: int, tolerances: StepTolerances):

@@ -20,8 +20,8 @@ class DynamicMesh(NamedTuple):
     reduced_mass : m_red per face width along the line of action, see `reduced_mass`, kg/m
     single_stiffness, mesh_stiffness : c' and c_γα per face width, Pa (1 N/(mm µm) is 1 GPa)
     line_load : F_t K_A/b, N/m
-    pitch_deviation, profile_deviation : float
-        f_pb and f_fα, m, of the gear that has the larger ones; running-in is taken off here.
+    pitch_deviation, profile_deviation : f_pb and f_fα, m, of the gear that has the larger ones; running-in is
+        taken off here
     total_contact_ratio : ε_γ
     tip_relief : C_a, m; of unmodified gears that of running in, `run_in_relief`
     quality : grade by ISO 1328-1 of the coarser gear

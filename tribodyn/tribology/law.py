@@ -26,14 +26,9 @@ class LawInput(NamedTuple):
 
     Attributes
     ----------
-    surfaces : Surfaces
-    lubricant : LubricantData
-    materials : (MaterialData, MaterialData)
-        Of pinion and gear.
-    nominal : callable
-        () -> NominalConditions at the pitch point; raises InputError where they have no meaning.
-    duty : callable
-        () -> DutyRange of the mesh; raises InputError where there is no mesh.
+    materials : (MaterialData, MaterialData); of pinion and gear
+    nominal : () -> NominalConditions at the pitch point; raises InputError where they have no meaning
+    duty : () -> DutyRange of the mesh; raises InputError where there is no mesh
     """
 
     surfaces: Surfaces
@@ -122,31 +117,24 @@ class _Law:
 
     Parameters
     ----------
-    name : str
-        As scenarios give it.
-    about : str
-        What it is, in a line.
-    function : callable
-        The law itself; see the kind of law.
+    name : as scenarios give it
+    about : what it is, in a line
+    function : the law itself; see the kind of law
     parameters : callable, optional
         (given: LawInput, **values of the keys in SI units) -> NamedTuple of the floats that the functions
         read. Default: the values of the keys, by name.
-    keys : tuple of Parameter
-        Keys of its own in the scenario's table.
-    in_range : callable
-        Gives for each of `limits` the share allowed over actual, or actual over the least that is allowed: at
-        least 1 inside, below 1 outside. A law without `limits` gives one number: 1.0 inside its range of
-        validity, 0.0 outside, NaN where none is stated.
-    limits : tuple of str
-        The limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`: those of the
-        law's authors, then those by the solved contact.
+    keys : keys of its own in the scenario's table
+    in_range : gives for each of `limits` the share allowed over actual, or actual over the least that is
+        allowed: at least 1 inside, below 1 outside. A law without `limits` gives one number: 1.0 inside its
+        range of validity, 0.0 outside, NaN where none is stated.
+    limits : the limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`: those of the
+        law's authors, then those by the solved contact
     judged : JudgedRange, optional
         What the solved contact says of the law; None: it was not compared.
     table_error : callable, optional
         (parameters) -> share by which 95 % of the values of its table deviate at most from what they stand
         for; of a law that is tabulated before a run.
-    range : str
-        The range of validity of the law's authors in words, with its source; "" where none is stated.
+    range : the range of validity of the law's authors in words, with its source; "" where none is stated
     """
 
     name: str
@@ -260,11 +248,9 @@ class FrictionLaw(_Law):
 
     Parameters
     ----------
-    flash_temperature : callable
-        (contact, film, surfaces, parameters, coefficient) -> temperature rise, K. Default: of the heat that
-        the coefficient makes.
-    film : str
-        Name of the film law that goes with it where the scenario names none.
+    flash_temperature : (contact, film, surfaces, parameters, coefficient) -> temperature rise, K. Default: of
+        the heat that the coefficient makes.
+    film : name of the film law that goes with it where the scenario names none
     """
 
     flash_temperature: Callable[..., Any] = heat_of_friction

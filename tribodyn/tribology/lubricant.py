@@ -42,8 +42,8 @@ class LubricantData:
     viscosity_pressure_index : z of Roelands' law
     temperature_viscosity : K_T, 1/K
     density : kg/m³; used by ISO/TR 14179-1 and by Veciana's variant of the Péclet number
-    load_exponent : float
-        d of Niemann's lubricant factor X_L w^−d; 0.0651 of mineral oil 75W90 (Diez-Ibarbia et al.).
+    load_exponent : d of Niemann's lubricant factor X_L w^−d; 0.0651 of mineral oil 75W90 (Diez-Ibarbia et
+        al.)
     lubricant_factor : X_L of Niemann's mean friction coefficient and of ISO/TR 15144-1
     schlenk_factor : X_L of Schlenk's mean friction coefficient; default: mineral oil
     temperature : at which the numbers hold, K; None: not said

@@ -129,9 +129,9 @@ def contact_friction(
     Parameters
     ----------
     line_load, radius, pinion_speed, gear_speed : N/m, m, and the rolling speeds in m/s
-    pitch_point_length, pitch_point_rate : float
-        M (m) and entrainment over equivalent radius (1/s) of `geometry.pitch_point`; 0: nothing vanishes, or
-        nothing is averaged. A traced length is taken as positive.
+    pitch_point_length, pitch_point_rate : M (m) and entrainment over equivalent radius (1/s) of
+        `geometry.pitch_point`; 0: nothing vanishes, or nothing is averaged. A traced length is taken as
+        positive.
     """
     sliding = pinion_speed - gear_speed
     seen, speeds = radius + 0.0 * line_load, (pinion_speed, gear_speed)

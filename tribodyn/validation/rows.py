@@ -41,11 +41,8 @@ class Row(NamedTuple):
 
     Attributes
     ----------
-    published, computed : float, bool, None, or list of float
-        Lists where a row of a table is compared column by column.
-    difference : float, list of float or None
-        Computed less published: relative to the published value where the tolerance is.
-    tolerance : float, list of float or None
+    published, computed : lists where a row of a table is compared column by column
+    difference : computed less published: relative to the published value where the tolerance is
     verdict : {"pass", "fail", "direction", "reported"}
         "direction": only the direction is compared, and it is the published one; "reported": the published
         value is not reproducible, or a claim does not hold in our physics.
@@ -166,10 +163,8 @@ def compare(
 
     Parameters
     ----------
-    row : dict
-        As of `published`.
-    computed : float, bool, list of float or None
-        None: cannot be computed yet, and stays "reported".
+    row : as of `published`
+    computed : None: cannot be computed yet, and stays "reported"
     otherwise : optional; another choice and what is computed under it
     """
     compared = _compared(row)

@@ -3,7 +3,7 @@
 import importlib.metadata
 import shutil
 import sys
-from importlib.metadata import EntryPoint
+from importlib.metadata import EntryPoint, EntryPoints
 from pathlib import Path
 
 import h5py
@@ -117,10 +117,9 @@ def offered(monkeypatch: pytest.MonkeyPatch):
     """(name=place, …): entry points of studies that an installed package offers, for the time of a test."""
 
     def offer(**places: str) -> None:
-        def entry_points(*, group: str) -> list[EntryPoint]:
-            return [
-                EntryPoint(name, place, group) for name, place in places.items() if group == STUDIES.group
-            ]
+        def entry_points(**chosen: str) -> EntryPoints:
+            offers = [EntryPoint(name, place, STUDIES.group) for name, place in places.items()]
+            return EntryPoints(offers).select(**chosen)
 
         monkeypatch.setattr(importlib.metadata, "entry_points", entry_points)
         STUDIES.__dict__.pop("_outside", None)

@@ -101,8 +101,8 @@ def reduced_ring(
 
     Parameters
     ----------
-    stiffness : sparse (dof, dof)
-        Of the half sector; 2 or 3 components of the displacement follow each other at a node: u, v[, w].
+    stiffness : (dof, dof); of the half sector; 2 or 3 components of the displacement follow each other at a
+        node: u, v[, w]
     loads : (dof, load), on the half y > 0 of sector 0
     readers : (reader, dof), rows that take the half's displacements to what is read
     mirrored : (reader,), whether the reader looks at the mirror image of the half: reads, at y < 0, what its

@@ -52,8 +52,8 @@ class Openings(NamedTuple):
     Attributes
     ----------
     place : (2, J), m
-    constant, linear : sparse (dof, J)
-        F = constant + k linear; u, v, w of a node of the section's basis follow each other.
+    constant, linear : (dof, J); F = constant + k linear; u, v, w of a node of the section's basis follow each
+        other
     stiffness : (J, J), D
     """
 
@@ -111,8 +111,8 @@ class EndFace(NamedTuple):
     Attributes
     ----------
     openings : of the half y > 0
-    upper, lower : (J, O)
-        Openings of both halves in terms of those that are free; the lower half's are mirror images.
+    upper, lower : (J, O); openings of both halves in terms of those that are free; the lower half's are
+        mirror images
     ahead : (J, O), part of `lower` on the edge, to be taken times the conjugate phase
     """
 

@@ -23,9 +23,9 @@ class LeadHarmonics(NamedTuple):
     between : (K, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`, per unit line load
     root_position : (2, P), x and y in the tooth's frame, m, of the points on the loaded flank's side, y > 0,
         from the middle of the gap to the flank; those of the other side are their mirror images
-    root_stress : (K, 2 NEIGHBOURS + 1, 2, P, M)
-        Stress along the profile, tension positive, per unit line load, 1/m: on the tooth k − NEIGHBOURS
-        pitches towards +y of the loaded one, on its own side y > 0 (0) and y < 0 (1).
+    root_stress : (K, 2 NEIGHBOURS + 1, 2, P, M); stress along the profile, tension positive, per unit line
+        load, 1/m: on the tooth k − NEIGHBOURS pitches towards +y of the loaded one, on its own side y > 0 (0)
+        and y < 0 (1)
     """
 
     wave_number: Float[Array, " wave"]
@@ -69,9 +69,9 @@ class GearCompliance(NamedTuple):
     radius : (M,), distance of the positions from the axis, m, increasing
     inside : (2, M), displacement, along the load, of the points at the depth and at twice the depth below a
         loaded position
-    between : (2 NEIGHBOURS + 1, M, M)
-        Displacement at position i of the flank k − NEIGHBOURS pitches towards +y of the tooth's frame, the
-        side of the loaded flank, per load at position j; infinite in truth for the tooth itself where i = j.
+    between : (2 NEIGHBOURS + 1, M, M); displacement at position i of the flank k − NEIGHBOURS pitches towards
+        +y of the tooth's frame, the side of the loaded flank, per load at position j; infinite in truth for
+        the tooth itself where i = j
     depth : depth below the surface to which `inside` refers, m
     lead : loads that vary along the teeth, and root stress, where they were requested
     ends : with `lead`: that the end faces are free; without it they are planes of symmetry

@@ -28,8 +28,8 @@ class GearModel(NamedTuple):
     basis : of one component of the displacement
     position : (2, M), vertices of the loaded flank, m
     loads : (2 N, M), unit normal load on each of them; u and v of a node follow each other
-    inner : (2 M, 2 N)
-        Rows that read the displacement along the load at the depth, then at twice the depth, below each.
+    inner : (2 M, 2 N); rows that read the displacement along the load at the depth, then at twice the depth,
+        below each
     beyond : (2 M,), whether these points lie on the other half, y < 0; their rows then read the mirror image
     root_position : (2, 2 R + 1)
     root : (2 R + 1,), nodes along the root and where they are, in the order of `SectorMesh.root`

@@ -68,8 +68,8 @@ def at_wave_numbers(
     Parameters
     ----------
     gear : solved with its `lead`
-    wave_number : (N,)
-        k ≥ 0, rad/m. Beyond the largest that was solved, `own` follows the half-space and the others are 0.
+    wave_number : (N,); k ≥ 0, rad/m. Beyond the largest that was solved, `own` follows the half-space and the
+        others are 0.
     poisson_ratio : ν that the gear was solved with
     """
     lead = gear.lead

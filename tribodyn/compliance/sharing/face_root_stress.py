@@ -31,8 +31,8 @@ def root_stress(
     flexible : solved with `lead`
     geometry : of the pairs (position, pair), one pitch apart, the one that entered first in front
     line_load : (position, pair, slice), N/m
-    coupled : bool
-        Whether a slice's load strains the others' roots too; else each slice is in plane strain by itself.
+    coupled : whether a slice's load strains the others' roots too; else each slice is in plane strain by
+        itself
 
     Returns
     -------

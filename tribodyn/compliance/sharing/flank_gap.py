@@ -108,8 +108,8 @@ def pitch_gap(modifications: Modifications, tooth: Int[Array, "*pair"]) -> Float
 
     Parameters
     ----------
-    tooth : array of int
-        Number n of each pair, increasing in the order in which they enter; taken modulo the number of errors.
+    tooth : number n of each pair, increasing in the order in which they enter; taken modulo the number of
+        errors
     """
     total = np.zeros(np.shape(tooth))
     for side in SIDES:

@@ -152,14 +152,14 @@ def share_load(
 
     Parameters
     ----------
-    roll : (position, pair)
-        Pinion angles of the pairs from the pitch point, rad, one pitch apart, the pair that entered first
-        in front; enough of them on either side of the path for all that the load can make touch.
+    roll : (position, pair); pinion angles of the pairs from the pitch point, rad, one pitch apart, the pair
+        that entered first in front; enough of them on either side of the path for all that the load can make
+        touch
     gear_torque : T_g > 0, N m
-    friction_coefficient : float or (position, pair)
-        μ of the pairs; < 0 where the gear drives, for the flanks then slide the other way.
-    gap : float, (position, pair) or (position, pair, slice)
-        What is missing between the flanks beside the corners' gap, m: errors and modifications.
+    friction_coefficient : (position, pair); μ of the pairs; < 0 where the gear drives, for the flanks then
+        slide the other way
+    gap : (position, pair); what is missing between the flanks beside the corners' gap, m: errors and
+        modifications
     slices : equal slices of the face
     coupled : whether slices hold each other through the teeth and bodies
     """

@@ -38,8 +38,8 @@ class LoadedContact(NamedTuple):
     pressure, half_width : (T, P, S), maximum Hertz pressure, Pa, and half width, m, of each slice's line load
     root_tension, root_compression : (2, T, P, S), maximum stress along the root of each pair's tooth of
         pinion and gear, tension positive and compression negative, Pa (`face_root_stress`)
-    face_load_factor : (T, P)
-        K_Hβ, maximum over mean line load along the face (ISO 6336-1); NaN where a pair carries nothing.
+    face_load_factor : (T, P); K_Hβ, maximum over mean line load along the face (ISO 6336-1); NaN where a pair
+        carries nothing
     mesh_stiffness : (T,), dF/dξ of the force on the pitch circles, N/m: of what touches, tangent
     contact_ratio : mean number of pairs that carry load
     """

@@ -53,8 +53,8 @@ class CRCPath(NamedTuple):
     Parameters
     ----------
     pinion_pitch_radius, gear_pitch_radius : pitch radii, m
-    lower, upper : float
-        Signed distances (m) between which the path is solved: as far as rack and mate reach, and a margin.
+    lower, upper : signed distances (m) between which the path is solved: as far as rack and mate reach, and a
+        margin
     coefficients : Chebyshev coefficients of sin α over lower … upper, (DEGREE + 1,)
     """
 

@@ -24,8 +24,8 @@ class Relief(NamedTuple):
     Parameters
     ----------
     amount : material missing at the end of the active profile, m along the normal
-    length : float
-        How far it reaches from that end, m along the line of action (|Δr|, the roll length of an involute).
+    length : how far it reaches from that end, m along the line of action (|Δr|, the roll length of an
+        involute)
     exponent : 1: linear, 2: parabolic
     """
 
@@ -55,12 +55,12 @@ class FlankModification(NamedTuple):
 
     Parameters
     ----------
-    profile_error : Table or None
-        Material missing along the normal over the pinion's roll angle from the pitch point (rad, m).
-    pitch_error : tuple of float
-        One per tooth in the order in which they enter, m along the normal, material missing > 0; empty: none.
-    both_flanks : bool
-        Whether the back flanks have the same reliefs and profile error; otherwise they are unmodified.
+    profile_error : material missing along the normal over the pinion's roll angle from the pitch point (rad,
+        m)
+    pitch_error : one per tooth in the order in which they enter, m along the normal, material missing > 0;
+        empty: none
+    both_flanks : whether the back flanks have the same reliefs and profile error; otherwise they are
+        unmodified
     """
 
     tip: Relief = Relief()

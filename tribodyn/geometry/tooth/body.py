@@ -22,8 +22,8 @@ class ToothOutline(NamedTuple):
 
     Parameters
     ----------
-    fillet_x, fillet_y, flank_x, flank_y : array
-        Points (m) in the tooth's frame; the fillet's last point is the flank's first.
+    fillet_x, fillet_y, flank_x, flank_y : points (m) in the tooth's frame; the fillet's last point is the
+        flank's first
     root_radius, form_radius, tip_radius : radii of the root circle, of the junction and of the tip circle, m
     root_half_angle : angle between the tooth's axis and the point where the fillet meets the root circle, rad
     tip_half_thickness : half thickness at the tip circle, m; negative where the tooth would be pointed
@@ -155,10 +155,8 @@ def body_masses(
     Parameters
     ----------
     assembly : of plain numbers
-    given : sequence of (mass, inertia)
-        None where it is to be computed.
-    densities : sequence of float
-        Of both bodies, kg/m³.
+    given : (mass, inertia); None where it is to be computed
+    densities : of both bodies, kg/m³
     """
     masses = []
     for side, known, density in zip(SIDES, given, densities, strict=True):

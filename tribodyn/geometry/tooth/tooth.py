@@ -39,18 +39,18 @@ class Tooth(NamedTuple):
     ----------
     path : generating path of contact, seen from the body
     half_angle : half thickness angle of the tooth on the generating pitch circle, rad
-    form_distance, tip_distance : float
-        Signed distances r (m) on the generating path where the flank begins (at the fillet) and ends.
-    form_angle : float
-        Angle of the rack's normal where the fillet ends at the flank, rad; it grows to π/2 at the root.
+    form_distance, tip_distance : signed distances r (m) on the generating path where the flank begins (at the
+        fillet) and ends
+    form_angle : angle of the rack's normal where the fillet ends at the flank, rad; it grows to π/2 at the
+        root
     overrun : −u_p where the rack's flank ends, m per rad: positive if it reaches beyond the point of zero
         velocity, by this distance for the involute, and undercuts the tooth
     corner_x, corner_y : centre of the rack's rounded tip in the rack's frame at φ = 0, m
     corner_radius : radius of the rack's rounded tip, m
-    corner_limit : float
-        Symmetry axis of the rack's tooth, m: with corner_x beyond it the two rounded corners would overlap.
-    root_radius, form_radius, tip_radius : float
-        Radii of the root circle, of the junction of fillet and flank and of the tip circle, m.
+    corner_limit : symmetry axis of the rack's tooth, m: with corner_x beyond it the two rounded corners would
+        overlap
+    root_radius, form_radius, tip_radius : radii of the root circle, of the junction of fillet and flank and
+        of the tip circle, m
     """
 
     path: Any

@@ -57,9 +57,7 @@ class PackedValue(NamedTuple):
     Attributes
     ----------
     layout : Numeric, Array, Record, FunctionLayout, or that of an object with its own method `as_argument`
-    words : bytes
-    value : object
-        What was packed.
+    value : what was packed
     """
 
     layout: Any

@@ -9,8 +9,7 @@ class KernelFunction:
 
     Parameters
     ----------
-    function : callable
-        At module level; of positional arguments.
+    function : at module level; of positional arguments
     """
 
     def __init__(self, function: Callable[..., Any]):

@@ -20,12 +20,9 @@ class Drawing(NamedTuple):
 
     Parameters
     ----------
-    about : str
-        In a line.
-    draw : callable
-        (records, view) -> Figure; raises InputError for records that it cannot show.
-    fits : callable
-        Whether a record holds enough; what does not fit is drawn only when asked for by name.
+    about : in a line
+    draw : (records, view) -> Figure; raises InputError for records that it cannot show
+    fits : whether a record holds enough; what does not fit is drawn only when asked for by name
     """
 
     about: str
@@ -38,10 +35,8 @@ class SweepDrawing(NamedTuple):
 
     Parameters
     ----------
-    about : str
-        In a line.
-    draw : callable
-        (records, at) -> Figure; `at` is a parameter's name to its value in SI, for a single case.
+    about : in a line
+    draw : (records, at) -> Figure; `at` is a parameter's name to its value in SI, for a single case
     """
 
     about: str

@@ -17,14 +17,10 @@ class GearsInMesh(NamedTuple):
 
     Parameters
     ----------
-    pinion, gear : array
-        Closed outlines as they stand, (points, 2).
-    path : array
-        Path of contact, (points, 2).
-    pitch_radii, tip_radii : tuple of float
-        Of pinion and gear.
-    key_points : dict
-        Name, as mathematical text, -> (x, y).
+    pinion, gear : closed outlines as they stand, (points, 2)
+    path : path of contact, (points, 2)
+    pitch_radii, tip_radii : of pinion and gear
+    key_points : name, as mathematical text, -> (x, y)
     """
 
     pinion: np.ndarray

@@ -32,14 +32,10 @@ class Track(NamedTuple):
 
     Attributes
     ----------
-    speed : (n,)
-        Mean pinion speed in each window, rad/s.
-    time : (n,)
-        At its middle, s.
-    orders : (m,)
-        Orders of the mesh.
-    amplitudes : (n, m)
-        Of the rotational transmission error, m.
+    speed : (n,); mean pinion speed in each window, rad/s
+    time : (n,); at its middle, s
+    orders : (m,); orders of the mesh
+    amplitudes : (n, m); of the rotational transmission error, m
     """
 
     speed: np.ndarray

@@ -38,12 +38,9 @@ class View(NamedTuple):
 
     Attributes
     ----------
-    cycles : int or None
-        How many of the last whole mesh cycles; None for all.
-    against : str
-        `phase` (mesh cycles) or `time` (ms).
-    asked : bool
-        Whether somebody asked for that abscissa.
+    cycles : how many of the last whole mesh cycles; None for all
+    against : `phase` (mesh cycles) or `time` (ms)
+    asked : whether somebody asked for that abscissa
     """
 
     cycles: int | None = 2

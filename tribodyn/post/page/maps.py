@@ -13,16 +13,11 @@ class PageMap(NamedTuple):
 
     Attributes
     ----------
-    name : str
-        Of the dataset.
-    roll : (positions,)
-        Roll angle of the pair from the pitch point, rad.
-    face : (slices,)
-        Place on the face from its middle, m.
-    values : (positions, slices)
-        SI; NaN: left blank.
-    top : float
-        Percentile of the values at the top of the scale of colours.
+    name : of the dataset
+    roll : (positions,); roll angle of the pair from the pitch point, rad
+    face : (slices,); place on the face from its middle, m
+    values : (positions, slices); SI; NaN: left blank
+    top : percentile of the values at the top of the scale of colours
     """
 
     name: str

@@ -38,18 +38,11 @@ class Told(NamedTuple):
 
     Attributes
     ----------
-    reported : mapping
-        Quantities of its summary by heading.
-    sentences : sequence of str
-        How far to trust it.
-    panels : sequence of str
-        Datasets that are shown at first.
-    maps : sequence of PageMap
-    tables : sequence of (title, columns, rows)
-        The sheet of its gears, or what else stands under `heading`.
-    profiles : Profiles or None
-        What is shown at the cursor.
-    heading : str
+    reported : quantities of its summary by heading
+    sentences : how far to trust it
+    panels : datasets that are shown at first
+    tables : (title, columns, rows); the sheet of its gears, or what else stands under `heading`
+    profiles : what is shown at the cursor
     pictures : sequence of (name, about, figure)
     """
 
@@ -68,12 +61,9 @@ def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) 
 
     Parameters
     ----------
-    records : sequence of Record
-        Open.
-    told : sequence of Told
-        Of each.
-    figures : bool
-        Whether there is more on the page than the teeth and what moves them: figures, summary, origin.
+    records : open
+    told : of each
+    figures : whether there is more on the page than the teeth and what moves them: figures, summary, origin
 
     Raises
     ------

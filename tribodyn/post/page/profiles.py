@@ -14,10 +14,8 @@ class Profile(NamedTuple):
 
     Attributes
     ----------
-    name : str
-        Of the dataset, over the record's axis and the place.
-    top : float or None
-        Upper end of its axis, SI; None: its maximum.
+    name : of the dataset, over the record's axis and the place
+    top : upper end of its axis, SI; None: its maximum
     """
 
     name: str
@@ -29,11 +27,8 @@ class Profiles(NamedTuple):
 
     Attributes
     ----------
-    title : str
-        Heading of the section.
-    place, label : str
-        Scale that the profiles are over, and what is said of it at the axis.
-    rows : sequence of Profile
+    title : heading of the section
+    place, label : scale that the profiles are over, and what is said of it at the axis
     """
 
     title: str

@@ -69,9 +69,7 @@ def series_of(record: Record, records: int = 1) -> list[Series]:
 
     Parameters
     ----------
-    record : Record
-    records : int
-        How many records share the page, and the points that it may have.
+    records : how many records share the page, and the points that it may have
     """
     names = [
         name

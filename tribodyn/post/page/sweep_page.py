@@ -29,12 +29,9 @@ def sweep_page(
 
     Parameters
     ----------
-    record : SweepRecord
-    quantities : sequence of Quantity
-        Those that are shown; none: all, as the record describes them.
+    quantities : those that are shown; none: all, as the record describes them
     pictures : sequence of (name, about, figure)
-    tables : sequence of (title, columns, rows)
-        What is known of the scenario that is varied.
+    tables : (title, columns, rows); what is known of the scenario that is varied
 
     Raises
     ------

@@ -49,9 +49,7 @@ def rounded_distance(table: DriveTable, drive: Drive) -> RoundedDistance | None:
 
     Parameters
     ----------
-    table : DriveTable
-    drive : Drive
-        Its numbers, whatever their centre distance.
+    drive : its numbers, whatever their centre distance
     """
     if table.centre_distance is None or not FAMILIES[table.family].involute:
         return None

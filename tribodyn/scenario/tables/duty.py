@@ -46,11 +46,8 @@ def broken_duty_rules(
 
     Parameters
     ----------
-    table : DutyTable
-    key : str
-        Where it stands.
-    speed_needed : bool
-        Whether the study needs a speed even where no power is given.
+    key : where it stands
+    speed_needed : whether the study needs a speed even where no power is given
     """
     speeds, loads = _given(table, SPEEDS), _given(table, LOADS)
     errors = [*_several(key, "the speed", speeds), *_several(key, "the load", loads)]
@@ -76,14 +73,9 @@ def broken_driving_rules(
 
     Parameters
     ----------
-    table : DutyTable
-    teeth : (float, float)
-        Of pinion and gear.
-    why : str
-        Why the study needs a driving pinion.
-    remedy : str
-        What else than a positive torque helps, as the end of a sentence.
-    speed_needed : bool
+    teeth : (float, float); of pinion and gear
+    why : why the study needs a driving pinion
+    remedy : what else than a positive torque helps, as the end of a sentence
     """
     broken = broken_duty_rules(table, speed_needed=speed_needed)
     if broken or (torque := duty_of(table, *teeth).gear_torque) > 0.0:

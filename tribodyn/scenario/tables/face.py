@@ -89,10 +89,8 @@ def _contradicted_modifications(face: Face, contradiction: str, remedy: str) -> 
 
     Parameters
     ----------
-    contradiction : str
-        What it contradicts: ``compliance = "energy"``.
-    remedy : str
-        What to write instead.
+    contradiction : what it contradicts: ``compliance = "energy"``
+    remedy : what to write instead
     """
     for key, value in (*_all_reliefs(face.drive), *_pitch_errors(face.drive), *_deviations(face)):
         yield InputError(key, value, f"contradicts {contradiction}", remedy)

@@ -49,13 +49,8 @@ def with_sample(
 
     Parameters
     ----------
-    drive : DriveTable
-    modifications : Modifications
-    sample : int or None
-    every_tooth : bool
-        Whether the study knows teeth that differ.
-    slices : int or None
-        As given; with a single one nothing varies along the face, the helix included.
+    every_tooth : whether the study knows teeth that differ
+    slices : as given; with a single one nothing varies along the face, the helix included
     """
     if sample is None:
         return modifications

@@ -61,7 +61,6 @@ class GearLines:
     ----------
     starts : line -> (STATES,), by which states are scaled
     moving : see `gear_map.moving_states`
-    **settings : of `gear_map.GearMap`
     """
 
     def __init__(

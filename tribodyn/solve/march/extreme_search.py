@@ -49,10 +49,8 @@ class Search(NamedTuple):
     Attributes
     ----------
     measures : (ROWS, measures)
-    state : (STATES,)
-        Scratch: a state inside a step.
-    extreme, cycles, segments : (EXTREMES,)
-        The most extreme measures so far, and where; as in `Extremes`.
+    state : (STATES,); scratch: a state inside a step
+    extreme, cycles, segments : (EXTREMES,); the most extreme measures so far, and where; as in `Extremes`
     states : (EXTREMES, STATES)
     """
 

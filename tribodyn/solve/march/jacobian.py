@@ -46,12 +46,9 @@ class Differences(NamedTuple):
 
     Attributes
     ----------
-    trial : (STATES,)
-        Scratch.
-    jacobian : (STATES, MECHANICAL or more)
-        Receives ∂f/∂y.
-    slope : (STATES,)
-        Receives ∂f/∂φ.
+    trial : (STATES,); scratch
+    jacobian : (STATES, MECHANICAL or more); receives ∂f/∂y
+    slope : (STATES,); receives ∂f/∂φ
     """
 
     trial: Float[Array, " state"]

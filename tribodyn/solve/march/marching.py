@@ -48,14 +48,13 @@ class Method(NamedTuple):
     attempt : (fresh, step, place, y, control, model, work, buffer) -> int
         Fills the first two rows of the buffer and returns how many right-hand sides that took; `fresh` says
         that nothing is known yet at the place and `y`. It leaves `work` as it is at the end of the step.
-    sample : (theta, step, y, buffer, out)
-        Writes the state at the share `theta` of the step last attempted.
+    sample : (theta, step, y, buffer, out); writes the state at the share `theta` of the step last attempted
     accept : (buffer) -> bool
         Keeps what the next step can use of an accepted one; returns whether that one begins fresh.
     adapted : (step, error, last_error, buffer) -> float
         The next step to try.
-    contacts : (phase, segment, model, work, buffer)
-        Fills `work` with the contacts at the end of the step last attempted, if it is not so yet.
+    contacts : (phase, segment, model, work, buffer); fills `work` with the contacts at the end of the step
+        last attempted, if it is not so yet
     opened, stepped
         What seeks extremes at the start of a segment and over an accepted step, see `extreme_search`: its
         `open_segment` and `search_step`, or `ignore_segment` and `ignore_step`.
@@ -84,16 +83,12 @@ class Control(NamedTuple):
 
     Attributes
     ----------
-    step : float
-        First step to try, mesh cycles.
-    atol : (STATES,)
-        Absolute tolerances.
-    scale : (STATES,)
-        Sizes of the states.
-    stops : (segments, stops)
-        Phases that steps end on, see `reversal.stops`.
-    slope_tolerance : float
-        Of derivatives with respect to the start, where numbers carry them, over the scale of the states.
+    step : first step to try, mesh cycles
+    atol : (STATES,); absolute tolerances
+    scale : (STATES,); sizes of the states
+    stops : (segments, stops); phases that steps end on, see `reversal.stops`
+    slope_tolerance : of derivatives with respect to the start, where numbers carry them, over the scale of
+        the states
     """
 
     step: float

@@ -23,10 +23,7 @@ class NativeIntegrator:
     ----------
     method : module
         One of `methods` that is native: its `integrate` and `buffer`.
-    model : Model
-    samples : int
-        Samples per mesh cycle.
-    tolerances : StepTolerances
+    samples : samples per mesh cycle
     """
 
     def __init__(self, method: Any, model: Model, samples: int, tolerances: StepTolerances):

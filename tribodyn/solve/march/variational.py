@@ -71,10 +71,8 @@ class DualMethod(NamedTuple):
     Attributes
     ----------
     integrate : kernel
-    buffer : callable
-        () -> its buffer over floats.
-    tolerance : float
-        Of the derivatives in a step, over the scale of the states.
+    buffer : () -> its buffer over floats
+    tolerance : of the derivatives in a step, over the scale of the states
     """
 
     integrate: Callable[..., Any]
@@ -98,16 +96,11 @@ class Derived(NamedTuple):
 
     Attributes
     ----------
-    state : (R, STATES)
-        Behind the engagement that ends the last mesh cycle.
-    slopes : (R, STATES, D)
-        Its derivatives in the directions given.
-    status : (R,) int
-        A `Status`.
-    reached : (R,)
-        Mesh cycles done.
-    steps : (R,) int
-        Accepted steps.
+    state : (R, STATES); behind the engagement that ends the last mesh cycle
+    slopes : (R, STATES, D); its derivatives in the directions given
+    status : (R,); A `Status`
+    reached : (R,); mesh cycles done
+    steps : (R,); accepted steps
     """
 
     state: Float[Array, "row state"]
@@ -134,19 +127,14 @@ def march_with_derivative(
     ----------
     models : sequence of R Models
     states : (R, STATES)
-    directions : (R, STATES, D)
-        At most `DIRECTIONS`. The error control takes a direction for a displacement of the state and measures
-        its error likewise, so that a direction should be of the size of the states' scales.
-    cycles : int
-        Mesh cycles.
-    rtol : float
-        Of the motion; that of the derivatives is the method's.
-    max_steps : int
-        Steps allowed in one mesh cycle.
-    methods : sequence of str
-        For every row, a key of `METHODS`.
-    workers : int
-        Threads.
+    directions : (R, STATES, D); at most `DIRECTIONS`. The error control takes a direction for a displacement
+        of the state and measures its error likewise, so that a direction should be of the size of the states'
+        scales.
+    cycles : mesh cycles
+    rtol : of the motion; that of the derivatives is the method's
+    max_steps : steps allowed in one mesh cycle
+    methods : for every row, a key of `METHODS`
+    workers : threads
     """
     count = directions.shape[-1]
     if count > DIRECTIONS:

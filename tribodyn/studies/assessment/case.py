@@ -18,25 +18,16 @@ class AssessmentSettings:
 
     Parameters
     ----------
-    application_factor : float
-        K_A.
+    application_factor : K_A
     lubrication : {"dip", "spray", "submerged"}
-    structure_factor : float
-        X_W of ISO/TS 6336-20.
-    adequate_tip_relief : bool
-        Whether the standards may count on the tip relief that the flanks have.
-    torque_shares : tuple of float
-        Torques of the loaded error, over the duty's.
-    speed_range : (float, float)
-        First and last speed of the steady states, over the duty's.
-    speeds : int
-        How many, besides the duty's.
-    samples : int
-        Of the deviations, whose scatter is given.
-    friction_laws : tuple of str
-        The first is that of everything but the spread of the losses.
-    damping_ratio : float
-        ζ of the mesh.
+    structure_factor : X_W of ISO/TS 6336-20
+    adequate_tip_relief : whether the standards may count on the tip relief that the flanks have
+    torque_shares : torques of the loaded error, over the duty's
+    speed_range : (float, float); first and last speed of the steady states, over the duty's
+    speeds : how many, besides the duty's
+    samples : of the deviations, whose scatter is given
+    friction_laws : the first is that of everything but the spread of the losses
+    damping_ratio : ζ of the mesh
     """
 
     application_factor: float
@@ -57,15 +48,10 @@ class AssessmentCase(GearCase):
 
     Parameters
     ----------
-    lubricant : LubricantData
-        With its data sheet, at the temperature of the oil.
-    oil_temperature : float
-        Of the duty, K.
-    quality : Quality
-        Deviations of the gears by ISO 1328-1.
-    settings : AssessmentSettings
-    limits : mapping
-        Name of a limit -> its value, SI units.
+    lubricant : with its data sheet, at the temperature of the oil
+    oil_temperature : of the duty, K
+    quality : deviations of the gears by ISO 1328-1
+    limits : name of a limit -> its value, SI units
     """
 
     lubricant: LubricantData

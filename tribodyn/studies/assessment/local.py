@@ -23,17 +23,12 @@ class LocalValues(NamedTuple):
 
     Attributes
     ----------
-    roll_angle : (places,)
-        Rotation of the pinion since the pair met at the pitch point, rad, increasing.
-    normal_load : (places,)
-        Of the pair, slow rotation, N.
-    radius, sliding : (places,)
-        Equivalent radius, m, and sliding speed, m/s.
-    films : Films
-        Arrays over the places; the pressure with the dynamic and the application factor. NaN where there is
-        no Hertz contact: without load, or where the radius vanishes.
-    points : (7,)
-        Roll angles of the points, rad.
+    roll_angle : (places,); rotation of the pinion since the pair met at the pitch point, rad, increasing
+    normal_load : (places,); of the pair, slow rotation, N
+    radius, sliding : (places,); equivalent radius, m, and sliding speed, m/s
+    films : arrays over the places; the pressure with the dynamic and the application factor. NaN where there
+        is no Hertz contact: without load, or where the radius vanishes.
+    points : (7,); roll angles of the points, rad
     """
 
     roll_angle: Float[Array, " place"]
@@ -63,10 +58,8 @@ def local_of(
 
     Parameters
     ----------
-    along : mapping
-        ``roll_angle``, ``hertz_pressure`` (maximum over the face) and ``normal_load`` of one pair.
-    figures : mapping
-        ``dynamic_factor``, ``friction_coefficient_mean`` and ``power_friction_mean`` of the simulation.
+    along : ``roll_angle``, ``hertz_pressure`` (maximum over the face) and ``normal_load`` of one pair
+    figures : ``dynamic_factor``, ``friction_coefficient_mean`` and ``power_friction_mean`` of the simulation
     """
     settings = case.settings
     start, end = map(float, assembly.roll_limits)

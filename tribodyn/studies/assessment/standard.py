@@ -43,20 +43,12 @@ class Standard(NamedTuple):
 
     Attributes
     ----------
-    path : ContactPath
-    films : Films
-        Of method B at the `POINTS`.
-    dynamic : DynamicFactor
-    single_stiffness, mesh_stiffness, mesh_stiffness_face : float
-        c', c_γα, c_γβ, Pa.
-    transverse, face : float
-        K_Hα by method B, K_Hβ of the contact analysis.
-    losses : float
-        H_v.
-    flash_bulk, flash_contact : float
-        θ_M and θ_Bmax of ISO/TS 6336-20, K.
-    integral : float
-        θ_int of ISO/TS 6336-21, K.
+    films : of method B at the `POINTS`
+    single_stiffness, mesh_stiffness, mesh_stiffness_face : c', c_γα, c_γβ, Pa
+    transverse, face : K_Hα by method B, K_Hβ of the contact analysis
+    losses : H_v
+    flash_bulk, flash_contact : θ_M and θ_Bmax of ISO/TS 6336-20, K
+    integral : θ_int of ISO/TS 6336-21, K
     """
 
     path: ContactPath

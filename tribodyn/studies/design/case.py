@@ -80,8 +80,8 @@ class Tolerance(NamedTuple):
     Attributes
     ----------
     plus_minus : in its unit
-    distribution : str
-        "uniform", "normal" (`plus_minus` is three standard deviations), "ends" (both ends alone), `DRAWN`.
+    distribution : "uniform", "normal" (`plus_minus` is three standard deviations), "ends" (both ends alone),
+        `DRAWN`
     """
 
     key: str

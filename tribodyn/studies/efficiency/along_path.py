@@ -49,8 +49,8 @@ class PathState(NamedTuple):
     closure_shares, friction_shares : (K, Q, limits), see `surface_state.range_shares`
     deflection : (K,), r_p θ_p − r_g θ_g, m; NaN where the load sharing knows no elasticity
     pinion_torque, gear_torque : (K,), N m; on the gear against its motion, on the pinion with it
-    power_in, power_out, power_friction : (K,)
-        From the pinion, to the gear, and lost, W; the first two < 0 where the gear drives.
+    power_in, power_out, power_friction : (K,); from the pinion, to the gear, and lost, W; the first two < 0
+        where the gear drives
     """
 
     normal_load: Array

@@ -23,8 +23,7 @@ class Samples(NamedTuple):
     turned : (K,), rotation since the first sample, in pitches
     phase : (K,), phase of the table at each sample. Where the gear drives it falls: contact begins where the
         table's ends, in the mirrored world in which the back flanks are driving flanks
-    later : (K,) bool
-        Where the table counts the pairs one slot later than the record.
+    later : (K,); where the table counts the pairs one slot later than the record
     way : +1, or −1 where the gear drives
     """
 

@@ -27,8 +27,8 @@ class EfficiencyCase(LubricatedCase):
     load_sharing : {"elastic", "uniform", "single-pair"}
         That of the samples recorded; the summary has all three.
     samples_per_cycle : samples over the one mesh cycle recorded
-    spectrum : tuple of (float, EfficiencyCase)
-        Share of time and case of every duty of a load spectrum; empty: there is none.
+    spectrum : (float, EfficiencyCase); share of time and case of every duty of a load spectrum; empty: there
+        is none
     """
 
     load_sharing: "Sharing" = "elastic"

@@ -85,8 +85,8 @@ def path_contact(
     ----------
     pinion_teeth : z1
     rotation : (ψ, weights), default: `rotations`
-    exact_speeds : bool
-        The rolling speeds contain the motion of the contact along the path, r κ, which Veciana leave out.
+    exact_speeds : the rolling speeds contain the motion of the contact along the path, r κ, which Veciana
+        leave out
     averaged : average radius and entrainment over the contact's width where they vanish at the pitch point
     """
     psi, weight = rotation or rotations(pinion_teeth)

@@ -20,14 +20,11 @@ class EhlCase(LubricatedCase):
 
     Parameters
     ----------
-    positions : int
-        Positions of the pair at which its contact is solved.
-    transient : bool
-        Whether the way is also solved with squeeze.
-    loads : (array, array) or None
-        Roll angles from the pitch point, rad, and normal loads there, N; None: quasi-static.
-    step : float
-        Of the contact's grid, over the distance from inlet and end of the film.
+    positions : positions of the pair at which its contact is solved
+    transient : whether the way is also solved with squeeze
+    loads : (array, array); roll angles from the pitch point, rad, and normal loads there, N; None:
+        quasi-static
+    step : of the contact's grid, over the distance from inlet and end of the film
     """
 
     positions: int

@@ -46,11 +46,8 @@ class PreparedPair(PreparedGears[Case]):
 
     Parameters
     ----------
-    model : Model
-    masses : tuple of (mass kg, inertia kg m²)
-        Of pinion and gear alone, without what is attached to them.
-    given : Case
-        As it was before: with the oil that enters the mesh.
+    masses : (mass kg, inertia kg m²); of pinion and gear alone, without what is attached to them
+    given : as it was before: with the oil that enters the mesh
     """
 
     model: Model
@@ -63,15 +60,10 @@ class Tabulated(NamedTuple):
 
     Attributes
     ----------
-    cycle : MeshCycle
-    table : Polynomials
-        The same as the right-hand side reads it.
-    masses : tuple of (mass kg, inertia kg m²)
-        Of pinion and gear alone.
-    assembly : Assembly
-    split : callable
-        () -> the cycle of the driving flanks alone, in which a segment begins where friction turns; made at
-        the first call.
+    table : the same as the right-hand side reads it
+    masses : (mass kg, inertia kg m²); of pinion and gear alone
+    split : () -> the cycle of the driving flanks alone, in which a segment begins where friction turns; made
+        at the first call
     """
 
     cycle: MeshCycle
@@ -132,7 +124,6 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> PreparedPair:
 
     Parameters
     ----------
-    case : Case
     tabulated : Tabulated, optional
         From a case with the same `table_key`; made here where it is not given.
 

@@ -53,13 +53,9 @@ class Extreme(NamedTuple):
 
     Attributes
     ----------
-    value : float
-    time : float
-        s.
-    mesh_cycle : float
-        Mesh cycles since the start, whole and fraction.
-    pair : int or None
-        Number of the pair; None where it is the whole mesh's.
+    time : s
+    mesh_cycle : mesh cycles since the start, whole and fraction
+    pair : number of the pair; None where it is the whole mesh's
     """
 
     value: float
@@ -153,8 +149,7 @@ def friction_work_on_vibration(work: np.ndarray) -> float | None:
 
     Parameters
     ----------
-    work : (STATES,)
-        Change of the state over whole mesh cycles.
+    work : (STATES,); change of the state over whole mesh cycles
     """
     nominal, taken = float(work[WORK_SLIDING]), float(work[WORK_FRICTION])
     return (nominal - taken) / abs(nominal) if nominal != 0.0 else None
@@ -165,8 +160,7 @@ def warning_of(share: float | None, sliding: str) -> str | None:
 
     Parameters
     ----------
-    share : float or None
-        See `friction_work_on_vibration`.
+    share : see `friction_work_on_vibration`
     sliding : {"kinematic", "dynamic"}
         `friction.sliding` of the case.
     """
@@ -191,18 +185,12 @@ def steady_figures(
 
     Parameters
     ----------
-    window : dict
-        The record's arrays over whole cycles, last sample not included.
-    work : (STATES,)
-        Change of the state over them: its works are integrated, so that no mean power depends on the
-        sampling.
-    cycle : MeshCycle
-    samples : int
-        Samples per mesh cycle.
-    nominal_speed : float
-        Of the pinion, rad/s.
-    extremes : RunningExtremes
-        Over the same mesh cycles.
+    window : the record's arrays over whole cycles, last sample not included
+    work : (STATES,); change of the state over them: its works are integrated, so that no mean power depends
+        on the sampling
+    samples : samples per mesh cycle
+    nominal_speed : of the pinion, rad/s
+    extremes : over the same mesh cycles
     """
     error = window["transmission_error_rotational"]
     load = window["normal_load"]

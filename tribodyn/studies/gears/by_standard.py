@@ -17,10 +17,8 @@ class Quality(NamedTuple):
 
     Attributes
     ----------
-    grade : float
-        By ISO 1328-1.
-    single_pitch, profile_form : float
-        f_pT and f_fαT, m.
+    grade : by ISO 1328-1
+    single_pitch, profile_form : f_pT and f_fαT, m
     """
 
     grade: float
@@ -33,12 +31,8 @@ class Rated(NamedTuple):
 
     Attributes
     ----------
-    dynamic : DynamicFactor
-    stiffness : ReferenceStiffness
-    line_load : float
-        F_t K_A/b at the reference circle, N/m.
-    base_pitch_deviation : float
-        See `base_pitch_deviation`.
+    line_load : F_t K_A/b at the reference circle, N/m
+    base_pitch_deviation : see `base_pitch_deviation`
     """
 
     dynamic: DynamicFactor
@@ -85,15 +79,11 @@ def rated(
 
     Parameters
     ----------
-    assembly : Assembly
-        Of an involute drive.
+    assembly : of an involute drive
     materials : (MaterialData, MaterialData)
-    bodies : ((mass kg, inertia kg m²), …)
-        Of pinion and gear alone.
-    quality : Quality
+    bodies : ((mass kg, inertia kg m²), …); of pinion and gear alone
     duty : (pinion speed rad/s, gear torque N m)
-    application_factor : float
-        K_A.
+    application_factor : K_A
     """
     drive, path = assembly.drive, assembly.path
     speed, torque = duty

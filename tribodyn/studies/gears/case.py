@@ -32,17 +32,12 @@ class GearCase(CaseHead):
 
     Parameters
     ----------
-    family : str
-        Name of the family of paths of contact.
-    drive : Drive
-        Geometry of both gears.
+    family : name of the family of paths of contact
+    drive : geometry of both gears
     materials, masses : pairs of MaterialData and of BodyMass
-    roughness, mean_roughness : float
-        Composite rms roughness σ of the flanks, and their arithmetic mean roughness Ra, m.
-    operating : OperatingData
-    mesh : MeshData
-    quality : Quality or None
-        Deviations of the gears by ISO 1328-1; None: the drive has no tolerance class.
+    roughness, mean_roughness : composite rms roughness σ of the flanks, and their arithmetic mean roughness
+        Ra, m
+    quality : deviations of the gears by ISO 1328-1; None: the drive has no tolerance class
     """
 
     family: str
@@ -62,13 +57,10 @@ class LubricatedCase(GearCase):
 
     Parameters
     ----------
-    lubricant : LubricantData
-        At the temperature of the oil that enters the mesh; in `PreparedGears.case` at that of the teeth.
-    film, friction : FilmData, FrictionData
-    temperature : TemperatureData or None
-        How the bulk temperature of the teeth follows from the losses; None: it is that of the oil.
-    losses : LossData or None
-        Load-independent losses, where they are to be added.
+    lubricant : at the temperature of the oil that enters the mesh; in `PreparedGears.case` at that of the
+        teeth
+    temperature : how the bulk temperature of the teeth follows from the losses; None: it is that of the oil
+    losses : load-independent losses, where they are to be added
     """
 
     lubricant: LubricantData

@@ -37,7 +37,6 @@ def check_gears(
 
     Parameters
     ----------
-    prepared : PreparedGears
     closure : Closure, optional
         Laws in use, where the study has any.
     masses : sequence of (mass kg, inertia kg m²), optional
@@ -97,17 +96,14 @@ def sheet_and_stiffness(
 
     Parameters
     ----------
-    assembly : Assembly
-        Checked.
+    assembly : checked
     materials : (MaterialData, MaterialData)
-    method : str
-        How the stiffness was worked out.
-    pair : (float, float)
-        Normal load of a single pair at the pitch point, N, and its stiffness at that load, N/m.
+    method : how the stiffness was worked out
+    pair : (float, float); normal load of a single pair at the pitch point, N, and its stiffness at that load,
+        N/m
     masses : sequence of (mass kg, inertia kg m²), optional
         Of pinion and gear, where they are to stand in the sheet.
-    remark : str
-        What is to be said of the stiffness.
+    remark : what is to be said of the stiffness
     """
     from tribodyn.geometry.sheet.sheet import geometry_sheet
 

@@ -31,20 +31,12 @@ class DriveModel(NamedTuple):
 
     Parameters
     ----------
-    title, name : str
-        Title of the drive or scenario, and its name.
-    family : str
-        Name of the family of paths of contact.
-    drive : Drive
-    materials : tuple of MaterialData
-    masses : tuple of BodyMass
-        None where they follow from the outline.
-    path : Path
-        The file that was named.
-    origins : Origins
-        Which file each part came from; the drive stands at the key "drive".
-    table : mapping
-        The drive as a drive file has it, with everything that it refers to.
+    title, name : title of the drive or scenario, and its name
+    family : name of the family of paths of contact
+    masses : None where they follow from the outline
+    path : the file that was named
+    origins : which file each part came from; the drive stands at the key "drive"
+    table : the drive as a drive file has it, with everything that it refers to
     """
 
     title: str
@@ -93,8 +85,8 @@ def load_drive(model: str | Mapping[str, Any], overrides: Mapping[str, Any] | No
 
     Parameters
     ----------
-    model : str or mapping
-        Name of a shipped drive or scenario, or the path of a file of either sort; or what a drive file holds.
+    model : name of a shipped drive or scenario, or the path of a file of either sort; or what a drive file
+        holds
     overrides : mapping, optional
         Dotted key, as in a scenario, to value: ``{"drive.pinion.profile_shift": "0.3"}``.
 

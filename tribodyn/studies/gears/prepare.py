@@ -21,10 +21,7 @@ class PreparedGears(Generic[AnyCase]):
     ----------
     case
         Its oil at the temperature at which film and friction are evaluated: that of the teeth.
-    assembly : Assembly
-    cycle : MeshCycle
-    thermal : Thermal or None
-        Bulk temperature and load-independent losses, where the scenario asks for them.
+    thermal : bulk temperature and load-independent losses, where the scenario asks for them
     """
 
     case: AnyCase

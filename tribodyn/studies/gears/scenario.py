@@ -99,10 +99,8 @@ def mesh_of(scenario: Any, *, every_tooth: bool = False, error: Any = None, **ow
     ----------
     scenario
         Its table [mesh] may lack any key.
-    every_tooth : bool
-        Whether the study knows teeth that differ.
-    error : Table or None
-        Transmission error of a pair over roll angle (rad, m), to which a sample of deviations adds.
+    every_tooth : whether the study knows teeth that differ
+    error : transmission error of a pair over roll angle (rad, m), to which a sample of deviations adds
     own
         Fields of `MeshData` that are not plain keys of the table.
     """
@@ -130,10 +128,8 @@ def broken_gear_rules(scenario: Any, *, every_duty: bool = False, oil: bool = Tr
     ----------
     scenario
         Tables and keys that its kind does not have count as absent.
-    every_duty : bool
-        Whether the study runs all duties of a load spectrum at a time.
-    oil : bool
-        Whether the lubricant is looked at.
+    every_duty : whether the study runs all duties of a load spectrum at a time
+    oil : whether the lubricant is looked at
     """
     drive, mesh, lubricant = scenario.drive, scenario.mesh, scenario.lubricant
     yield from broken_drive_rules(drive)

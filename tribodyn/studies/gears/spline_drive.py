@@ -31,12 +31,9 @@ def as_spline(model: DriveModel, values: int, key: str = "n") -> SplineDrive:
 
     Parameters
     ----------
-    model : DriveModel
-        A pair that passes the checks; of any family.
-    values : int
-        Number of angles.
-    key : str
-        What messages call it.
+    model : A pair that passes the checks; of any family
+    values : number of angles
+    key : what messages call it
 
     Raises
     ------

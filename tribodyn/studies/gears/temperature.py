@@ -37,17 +37,11 @@ class Thermal(NamedTuple):
 
     Attributes
     ----------
-    lubricant : LubricantData
-        At the bulk temperature.
-    mesh_loss : float
-        Mean loss to tooth friction, W.
-    losses : dict of Loss
-        Load-independent ones by name.
-    temperatures : Temperatures or None
-        None: the teeth are taken to be as warm as the oil.
-    heat : Heat
-    given_off : float or None
-        Heat that leaves the network, W; None without a network.
+    lubricant : at the bulk temperature
+    mesh_loss : mean loss to tooth friction, W
+    losses : load-independent ones by name
+    temperatures : None: the teeth are taken to be as warm as the oil
+    given_off : heat that leaves the network, W; None without a network
     """
 
     lubricant: LubricantData
@@ -65,10 +59,8 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
     ----------
     case : case
         With `lubricant`, `operating`, `temperature` and `losses`.
-    assembly : Assembly
-        Its gears.
-    mesh_loss : callable
-        (case, its lubricant at some temperature) -> mean loss to tooth friction, W.
+    assembly : its gears
+    mesh_loss : (case, its lubricant at some temperature) -> mean loss to tooth friction, W
 
     Raises
     ------
@@ -114,10 +106,8 @@ def at_own_temperature(case: Any, bulk_temperature: float | None, mesh_loss: flo
     ----------
     case : case
         As it was run, its oil as it enters the mesh.
-    bulk_temperature : float or None
-        At which it was run, K; None: it asks for none.
-    mesh_loss : float
-        Mean loss of its motion to tooth friction, W.
+    bulk_temperature : at which it was run, K; None: it asks for none
+    mesh_loss : mean loss of its motion to tooth friction, W
     """
     if bulk_temperature is None or not mesh_loss >= 0.0:
         return None
@@ -161,11 +151,8 @@ def thermal_figures(thermal: Thermal | None, power_in: float, efficiency: float)
 
     Parameters
     ----------
-    thermal : Thermal or None
-    power_in : float
-        That the driving gear puts in, without load-independent losses, W.
-    efficiency : float
-        Of the mesh.
+    power_in : that the driving gear puts in, without load-independent losses, W
+    efficiency : of the mesh
     """
     if thermal is None:
         return {}

@@ -14,16 +14,12 @@ class LoadContactCase(GearCase):
 
     Parameters
     ----------
-    gear_torques : tuple of float
-        Torques of the Harris map, > 0 and increasing, N m; empty: none is made.
-    friction_coefficient : float
-        μ of all pairs, ≥ 0.
-    positions_per_cycle : int
-        Positions of the pinion in one mesh cycle.
-    cycles : int
-        Mesh cycles to roll through; more than one where teeth differ.
-    lubricated : LubricatedCase or None
-        The same gears with oil, at a speed > 0, for the film over the face; None: there is no lubricant.
+    gear_torques : torques of the Harris map, > 0 and increasing, N m; empty: none is made
+    friction_coefficient : μ of all pairs, ≥ 0
+    positions_per_cycle : positions of the pinion in one mesh cycle
+    cycles : mesh cycles to roll through; more than one where teeth differ
+    lubricated : the same gears with oil, at a speed > 0, for the film over the face; None: there is no
+        lubricant
     """
 
     gear_torques: tuple[float, ...] = ()

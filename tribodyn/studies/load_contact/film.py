@@ -19,11 +19,9 @@ class FaceFilm(NamedTuple):
 
     Attributes
     ----------
-    arrays : mapping
-        Datasets of the record (T, P, S): film by the film law, m, and whether that is inside its range; NaN
-        where the slice carries nothing.
-    figures : mapping
-        Of the summary, SI units.
+    arrays : datasets of the record (T, P, S): film by the film law, m, and whether that is inside its range;
+        NaN where the slice carries nothing
+    figures : of the summary, SI units
     """
 
     arrays: dict[str, Float[Array, "position pair slice"]]

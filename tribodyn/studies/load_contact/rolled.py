@@ -15,10 +15,8 @@ class FaceMap(NamedTuple):
 
     Attributes
     ----------
-    roll : (positions,)
-        Roll angle of the pair, 0 at the pitch point, increasing, rad.
-    face : (slices,)
-        Middles of the slices from the middle of the face, m.
+    roll : (positions,); roll angle of the pair, 0 at the pitch point, increasing, rad
+    face : (slices,); middles of the slices from the middle of the face, m
     values : (positions, slices)
     """
 

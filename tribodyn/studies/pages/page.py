@@ -21,9 +21,7 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
 
     Parameters
     ----------
-    records : sequence of Record
-    figures : bool
-        Whether there is more on it than the teeth in mesh and what moves them.
+    figures : whether there is more on it than the teeth in mesh and what moves them
 
     Raises
     ------

@@ -71,10 +71,8 @@ def figure(
 
     Parameters
     ----------
-    name : str
-        One of `names(records)`, or `overview` (of the first record).
-    records : sequence of Record
-        Records, open; one colour each.
+    name : one of `names(records)`, or `overview` (of the first record)
+    records : records, open; one colour each
     cycles : int, None or "auto"
         How many of the last whole mesh cycles to show, None for the whole run. By default two, and the whole
         run where speed or load change in it.
@@ -185,10 +183,8 @@ def sweep_figure(
 
     Parameters
     ----------
-    name : str
-        One of `sweep_names(records)`, or "overview", which is the first of them.
-    records : sequence of SweepRecord
-        Several are compared where the figure has curves; some figures show the first.
+    name : one of `sweep_names(records)`, or "overview", which is the first of them
+    records : several are compared where the figure has curves; some figures show the first
     at : mapping, optional
         Parameter's name to value in SI, for a figure of one case.
 

@@ -18,11 +18,8 @@ class Driver(NamedTuple):
 
     Attributes
     ----------
-    key : str
-    value, usual : float
-        Here, and usually; or anything of that ratio, where there is a `remedy`.
-    remedy : str
-        What to do about it, where that is not to reduce the value.
+    value, usual : here, and usually; or anything of that ratio, where there is a `remedy`
+    remedy : what to do about it, where that is not to reduce the value
     """
 
     key: str
@@ -36,16 +33,11 @@ class Estimate(NamedTuple):
 
     Attributes
     ----------
-    memory : float
-        Bytes at once, the program included; true within a factor of about two where it is large.
-    record : float
-        Bytes of the record; while it is concluded there are two of it.
-    seconds : float
-        Of one core, compiling not included; of the right order.
-    drivers : sequence of Driver
-        What to reduce.
-    shared : float
-        Seconds, in addition, that cases of a sweep which share a table spend once.
+    memory : bytes at once, the program included; true within a factor of about two where it is large
+    record : bytes of the record; while it is concluded there are two of it
+    seconds : of one core, compiling not included; of the right order
+    drivers : what to reduce
+    shared : seconds, in addition, that cases of a sweep which share a table spend once
     """
 
     memory: float = 0.0
@@ -65,9 +57,7 @@ def record_bytes(layout: Layout, sizes: Mapping[str, int]) -> float:
 
     Parameters
     ----------
-    layout : Layout
-    sizes : mapping
-        Dimension -> values along it; datasets with another dimension are left out.
+    sizes : dimension -> values along it; datasets with another dimension are left out
     """
     return HEAD + variable_bytes(
         (*layout.along.values(), *layout.scales.values(), *layout.others.values()), sizes

@@ -48,7 +48,6 @@ def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) ->
 
     Parameters
     ----------
-    study : Study
     cases : sequence of cases or str
         A text where the case could not even be made.
     workers : int, optional

@@ -39,8 +39,7 @@ def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = No
 
     Parameters
     ----------
-    scenario : str or Path
-        Path of a scenario file, or the name of a shipped one: "crc-23-47".
+    scenario : path of a scenario file, or the name of a shipped one: "crc-23-47"
     overrides : mapping, optional
         Dotted key to value, ``{"operating.gear_torque": "600 N*m"}``; keys reach through references.
 
@@ -68,10 +67,8 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
 
     Parameters
     ----------
-    resolved : Resolved
-        Its data may have been changed since; it is not changed here but for a missing name.
-    path : Path
-        The scenario's file.
+    resolved : its data may have been changed since; it is not changed here but for a missing name
+    path : the scenario's file
     """
     data, origins, unresolved = resolved
     data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")

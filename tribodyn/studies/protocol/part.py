@@ -17,22 +17,15 @@ class Request(NamedTuple):
 
     Attributes
     ----------
-    title : str
-    tables : mapping
-        Tables ``drive``, ``lubricant``, ``bearings``, ``mesh``, ``temperature`` and ``losses`` as a scenario
-        has them, the last only where given; ``oil_temperature``, a quantity as text; ``damping_ratio``.
-    pinion_speed, gear_torque : float
-        rad/s and N m.
-    torques : sequence of float
-        Over which the loaded error is asked for, N m, increasing.
-    speeds : sequence of float
-        Over which steady states are asked for, rad/s, increasing; that of the duty is one of them.
-    laws : sequence of str
-        Friction laws, the first of them for everything but the spread of the losses.
-    pitch_deviation : float
-        Base pitch deviation f_pb − y_α of the drive's tolerance class, m.
-    samples : int
-        Samples of the class's deviations whose scatter is asked for, numbered from 1.
+    tables : tables ``drive``, ``lubricant``, ``bearings``, ``mesh``, ``temperature`` and ``losses`` as a
+        scenario has them, the last only where given; ``oil_temperature``, a quantity as text;
+        ``damping_ratio``
+    pinion_speed, gear_torque : rad/s and N m
+    torques : over which the loaded error is asked for, N m, increasing
+    speeds : over which steady states are asked for, rad/s, increasing; that of the duty is one of them
+    laws : friction laws, the first of them for everything but the spread of the losses
+    pitch_deviation : base pitch deviation f_pb − y_α of the drive's tolerance class, m
+    samples : samples of the class's deviations whose scatter is asked for, numbered from 1
     """
 
     title: str
@@ -59,16 +52,12 @@ class Task(NamedTuple):
 
     Attributes
     ----------
-    name : str
-        Of its file.
-    about : str
-        What it finds, in a few words: shown while it runs.
-    scenario : mapping
-        As a file has it, with its kind.
-    key, values : str and sequence of str
-        What is varied: then only figures are kept, one row per value. None: one run, with its record.
-    needed : bool
-        Whether the assessment ends where this cannot be run.
+    name : of its file
+    about : what it finds, in a few words: shown while it runs
+    scenario : as a file has it, with its kind
+    key, values : what is varied: then only figures are kept, one row per value. None: one run, with its
+        record.
+    needed : whether the assessment ends where this cannot be run
     """
 
     name: str
@@ -84,14 +73,10 @@ class TaskResult(NamedTuple):
 
     Attributes
     ----------
-    path : Path
-        The record of a run, or the file with the rows.
-    summary : mapping
-        Of a run.
-    rows : mapping
-        Figure -> values (n,) over what was varied; NaN where a case failed.
-    failures : sequence of str
-        What could not be computed, and why; of a run that is not needed there is no summary then.
+    path : the record of a run, or the file with the rows
+    summary : of a run
+    rows : figure -> values (n,) over what was varied; NaN where a case failed
+    failures : what could not be computed, and why; of a run that is not needed there is no summary then
     """
 
     path: Path
@@ -116,13 +101,10 @@ class Findings(NamedTuple):
 
     Attributes
     ----------
-    figures : mapping
-        Numbers by name, SI units, see `docs/assessment.md`.
-    along : mapping
-        Arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch point).
-    curves : sequence of ReportCurve
-    spread : mapping
-        Values (samples,) of figures by name, over the samples of deviations; NaN where one failed.
+    figures : numbers by name, SI units, see `docs/assessment.md`
+    along : arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch
+        point)
+    spread : values (samples,) of figures by name, over the samples of deviations; NaN where one failed
     """
 
     figures: Mapping[str, Any]
@@ -136,14 +118,10 @@ class Contribution(NamedTuple):
 
     Attributes
     ----------
-    order : int
-        Tasks of lower order run first.
-    title : str
-        Heading of its results.
-    tasks : callable
-        Request -> its tasks.
-    answer : callable
-        (Request, results of its tasks by name) -> Findings.
+    order : tasks of lower order run first
+    title : heading of its results
+    tasks : request -> its tasks
+    answer : (Request, results of its tasks by name) -> Findings
     """
 
     order: int

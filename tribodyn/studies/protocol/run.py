@@ -44,14 +44,11 @@ def run(
     friction : FrictionLaw, optional
         Takes the place of the scenario's friction law; keys of its own have the values of
         `FrictionLaw.with_values`. The keys ``sliding`` and ``reversal_width`` of the scenario stay.
-    force : bool
-        Replace an existing record.
+    force : replace an existing record
     progress : callable, optional
         Called with the share done, 0 … 1.
-    allow_large : bool
-        Allow runs above `protocol.estimate.LIMITS`.
-    resume : bool
-        Go on from what an unfinished run left, where the study can.
+    allow_large : allow runs above `protocol.estimate.LIMITS`
+    resume : go on from what an unfinished run left, where the study can
     client : distributed.Client, optional
         Whose workers evaluate the candidates of a search; default: the cores of this machine.
 
@@ -82,7 +79,6 @@ def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw) -> CaseHead
     case
     table : {"film", "friction"}
         Which law it takes the place of.
-    law : FilmLaw or FrictionLaw
 
     Raises
     ------

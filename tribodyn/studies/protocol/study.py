@@ -48,17 +48,12 @@ class CaseHead:
 
     Parameters
     ----------
-    title : str
-        What it shows.
-    name : str
-        Stem of the scenario's file; names the record.
-    kind : str
-        Kind of the study.
-    toml : str
-        The scenario as TOML with everything written out (references replaced by their content, units kept,
-        overrides applied); loading it gives this case again.
-    sha256 : str
-        Digest of `toml`.
+    title : what it shows
+    name : stem of the scenario's file; names the record
+    kind : kind of the study
+    toml : the scenario as TOML with everything written out (references replaced by their content, units kept,
+        overrides applied); loading it gives this case again
+    sha256 : digest of `toml`
     """
 
     title: str
@@ -105,21 +100,17 @@ class Study:
 
     Parameters
     ----------
-    kind : str
-        As scenarios name it.
-    about : str
-        What it is, in a line.
-    package : str
-        Where its parts are.
-    quantities : str
-        What its records are about. Records of studies with the same quantities can be compared and drawn
-        together.
-    compared : tuple of str
-        Headings of its summary that a comparison shows; none: its records cannot be compared in a table.
-    has_gears, resumes : bool
-        Whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run can be resumed.
-    verb, resolution : str
-        Verb of the command line that runs its scenarios; key of the points of a cycle, as its cases have it.
+    kind : as scenarios name it
+    about : what it is, in a line
+    package : where its parts are
+    quantities : what its records are about. Records of studies with the same quantities can be compared and
+        drawn together.
+    compared : headings of its summary that a comparison shows; none: its records cannot be compared in a
+        table
+    has_gears, resumes : whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run
+        can be resumed
+    verb, resolution : verb of the command line that runs its scenarios; key of the points of a cycle, as its
+        cases have it
     """
 
     kind: str

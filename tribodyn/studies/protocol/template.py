@@ -18,10 +18,8 @@ def filled(kind: str, title: str) -> str:
 
     Parameters
     ----------
-    kind : str
-        As scenarios name it.
-    title : str
-        Of the scenario.
+    kind : as scenarios name it
+    title : of the scenario
 
     Raises
     ------

@@ -18,7 +18,6 @@ class Option(NamedTuple):
 
     Parameters
     ----------
-    help : str
     metavar : str, optional
     min, max : int, optional
         Limits of a number.
@@ -59,16 +58,13 @@ class Verb(NamedTuple):
 
     Parameters
     ----------
-    function : callable
-        Its docstring is the Python function's, and its first line the verb's help. Parameters whose
-        annotation holds an `Option` are options of the verb. With `answers` it is
-        ``function(case, *, progress, …) -> Finding``; otherwise ``function(source, …, *, overrides, …) ->
-        Loaded``, the scenario to be run, with the options of `tribodyn run`. It takes the texts of the
-        command line and Python's values alike.
-    examples : str
-        What stands at the end of its help.
-    answers : bool
-        Whether it answers at once, without a record.
+    function : its docstring is the Python function's, and its first line the verb's help. Parameters whose
+        annotation holds an `Option` are options of the verb. With `answers` it is ``function(case, *,
+        progress, …) -> Finding``; otherwise ``function(source, …, *, overrides, …) -> Loaded``, the scenario
+        to be run, with the options of `tribodyn run`. It takes the texts of the command line and Python's
+        values alike.
+    examples : what stands at the end of its help
+    answers : whether it answers at once, without a record
     """
 
     function: Callable[..., Any]

@@ -81,8 +81,8 @@ class RollingCase(CaseHead):
     mode : motion in time with corrected speeds, or the paper's single position with its printed formulas
     input_power : power of the shaft, W
     input_speed : speed of the shaft, rad/s
-    samples_per_cycle : int
-        Samples while an element takes its neighbour's place: a cycle, of which a revolution has Z2 + 1.
+    samples_per_cycle : samples while an element takes its neighbour's place: a cycle, of which a revolution
+        has Z2 + 1
     """
 
     mode: Mode

@@ -172,13 +172,10 @@ def _mixed(
 
     Parameters
     ----------
-    given : LawInput
     limiting_share, peclet_sliding, viscosity_pressure_factor
         As in `MixedFriction`.
-    heat_capacity : bool
-        Whether the Péclet numbers contain ρ_s c_p of the solids, as they must to be numbers.
-    lubricant_heat : bool
-        Whether the density in them is the lubricant's.
+    heat_capacity : whether the Péclet numbers contain ρ_s c_p of the solids, as they must to be numbers
+    lubricant_heat : whether the density in them is the lubricant's
     """
     surfaces, lubricant = given.surfaces, given.lubricant
     heat = [surfaces.pinion_heat_capacity, surfaces.gear_heat_capacity]

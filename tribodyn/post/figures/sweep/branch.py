@@ -49,18 +49,11 @@ class Branch(NamedTuple):
 
     Attributes
     ----------
-    record : SweepRecord
-    place : tuple
-        Of its cases in a dataset; a slice stands for the first parameter.
-    x : (n,)
-        The first parameter as engineers read it.
-    color : str
-    style : str or tuple
-        Line style: solid upwards and for single cases, dashed downwards.
-    label : str
-        What distinguishes it, except the direction.
-    direction : str
-        "up", "down" or "".
+    place : of its cases in a dataset; a slice stands for the first parameter
+    x : (n,); the first parameter as engineers read it
+    style : line style: solid upwards and for single cases, dashed downwards
+    label : what distinguishes it, except the direction
+    direction : "up", "down" or ""
     """
 
     record: SweepRecord
@@ -214,11 +207,8 @@ def draw_unstable(axes: Axes, drawn: Sequence[Branch], name: str, factor: float)
     Parameters
     ----------
     axes : Axes
-    drawn : sequence of Branch
-    name : str
-        Dataset over case, end and motion, and what else there is.
-    factor : float
-        From SI.
+    name : dataset over case, end and motion, and what else there is
+    factor : from SI
     """
     for branch in drawn:
         if name not in branch.record:

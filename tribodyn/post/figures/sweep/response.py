@@ -45,9 +45,7 @@ def panels_of(records: Sequence[SweepRecord], quantities: Sequence[Quantity]) ->
 
     Parameters
     ----------
-    records : sequence of SweepRecord
-    quantities : sequence of Quantity
-        Those that may be drawn; none: all, as the first record describes them.
+    quantities : those that may be drawn; none: all, as the first record describes them
     """
     quantities = quantities or [described(records[0], name) for name in records[0].figures]
     known = [one for one in quantities if all(one.name in record for record in records)]
@@ -68,9 +66,7 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
 
     Parameters
     ----------
-    records : sequence of SweepRecord
-    panels : sequence of Panel
-        At most `MOST_PANELS`.
+    panels : at most `MOST_PANELS`
     """
     if maps_of(records):
         return _maps(records[0], panels)

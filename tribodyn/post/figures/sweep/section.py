@@ -60,10 +60,8 @@ def poincare_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str
 
     Parameters
     ----------
-    records : sequence of SweepRecord
-    at : mapping
-        Parameter's name to value in SI, the nearest case is taken; those not named are chosen so that the
-        section has the most points, and the largest spread.
+    at : parameter's name to value in SI, the nearest case is taken; those not named are chosen so that the
+        section has the most points, and the largest spread
     """
     figure = new_figure(WIDTH * 0.75, 3.6)
     axes = figure.subplots()

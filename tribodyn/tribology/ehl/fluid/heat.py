@@ -137,8 +137,8 @@ def heated(
     Parameters
     ----------
     film : (x,), m
-    flow : (x, layer)
-        Of mass over the density at ambient pressure, per layer, m²/s; its sum is the same at every x.
+    flow : (x, layer); of mass over the density at ambient pressure, per layer, m²/s; its sum is the same at
+        every x
     made : (x, layer), heat of shear, W/m², at the temperatures `known`, K
     feedback : (x, layer), by how much less is made where the whole film is warmer, W/(m² K), ≥ 0
     guess : where the temperatures of the surfaces start
