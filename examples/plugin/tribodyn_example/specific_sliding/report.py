@@ -1,26 +1,20 @@
-"""Lines and sentences of a record's summary, and the figures that a sweep keeps."""
+"""Reported quantities and sentences of a record's summary; a sweep keeps the same."""
 
-from tribodyn.numerics.variable import Variable
-from tribodyn.post.report import Line, Lines
+from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import Record
 
-LINES: Lines = {
-    "Geometry": (Line("contact_ratio", "Contact ratio", form=".4f"),),
+REPORTED: Reported = {
+    "Geometry": (Quantity("contact_ratio", "Contact ratio", digits=".4f"),),
     "Sliding": (
-        Line("pinion_specific_sliding_min", "Minimum specific sliding, pinion"),
-        Line("gear_specific_sliding_min", "Minimum specific sliding, gear"),
-        Line("sliding_speed_max", "Maximum sliding speed", 1.0, "m/s"),
+        Quantity("pinion_specific_sliding_min", "Minimum specific sliding, pinion"),
+        Quantity("gear_specific_sliding_min", "Minimum specific sliding, gear"),
+        Quantity("sliding_speed_max", "Maximum sliding speed", "m/s"),
     ),
 }
 
-SWEPT: dict[str, Variable] = {
-    "contact_ratio": Variable((), "1", "transverse contact ratio"),
-    "pinion_specific_sliding_min": Variable((), "1", "minimum specific sliding of the pinion"),
-    "gear_specific_sliding_min": Variable((), "1", "minimum specific sliding of the gear"),
-    "sliding_speed_max": Variable((), "m/s", "maximum sliding speed"),
-}
+SWEPT = tuple(quantity for table in REPORTED.values() for quantity in table)
 
 
 def sentences(record: Record) -> list[str]:
-    """Say what the figures leave out."""
+    """Say what the quantities leave out."""
     return ["Rigid teeth on the theoretical path of contact: no load, no vibration."]
