@@ -22,7 +22,7 @@ CONDITIONS = ("kind", "mode", "operating", "lubricant", "friction", "bearings", 
 _PROSE = ("source", "assumptions")
 
 
-class Row(NamedTuple):
+class ComparedRow(NamedTuple):
     """One quantity of every record.
 
     Parameters
@@ -54,7 +54,7 @@ class Comparison(NamedTuple):
 
     labels: tuple[str, ...]
     titles: tuple[str, ...]
-    groups: dict[str, tuple[Row, ...]]
+    groups: dict[str, tuple[ComparedRow, ...]]
     conditions: dict[str, tuple[str, ...]]
     withheld: tuple[dict[str, str], ...] = ()
     warnings: tuple[tuple[str, ...], ...] = ()
@@ -79,7 +79,7 @@ def compare(records: Sequence[Record], reported: Reported) -> Comparison:
     groups = {}
     for heading, some in reported.items():
         with_loss = (*some, LOSS) if any(one.name == "efficiency" for one in some) else some
-        rows = (Row(one, tuple(summary.get(one.name) for summary in summaries)) for one in with_loss)
+        rows = (ComparedRow(one, tuple(summary.get(one.name) for summary in summaries)) for one in with_loss)
         groups[heading] = tuple(row for row in rows if any(value is not None for value in row.values))
     return Comparison(
         tuple(record.label for record in records),
@@ -202,7 +202,7 @@ def comparison_table(comparison: Comparison) -> Group:
     return Group(*parts)
 
 
-def _differences(row: Row) -> list[str]:
+def _differences(row: ComparedRow) -> list[str]:
     """Write how later records differ from the first: in per cent, or of shares in percentage points."""
     texts = []
     for value, relative in zip(row.values[1:], row.differences(), strict=True):

@@ -5,14 +5,14 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from tribodyn.scenario import units
-from tribodyn.scenario.quantity import Column, CurveTable, Quantity, Table, Text
+from tribodyn.scenario.quantity import Column, CurveTable, InUnit, Table, Text
 
-Torque = Annotated[float, Quantity(units.TORQUE)]
-Inertia = Annotated[float, Quantity(units.not_negative(units.INERTIA))]
-TorsionalDamping = Annotated[float, Quantity(units.not_negative(units.TORSIONAL_DAMPING))]
-Angle = Annotated[float, Quantity(units.ANGLE_KIND)]
-Error = Annotated[float, Quantity(units.LENGTH, "2 um")]
-Temperature = Annotated[float, Quantity(units.TEMPERATURE_KIND)]
+Torque = Annotated[float, InUnit(units.TORQUE)]
+Inertia = Annotated[float, InUnit(units.not_negative(units.INERTIA))]
+TorsionalDamping = Annotated[float, InUnit(units.not_negative(units.TORSIONAL_DAMPING))]
+Angle = Annotated[float, InUnit(units.ANGLE_KIND)]
+Error = Annotated[float, InUnit(units.LENGTH, "2 um")]
+Temperature = Annotated[float, InUnit(units.TEMPERATURE_KIND)]
 Slices = Annotated[int, Field(strict=True, ge=1, le=501)]
 Name = Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")]
 """A scenario's name, which also names its record."""

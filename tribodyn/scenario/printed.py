@@ -4,7 +4,7 @@ import re
 from decimal import Decimal
 from typing import Any, NamedTuple, cast
 
-from tribodyn.scenario.quantity import Quantity
+from tribodyn.scenario.quantity import InUnit
 
 _DIGITS = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)", re.ASCII)
 #: Rounding of a profile shift, at most: of two decimals. A number in TOML has lost the zeros at its end, so
@@ -19,7 +19,7 @@ class Printed(NamedTuple):
     rounding: float
 
 
-class PrintedQuantity(Quantity):
+class PrintedQuantity(InUnit):
     """Marks a field as written with a unit, whose digits count: "91.50 mm" is 91.5 ± 0.005 mm."""
 
     def read(self, value: Any) -> Any:

@@ -24,8 +24,8 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, defer_build=True)
 
 
-class Quantity:
-    """Marks a field as written with a unit: ``Annotated[float, Quantity(LENGTH)]`` reads "3 mm" as 0.003.
+class InUnit:
+    """Marks a field as written with a unit: ``Annotated[float, InUnit(LENGTH)]`` reads "3 mm" as 0.003.
 
     Parameters
     ----------

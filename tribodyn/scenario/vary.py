@@ -14,7 +14,7 @@ from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.bounds import LONGEST_KEY, broken_bounds
-from tribodyn.scenario.quantity import Draws, Quantity, Reference, Weighed, parts_of
+from tribodyn.scenario.quantity import Draws, InUnit, Reference, Weighed, parts_of
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.unit_grammar import is_unit
 from tribodyn.scenario.units import Kind, NotAQuantity, to_si
@@ -235,7 +235,7 @@ def kind_at(table: type[BaseModel], key: str) -> Any:
             return None
         parts = list(parts_of(fields[part]))
         references = [mark for mark in parts if isinstance(mark, Reference)]
-        kinds = [mark.kind for mark in parts if isinstance(mark, Quantity)]
+        kinds = [mark.kind for mark in parts if isinstance(mark, InUnit)]
         tables = [mark for mark in parts if isinstance(mark, type) and issubclass(mark, BaseModel)]
         last = part == key.rpartition(".")[2]
         place = next(iter(references if last and references else kinds or tables), None)

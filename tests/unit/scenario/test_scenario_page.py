@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.quantity import Column, Quantity, Reference, Table
+from tribodyn.scenario.quantity import Column, InUnit, Reference, Table
 from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies import STUDIES
 from tribodyn.tribology.film import FILM_LAWS
@@ -65,7 +65,7 @@ def test_a_key_is_described(table: str, key: str):
     field = TABLES[table].model_fields[key]
     meaning, value, default, _ = rows(table)[key]
     assert len(meaning) > 0
-    kinds = [quantity.kind.name for quantity in inside(field, Quantity)]
+    kinds = [quantity.kind.name for quantity in inside(field, InUnit)]
     if kinds and typing.get_origin(field.annotation) is tuple:
         assert value == f"list of {kinds[0]}s"
     elif kinds:

@@ -124,7 +124,7 @@ def _pointer(context, builder, array, value, kind, index):
 
 
 @of_operator(operator.getitem)
-class _GetItem(AbstractTemplate):
+class _GetLanes(AbstractTemplate):
     def generic(self, args, kws):
         array, index = args
         if not isinstance(array, ElementArrayType):

@@ -35,7 +35,7 @@ class Array(NamedTuple):
         return 1 + self.ndim * (1 if self.order == "C" else 2)
 
 
-class Record:
+class RecordLayout:
     """A named tuple: its name, and the layout of every field. One object for all that are equal.
 
     Get one from `record`.
@@ -56,7 +56,7 @@ class PackedValue(NamedTuple):
 
     Attributes
     ----------
-    layout : Numeric, Array, Record, FunctionLayout, or that of an object with its own method `as_argument`
+    layout : Numeric, Array, RecordLayout, FunctionLayout, or what an object makes of itself by `as_argument`
     value : what was packed
     """
 
@@ -71,9 +71,9 @@ _array = cache(Array)
 
 
 @cache
-def record(name: str, names: tuple[str, ...], layouts: tuple[Any, ...]) -> Record:
+def record(name: str, names: tuple[str, ...], layouts: tuple[Any, ...]) -> RecordLayout:
     """The layout of a named tuple."""
-    return Record(name, tuple(zip(names, layouts, strict=True)))
+    return RecordLayout(name, tuple(zip(names, layouts, strict=True)))
 
 
 def packed(value: Any) -> PackedValue:
@@ -127,7 +127,7 @@ def functions_in(layout: Any) -> Iterator[FunctionLayout]:
     """Go through the functions that a layout holds."""
     if isinstance(layout, FunctionLayout):
         yield layout
-    elif isinstance(layout, Record):
+    elif isinstance(layout, RecordLayout):
         for _, field in layout.fields:
             yield from functions_in(field)
 

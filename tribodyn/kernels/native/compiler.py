@@ -18,7 +18,7 @@ from numba.core.errors import NumbaError
 from numba.core.registry import cpu_target
 
 from tribodyn.errors import InputError
-from tribodyn.kernels.native.arguments import Record, functions_in
+from tribodyn.kernels.native.arguments import RecordLayout, functions_in
 from tribodyn.kernels.native.code import Compiled, KernelFunction
 from tribodyn.kernels.native.functions import register_laws
 from tribodyn.kernels.native.parts import FUSE, part_of
@@ -63,7 +63,7 @@ _C_FUNCTIONS = {
 
 # all of it under the lock: a thread that refreshes numba's tables hides types from one that compiles
 @global_compiler_lock
-def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
+def compiled(function: Callable[..., Any], layout: RecordLayout) -> Compiled:
     """Compile a function for arguments of a layout."""
     register_laws()
     kernel: Any = KernelFunction(function)
@@ -99,7 +99,7 @@ def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
     return Compiled(symbol, "".join(map(letter_of, numbers)), not several, library.needs(), library.body)
 
 
-def explained(error: NumbaError, layout: Record) -> Exception:
+def explained(error: NumbaError, layout: RecordLayout) -> Exception:
     """Say of an error of numba's in a function from outside this package what its author can do about it."""
     outside = [
         one for one in functions_in(layout) if not (one.function.__module__ or "").startswith("tribodyn.")

@@ -12,7 +12,7 @@ from numba.core.typing.templates import AttributeTemplate, infer_getattr
 from numba.extending import lower_getattr_generic, models, register_model
 from numba.np.arrayobj import populate_array
 
-from tribodyn.kernels.native.arguments import Array, Numeric, Record
+from tribodyn.kernels.native.arguments import Array, Numeric, RecordLayout
 from tribodyn.kernels.native.identity import FunctionLayout
 
 intrinsic = cast(Any, extending.intrinsic)
@@ -26,7 +26,7 @@ WORDS = types.CPointer(types.int64)
 class RecordType(types.Type):
     """Type of a block of words whose fields are read in place; `fields` gives their types and first words."""
 
-    def __init__(self, record: Record):
+    def __init__(self, record: RecordLayout):
         self.fields: dict[str, tuple[Any, int]] = {}
         words = 0
         for name, layout in record.fields:
@@ -44,7 +44,7 @@ class _RecordModel(models.OpaqueModel):
 
 def words_of(layout: Any) -> int:
     """Words that a value of a layout takes."""
-    if isinstance(layout, Record):
+    if isinstance(layout, RecordLayout):
         return sum(words_of(field) for _, field in layout.fields)
     return 1 if isinstance(layout, Numeric) else layout.words
 
@@ -54,7 +54,7 @@ _NUMBERS = {"float": types.float64, "int": types.int64, "bool": types.boolean}
 
 def type_of(layout: Any) -> Any:
     """Type of a layout to numba."""
-    if isinstance(layout, Record):
+    if isinstance(layout, RecordLayout):
         return RecordType(layout)
     if isinstance(layout, Array):
         return types.Array(numba.from_dtype(np.dtype(layout.dtype)), layout.ndim, layout.order)

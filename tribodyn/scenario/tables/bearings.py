@@ -10,10 +10,10 @@ from tribodyn.dynamics.data import BearingData
 from tribodyn.dynamics.rolling_bearing import ROLLERS, BearingType, RollingBearing, radial_stiffness
 from tribodyn.errors import InputError
 from tribodyn.scenario import units
-from tribodyn.scenario.quantity import Count, NotNegative, Quantity, Table, written
+from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, written
 from tribodyn.scenario.tables.model_files import Described
 
-Stiffness = Annotated[float, Quantity(units.positive(units.STIFFNESS))]
+Stiffness = Annotated[float, InUnit(units.positive(units.STIFFNESS))]
 #: Contact angle from which a bearing carries no radial load to speak of.
 MAXIMUM_CONTACT_ANGLE = math.radians(60.0)
 
@@ -23,16 +23,14 @@ class Rolling(Table):
 
     type: BearingType
     elements: Annotated[int, Field(strict=True, ge=3, le=1000)] = Field(description="rolling elements")
-    diameter: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
+    diameter: Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")] | None = Field(
         None, description="of a ball"
     )
-    length: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
+    length: Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")] | None = Field(
         None, description="effective, of a roller"
     )
-    contact_angle: Annotated[float, Quantity(units.not_negative(units.ANGLE_KIND), "15 deg")] = written(
-        "0 deg"
-    )
-    radial_load: Annotated[float, Quantity(units.positive(units.FORCE))] = Field(description="of one bearing")
+    contact_angle: Annotated[float, InUnit(units.not_negative(units.ANGLE_KIND), "15 deg")] = written("0 deg")
+    radial_load: Annotated[float, InUnit(units.positive(units.FORCE))] = Field(description="of one bearing")
     count: Count = Field(2, description="bearings that carry the shaft")
 
 

@@ -9,10 +9,10 @@ from pydantic import Field
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario import units
 from tribodyn.scenario.common import ScenarioHead, Temperature, Torque
-from tribodyn.scenario.quantity import Positive, Quantity, Table, Weighed
+from tribodyn.scenario.quantity import InUnit, Positive, Table, Weighed
 
-Speed = Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))]
-Power = Annotated[float, Quantity(units.POWER)]
+Speed = Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))]
+Power = Annotated[float, InUnit(units.POWER)]
 
 SPEEDS = ("pinion_speed", "gear_speed")
 LOADS = ("gear_torque", "pinion_torque", "power")

@@ -7,10 +7,10 @@ from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario import units
-from tribodyn.scenario.quantity import Count, Positive, Quantity, Table, written
+from tribodyn.scenario.quantity import Count, InUnit, Positive, Table, written
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, LossData
 
-Depth = Annotated[float, Quantity(units.not_negative(units.LENGTH), "20 mm")]
+Depth = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
 SIDES = ("pinion", "gear")
 
 
@@ -20,7 +20,7 @@ class BearingDrag(Table):
     type: Literal[
         "deep-groove-ball", "angular-contact-ball", "cylindrical-roller", "tapered-roller", "needle-roller"
     ]
-    mean_diameter: Annotated[float, Quantity(units.positive(units.LENGTH), "60 mm")] = Field(
+    mean_diameter: Annotated[float, InUnit(units.positive(units.LENGTH), "60 mm")] = Field(
         description="(bore + outside)/2"
     )
     drag_factor: Positive | None = Field(None, description="f_0; default: by type, in an oil bath (Harris)")
@@ -35,7 +35,7 @@ class LossesTable(Table):
     bearings: Literal["palmgren"] | None = Field(None, description="formula")
     pinion_immersion: Depth = written("0 mm", description="of its tip circle below the oil's level")
     gear_immersion: Depth = written("0 mm", description="of its tip circle below the oil's level")
-    oil_volume: Annotated[float, Quantity(units.positive(units.VOLUME))] | None = Field(
+    oil_volume: Annotated[float, InUnit(units.positive(units.VOLUME))] | None = Field(
         None, description='in the sump, of churning = "changenet-velex"'
     )
     pinion_bearings: BearingDrag | None = Field(None, description="of the pinion's shaft")

@@ -9,11 +9,11 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario import units
 from tribodyn.scenario.printed import Printed, PrintedQuantity
 from tribodyn.scenario.quantity import (
+    InUnit,
     Names,
     NotNegative,
     Number,
     Positive,
-    Quantity,
     Table,
     Text,
     model_file,
@@ -22,22 +22,22 @@ from tribodyn.scenario.quantity import (
 from tribodyn.scenario.tables.modification import Modification
 from tribodyn.tribology.oil import OilType
 
-Length = Annotated[float, Quantity(units.positive(units.LENGTH))]
-Angle = Annotated[float, Quantity(units.positive(units.ANGLE_KIND))]
-Mass = Annotated[float, Quantity(units.positive(units.MASS))]
-Inertia = Annotated[float, Quantity(units.positive(units.INERTIA))]
-Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE))]
-FaceWidth = Annotated[float, Quantity(units.positive(units.LENGTH), "20 mm")]
-Radius = Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")]
-KinematicViscosity = Annotated[float, Quantity(units.positive(units.KINEMATIC_VISCOSITY))]
-Diameter = Annotated[float, Quantity(units.positive(units.LENGTH), "30 mm")]
-Rounding = Annotated[float, Quantity(units.not_negative(units.LENGTH), "0.03 mm")]
-Allowance = Annotated[float, Quantity(units.DEVIATION, "-60 um")]
-Span = Annotated[float, Quantity(units.positive(units.LENGTH), "32.4 mm")]
-OverPins = Annotated[float, Quantity(units.positive(units.LENGTH), "83.2 mm")]
-Pin = Annotated[float, Quantity(units.positive(units.LENGTH), "5.25 mm")]
+Length = Annotated[float, InUnit(units.positive(units.LENGTH))]
+Angle = Annotated[float, InUnit(units.positive(units.ANGLE_KIND))]
+Mass = Annotated[float, InUnit(units.positive(units.MASS))]
+Inertia = Annotated[float, InUnit(units.positive(units.INERTIA))]
+Pressure = Annotated[float, InUnit(units.positive(units.PRESSURE))]
+FaceWidth = Annotated[float, InUnit(units.positive(units.LENGTH), "20 mm")]
+Radius = Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")]
+KinematicViscosity = Annotated[float, InUnit(units.positive(units.KINEMATIC_VISCOSITY))]
+Diameter = Annotated[float, InUnit(units.positive(units.LENGTH), "30 mm")]
+Rounding = Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.03 mm")]
+Allowance = Annotated[float, InUnit(units.DEVIATION, "-60 um")]
+Span = Annotated[float, InUnit(units.positive(units.LENGTH), "32.4 mm")]
+OverPins = Annotated[float, InUnit(units.positive(units.LENGTH), "83.2 mm")]
+Pin = Annotated[float, InUnit(units.positive(units.LENGTH), "5.25 mm")]
 Grade = Annotated[int, Field(strict=True, ge=1, le=11)]
-Roughness = Annotated[float, Quantity(units.positive(units.LENGTH), "0.5 um")]
+Roughness = Annotated[float, InUnit(units.positive(units.LENGTH), "0.5 um")]
 
 
 class Described(Table):
@@ -53,10 +53,10 @@ class Material(Described):
 
     youngs_modulus: Pressure
     poisson_ratio: Annotated[float, Field(strict=True, ge=0, lt=0.5)]
-    density: Annotated[float, Quantity(units.positive(units.DENSITY))]
-    thermal_conductivity: Annotated[float, Quantity(units.positive(units.CONDUCTIVITY))]
-    specific_heat: Annotated[float, Quantity(units.positive(units.SPECIFIC_HEAT))]
-    hardness: Annotated[float, Quantity(units.positive(units.PRESSURE), "7 GPa")] = Field(
+    density: Annotated[float, InUnit(units.positive(units.DENSITY))]
+    thermal_conductivity: Annotated[float, InUnit(units.positive(units.CONDUCTIVITY))]
+    specific_heat: Annotated[float, InUnit(units.positive(units.SPECIFIC_HEAT))]
+    hardness: Annotated[float, InUnit(units.positive(units.PRESSURE), "7 GPa")] = Field(
         description="Vickers hardness as a pressure"
     )
 
@@ -139,26 +139,26 @@ class Lubricant(Described):
     type: OilType | None = Field(None, description="base oil; needed with a data sheet")
     viscosity_40: KinematicViscosity | None = Field(None, description="kinematic, at 40 °C")
     viscosity_100: (
-        Annotated[float, Quantity(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
+        Annotated[float, InUnit(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
     ) = Field(None, description="kinematic, at 100 °C")
-    density_15: Annotated[float, Quantity(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = Field(
+    density_15: Annotated[float, InUnit(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = Field(
         None, description="at 15 °C"
     )
     asperity_friction: NotNegative | None = Field(None, description="f_c; default: by type")
     limiting_shear_coefficient: Positive | None = Field(None, description="Λ_lim; default: by type")
-    inlet_viscosity: Annotated[float, Quantity(units.positive(units.VISCOSITY))] | None = Field(
+    inlet_viscosity: Annotated[float, InUnit(units.positive(units.VISCOSITY))] | None = Field(
         None, description="dynamic; without a data sheet"
     )
-    pressure_viscosity: Annotated[float, Quantity(units.positive(units.PRESSURE_VISCOSITY))] | None = Field(
+    pressure_viscosity: Annotated[float, InUnit(units.positive(units.PRESSURE_VISCOSITY))] | None = Field(
         None, description="default: by type and viscosity"
     )
     viscosity_pressure_index: Positive | None = Field(
         None, description="z of Roelands' law; default: from pressure_viscosity and viscosity"
     )
-    temperature_viscosity: Annotated[float, Quantity(units.not_negative(units.PER_KELVIN))] | None = Field(
+    temperature_viscosity: Annotated[float, InUnit(units.not_negative(units.PER_KELVIN))] | None = Field(
         None, description="default: slope of the viscosity over temperature"
     )
-    density: Annotated[float, Quantity(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
+    density: Annotated[float, InUnit(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
         None, description="at the oil's temperature; default: from density_15"
     )
     load_exponent: NotNegative | None = Field(
@@ -178,6 +178,6 @@ class Lubricant(Described):
     fzg_micropitting_stage: Annotated[int, Field(strict=True, ge=5, le=11)] | None = Field(
         None, description="failure load stage of the FZG micropitting test C-GF/8.3"
     )
-    fzg_micropitting_temperature: Annotated[float, Quantity(units.TEMPERATURE_KIND, "90 degC")] = written(
+    fzg_micropitting_temperature: Annotated[float, InUnit(units.TEMPERATURE_KIND, "90 degC")] = written(
         "90 degC", description="oil temperature of that test"
     )

@@ -7,10 +7,10 @@ from pydantic import Field
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Relief
 from tribodyn.scenario import units
 from tribodyn.scenario.common import ErrorCurve
-from tribodyn.scenario.quantity import NotNegative, Quantity, Switch, Table, csv_file, written
+from tribodyn.scenario.quantity import InUnit, NotNegative, Switch, Table, csv_file, written
 
-Amount = Annotated[float, Quantity(units.not_negative(units.RELIEF))]
-Extent = Annotated[float, Quantity(units.positive(units.LENGTH))]
+Amount = Annotated[float, InUnit(units.not_negative(units.RELIEF))]
+Extent = Annotated[float, InUnit(units.positive(units.LENGTH))]
 Shape = Literal["linear", "parabolic"]
 
 _EXPONENT = {"linear": 1.0, "parabolic": 2.0}
@@ -31,7 +31,7 @@ class Modification(Table):
     root_relief_shape: Shape = "linear"
     lead_relief_start: Amount = written("0 um", description="at one end of the face, parabolic")
     lead_relief_end: Amount = written("0 um", description="at the other end")
-    lead_unmodified: Annotated[float, Quantity(units.not_negative(units.LENGTH))] = written(
+    lead_unmodified: Annotated[float, InUnit(units.not_negative(units.LENGTH))] = written(
         "0 mm", description="straight part of the face between the two, in its middle"
     )
     crowning: Amount | None = Field(
@@ -45,7 +45,7 @@ class Modification(Table):
         | None
     ) = Field(None, description="positive where material is missing")
     pitch_errors: Annotated[
-        tuple[Annotated[float, Quantity(units.DEVIATION)], ...], csv_file("error", as_list=True)
+        tuple[Annotated[float, InUnit(units.DEVIATION)], ...], csv_file("error", as_list=True)
     ] = Field((), description="one per tooth, positive where material is missing")
     both_flanks: Switch = Field(
         False, description="whether reliefs, crowning and profile error are on the back flanks too"
@@ -55,10 +55,10 @@ class Modification(Table):
 class MisalignmentTable(Table):
     """Angles between the axes of the gears."""
 
-    in_plane: Annotated[float, Quantity(units.SMALL_ANGLE)] = written(
+    in_plane: Annotated[float, InUnit(units.SMALL_ANGLE)] = written(
         "0 arcmin", description="within the plane of action"
     )
-    out_of_plane: Annotated[float, Quantity(units.SMALL_ANGLE)] = written(
+    out_of_plane: Annotated[float, InUnit(units.SMALL_ANGLE)] = written(
         "0 arcmin", description="perpendicular to the plane of action"
     )
     from_quality: NotNegative = Field(

@@ -7,11 +7,11 @@ from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario import units
-from tribodyn.scenario.quantity import Positive, Quantity, Table, written
+from tribodyn.scenario.quantity import InUnit, Positive, Table, written
 from tribodyn.scenario.tables.model_files import Lubricant
 from tribodyn.tribology.bulk_temperature import Lubrication, TemperatureData
 
-Conductance = Annotated[float, Quantity(units.not_negative(units.CONDUCTANCE))]
+Conductance = Annotated[float, InUnit(units.not_negative(units.CONDUCTANCE))]
 _NETWORK = ("pinion_oil", "gear_oil", "oil_flow", "oil_housing", "housing_ambient", "ambient_temperature")
 _ESTIMATE = {"lubrication": "dip", "tip_relief_factor": 1.0}
 
@@ -26,12 +26,12 @@ class TemperatureTable(Table):
     tip_relief_factor: Positive = Field(1.0, description='X_Ca, of model = "iso"')
     pinion_oil: Conductance | None = Field(None, description="from the pinion's teeth to the oil")
     gear_oil: Conductance | None = Field(None, description="from the gear's teeth to the oil")
-    oil_flow: Annotated[float, Quantity(units.positive(units.VOLUME_FLOW))] | None = Field(
+    oil_flow: Annotated[float, InUnit(units.positive(units.VOLUME_FLOW))] | None = Field(
         None, description="of oil that enters at operating.oil_temperature and leaves"
     )
     oil_housing: Conductance | None = Field(None, description="from the oil to the housing")
     housing_ambient: Conductance | None = Field(None, description="from the housing to ambient")
-    ambient_temperature: Annotated[float, Quantity(units.TEMPERATURE_KIND, "25 degC")] = written("20 degC")
+    ambient_temperature: Annotated[float, InUnit(units.TEMPERATURE_KIND, "25 degC")] = written("20 degC")
 
 
 def temperature_of(table: TemperatureTable | None) -> TemperatureData | None:

@@ -10,9 +10,9 @@ from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Temperature
 from tribodyn.scenario.quantity import (
+    InUnit,
     NotNegative,
     Positive,
-    Quantity,
     Switch,
     Table,
     Text,
@@ -32,8 +32,8 @@ from tribodyn.tribology.friction import FRICTION_LAWS
 
 Speeds = Annotated[int, Field(strict=True, ge=8)]
 Samples = Annotated[int, Field(strict=True, ge=0, le=1000)]
-Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE), "1.5 GPa")]
-Length = Annotated[float, Quantity(units.positive(units.LENGTH), "5 um")]
+Pressure = Annotated[float, InUnit(units.positive(units.PRESSURE), "1.5 GPa")]
+Length = Annotated[float, InUnit(units.positive(units.LENGTH), "5 um")]
 
 
 class AssessmentOperating(OperatingTable):

@@ -25,8 +25,8 @@ from tribodyn.scenario.common import (
 )
 from tribodyn.scenario.quantity import (
     Count,
+    InUnit,
     NotNegative,
-    Quantity,
     Table,
     Text,
     csv_file,
@@ -58,14 +58,14 @@ from tribodyn.studies.gears.scenario import (
 #: Cosines in a load or an error: a curve is given by points.
 MOST_HARMONICS = 1000
 
-Smoothing = Annotated[float, Quantity(units.positive(units.LENGTH), "0.1 um")]
+Smoothing = Annotated[float, InUnit(units.positive(units.LENGTH), "0.1 um")]
 
 
 class TorqueHarmonic(Table):
     """A cosine in the load torque."""
 
     amplitude: Torque
-    frequency: Annotated[float, Quantity(units.positive(units.ANGULAR_FREQUENCY))]
+    frequency: Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY))]
     phase: Angle = written("0 deg")
 
 
@@ -94,7 +94,7 @@ class Operating(OiledOperatingTable):
         "0 N*m*s/rad", description="load that grows with speed above nominal"
     )
     drive_inertia: Inertia = written("0 kg*m**2", description="of the motor")
-    shaft_stiffness: Annotated[float, Quantity(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
+    shaft_stiffness: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
         None, description="between motor and pinion; default: rigid"
     )
     shaft_damping: TorsionalDamping = written("0 N*m*s/rad")
@@ -151,7 +151,7 @@ class Mesh(Table):
         "classical", description="whether the varying stiffness acts on the rotations"
     )
     contact_width: Smoothing = written("0.1 um", description="deflection over which contact sets in")
-    backlash: Annotated[float, Quantity(units.not_negative(units.LENGTH), "0.1 mm")] | None = Field(
+    backlash: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.1 mm")] | None = Field(
         None, description="normal backlash at the pitch point; default: the drive's, see there"
     )
     points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from tribodyn.errors import InputError
 from tribodyn.scenario import units
-from tribodyn.scenario.quantity import Count, NotNegative, Quantity, Table, written
+from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.scenario.tables.modification import MisalignmentTable
 from tribodyn.studies.gears.case import LubricatedCase
@@ -26,7 +26,7 @@ from tribodyn.studies.gears.scenario import (
 )
 from tribodyn.studies.load_contact.case import LoadContactCase
 
-Load = Annotated[float, Quantity(units.positive(units.TORQUE))]
+Load = Annotated[float, InUnit(units.positive(units.TORQUE))]
 
 
 class LoadContactOperating(OiledOperatingTable):

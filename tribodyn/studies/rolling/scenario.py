@@ -7,7 +7,7 @@ from pydantic import Field
 
 from tribodyn.scenario import units
 from tribodyn.scenario.common import ScenarioHead, head_of
-from tribodyn.scenario.quantity import NotNegative, Positive, Quantity, Table, model_file, written
+from tribodyn.scenario.quantity import InUnit, NotNegative, Positive, Table, model_file, written
 from tribodyn.scenario.tables.model_files import Described
 from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.studies.rolling.engagement import Mode, RollingFriction
@@ -17,7 +17,7 @@ from tribodyn.studies.rolling.geometry import RollingDrive
 class RollingDriveTable(Described):
     """A gear with rolling elements (`models/drives/`)."""
 
-    pitch_radius: Annotated[float, Quantity(units.positive(units.LENGTH), "20 mm")] = Field(
+    pitch_radius: Annotated[float, InUnit(units.positive(units.LENGTH), "20 mm")] = Field(
         description='r_2, of the cage\'s pitch circle, the "generating circle"'
     )
     elements: Annotated[int, Field(strict=True, gt=0, le=200)] = Field(
@@ -26,22 +26,20 @@ class RollingDriveTable(Described):
     displacement: Positive = Field(
         description="χ, radius of the circle of the elements' centres over pitch_radius"
     )
-    element_radius: Annotated[float, Quantity(units.positive(units.LENGTH), "2 mm")] = Field(
-        description="r_b"
-    )
+    element_radius: Annotated[float, InUnit(units.positive(units.LENGTH), "2 mm")] = Field(description="r_b")
 
 
 class RollingOperating(Table):
     """How the shaft is driven."""
 
-    input_power: Annotated[float, Quantity(units.positive(units.POWER))]
-    input_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))]
+    input_power: Annotated[float, InUnit(units.positive(units.POWER))]
+    input_speed: Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))]
 
 
 class RollingFrictionTable(Table):
     """Friction between the elements and both profiles."""
 
-    rolling_arm: Annotated[float, Quantity(units.not_negative(units.LENGTH), "0.01 mm")] = Field(
+    rolling_arm: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.01 mm")] = Field(
         description="μ, lever arm of rolling resistance"
     )
     sliding_coefficient: NotNegative = Field(description="f_s, of the slip over the cam")

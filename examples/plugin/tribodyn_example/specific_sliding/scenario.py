@@ -9,7 +9,7 @@ from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Name
-from tribodyn.scenario.quantity import Quantity, Table, Text, model_file, written
+from tribodyn.scenario.quantity import InUnit, Table, Text, model_file, written
 from tribodyn.scenario.tables.drive_data import drive_of, materials_of
 from tribodyn.scenario.tables.model_files import DriveTable
 from tribodyn.studies.protocol.study import CaseHead
@@ -42,7 +42,7 @@ class SlidingCase(CaseHead):
 class SlidingOperating(Table):
     """At which speed."""
 
-    pinion_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))]
+    pinion_speed: Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))]
 
 
 class SlidingOutput(Table):
