@@ -101,7 +101,11 @@ def processor_time(process: str = "self") -> float:
     own = sum(map(int, stat.rpartition(")")[2].split()[11:15])) / os.sysconf(
         "SC_CLK_TCK"
     )  # with ended children
-    below = [_content(file) for file in Path(f"/proc/{process}/task").glob("*/children")]
+    try:
+        threads = os.listdir(f"/proc/{process}/task")
+    except OSError:  # it ended in between
+        threads = []
+    below = [_content(Path(f"/proc/{process}/task/{thread}/children")) for thread in threads]
     return own + sum(processor_time(child) for child in " ".join(below).split())
 
 
