@@ -5,14 +5,13 @@ deflections with the load of the most loaded element, 5 F/(Z cos α), without pr
 """
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal
 
 from tribodyn.numerics.elementary import cos, exp, log
 
 BearingType = Literal[
     "deep-groove-ball", "angular-contact-ball", "cylindrical-roller", "tapered-roller", "needle-roller"
 ]
-BEARING_TYPES: tuple[BearingType, ...] = get_args(BearingType)
 #: Of those with line contact.
 ROLLERS = ("cylindrical-roller", "tapered-roller", "needle-roller")
 

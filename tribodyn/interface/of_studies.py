@@ -47,7 +47,6 @@ def _function(verb: "Verb") -> Callable[..., Any]:
     def answer(source: Source, overrides: Mapping[str, Any] | None = None, **options: Any) -> "Finding":
         return verb.function(scenario(source, overrides), **options)
 
-    function = answer if verb.answers else run
     function = wraps(verb.function)(answer if verb.answers else run)
     own = [
         parameter.replace(annotation=getattr(parameter.annotation, "__origin__", parameter.annotation))

@@ -1,4 +1,4 @@
-"""The scatter of a figure over samples."""
+"""The scatter of a quantity over samples."""
 
 import warnings
 from typing import Any

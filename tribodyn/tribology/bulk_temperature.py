@@ -15,7 +15,6 @@ TOLERANCE = 0.01
 STEPS, FARTHEST, LEAST_WEIGHT = 100, 40.0, 0.02
 
 
-BulkModel = Literal["oil", "iso", "network"]
 Lubrication = Literal["dip", "spray", "submerged"]
 
 
