@@ -17,21 +17,13 @@ class InputError(Exception):
     """Input that cannot be used; the command line prints it and exits with status 2.
 
     Physics raises it without `file`; the scenario layer adds the file's name and the full key.
-
-    Parameters
-    ----------
-    key : where the value stands, dotted: ``drive.pinion.profile_shift``
-    value : what was given, or None where the key is missing
-    rule : what is wrong with it, or which rule it breaks
-    remedy : what to write instead
-    file : the file that the key stands in
     """
 
-    key: str
-    value: object = None
-    rule: str = ""
-    remedy: str = ""
-    file: str = ""
+    key: str  # where the value stands, dotted: ``drive.pinion.profile_shift``
+    value: object = None  # what was given, or None where the key is missing
+    rule: str = ""  # what is wrong with it, or which rule it breaks
+    remedy: str = ""  # what to write instead
+    file: str = ""  # the file that the key stands in
 
     def moved(self, place: Callable[[str], str]) -> "InputError":
         """The same with another name for where the key stands, as a function of the old one."""
@@ -63,17 +55,10 @@ class InputErrors(InputError):
 
 @dataclass
 class SimulationError(Exception):
-    """A simulation that could not go on; what it has is kept and the exit status is 3.
+    """A simulation that could not go on; what it has is kept and the exit status is 3."""
 
-    Parameters
-    ----------
-    reason : why, in a sentence that the user can act on
-    time : float, optional
-        Simulated time reached, s; none where time is not simulated.
-    """
-
-    reason: str
-    time: float | None = None
+    reason: str  # why, in a sentence that the user can act on
+    time: float | None = None  # float, optional Simulated time reached, s; none where time is not simulated.
 
     def __str__(self) -> str:
         return self.reason if self.time is None else f"stopped at t = {self.time:.6g} s: {self.reason}"
@@ -81,18 +66,11 @@ class SimulationError(Exception):
 
 @dataclass
 class OutputError(Exception):
-    """Results that the system does not take, as on a full disk; the exit status is 3.
+    """Results that the system does not take, as on a full disk; the exit status is 3."""
 
-    Parameters
-    ----------
-    file : what could not be written
-    reason : why, in the system's words
-    kept : what there is of the results, and where
-    """
-
-    file: str
-    reason: str
-    kept: str = ""
+    file: str  # what could not be written
+    reason: str  # why, in the system's words
+    kept: str = ""  # what there is of the results, and where
 
     def __str__(self) -> str:
         return f"{self.file}: cannot be written: {self.reason}" + (f"; {self.kept}" if self.kept else "")

@@ -51,21 +51,16 @@ _FURTHEST_MEETING = 10.0
 
 
 class ToothCompliance(NamedTuple):
-    """Deflection of one tooth and its body along the load, per newton; arrays like r.
+    """Deflection of one tooth and its body along the load, per newton; arrays like r."""
 
-    Parameters
-    ----------
-    bending, shear, axial : strain energy of the beam, m/N
-    foundation : body under the tooth, alone on it, m/N
-    root_load : (..., 3); load on the root circle per unit normal load, (N, T, M/root radius) in the sense of
-        `foundation`, up to a common sign, with the body turned over so that the loaded flank lies
-        counter-clockwise
-    """
-
+    #: bending, shear, axial: strain energy of the beam, m/N
     bending: PerContact
     shear: PerContact
     axial: PerContact
-    foundation: PerContact
+    foundation: PerContact  # body under the tooth, alone on it, m/N
+    #: (..., 3); load on the root circle per unit normal load, (N, T, M/root radius) in the sense of
+    #: `foundation`, up to a common sign, with the body turned over so that the loaded flank lies counter-
+    #: clockwise
     root_load: Float[Array, "*contact 3"]
 
     @property
@@ -118,25 +113,16 @@ def beam_compliance(
 
 
 class LoadedTooth(NamedTuple):
-    """A tooth with what its compliance needs to know of the drive; made once by `loaded_tooth`.
+    """A tooth with what its compliance needs to know of the drive; made once by `loaded_tooth`."""
 
-    Parameters
-    ----------
-    tooth : as its rack cuts it
-    path : working path, seen from the body
-    pitch_half_angle, root_half_angle : half thickness angle on the working pitch circle and on the root
-        circle, rad
-    body : bore and face width
-    side : {"pinion", "gear"}
-        Which of the two.
-    """
-
-    tooth: Tooth
-    path: Any
+    tooth: Tooth  # as its rack cuts it
+    path: Any  # working path, seen from the body
+    #: pitch_half_angle, root_half_angle: half thickness angle on the working pitch circle and on the root
+    #: circle, rad
     pitch_half_angle: Any
     root_half_angle: Any
-    body: GearBody
-    side: Side
+    body: GearBody  # bore and face width
+    side: Side  # {"pinion", "gear"} Which of the two.
 
 
 def loaded_tooth(assembly: Assembly, side: Side) -> LoadedTooth:

@@ -33,48 +33,32 @@ _RIM_HEIGHTS = 1.2
 
 
 class ReferencePair(NamedTuple):
-    """What the reference stiffness depends on; pairs are (gear with fewer teeth, gear with more).
+    """What the reference stiffness depends on; pairs are (gear with fewer teeth, gear with more)."""
 
-    Parameters
-    ----------
-    teeth, profile_shift, dedendum : numbers of teeth; shifts and dedenda of the rack, in (normal) modules
-    pressure_angle : of the rack, in the normal section, rad
-    contact_ratio : ε_α, transverse
-    line_load : F_t K_A/b on the reference circle, N/m
-    youngs_modulus : Pa
-    helix_angle : β at the reference circle, rad
-    blank : C_R, see `blank_factor`; 1 for solid discs
-    """
-
+    #: teeth, profile_shift, dedendum: numbers of teeth; shifts and dedenda of the rack, in (normal) modules
     teeth: tuple[float, float]
     profile_shift: tuple[float, float]
     dedendum: tuple[float, float]
-    pressure_angle: float
-    contact_ratio: float
-    line_load: float
-    youngs_modulus: tuple[float, float] = (STEEL_MODULUS, STEEL_MODULUS)
-    helix_angle: float = 0.0
-    blank: float = 1.0
+    pressure_angle: float  # of the rack, in the normal section, rad
+    contact_ratio: float  # ε_α, transverse
+    line_load: float  # F_t K_A/b on the reference circle, N/m
+    youngs_modulus: tuple[float, float] = (STEEL_MODULUS, STEEL_MODULUS)  # Pa
+    helix_angle: float = 0.0  # β at the reference circle, rad
+    blank: float = 1.0  # C_R, see `blank_factor`; 1 for solid discs
 
 
 class ReferenceStiffness(NamedTuple):
-    """Stiffness per face width, in Pa = N/(m m), and its factors; 1 N/(mm µm) is 1 GPa.
+    """Stiffness per face width, in Pa = N/(m m), and its factors; 1 N/(mm µm) is 1 GPa."""
 
-    Attributes
-    ----------
-    theoretical : c'_th, maximum stiffness of a single pair of steel, from theory
-    correction, blank, rack, material, load : C_M, C_R, C_B, E/E_St, and the reduction at low loads
-    single_pair : c' = c'_th cos β times the factors
-    mesh, mesh_face : c_γα, mean over the mesh cycle, and c_γβ for the face load factor
-    """
-
-    theoretical: float
+    theoretical: float  # c'_th, maximum stiffness of a single pair of steel, from theory
+    #: correction, blank, rack, material, load: C_M, C_R, C_B, E/E_St, and the reduction at low loads
     correction: float
     blank: float
     rack: float
     material: float
     load: float
-    single_pair: float
+    single_pair: float  # c' = c'_th cos β times the factors
+    #: mesh, mesh_face: c_γα, mean over the mesh cycle, and c_γβ for the face load factor
     mesh: float
     mesh_face: float
 

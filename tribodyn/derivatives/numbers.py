@@ -31,18 +31,11 @@ _OF_MATERIAL = (
 
 
 class Number(NamedTuple):
-    """A number of a case.
+    """A number of a case."""
 
-    Parameters
-    ----------
-    value : SI
-    unit : SI unit, "1" for plain numbers
-    put : (case, value) -> the case with another value, which may be traced
-    """
-
-    value: float
-    unit: str
-    put: Callable[[Any, Any], Any]
+    value: float  # SI
+    unit: str  # SI unit, "1" for plain numbers
+    put: Callable[[Any, Any], Any]  # (case, value) -> the case with another value, which may be traced
 
 
 def numbers_of(case: Any, schema: type[BaseModel]) -> dict[str, Number]:

@@ -26,16 +26,10 @@ from tribodyn.tribology.surface_state import SurfaceState
 
 
 class Fixed(NamedTuple):
-    """What does not change with the numbers.
+    """What does not change with the numbers."""
 
-    Parameters
-    ----------
-    pairs : pairs in contact at most
-    vanishing : whether radius and rolling speeds are zero at the pitch point
-    """
-
-    pairs: int
-    vanishing: bool
+    pairs: int  # pairs in contact at most
+    vanishing: bool  # whether radius and rolling speeds are zero at the pitch point
 
 
 class PairEvaluation:
@@ -99,24 +93,15 @@ class PairEvaluation:
 
 
 class Differentiated(NamedTuple):
-    """A figure.
+    """A figure."""
 
-    Parameters
-    ----------
-    about : what it is
-    unit : SI
-    function : evaluation -> its value
-    needs : what the case must have beside its gears: "mesh", "operating", "friction"
-    at_pitch_point : whether it is a figure of the contact at the pitch point, which must then be a contact
-    limit : whether it is a distance from a limit of existence, positive where gears exist
-    """
-
-    about: str
-    unit: str
-    function: Callable[[PairEvaluation], Any]
-    needs: tuple[str, ...] = ()
+    about: str  # what it is
+    unit: str  # SI
+    function: Callable[[PairEvaluation], Any]  # evaluation -> its value
+    needs: tuple[str, ...] = ()  # what the case must have beside its gears: "mesh", "operating", "friction"
+    #: whether it is a figure of the contact at the pitch point, which must then be a contact
     at_pitch_point: bool = False
-    limit: bool = False
+    limit: bool = False  # whether it is a distance from a limit of existence, positive where gears exist
 
 
 def _centre_distance(at: PairEvaluation) -> Any:

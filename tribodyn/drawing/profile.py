@@ -15,17 +15,13 @@ HEADER = tuple(MARKS[".csv"].decode().strip().split(","))
 
 
 class ToothProfile(NamedTuple):
-    """One tooth from the middle of a gap to the middle of the next.
+    """One tooth from the middle of a gap to the middle of the next."""
 
-    Parameters
-    ----------
-    part : curve that each point belongs to: root, fillet, flank or tip; a point where two meet belongs to the
-        fillet, or to the flank at the tip
-    radius, angle : polar coordinates about the axis from the tooth's axis of symmetry, m and rad; the angle
-        grows
-    """
-
+    #: curve that each point belongs to: root, fillet, flank or tip; a point where two meet belongs to the
+    #: fillet, or to the flank at the tip
     part: list[str]
+    #: radius, angle: polar coordinates about the axis from the tooth's axis of symmetry, m and rad; the angle
+    #: grows
     radius: np.ndarray
     angle: np.ndarray
 

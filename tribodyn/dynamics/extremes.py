@@ -57,20 +57,13 @@ CAUTION, EVERY = 2.0, 4.0
 
 
 class Extremes(NamedTuple):
-    """Where motions are extreme; leading axes for the cases of a batch.
+    """Where motions are extreme; leading axes for the cases of a batch."""
 
-    Attributes
-    ----------
-    measure : (EXTREMES,); `LOWEST` where there is none
-    cycles : (EXTREMES,); mesh cycles since the start, whole and fraction
-    segment : (EXTREMES,); segment of the mesh cycle: at a boundary it says on which side
-    state : (EXTREMES, STATES)
-    """
-
-    measure: Float[Array, "*case extreme"]
-    cycles: Float[Array, "*case extreme"]
+    measure: Float[Array, "*case extreme"]  # (EXTREMES,); `LOWEST` where there is none
+    cycles: Float[Array, "*case extreme"]  # (EXTREMES,); mesh cycles since the start, whole and fraction
+    #: (EXTREMES,); segment of the mesh cycle: at a boundary it says on which side
     segment: Float[Array, "*case extreme"]
-    state: Float[Array, "*case extreme state"]
+    state: Float[Array, "*case extreme state"]  # (EXTREMES, STATES)
 
 
 def no_extremes(*cases: int) -> Extremes:

@@ -56,13 +56,9 @@ HERTZ_POWER_LAW = 1
 
 
 class Options(NamedTuple):
-    """What is switched: static for JAX; the native kernel is compiled for the laws and reads the integers.
+    """What is switched: static for JAX; the native kernel is compiled for the laws and reads the integers."""
 
-    Attributes
-    ----------
-    film, friction : functions of the laws in use
-    """
-
+    #: film, friction: functions of the laws in use
     film: FilmFunctions
     friction: FrictionFunctions
     sliding: int = SLIDING_DYNAMIC
@@ -128,17 +124,12 @@ class Mechanics(NamedTuple):
 
 
 class Model(NamedTuple):
-    """All that the right-hand side needs: numbers, and last what is switched.
-
-    Attributes
-    ----------
-    film, friction : NamedTuple
-        Parameters that the laws in use read; of the types that these define.
-    """
+    """All that the right-hand side needs: numbers, and last what is switched."""
 
     table: Any
     mechanics: Mechanics
     surfaces: Surfaces
+    #: film, friction: NamedTuple Parameters that the laws in use read; of the types that these define.
     film: Any
     friction: Any
     options: Options

@@ -22,25 +22,15 @@ _BALL, _ROLLER = 0.0325e6, 0.30e6
 
 @dataclass(frozen=True)
 class RollingBearing:
-    """A row of rolling elements under a radial load.
-
-    Attributes
-    ----------
-    elements : Z, number of rolling elements
-    diameter : D of a rolling element, m; of balls alone
-    length : l, effective length of a roller, m; of rollers alone
-    contact_angle : α, rad
-    radial_load : F_r of one bearing, N
-    count : bearings that carry the shaft, alike and equally loaded
-    """
+    """A row of rolling elements under a radial load."""
 
     type: BearingType
-    elements: int
-    diameter: float
-    length: float
-    contact_angle: float
-    radial_load: float
-    count: int
+    elements: int  # Z, number of rolling elements
+    diameter: float  # D of a rolling element, m; of balls alone
+    length: float  # l, effective length of a roller, m; of rollers alone
+    contact_angle: float  # α, rad
+    radial_load: float  # F_r of one bearing, N
+    count: int  # bearings that carry the shaft, alike and equally loaded
 
 
 def radial_stiffness(bearing: RollingBearing) -> float:

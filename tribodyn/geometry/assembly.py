@@ -26,14 +26,10 @@ _SAMPLES = 400
 
 @dataclass(frozen=True)
 class Assembly:
-    """Path, teeth and contact limits of a drive, each worked out once, when it is first needed.
+    """Path, teeth and contact limits of a drive, each worked out once, when it is first needed."""
 
-    Parameters
-    ----------
-    family, drive
-        What is put together; the drive's numbers may be traced. Lengths and angles are then tracers too.
-    """
-
+    #: family, drive: What is put together; the drive's numbers may be traced. Lengths and angles are then
+    #: tracers too.
     family: Family
     drive: Drive
 

@@ -11,53 +11,36 @@ Number = Any
 
 
 class GearBody(NamedTuple):
-    """One gear of the drive, external and spur.
+    """One gear of the drive, external and spur."""
 
-    Parameters
-    ----------
-    teeth : number of teeth
-    profile_shift : shift of the rack away from the axis, in modules (involute only)
-    addendum, dedendum : tooth height above and below the shifted reference line, in modules
-    fillet_radius : radius of the rack's rounded tip, in modules
-    face_width : width of the teeth along the axis, m
-    bore_radius : radius of the bore, m; 0 for a solid body
-    tip_radius : float, optional
-        Radius of the tip circle, m, where it is not r + (addendum + profile shift) × module.
-    thickness_allowance : deviation of the normal tooth thickness on the reference circle from that of teeth
-        which mesh without backlash, m; negative for thinner teeth (A_sn of ISO 21771)
-    tip_break : height below the tip circle at which the rounding of the tip leaves the flank, m
-    """
-
-    teeth: Number
-    profile_shift: Number
+    teeth: Number  # number of teeth
+    profile_shift: Number  # shift of the rack away from the axis, in modules (involute only)
+    #: addendum, dedendum: tooth height above and below the shifted reference line, in modules
     addendum: Number
     dedendum: Number
-    fillet_radius: Number
-    face_width: Number
-    bore_radius: Number
+    fillet_radius: Number  # radius of the rack's rounded tip, in modules
+    face_width: Number  # width of the teeth along the axis, m
+    bore_radius: Number  # radius of the bore, m; 0 for a solid body
+    #: float, optional Radius of the tip circle, m, where it is not r + (addendum + profile shift) × module.
     tip_radius: Number = None
+    #: deviation of the normal tooth thickness on the reference circle from that of teeth which mesh without
+    #: backlash, m; negative for thinner teeth (A_sn of ISO 21771)
     thickness_allowance: Number = 0.0
+    #: height below the tip circle at which the rounding of the tip leaves the flank, m
     tip_break: Number = 0.0
 
 
 class Drive(NamedTuple):
-    """A gear pair.
+    """A gear pair."""
 
-    Parameters
-    ----------
-    module : reference pitch diameter over number of teeth, m
-    pressure_angle : rad; of the rack for the involute, at the pitch point for every other family
-    pinion, gear : the driver and the driven gear
-    shape : what else the family's path needs: a NamedTuple of numbers and arrays that the family defines
-    centre_distance : float, optional
-        Between the axes, m, where it is not that of the mesh without backlash (involute only).
-    """
-
-    module: Number
-    pressure_angle: Number
+    module: Number  # reference pitch diameter over number of teeth, m
+    pressure_angle: Number  # rad; of the rack for the involute, at the pitch point for every other family
+    #: pinion, gear: the driver and the driven gear
     pinion: GearBody
     gear: GearBody
+    #: what else the family's path needs: a NamedTuple of numbers and arrays that the family defines
     shape: Any = ()
+    #: float, optional Between the axes, m, where it is not that of the mesh without backlash (involute only).
     centre_distance: Number = None
 
 
@@ -85,19 +68,13 @@ def tip_circle_radius(drive: Drive, side: Side) -> Number:
 
 
 class RackProfile(NamedTuple):
-    """Tooth of a basic rack, as the gear's own counterpart has it.
+    """Tooth of a basic rack, as the gear's own counterpart has it."""
 
-    Parameters
-    ----------
-    pressure_angle : rad
-    addendum, dedendum : h_aP and h_fP, modules
-    fillet_radius : ρ_fP of the root, which is the tip of the cutter, modules
-    """
-
-    pressure_angle: float
+    pressure_angle: float  # rad
+    #: addendum, dedendum: h_aP and h_fP, modules
     addendum: float
     dedendum: float
-    fillet_radius: float
+    fillet_radius: float  # ρ_fP of the root, which is the tip of the cutter, modules
 
 
 _ALPHA = math.radians(20.0)

@@ -5,26 +5,15 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class MaterialData:
-    """What a gear is made of.
+    """What a gear is made of."""
 
-    Parameters
-    ----------
-    name : name of the material's file, or its title
-    youngs_modulus : E, Pa
-    poisson_ratio : ν, 0 ≤ ν < 0.5
-    density : ρ of the solid, kg/m³
-    thermal_conductivity : K, W/(m K)
-    specific_heat : c_p, J/(kg K)
-    hardness : Vickers hardness as a pressure, Pa
-    """
-
-    name: str
-    youngs_modulus: float
-    poisson_ratio: float
-    density: float
-    thermal_conductivity: float
-    specific_heat: float
-    hardness: float
+    name: str  # name of the material's file, or its title
+    youngs_modulus: float  # E, Pa
+    poisson_ratio: float  # ν, 0 ≤ ν < 0.5
+    density: float  # ρ of the solid, kg/m³
+    thermal_conductivity: float  # K, W/(m K)
+    specific_heat: float  # c_p, J/(kg K)
+    hardness: float  # Vickers hardness as a pressure, Pa
 
 
 @dataclass(frozen=True)

@@ -62,33 +62,28 @@ class Path(Protocol):
 
 
 class Kinematics(NamedTuple):
-    """State of the contact at each signed distance; every field is shaped like r.
+    """State of the contact at each signed distance; every field is shaped like r."""
 
-    Parameters
-    ----------
-    signed_distance, pressure_angle : r (m) and α (rad)
-    pinion_normal_arm, gear_normal_arm : arms of the normal load about the axes, r_p cos α and r_g cos α, m
-    pinion_friction_arm, gear_friction_arm : arms of the friction force, r + r_p sin α and r_g sin α − r, m
-    pinion_curvature, gear_curvature : curvatures of the flanks, 1/m, convex > 0. Curvature and not radius,
-        because a radius is infinite where a flank is straight
-    relative_curvature : their sum, one over the equivalent radius, 1/m. Like the flanks' own it is huge but
-        finite where the equivalent radius vanishes: at the pitch point of a path whose pressure angle is zero
-        there.
-    pinion_speed, gear_speed : speeds of the contact along each flank, m per radian of pinion rotation
-    entrainment, sliding : half the sum and the difference of the two, m per radian
-    """
-
+    #: signed_distance, pressure_angle: r (m) and α (rad)
     signed_distance: PerContact
     pressure_angle: PerContact
+    #: pinion_normal_arm, gear_normal_arm: arms of the normal load about the axes, r_p cos α and r_g cos α, m
     pinion_normal_arm: PerContact
     gear_normal_arm: PerContact
+    #: pinion_friction_arm, gear_friction_arm: arms of the friction force, r + r_p sin α and r_g sin α − r, m
     pinion_friction_arm: PerContact
     gear_friction_arm: PerContact
+    #: pinion_curvature, gear_curvature: curvatures of the flanks, 1/m, convex > 0. Curvature and not radius,
+    #: because a radius is infinite where a flank is straight
     pinion_curvature: PerContact
     gear_curvature: PerContact
+    #: their sum, one over the equivalent radius, 1/m. Like the flanks' own it is huge but finite where the
+    #: equivalent radius vanishes: at the pitch point of a path whose pressure angle is zero there.
     relative_curvature: PerContact
+    #: pinion_speed, gear_speed: speeds of the contact along each flank, m per radian of pinion rotation
     pinion_speed: PerContact
     gear_speed: PerContact
+    #: entrainment, sliding: half the sum and the difference of the two, m per radian
     entrainment: PerContact
     sliding: PerContact
 

@@ -28,16 +28,10 @@ _ZERO_ANGLE = 1e-9
 
 
 class PitchPoint(NamedTuple):
-    """How radii and speeds vanish at the pitch point; both zero where they do not.
+    """How radii and speeds vanish at the pitch point; both zero where they do not."""
 
-    Parameters
-    ----------
-    length : M, m: the equivalent radius averaged over a contact at P is √(M a)
-    speed_per_radius : entrainment (m per rad of the pinion) over equivalent radius (m), the mean of both
-        sides of P, 1/rad
-    """
-
-    length: Any
+    length: Any  # M, m: the equivalent radius averaged over a contact at P is √(M a)
+    #: entrainment (m per rad of the pinion) over equivalent radius (m), the mean of both sides of P, 1/rad
     speed_per_radius: Any
 
 

@@ -34,49 +34,33 @@ FINEST, COARSEST = 0.01, 1.0
 
 @dataclass(frozen=True)
 class SolvedContact:
-    """A solved line contact; SI, arrays over the nodes of the film.
+    """A solved line contact; SI, arrays over the nodes of the film."""
 
-    Attributes
-    ----------
-    x : along the direction of entrainment, m; 0 on the line of centres. The film ends at the last,
-        between rough surfaces before it
-    pressure : of fluid and asperities together, Pa
-    asperity_pressure : mean pressure of the asperities, Pa; 0 between smooth surfaces
-    film_thickness : distance of the mean planes of the surfaces, m
-    temperature : mean over the film, K above the inlet's
-    surface_temperatures : of surfaces 1 and 2, K above the inlet's; (2, nodes)
-    shear_stress : τ_m, mean over the film, Pa
-    central_film_thickness : at x = 0, m
-    minimum_film_thickness : m
-    asperity_load_ratio : share of the load that the asperities carry
-    friction_coefficient
-        ∫ τ_m + f_c p_a dx over the load, τ_m the mean shear stress over the film; of the sign of
-        `sliding_speed`: where surface 1 is the faster one, the film holds it back and draws on surface 2.
-    rolling_coefficient : drag of the pressure flow on each surface over the load, ½ ∫ h dp/dx dx/w
-    hertz_pressure, half_width : of the dry contact, Pa, m
-    moes_load, moes_material : Moes' M and L, with the sum of the speeds
-    limits : what the result is not credible for, in sentences; empty within the laws' usual range
-    solution : the solution in Hertz's units, from which a similar contact can start
-    """
-
+    #: along the direction of entrainment, m; 0 on the line of centres. The film ends at the last, between
+    #: rough surfaces before it
     x: Array
-    pressure: Array
-    asperity_pressure: Array
-    film_thickness: Array
-    temperature: Array
-    surface_temperatures: Array
-    shear_stress: Array
-    central_film_thickness: float
-    minimum_film_thickness: float
-    asperity_load_ratio: float
+    pressure: Array  # of fluid and asperities together, Pa
+    asperity_pressure: Array  # mean pressure of the asperities, Pa; 0 between smooth surfaces
+    film_thickness: Array  # distance of the mean planes of the surfaces, m
+    temperature: Array  # mean over the film, K above the inlet's
+    surface_temperatures: Array  # of surfaces 1 and 2, K above the inlet's; (2, nodes)
+    shear_stress: Array  # τ_m, mean over the film, Pa
+    central_film_thickness: float  # at x = 0, m
+    minimum_film_thickness: float  # m
+    asperity_load_ratio: float  # share of the load that the asperities carry
+    #: ∫ τ_m + f_c p_a dx over the load, τ_m the mean shear stress over the film; of the sign of
+    #: `sliding_speed`: where surface 1 is the faster one, the film holds it back and draws on surface 2.
     friction_coefficient: float
-    rolling_coefficient: float
+    rolling_coefficient: float  # drag of the pressure flow on each surface over the load, ½ ∫ h dp/dx dx/w
+    #: hertz_pressure, half_width: of the dry contact, Pa, m
     hertz_pressure: float
     half_width: float
+    #: moes_load, moes_material: Moes' M and L, with the sum of the speeds
     moes_load: float
     moes_material: float
+    #: what the result is not credible for, in sentences; empty within the laws' usual range
     limits: tuple[str, ...]
-    solution: Solution
+    solution: Solution  # the solution in Hertz's units, from which a similar contact can start
 
     def plot(self, ax: "Axes | None" = None) -> "Figure":
         """Draw pressure and film over the contact.

@@ -35,26 +35,18 @@ class Loads(Protocol):
 
 
 class Contacts(NamedTuple):
-    """Contacts of pairs of teeth and the laws in use on them; arrays of one shape (…).
-
-    Attributes
-    ----------
-    face_width : m
-    radius, pinion_speed, gear_speed : m, and rolling speeds in m/s
-    side : sign of the sliding
-    vanishing : as `contact_friction` takes them
-    carrying : 1 where the pair may carry load, else 0
-    normal_arm, friction_arm : (2, …), arms of normal load and friction about pinion and gear, m
-    """
+    """Contacts of pairs of teeth and the laws in use on them; arrays of one shape (…)."""
 
     closure: Closure
-    face_width: Any
+    face_width: Any  # m
+    #: radius, pinion_speed, gear_speed: m, and rolling speeds in m/s
     radius: Any
     pinion_speed: Any
     gear_speed: Any
-    side: Any
-    vanishing: tuple[Any, Any]
-    carrying: Any
+    side: Any  # sign of the sliding
+    vanishing: tuple[Any, Any]  # as `contact_friction` takes them
+    carrying: Any  # 1 where the pair may carry load, else 0
+    #: normal_arm, friction_arm: (2, …), arms of normal load and friction about pinion and gear, m
     normal_arm: Any
     friction_arm: Any
 

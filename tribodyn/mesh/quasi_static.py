@@ -15,19 +15,15 @@ _STEPS, _DIFFERENTIATED = 14, 6
 
 
 class QuasiStatic(NamedTuple):
-    """State of the mesh at every node of the table.
+    """State of the mesh at every node of the table."""
 
-    Parameters
-    ----------
-    normal_load : (S, N, Q); load of each pair along its normal, N; 0 where it is not in contact or a gap
-        keeps it from touching
-    deflection : (S, N), r_p θ_p − r_g θ_g, by which the pinion is ahead of the gear on the pitch circles, m
-    mesh_stiffness : (S, N), force on the pitch circles over the part of the deflection that the load makes,
-        N/m: along the pitch tangent, all pairs together, secant where the Hertz contact is load-dependent
-    """
-
+    #: (S, N, Q); load of each pair along its normal, N; 0 where it is not in contact or a gap keeps it from
+    #: touching
     normal_load: Float[Array, "segment node pair"]
+    #: (S, N), r_p θ_p − r_g θ_g, by which the pinion is ahead of the gear on the pitch circles, m
     deflection: Float[Array, "segment node"]
+    #: (S, N), force on the pitch circles over the part of the deflection that the load makes, N/m: along the
+    #: pitch tangent, all pairs together, secant where the Hertz contact is load-dependent
     mesh_stiffness: Float[Array, "segment node"]
 
     @property
@@ -132,15 +128,10 @@ def cycle_integral(
 
 
 class SinglePair(NamedTuple):
-    """One pair at the pitch point.
+    """One pair at the pitch point."""
 
-    Attributes
-    ----------
-    normal_load : load along the normal, N
-    stiffness : dF/dδ along the normal, N/m; with a load-dependent Hertz contact the tangent at the load
-    """
-
-    normal_load: float
+    normal_load: float  # load along the normal, N
+    #: dF/dδ along the normal, N/m; with a load-dependent Hertz contact the tangent at the load
     stiffness: float
 
 

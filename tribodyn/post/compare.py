@@ -23,16 +23,10 @@ _PROSE = ("source", "assumptions")
 
 
 class ComparedRow(NamedTuple):
-    """One quantity of every record.
+    """One quantity of every record."""
 
-    Parameters
-    ----------
-    quantity : what it is and how it is written
-    values : SI, in the order of the records; None where a record lacks it
-    """
-
-    quantity: Quantity
-    values: tuple[Any, ...]
+    quantity: Quantity  # what it is and how it is written
+    values: tuple[Any, ...]  # SI, in the order of the records; None where a record lacks it
 
     def differences(self) -> tuple[float | None, ...]:
         """Relative difference of every later record from the first; None where it means nothing."""
@@ -41,23 +35,16 @@ class ComparedRow(NamedTuple):
 
 
 class Comparison(NamedTuple):
-    """Several records side by side.
+    """Several records side by side."""
 
-    Parameters
-    ----------
-    labels, titles : names of the records in table and legends, and titles of their scenarios
-    groups : heading -> rows
-    conditions : dotted key of the scenario -> what each record's says, for the keys in which they differ
-    withheld : of every record: name of a quantity that is withheld -> why
-    warnings : what every record warns of
-    """
-
+    #: labels, titles: names of the records in table and legends, and titles of their scenarios
     labels: tuple[str, ...]
     titles: tuple[str, ...]
-    groups: dict[str, tuple[ComparedRow, ...]]
+    groups: dict[str, tuple[ComparedRow, ...]]  # heading -> rows
+    #: dotted key of the scenario -> what each record's says, for the keys in which they differ
     conditions: dict[str, tuple[str, ...]]
-    withheld: tuple[dict[str, str], ...] = ()
-    warnings: tuple[tuple[str, ...], ...] = ()
+    withheld: tuple[dict[str, str], ...] = ()  # of every record: name of a quantity that is withheld -> why
+    warnings: tuple[tuple[str, ...], ...] = ()  # what every record warns of
 
 
 def compare(records: Sequence[Record], reported: Reported) -> Comparison:

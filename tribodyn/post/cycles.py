@@ -14,21 +14,12 @@ _SAME_PHASE = 1e-9
 
 
 class Window(NamedTuple):
-    """Whole mesh cycles of a record.
+    """Whole mesh cycles of a record."""
 
-    Attributes
-    ----------
-    part : slice
-        The samples, both ends of the cycles included.
-    phase : (samples,); phase in mesh cycles, 0 at the first of these cycles
-    time : (samples,); time, s, as recorded
-    samples_per_cycle : samples in one cycle
-    """
-
-    part: slice
-    phase: np.ndarray
-    time: np.ndarray
-    samples_per_cycle: int
+    part: slice  # slice The samples, both ends of the cycles included.
+    phase: np.ndarray  # (samples,); phase in mesh cycles, 0 at the first of these cycles
+    time: np.ndarray  # (samples,); time, s, as recorded
+    samples_per_cycle: int  # samples in one cycle
 
     @property
     def mesh_frequency(self) -> float:
@@ -37,16 +28,10 @@ class Window(NamedTuple):
 
 
 class KeyPoint(NamedTuple):
-    """A phase at which pairs enter, leave or pass the pitch point, named as Liu & Ni name the points.
+    """A phase at which pairs enter, leave or pass the pitch point, named as Liu & Ni name the points."""
 
-    Attributes
-    ----------
-    phase : 0 … 1, mesh cycles
-    names : number of the pair -> the point where it then is
-    """
-
-    phase: float
-    names: dict[int, str]
+    phase: float  # 0 … 1, mesh cycles
+    names: dict[int, str]  # number of the pair -> the point where it then is
 
 
 def samples_per_cycle(record: Record) -> int:

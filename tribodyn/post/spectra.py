@@ -11,16 +11,11 @@ import numpy as np
 
 
 class Spectrum(NamedTuple):
-    """One-sided amplitude spectrum.
+    """One-sided amplitude spectrum."""
 
-    Attributes
-    ----------
-    orders : (lines,); mesh orders: 1 is the mesh frequency
-    amplitudes : (lines,); amplitude of the cosine at each order, in the unit of the signal; at order 0 the
-        mean, with sign
-    """
-
-    orders: np.ndarray
+    orders: np.ndarray  # (lines,); mesh orders: 1 is the mesh frequency
+    #: (lines,); amplitude of the cosine at each order, in the unit of the signal; at order 0 the mean, with
+    #: sign
     amplitudes: np.ndarray
 
     def harmonics(self, count: int) -> np.ndarray:

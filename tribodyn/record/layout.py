@@ -22,25 +22,17 @@ LIBRARIES = ("numpy", "scipy", "numba", "jax", "diffrax", "h5py")
 
 
 class Head(NamedTuple):
-    """What is known of a run before it starts.
+    """What is known of a run before it starts."""
 
-    Attributes
-    ----------
-    kind : kind of study
-    scenario, sha256 : the resolved scenario as TOML, and its digest
-    groups : name of a group of the layout -> arrays and numbers by name
-    scales : values along the axes that the run does not go on along
-    code : see `schema.CODE`; empty: nothing goes on with such a record
-    """
-
-    kind: str
+    kind: str  # kind of study
     layout: Layout
+    #: scenario, sha256: the resolved scenario as TOML, and its digest
     scenario: str
     sha256: str
     created: datetime
-    groups: dict[str, dict[str, Any]]
-    scales: dict[str, Any]
-    code: str = ""
+    groups: dict[str, dict[str, Any]]  # name of a group of the layout -> arrays and numbers by name
+    scales: dict[str, Any]  # values along the axes that the run does not go on along
+    code: str = ""  # see `schema.CODE`; empty: nothing goes on with such a record
 
 
 class DataPlace(NamedTuple):
@@ -52,18 +44,11 @@ class DataPlace(NamedTuple):
 
 
 class LaidOut(NamedTuple):
-    """A file that is laid out and not yet written.
+    """A file that is laid out and not yet written."""
 
-    Attributes
-    ----------
-    content : all but what the datasets hold
-    blanks : that
-    places : where each dataset lies
-    """
-
-    content: Layered
-    blanks: list[Blank]
-    places: dict[str, DataPlace]
+    content: Layered  # all but what the datasets hold
+    blanks: list[Blank]  # that
+    places: dict[str, DataPlace]  # where each dataset lies
 
 
 def create(head: Head, samples: int) -> LaidOut:

@@ -48,18 +48,12 @@ DIRECTION = Variable(
 
 
 class SweepLayout(NamedTuple):
-    """What a sweep records of every case of a study.
+    """What a sweep records of every case of a study."""
 
-    Parameters
-    ----------
-    figures : datasets by name; their dimensions are those after the cases'
-    scales : name of such a dimension -> its scale and the values along it
-    attributes : what else the root says
-    """
-
-    figures: Mapping[str, Variable]
+    figures: Mapping[str, Variable]  # datasets by name; their dimensions are those after the cases'
+    #: name of such a dimension -> its scale and the values along it
     scales: Mapping[str, tuple[Variable, Any]] = MappingProxyType({})
-    attributes: Mapping[str, Any] = MappingProxyType({})
+    attributes: Mapping[str, Any] = MappingProxyType({})  # what else the root says
 
     @property
     def variables(self) -> dict[str, Variable]:

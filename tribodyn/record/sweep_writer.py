@@ -50,23 +50,16 @@ class ParameterScale(NamedTuple):
 
 
 class SweepHead(NamedTuple):
-    """What is known of a sweep before it starts.
+    """What is known of a sweep before it starts."""
 
-    Attributes
-    ----------
-    scenario, sha256 : the first case's scenario, resolved, and its digest
-    parameters : in the order of the dimensions
-    settings : everything else that the results depend on, as TOML: a sweep is taken up only with the same
-    directions : "up", "down"; none where every case is on its own
-    layout : what is recorded of every case
-    """
-
+    #: scenario, sha256: the first case's scenario, resolved, and its digest
     scenario: str
     sha256: str
-    parameters: tuple[ParameterScale, ...]
+    parameters: tuple[ParameterScale, ...]  # in the order of the dimensions
+    #: everything else that the results depend on, as TOML: a sweep is taken up only with the same
     settings: str
-    directions: tuple[str, ...]
-    layout: SweepLayout
+    directions: tuple[str, ...]  # "up", "down"; none where every case is on its own
+    layout: SweepLayout  # what is recorded of every case
 
     @property
     def dims(self) -> tuple[str, ...]:

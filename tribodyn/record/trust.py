@@ -24,20 +24,14 @@ NOT_JUDGED = -1
 
 
 class Excess(NamedTuple):
-    """How a result breaks a rule.
+    """How a result breaks a rule."""
 
-    Attributes
-    ----------
-    value, limit : the value that is furthest outside, and the limit; SI
-    share : share of the samples in which the rule is broken; None of a single number
-    places : where the value is: time (s), mesh_cycle, pair, …
-    """
-
+    #: value, limit: the value that is furthest outside, and the limit; SI
     value: float
     limit: float
     units: str
-    share: float | None
-    places: dict[str, float]
+    share: float | None  # share of the samples in which the rule is broken; None of a single number
+    places: dict[str, float]  # where the value is: time (s), mesh_cycle, pair, …
 
 
 class Judge:

@@ -7,27 +7,18 @@ import numpy as np
 
 
 class Rule(NamedTuple):
-    """What a model assumes of a quantity.
+    """What a model assumes of a quantity."""
 
-    Parameters
-    ----------
-    label : the quantity in words
-    most : above it a result lies outside the model; SI
-    about : why the limit is where it is
-    least : below it likewise
-    factor, unit, offset
-        From SI to what is shown, value · factor + offset, and the unit of that.
-    extrapolates : whether a result beyond the limit is extrapolated only, and not outside the model
-    """
-
-    label: str
-    most: float
+    label: str  # the quantity in words
+    most: float  # above it a result lies outside the model; SI
     units: str
-    about: str
-    least: float = -math.inf
+    about: str  # why the limit is where it is
+    least: float = -math.inf  # below it likewise
+    #: factor, unit, offset: From SI to what is shown, value · factor + offset, and the unit of that.
     factor: float = 1.0
     unit: str = ""
     offset: float = 0.0
+    #: whether a result beyond the limit is extrapolated only, and not outside the model
     extrapolates: bool = False
 
     def outside(self, values: np.ndarray) -> np.ndarray:

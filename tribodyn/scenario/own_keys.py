@@ -13,20 +13,12 @@ from tribodyn.scenario.quantity import Column
 
 
 class Owner(NamedTuple):
-    """Whose keys they are, and where they stand.
+    """Whose keys they are, and where they stand."""
 
-    Attributes
-    ----------
-    table : dotted key of the table: "drive.shape"
-    what : for messages: "family", "law"
-    parameters : the keys
-    others : keys of the same table that are not the owner's
-    """
-
-    table: str
-    what: str
-    parameters: tuple[Parameter, ...]
-    others: tuple[str, ...] = ()
+    table: str  # dotted key of the table: "drive.shape"
+    what: str  # for messages: "family", "law"
+    parameters: tuple[Parameter, ...]  # the keys
+    others: tuple[str, ...] = ()  # keys of the same table that are not the owner's
 
 
 def own_values(owner: Owner, given: Mapping[str, Any]) -> dict[str, Any]:

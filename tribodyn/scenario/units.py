@@ -14,20 +14,12 @@ from tribodyn.scenario.unit_grammar import COMMON_UNITS, LONGEST, RULE, decimal_
 
 
 class Kind(NamedTuple):
-    """A kind of quantity.
+    """A kind of quantity."""
 
-    Parameters
-    ----------
-    name : what it is called in messages: "length"
-    si : the SI unit it is converted to, as pint writes it
-    example : a good way to write one
-    allowed : "any", "not negative" or "positive"
-    """
-
-    name: str
-    si: str
-    example: str
-    allowed: str = "any"
+    name: str  # what it is called in messages: "length"
+    si: str  # the SI unit it is converted to, as pint writes it
+    example: str  # a good way to write one
+    allowed: str = "any"  # "any", "not negative" or "positive"
 
 
 class NotAQuantity(ValueError):

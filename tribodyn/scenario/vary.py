@@ -40,26 +40,16 @@ _BARE = re.compile(rf"\s*{_NUMBER}\s*", re.ASCII)
 
 
 class Axis(NamedTuple):
-    """One varied parameter.
+    """One varied parameter."""
 
-    Attributes
-    ----------
-    key : its dotted key in the scenario
-    name : the last part of the key, or as much of it as distinguishes the axes; names the record's dimension
-    written : the values as TOML would hold them
-    values : the values in SI, or the texts where they are no numbers
-    units : SI unit, "1" for plain numbers, "" for texts
-    drawn : whether the values number samples drawn at random
-    weighed : where the weights stand of tables that the values number
-    """
-
-    key: str
+    key: str  # its dotted key in the scenario
+    #: the last part of the key, or as much of it as distinguishes the axes; names the record's dimension
     name: str
-    written: tuple[Any, ...]
-    values: tuple[float, ...] | tuple[str, ...]
-    units: str
-    drawn: bool = False
-    weighed: Weighed | None = None
+    written: tuple[Any, ...]  # the values as TOML would hold them
+    values: tuple[float, ...] | tuple[str, ...]  # the values in SI, or the texts where they are no numbers
+    units: str  # SI unit, "1" for plain numbers, "" for texts
+    drawn: bool = False  # whether the values number samples drawn at random
+    weighed: Weighed | None = None  # where the weights stand of tables that the values number
 
     @property
     def numeric(self) -> bool:

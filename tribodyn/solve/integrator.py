@@ -40,52 +40,35 @@ MAX_STEPS = 1_000_000
 
 
 class March(NamedTuple):
-    """What to do, the same for all cases of a batch.
+    """What to do, the same for all cases of a batch."""
 
-    Attributes
-    ----------
-    first_cycle : whole mesh cycles done before; with the phase and the lag they give the time
-    cycles : mesh cycles to do
-    window : last cycles of which samples are kept
-    samples : samples in a mesh cycle
-    started : whether the states stand before the engagement at phase 0, as a march leaves them: not at the
-        start of a run
-    max_steps : steps, accepted ones, that one mesh cycle may take; a case that needs more fails. This is what
-        `solver.max_steps` means whatever the method.
-    extremes : whether extremes are sought, over the window
-    """
-
-    first_cycle: int
-    cycles: int
-    window: int
-    samples: int
+    first_cycle: int  # whole mesh cycles done before; with the phase and the lag they give the time
+    cycles: int  # mesh cycles to do
+    window: int  # last cycles of which samples are kept
+    samples: int  # samples in a mesh cycle
+    #: whether the states stand before the engagement at phase 0, as a march leaves them: not at the start of
+    #: a run
     started: bool
     rtol: float
+    #: steps, accepted ones, that one mesh cycle may take; a case that needs more fails. This is what
+    #: `solver.max_steps` means whatever the method.
     max_steps: int
-    extremes: bool = False
+    extremes: bool = False  # whether extremes are sought, over the window
 
 
 class IntegratedCycles(NamedTuple):
-    """A run of whole mesh cycles.
+    """A run of whole mesh cycles."""
 
-    Attributes
-    ----------
-    samples : states at phases k/samples_per_cycle, first one included, last one not; fewer on a failure
-    state : state at the end, before the next engagement
-    reached : mesh cycles done in this call
-    steps, evaluations : accepted steps, and evaluations of the right-hand side
-    message : the solver's own words, if any
-    extremes : of the dense motion; None where they were not sought
-    """
-
+    #: states at phases k/samples_per_cycle, first one included, last one not; fewer on a failure
     samples: Float[Array, "sample state"]
-    state: Float[Array, " state"]
+    state: Float[Array, " state"]  # state at the end, before the next engagement
     status: Status
-    reached: float
+    reached: float  # mesh cycles done in this call
+    #: steps, evaluations: accepted steps, and evaluations of the right-hand side
     steps: int
     evaluations: int
-    message: str = ""
-    extremes: Extremes | None = None
+    message: str = ""  # the solver's own words, if any
+    extremes: Extremes | None = None  # of the dense motion; None where they were not sought
 
 
 class Integrator(Protocol):
@@ -104,25 +87,18 @@ class Integrator(Protocol):
 
 
 class Ensemble(NamedTuple):
-    """Results of C cases.
+    """Results of C cases."""
 
-    Attributes
-    ----------
-    state : at the end, before the next engagement; of a failed case the last one that was accepted
-    samples : states over the last `window` cycles at phases k/samples; NaN from where a case failed
-    status : an `integrator.Status`
-    reached : mesh cycles done by this call
-    steps, evaluations : accepted steps, and evaluations of the right-hand side
-    extremes : of the motion over the window; of no cases where they were not sought
-    """
-
+    #: at the end, before the next engagement; of a failed case the last one that was accepted
     state: Float[Array, "case state"]
+    #: states over the last `window` cycles at phases k/samples; NaN from where a case failed
     samples: Float[Array, "case sample state"]
-    status: Int[Array, " case"]
-    reached: Float[Array, " case"]
+    status: Int[Array, " case"]  # an `integrator.Status`
+    reached: Float[Array, " case"]  # mesh cycles done by this call
+    #: steps, evaluations: accepted steps, and evaluations of the right-hand side
     steps: Int[Array, " case"]
     evaluations: Int[Array, " case"]
-    extremes: Extremes
+    extremes: Extremes  # of the motion over the window; of no cases where they were not sought
 
 
 def put(result: Ensemble, places: Int[Array, " some"], part: Ensemble) -> None:

@@ -43,18 +43,11 @@ class StepTolerances(NamedTuple):
 
 
 class TableScales(NamedTuple):
-    """What tolerances take from the mesh cycle's table alone.
+    """What tolerances take from the mesh cycle's table alone."""
 
-    Attributes
-    ----------
-    stiffness : of one pair, from its mean compliance over the mesh cycle, N/m
-    per_torque : deflection per torque, m/(N m)
-    gap_slope : largest slope of the gaps over the pinion's rotation, m/rad
-    """
-
-    stiffness: float
-    per_torque: float
-    gap_slope: float
+    stiffness: float  # of one pair, from its mean compliance over the mesh cycle, N/m
+    per_torque: float  # deflection per torque, m/(N m)
+    gap_slope: float  # largest slope of the gaps over the pinion's rotation, m/rad
 
 
 def table_scales(model: Model) -> TableScales:

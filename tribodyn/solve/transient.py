@@ -20,25 +20,15 @@ MAXIMUM_CYCLES = 50
 
 
 class TransientSettings(NamedTuple):
-    """How to integrate; see `methods.SolverData`.
+    """How to integrate; see `methods.SolverData`."""
 
-    Attributes
-    ----------
-    method : a definite method, see `choice.choose`
-    cycles : mesh cycles to do
-    max_steps : steps allowed in one mesh cycle
-    samples : samples per mesh cycle
-    window : last mesh cycles that writes must not straddle the start of; 0: they may
-    extremes : whether extremes are sought
-    """
-
-    method: str
+    method: str  # a definite method, see `choice.choose`
     rtol: float
-    cycles: int
-    max_steps: int
-    samples: int
-    window: int = 0
-    extremes: bool = False
+    cycles: int  # mesh cycles to do
+    max_steps: int  # steps allowed in one mesh cycle
+    samples: int  # samples per mesh cycle
+    window: int = 0  # last mesh cycles that writes must not straddle the start of; 0: they may
+    extremes: bool = False  # whether extremes are sought
 
 
 class SampledStates(NamedTuple):

@@ -15,20 +15,14 @@ POINTS = ("A", "AB", "B", "C", "D", "DE", "E")
 
 
 class ContactPath(NamedTuple):
-    """What the path of contact of an involute pair depends on; (pinion, gear).
-
-    Parameters
-    ----------
-    base_radius, tip_radius : r_b and r_a, m
-    pressure_angle : α_wt, transverse, at the working pitch circles, rad
-    base_helix_angle : β_b, rad
-    """
+    """What the path of contact of an involute pair depends on; (pinion, gear)."""
 
     teeth: tuple[float, float]
+    #: base_radius, tip_radius: r_b and r_a, m
     base_radius: tuple[float, float]
     tip_radius: tuple[float, float]
-    pressure_angle: float
-    base_helix_angle: float = 0.0
+    pressure_angle: float  # α_wt, transverse, at the working pitch circles, rad
+    base_helix_angle: float = 0.0  # β_b, rad
 
     @property
     def ratio(self) -> float:

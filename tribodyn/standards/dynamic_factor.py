@@ -12,50 +12,33 @@ _UNCREDITED = 6.0
 
 
 class DynamicMesh(NamedTuple):
-    """What K_v depends on.
-
-    Parameters
-    ----------
-    pinion_speed : rad/s
-    reduced_mass : m_red per face width along the line of action, see `reduced_mass`, kg/m
-    single_stiffness, mesh_stiffness : c' and c_γα per face width, Pa (1 N/(mm µm) is 1 GPa)
-    line_load : F_t K_A/b, N/m
-    pitch_deviation, profile_deviation : f_pb and f_fα, m, of the gear that has the larger ones; running-in is
-        taken off here
-    total_contact_ratio : ε_γ
-    tip_relief : C_a, m; of unmodified gears that of running in, `run_in_relief`
-    quality : grade by ISO 1328-1 of the coarser gear
-    run_in : y_p = y_f over the deviation: 0.075 of case-hardened and nitrided gears, at most 3 µm
-    """
+    """What K_v depends on."""
 
     pinion_teeth: float
-    pinion_speed: float
-    reduced_mass: float
+    pinion_speed: float  # rad/s
+    reduced_mass: float  # m_red per face width along the line of action, see `reduced_mass`, kg/m
+    #: single_stiffness, mesh_stiffness: c' and c_γα per face width, Pa (1 N/(mm µm) is 1 GPa)
     single_stiffness: float
     mesh_stiffness: float
-    line_load: float
+    line_load: float  # F_t K_A/b, N/m
+    #: pitch_deviation, profile_deviation: f_pb and f_fα, m, of the gear that has the larger ones; running-in
+    #: is taken off here
     pitch_deviation: float
     profile_deviation: float
-    total_contact_ratio: float
-    tip_relief: float
-    quality: float
+    total_contact_ratio: float  # ε_γ
+    tip_relief: float  # C_a, m; of unmodified gears that of running in, `run_in_relief`
+    quality: float  # grade by ISO 1328-1 of the coarser gear
+    #: y_p = y_f over the deviation: 0.075 of case-hardened and nitrided gears, at most 3 µm
     run_in: float = 0.075
 
 
 class DynamicFactor(NamedTuple):
-    """K_v and where it is from.
-
-    Attributes
-    ----------
-    resonance_ratio : N, speed over resonance speed
-    resonance_speed : n_E1, rad/s of the pinion
-    range : "subcritical", "main resonance", "intermediate" or "supercritical"
-    """
+    """K_v and where it is from."""
 
     factor: float
-    resonance_ratio: float
-    resonance_speed: float
-    range: str
+    resonance_ratio: float  # N, speed over resonance speed
+    resonance_speed: float  # n_E1, rad/s of the pinion
+    range: str  # "subcritical", "main resonance", "intermediate" or "supercritical"
 
 
 def reduced_mass(inertias: tuple[float, float], base_radii: tuple[float, float], face_width: float) -> float:

@@ -12,25 +12,15 @@ TEETH, MODULE, DIAMETER, WIDTH = (5, 1000), (0.5e-3, 70e-3), (5e-3, 15.0), (4e-3
 
 
 class FlankTolerances(NamedTuple):
-    """Tolerances of one gear, m.
+    """Tolerances of one gear, m."""
 
-    Attributes
-    ----------
-    single_pitch : f_pT, of either sign
-    total_pitch : F_pT, range of the index deviations
-    profile_form : f_fαT
-    profile_slope : f_HαT, of either sign
-    helix_form : f_fβT
-    helix_slope : f_HβT, of either sign, over the face width
-    """
-
-    single_pitch: float
-    total_pitch: float
-    profile_form: float
-    profile_slope: float
+    single_pitch: float  # f_pT, of either sign
+    total_pitch: float  # F_pT, range of the index deviations
+    profile_form: float  # f_fαT
+    profile_slope: float  # f_HαT, of either sign
     total_profile: float
-    helix_form: float
-    helix_slope: float
+    helix_form: float  # f_fβT
+    helix_slope: float  # f_HβT, of either sign, over the face width
     total_helix: float
     runout: float
 

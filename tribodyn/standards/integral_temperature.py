@@ -16,54 +16,33 @@ _BULK, _FLASH = 0.7, 1.5
 
 
 class IntegralTemperature(NamedTuple):
-    """Friction coefficient μ_mC, then temperatures in K.
+    """Friction coefficient μ_mC, then temperatures in K."""
 
-    Attributes
-    ----------
-    friction_coefficient : μ_mC at the pitch point
-    flash_rise : θ_flaint, mean over the path
-    bulk : θ_M-C
-    integral : θ_int
-    """
-
-    friction_coefficient: float
-    flash_rise: float
-    bulk: float
-    integral: float
+    friction_coefficient: float  # μ_mC at the pitch point
+    flash_rise: float  # θ_flaint, mean over the path
+    bulk: float  # θ_M-C
+    integral: float  # θ_int
 
 
 class ScuffingMesh(NamedTuple):
-    """What the integral temperature depends on besides the path.
+    """What the integral temperature depends on besides the path."""
 
-    Parameters
-    ----------
-    line_load : w_Bt = K_A K_v K_Bβ K_Bα F_t/b, F_t at the reference circle, N/m
-    pitch_speed : v at the reference circle, m/s
-    viscosity : η at the oil's temperature, Pa·s
-    oil_temperature : K
-    roughness : (Ra_1 + Ra_2)/2, m
-    reduced_modulus : E_r = 2/Σ(1 − ν²)/E, Pa
-    thermal_contact : mean B_M, W s^½/(m² K)
-    pressure_angle, helix_angle : α_n and β, rad
-    lubricant, lubrication, tip_relief : X_L (without viscosity), X_S, X_Ca
-    run_in : φ_E: 1 after running in, 0 of new flanks
-    overlap_ratio : ε_β
-    """
-
-    line_load: float
-    pitch_speed: float
-    viscosity: float
-    oil_temperature: float
-    roughness: float
-    reduced_modulus: float
-    thermal_contact: float
+    line_load: float  # w_Bt = K_A K_v K_Bβ K_Bα F_t/b, F_t at the reference circle, N/m
+    pitch_speed: float  # v at the reference circle, m/s
+    viscosity: float  # η at the oil's temperature, Pa·s
+    oil_temperature: float  # K
+    roughness: float  # (Ra_1 + Ra_2)/2, m
+    reduced_modulus: float  # E_r = 2/Σ(1 − ν²)/E, Pa
+    thermal_contact: float  # mean B_M, W s^½/(m² K)
+    #: pressure_angle, helix_angle: α_n and β, rad
     pressure_angle: float
     helix_angle: float = 0.0
+    #: lubricant, lubrication, tip_relief: X_L (without viscosity), X_S, X_Ca
     lubricant: float = 1.0
     lubrication: float = 1.0
     tip_relief: float = 1.0
-    run_in: float = 1.0
-    overlap_ratio: float = 0.0
+    run_in: float = 1.0  # φ_E: 1 after running in, 0 of new flanks
+    overlap_ratio: float = 0.0  # ε_β
 
 
 def contact_ratio_factor(first: float, second: float) -> float:

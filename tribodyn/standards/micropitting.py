@@ -27,62 +27,38 @@ _PERMISSIBLE = 1.4
 
 
 class Oil(NamedTuple):
-    """An oil over temperature.
+    """An oil over temperature."""
 
-    Parameters
-    ----------
-    viscosity : dynamic viscosity η, Pa·s, at a temperature, K
-    pressure_viscosity : α, 1/Pa, at a temperature, K
-    lubricant_factor : X_L: 1.0 of mineral oil, 0.8 of PAO, 0.7 of PAG (0.6 where it dissolves in water), 1.3
-        of phosphate esters: ISO/TR 15144-1:2014, table 3
-    """
-
-    viscosity: Callable[[Any], Any]
-    pressure_viscosity: Callable[[Any], Any]
+    viscosity: Callable[[Any], Any]  # dynamic viscosity η, Pa·s, at a temperature, K
+    pressure_viscosity: Callable[[Any], Any]  # α, 1/Pa, at a temperature, K
+    #: X_L: 1.0 of mineral oil, 0.8 of PAO, 0.7 of PAG (0.6 where it dissolves in water), 1.3 of phosphate
+    #: esters: ISO/TR 15144-1:2014, table 3
     lubricant_factor: float = 1.0
 
 
 class Flanks(NamedTuple):
-    """What the flanks are of.
+    """What the flanks are of."""
 
-    Parameters
-    ----------
-    mean_roughness : Ra = (Ra_1 + Ra_2)/2, m
-    reduced_modulus : E_r = 2/Σ(1 − ν²)/E, Pa
-    thermal_contact : B_M = √(λ ρ c) of pinion and gear, W s^½/(m² K)
-    quality : grade by ISO 1328-1 of the coarser gear
-    """
-
-    mean_roughness: float
-    reduced_modulus: float
-    thermal_contact: tuple[float, float]
-    quality: float = 7.0
+    mean_roughness: float  # Ra = (Ra_1 + Ra_2)/2, m
+    reduced_modulus: float  # E_r = 2/Σ(1 − ν²)/E, Pa
+    thermal_contact: tuple[float, float]  # B_M = √(λ ρ c) of pinion and gear, W s^½/(m² K)
+    quality: float = 7.0  # grade by ISO 1328-1 of the coarser gear
 
 
 class Load(NamedTuple):
-    """Load and speed of a pair.
+    """Load and speed of a pair."""
 
-    Parameters
-    ----------
-    pinion_torque : T_1, N m
-    pinion_speed : rad/s
-    face_width : b, m
-    oil_temperature : θ_oil, K
-    application, dynamic, transverse, face : K_A, K_v, K_Hα, K_Hβ
-    lubrication : one of `LUBRICATION_FACTORS`
-    tip_relief : X_Ca, see `tip_relief_factor`
-    """
-
-    pinion_torque: float
-    pinion_speed: float
-    face_width: float
-    oil_temperature: float
+    pinion_torque: float  # T_1, N m
+    pinion_speed: float  # rad/s
+    face_width: float  # b, m
+    oil_temperature: float  # θ_oil, K
+    #: application, dynamic, transverse, face: K_A, K_v, K_Hα, K_Hβ
     application: float = 1.0
     dynamic: float = 1.0
     transverse: float = 1.0
     face: float = 1.0
-    lubrication: str = "dip"
-    tip_relief: float = 1.0
+    lubrication: str = "dip"  # one of `LUBRICATION_FACTORS`
+    tip_relief: float = 1.0  # X_Ca, see `tip_relief_factor`
 
     @property
     def factor(self) -> float:
@@ -91,24 +67,14 @@ class Load(NamedTuple):
 
 
 class Films(NamedTuple):
-    """Results of either method over the points of the path, arrays where they vary.
+    """Results of either method over the points of the path, arrays where they vary."""
 
-    Attributes
-    ----------
-    friction_coefficient : μ_m
-    bulk_temperature : θ_M, K
-    pressure : (points,), p_dyn,Y, Pa
-    flash_rise : (points,), θ_fl,Y, K
-    film_thickness : (points,), h_Y, m
-    specific_film : (points,), λ_GF,Y
-    """
-
-    friction_coefficient: float
-    bulk_temperature: float
-    pressure: Any
-    flash_rise: Any
-    film_thickness: Any
-    specific_film: Any
+    friction_coefficient: float  # μ_m
+    bulk_temperature: float  # θ_M, K
+    pressure: Any  # (points,), p_dyn,Y, Pa
+    flash_rise: Any  # (points,), θ_fl,Y, K
+    film_thickness: Any  # (points,), h_Y, m
+    specific_film: Any  # (points,), λ_GF,Y
 
 
 def roughness_factor(mean_roughness: float, pitch_radius: float) -> float:

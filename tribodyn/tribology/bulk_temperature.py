@@ -60,22 +60,16 @@ class Heat(NamedTuple):
 
 
 class Network(NamedTuple):
-    """How heat leaves the gears.
+    """How heat leaves the gears."""
 
-    Attributes
-    ----------
-    pinion_oil, gear_oil : conductance from the teeth to the oil, W/K, > 0
-    oil_flow : heat capacity flow ρ c Q of the oil that is carried through, W/K; 0: none
-    oil_housing, housing_ambient : W/K, both or neither; 0: none
-    ambient_temperature : K; read where there is a housing
-    """
-
+    #: pinion_oil, gear_oil: conductance from the teeth to the oil, W/K, > 0
     pinion_oil: float
     gear_oil: float
-    oil_flow: float = 0.0
+    oil_flow: float = 0.0  # heat capacity flow ρ c Q of the oil that is carried through, W/K; 0: none
+    #: oil_housing, housing_ambient: W/K, both or neither; 0: none
     oil_housing: float = 0.0
     housing_ambient: float = 0.0
-    ambient_temperature: float = 293.15
+    ambient_temperature: float = 293.15  # K; read where there is a housing
 
     @property
     def holds_oil(self) -> bool:
@@ -84,19 +78,13 @@ class Network(NamedTuple):
 
 
 class Temperatures(NamedTuple):
-    """Temperatures of the parts, K.
+    """Temperatures of the parts, K."""
 
-    Attributes
-    ----------
-    pinion, gear : bulk, of the teeth
-    oil : that surrounds the gears
-    housing : that of the oil where the network has none
-    """
-
+    #: pinion, gear: bulk, of the teeth
     pinion: float
     gear: float
-    oil: float
-    housing: float
+    oil: float  # that surrounds the gears
+    housing: float  # that of the oil where the network has none
 
     @property
     def bulk(self) -> float:

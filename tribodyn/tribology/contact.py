@@ -14,48 +14,30 @@ ROOT_PI = math.sqrt(math.pi)
 
 
 class Surfaces(NamedTuple):
-    """The two surfaces and the lubricant between them, whatever the laws; floats, SI.
+    """The two surfaces and the lubricant between them, whatever the laws; floats, SI."""
 
-    Attributes
-    ----------
-    effective_modulus : E', 1/E' = ½[(1 − ν1²)/E1 + (1 − ν2²)/E2], Pa
-    hardness : Vickers hardness H_v of the softer surface, Pa
-    roughness : composite rms roughness σ, m
-    mean_roughness : arithmetic mean roughness Ra of the flanks, m
-    inlet_viscosity : η0, Pa·s
-    pressure_viscosity : α_PV, 1/Pa
-    pinion_conductivity, gear_conductivity : W/(m K)
-    pinion_heat_capacity, gear_heat_capacity : per volume ρ_s c_p of the solids, J/(m³ K)
-    """
-
-    effective_modulus: Any
-    hardness: Any
-    roughness: Any
-    mean_roughness: Any
-    inlet_viscosity: Any
-    pressure_viscosity: Any
+    effective_modulus: Any  # E', 1/E' = ½[(1 − ν1²)/E1 + (1 − ν2²)/E2], Pa
+    hardness: Any  # Vickers hardness H_v of the softer surface, Pa
+    roughness: Any  # composite rms roughness σ, m
+    mean_roughness: Any  # arithmetic mean roughness Ra of the flanks, m
+    inlet_viscosity: Any  # η0, Pa·s
+    pressure_viscosity: Any  # α_PV, 1/Pa
+    #: pinion_conductivity, gear_conductivity: W/(m K)
     pinion_conductivity: Any
     gear_conductivity: Any
+    #: pinion_heat_capacity, gear_heat_capacity: per volume ρ_s c_p of the solids, J/(m³ K)
     pinion_heat_capacity: Any
     gear_heat_capacity: Any
 
 
 class LocalContact(NamedTuple):
-    """Load and motion of one contact, as film and friction laws see it; SI. Made by `local_contact`.
+    """Load and motion of one contact, as film and friction laws see it; SI. Made by `local_contact`."""
 
-    Attributes
-    ----------
-    line_load : w' = F_n/b, N/m, ≥ `MINIMUM_LINE_LOAD`
-    curvature : 1/ρ, 1/m, positive
-    entrainment : |u| = |u_p + u_g|/2, m/s, ≥ `MINIMUM_ENTRAINMENT`
-    sliding : v_s = u_p − u_g, m/s, any sign
-    pinion_speed, gear_speed : speeds u_p, u_g of the contact along the flanks, m/s, any sign
-    """
-
-    line_load: Any
-    curvature: Any
-    entrainment: Any
-    sliding: Any
+    line_load: Any  # w' = F_n/b, N/m, ≥ `MINIMUM_LINE_LOAD`
+    curvature: Any  # 1/ρ, 1/m, positive
+    entrainment: Any  # |u| = |u_p + u_g|/2, m/s, ≥ `MINIMUM_ENTRAINMENT`
+    sliding: Any  # v_s = u_p − u_g, m/s, any sign
+    #: pinion_speed, gear_speed: speeds u_p, u_g of the contact along the flanks, m/s, any sign
     pinion_speed: Any
     gear_speed: Any
 

@@ -22,19 +22,14 @@ from tribodyn.tribology.mesh_conditions import DutyRange, NominalConditions, wit
 
 
 class LawInput(NamedTuple):
-    """What a law may make its parameters of, beside the values of its own keys.
-
-    Attributes
-    ----------
-    materials : (MaterialData, MaterialData); of pinion and gear
-    nominal : () -> NominalConditions at the pitch point; raises InputError where they have no meaning
-    duty : () -> DutyRange of the mesh; raises InputError where there is no mesh
-    """
+    """What a law may make its parameters of, beside the values of its own keys."""
 
     surfaces: Surfaces
     lubricant: LubricantData
-    materials: tuple[MaterialData, MaterialData]
+    materials: tuple[MaterialData, MaterialData]  # (MaterialData, MaterialData); of pinion and gear
+    #: () -> NominalConditions at the pitch point; raises InputError where they have no meaning
     nominal: Callable[[], NominalConditions]
+    #: () -> DutyRange of the mesh; raises InputError where there is no mesh
     duty: Callable[[], DutyRange] = without_duty
 
 
@@ -113,39 +108,28 @@ def _values_type(names: tuple[str, ...]) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class _Law:
-    """What film and friction laws have in common.
+    """What film and friction laws have in common."""
 
-    Parameters
-    ----------
-    name : as scenarios give it
-    about : what it is, in a line
-    function : the law itself; see the kind of law
-    parameters : callable, optional
-        (given: LawInput, **values of the keys in SI units) -> NamedTuple of the floats that the functions
-        read. Default: the values of the keys, by name.
-    keys : keys of its own in the scenario's table
-    in_range : gives for each of `limits` the share allowed over actual, or actual over the least that is
-        allowed: at least 1 inside, below 1 outside. A law without `limits` gives one number: 1.0 inside its
-        range of validity, 0.0 outside, NaN where none is stated.
-    limits : the limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`: those of the
-        law's authors, then those by the solved contact
-    judged : JudgedRange, optional
-        What the solved contact says of the law; None: it was not compared.
-    table_error : callable, optional
-        (parameters) -> share by which 95 % of the values of its table deviate at most from what they stand
-        for; of a law that is tabulated before a run.
-    range : the range of validity of the law's authors in words, with its source; "" where none is stated
-    """
-
-    name: str
-    about: str
-    function: Callable[..., Any]
+    name: str  # as scenarios give it
+    about: str  # what it is, in a line
+    function: Callable[..., Any]  # the law itself; see the kind of law
+    #: callable, optional (given: LawInput, **values of the keys in SI units) -> NamedTuple of the floats that
+    #: the functions read. Default: the values of the keys, by name.
     parameters: Callable[..., Any] | None = None
-    keys: tuple[Parameter, ...] = ()
+    keys: tuple[Parameter, ...] = ()  # keys of its own in the scenario's table
+    #: gives for each of `limits` the share allowed over actual, or actual over the least that is allowed: at
+    #: least 1 inside, below 1 outside. A law without `limits` gives one number: 1.0 inside its range of
+    #: validity, 0.0 outside, NaN where none is stated.
     in_range: Callable[..., Any] = range_not_stated
+    #: the range of validity of the law's authors in words, with its source; "" where none is stated
     range: str = ""
+    #: the limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`: those of the law's
+    #: authors, then those by the solved contact
     limits: tuple[str, ...] = ()
+    #: callable, optional (parameters) -> share by which 95 % of the values of its table deviate at most from
+    #: what they stand for; of a law that is tabulated before a run.
     table_error: Callable[[Any], float] | None = None
+    #: JudgedRange, optional What the solved contact says of the law; None: it was not compared.
     judged: JudgedRange | None = None
 
     @property

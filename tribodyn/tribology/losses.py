@@ -6,24 +6,17 @@ from typing import NamedTuple
 
 
 class Wheel(NamedTuple):
-    """A gear; SI.
+    """A gear; SI."""
 
-    Attributes
-    ----------
-    speed : rad/s, > 0
-    pitch_radius, tip_radius, root_radius : m
-    face_width : m
-    module : m
-    immersion : depth of the tip circle's lowest point below the oil's level at rest, m; 0: not immersed
-    """
-
-    speed: float
+    speed: float  # rad/s, > 0
+    #: pitch_radius, tip_radius, root_radius: m
     pitch_radius: float
     tip_radius: float
     root_radius: float
-    face_width: float
-    module: float
+    face_width: float  # m
+    module: float  # m
     teeth: float
+    #: depth of the tip circle's lowest point below the oil's level at rest, m; 0: not immersed
     immersion: float = 0.0
 
 
@@ -170,24 +163,16 @@ def palmgren(bearings: BearingDragData, speed: float, viscosity: float, density:
 
 @dataclass(frozen=True)
 class LossData:
-    """Which load-independent losses a case requests; None: not requested.
+    """Which load-independent losses a case requests; None: not requested."""
 
-    Parameters
-    ----------
-    churning : "changenet-velex" or "iso-14179-1"
-    windage : "dawson" or "anderson-loewenthal"
-    bearings : "palmgren"
-    pinion_immersion, gear_immersion : depth of each tip circle's lowest point below the oil's level, m
-    oil_volume : in the sump, m³
-    drag : (BearingDragData or None, the same), of the pinion's and the gear's shaft
-    """
-
-    churning: str | None = None
-    windage: str | None = None
-    bearings: str | None = None
+    churning: str | None = None  # "changenet-velex" or "iso-14179-1"
+    windage: str | None = None  # "dawson" or "anderson-loewenthal"
+    bearings: str | None = None  # "palmgren"
+    #: pinion_immersion, gear_immersion: depth of each tip circle's lowest point below the oil's level, m
     pinion_immersion: float = 0.0
     gear_immersion: float = 0.0
-    oil_volume: float | None = None
+    oil_volume: float | None = None  # in the sump, m³
+    #: (BearingDragData or None, the same), of the pinion's and the gear's shaft
     drag: tuple[BearingDragData | None, BearingDragData | None] = (None, None)
 
 

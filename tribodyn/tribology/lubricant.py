@@ -15,60 +15,35 @@ DEFAULTS = {
 
 @dataclass(frozen=True)
 class FzgStages:
-    """Failure load stages of an oil in FZG's tests; None where the data sheet gives none.
+    """Failure load stages of an oil in FZG's tests; None where the data sheet gives none."""
 
-    Parameters
-    ----------
-    scuffing : test A/8.3/90 (ISO 14635-1)
-    micropitting : test C-GF/8.3/90 (FVA 54/7)
-    micropitting_temperature : oil temperature of the latter, K
-    """
-
-    scuffing: int | None = None
-    micropitting: int | None = None
-    micropitting_temperature: float = 363.15
+    scuffing: int | None = None  # test A/8.3/90 (ISO 14635-1)
+    micropitting: int | None = None  # test C-GF/8.3/90 (FVA 54/7)
+    micropitting_temperature: float = 363.15  # oil temperature of the latter, K
 
 
 @dataclass(frozen=True)
 class LubricantData:
-    """Lubricant and asperities, as film and friction laws make their parameters of them.
+    """Lubricant and asperities, as film and friction laws make their parameters of them."""
 
-    Parameters
-    ----------
-    asperity_friction : f_c, friction coefficient of the asperities
-    limiting_shear_coefficient : Λ_lim, limiting shear stress over pressure
-    inlet_viscosity : η0, dynamic viscosity at inlet temperature and ambient pressure, Pa s
-    pressure_viscosity : α_PV, 1/Pa
-    viscosity_pressure_index : z of Roelands' law
-    temperature_viscosity : K_T, 1/K
-    density : kg/m³; used by ISO/TR 14179-1 and by Veciana's variant of the Péclet number
-    load_exponent : d of Niemann's lubricant factor X_L w^−d; 0.0651 of mineral oil 75W90 (Diez-Ibarbia et
-        al.)
-    lubricant_factor : X_L of Niemann's mean friction coefficient and of ISO/TR 15144-1
-    schlenk_factor : X_L of Schlenk's mean friction coefficient; default: mineral oil
-    temperature : at which the numbers hold, K; None: not said
-    type : of an oil without a data sheet, where it is given
-    given : numbers that are neither of the type nor defaults; None: all
-    sheet : the data sheet that they come from, where they do
-    supply : temperature of the oil around the gears, K, where the numbers are those at the teeth's bulk
-        temperature: mean friction coefficients read the viscosity there
-    """
-
-    asperity_friction: float
-    limiting_shear_coefficient: float
-    inlet_viscosity: float
-    pressure_viscosity: float
-    viscosity_pressure_index: float
-    temperature_viscosity: float
-    density: float
+    asperity_friction: float  # f_c, friction coefficient of the asperities
+    limiting_shear_coefficient: float  # Λ_lim, limiting shear stress over pressure
+    inlet_viscosity: float  # η0, dynamic viscosity at inlet temperature and ambient pressure, Pa s
+    pressure_viscosity: float  # α_PV, 1/Pa
+    viscosity_pressure_index: float  # z of Roelands' law
+    temperature_viscosity: float  # K_T, 1/K
+    density: float  # kg/m³; used by ISO/TR 14179-1 and by Veciana's variant of the Péclet number
+    #: d of Niemann's lubricant factor X_L w^−d; 0.0651 of mineral oil 75W90 (Diez-Ibarbia et al.)
     load_exponent: float = 0.0651
-    lubricant_factor: float = 1.0
-    schlenk_factor: float = 0.846
-    temperature: Any = None
-    type: OilType | None = None
-    given: frozenset[str] | None = None
-    sheet: OilSheet | None = None
+    lubricant_factor: float = 1.0  # X_L of Niemann's mean friction coefficient and of ISO/TR 15144-1
+    schlenk_factor: float = 0.846  # X_L of Schlenk's mean friction coefficient; default: mineral oil
+    temperature: Any = None  # at which the numbers hold, K; None: not said
+    type: OilType | None = None  # of an oil without a data sheet, where it is given
+    given: frozenset[str] | None = None  # numbers that are neither of the type nor defaults; None: all
+    sheet: OilSheet | None = None  # the data sheet that they come from, where they do
     fzg: FzgStages = FzgStages()
+    #: temperature of the oil around the gears, K, where the numbers are those at the teeth's bulk
+    #: temperature: mean friction coefficients read the viscosity there
     supply: Any = None
 
 

@@ -7,34 +7,22 @@ from tribodyn.numerics.elementary import cos, sin
 
 
 class NominalConditions(NamedTuple):
-    """Load, motion and oil of a mesh at its pitch point, whatever the tooth family; SI.
+    """Load, motion and oil of a mesh at its pitch point, whatever the tooth family; SI."""
 
-    Attributes
-    ----------
-    tangential_load : F_t on the pitch circles, N
-    pinion_pitch_radius, gear_pitch_radius : working pitch radii, m
-    pressure_angle : α at the pitch point, rad, > 0
-    pinion_speed : rad/s
-    face_width : m
-    viscosity : η at the temperature of the oil, Pa·s
-    density : of the oil, kg/m³
-    mean_roughness : Ra, arithmetic mean roughness of the flanks, m
-    load_exponent, lubricant_factor : d and X_L of Niemann's factor X_L (w mm/N)^−d
-    schlenk_factor : X_L of Schlenk's formula
-    """
-
-    tangential_load: Any
+    tangential_load: Any  # F_t on the pitch circles, N
+    #: pinion_pitch_radius, gear_pitch_radius: working pitch radii, m
     pinion_pitch_radius: Any
     gear_pitch_radius: Any
-    pressure_angle: Any
-    pinion_speed: Any
-    face_width: Any
-    viscosity: Any
-    density: Any
-    mean_roughness: Any
+    pressure_angle: Any  # α at the pitch point, rad, > 0
+    pinion_speed: Any  # rad/s
+    face_width: Any  # m
+    viscosity: Any  # η at the temperature of the oil, Pa·s
+    density: Any  # of the oil, kg/m³
+    mean_roughness: Any  # Ra, arithmetic mean roughness of the flanks, m
+    #: load_exponent, lubricant_factor: d and X_L of Niemann's factor X_L (w mm/N)^−d
     load_exponent: Any
     lubricant_factor: Any = 1.0
-    schlenk_factor: Any = 0.846
+    schlenk_factor: Any = 0.846  # X_L of Schlenk's formula
 
     @property
     def line_load(self) -> Any:
@@ -67,22 +55,14 @@ class NominalConditions(NamedTuple):
 
 
 class DutyRange(NamedTuple):
-    """Least and greatest of each, as `LocalContact` has them; SI.
+    """Least and greatest of each, as `LocalContact` has them; SI."""
 
-    Attributes
-    ----------
-    line_load : N/m
-    entrainment : m/s
-    curvature : 1/m
-    slide_to_roll : |v_s|/u
-    places : entrainment at nominal speed, curvature and slide-to-roll ratio at places along the path of
-        contact, where they belong together; none: they vary each for itself
-    """
-
-    line_load: tuple[float, float]
-    entrainment: tuple[float, float]
-    curvature: tuple[float, float]
-    slide_to_roll: tuple[float, float]
+    line_load: tuple[float, float]  # N/m
+    entrainment: tuple[float, float]  # m/s
+    curvature: tuple[float, float]  # 1/m
+    slide_to_roll: tuple[float, float]  # |v_s|/u
+    #: entrainment at nominal speed, curvature and slide-to-roll ratio at places along the path of contact,
+    #: where they belong together; none: they vary each for itself
     places: tuple[tuple[float, float, float], ...] = ()
 
 

@@ -181,19 +181,14 @@ GIVEN = "given"
 
 @dataclass(frozen=True)
 class OilSheet:
-    """An oil as its data sheet has it.
-
-    Parameters
-    ----------
-    viscosity_40, viscosity_100 : kinematic, at 40 and 100 °C, m²/s; the first is the larger
-    density_15 : at 15 °C, kg/m³
-    given : numbers of `LubricantData` that take the place of derived ones, by name
-    """
+    """An oil as its data sheet has it."""
 
     type: OilType
+    #: viscosity_40, viscosity_100: kinematic, at 40 and 100 °C, m²/s; the first is the larger
     viscosity_40: Any
     viscosity_100: Any
-    density_15: Any
+    density_15: Any  # at 15 °C, kg/m³
+    #: numbers of `LubricantData` that take the place of derived ones, by name
     given: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
 
     def viscosity(self, temperature: Any) -> Any:

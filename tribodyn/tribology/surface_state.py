@@ -19,24 +19,15 @@ from tribodyn.tribology.law import ActiveFilm, Closure, FilmFunctions, film_rang
 
 
 class SurfaceState(NamedTuple):
-    """Film, pressure, temperature and friction of contacts; SI, named as in a record.
+    """Film, pressure, temperature and friction of contacts; SI, named as in a record."""
 
-    Attributes
-    ----------
-    friction_coefficient : μ
-    asperity_load_ratio : share λ of the load that asperities carry; 0 of a film law of smooth surfaces
-    central_film_thickness : of the film law, m; the minimum film where the law gives that
-    flash_temperature_rise : ΔT, K
-    hertz_pressure : maximum Hertz pressure p_H, Pa
-    closure_in_range, friction_in_range
-        1.0 where the film law and the friction law are inside their range, 0.0 outside, NaN: none stated.
-    """
-
-    friction_coefficient: Any
-    asperity_load_ratio: Any
-    central_film_thickness: Any
-    flash_temperature_rise: Any
-    hertz_pressure: Any
+    friction_coefficient: Any  # μ
+    asperity_load_ratio: Any  # share λ of the load that asperities carry; 0 of a film law of smooth surfaces
+    central_film_thickness: Any  # of the film law, m; the minimum film where the law gives that
+    flash_temperature_rise: Any  # ΔT, K
+    hertz_pressure: Any  # maximum Hertz pressure p_H, Pa
+    #: closure_in_range, friction_in_range: 1.0 where the film law and the friction law are inside their
+    #: range, 0.0 outside, NaN: none stated.
     closure_in_range: Any
     friction_in_range: Any
 
@@ -101,18 +92,13 @@ def surface_and_limits(contact: LocalContact, closure: Closure) -> tuple[Surface
 
 
 class ContactFriction(NamedTuple):
-    """What the laws give, and the contact they saw; arrays of one shape, SI.
-
-    Attributes
-    ----------
-    radius, entrainment : averaged over the contact's own width where they vanish at the pitch point
-    contact : as the laws see it
-    """
+    """What the laws give, and the contact they saw; arrays of one shape, SI."""
 
     surface: SurfaceState
+    #: radius, entrainment: averaged over the contact's own width where they vanish at the pitch point
     radius: Float[Array, "*contact"]
     entrainment: Float[Array, "*contact"]
-    contact: LocalContact
+    contact: LocalContact  # as the laws see it
 
 
 def contact_friction(

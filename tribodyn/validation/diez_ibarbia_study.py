@@ -49,20 +49,12 @@ _POINTS = 801
 
 
 class Course(NamedTuple):
-    """One pair of teeth from first to last contact; arrays (point,), increasing roll.
+    """One pair of teeth from first to last contact; arrays (point,), increasing roll."""
 
-    Attributes
-    ----------
-    roll : pinion angle from the pitch point, rad
-    share : LSR = F_N/F_Nmax, F_Nmax = T_G/ρ_oG
-    sliding : |V_s|/V, V the pitch line velocity
-    loss : H_vinst = μ F_N |V_s|/(F_Nmax V), the paper's (4)
-    """
-
-    roll: Array
-    share: Array
-    sliding: Array
-    loss: Array
+    roll: Array  # pinion angle from the pitch point, rad
+    share: Array  # LSR = F_N/F_Nmax, F_Nmax = T_G/ρ_oG
+    sliding: Array  # |V_s|/V, V the pitch line velocity
+    loss: Array  # H_vinst = μ F_N |V_s|/(F_Nmax V), the paper's (4)
 
 
 def shifted(drive: Drive, scenario: Scenario, shift: float) -> Drive:

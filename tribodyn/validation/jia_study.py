@@ -29,20 +29,12 @@ POSITIONS, SLICES = 21, 41
 
 
 class FaceState(NamedTuple):
-    """Modifications and misalignment of the gears.
+    """Modifications and misalignment of the gears."""
 
-    Attributes
-    ----------
-    relief : y1 = y2, µm
-    unmodified : y3, mm
-    misalignment : arc minutes in the plane of action
-    coupled : whether slices hold each other
-    """
-
-    relief: float = 0.0
-    unmodified: float = 0.0
-    misalignment: float = 0.0
-    coupled: bool = True
+    relief: float = 0.0  # y1 = y2, µm
+    unmodified: float = 0.0  # y3, mm
+    misalignment: float = 0.0  # arc minutes in the plane of action
+    coupled: bool = True  # whether slices hold each other
 
 
 #: The paper's relief where it looks at misalignment.
@@ -116,19 +108,12 @@ def _maximum(run: LoadedContact, values: np.ndarray) -> Maximum:
 
 
 class Passage(NamedTuple):
-    """What one pair of teeth goes through, over increasing pinion angle (point,), maximum over the face.
+    """What one pair of teeth goes through, over increasing pinion angle (point,), maximum over the face."""
 
-    Attributes
-    ----------
-    roll : pinion angle from the pitch point, rad
-    line_load : N/m
-    pressure : maximum Hertz pressure, Pa
-    compression, tension : maximum root stress of both gears, Pa, as amounts
-    """
-
-    roll: np.ndarray
-    line_load: np.ndarray
-    pressure: np.ndarray
+    roll: np.ndarray  # pinion angle from the pitch point, rad
+    line_load: np.ndarray  # N/m
+    pressure: np.ndarray  # maximum Hertz pressure, Pa
+    #: compression, tension: maximum root stress of both gears, Pa, as amounts
     compression: np.ndarray
     tension: np.ndarray
 

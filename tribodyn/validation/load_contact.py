@@ -24,21 +24,16 @@ _REACH = 2.5
 
 
 class LoadContact(NamedTuple):
-    """One mesh cycle of a pair in slow rotation.
+    """One mesh cycle of a pair in slow rotation."""
 
-    Attributes
-    ----------
-    efficiency : as `mesh.power_flow` defines it
-    contact_ratio : effective contact ratio: pinion angle over which a pair carries load, over the pitch
-    roll, normal_load : (position, pair), pinion angle of each pair from the pitch point, rad, and its load, N
-    loss : (position, pair), friction work per pinion angle, N m/rad
-    """
-
-    efficiency: float
+    efficiency: float  # as `mesh.power_flow` defines it
+    #: effective contact ratio: pinion angle over which a pair carries load, over the pitch
     contact_ratio: float
+    #: roll, normal_load: (position, pair), pinion angle of each pair from the pitch point, rad, and its load,
+    #: N
     roll: Float[Array, "position pair"]
     normal_load: Float[Array, "position pair"]
-    loss: Float[Array, "position pair"]
+    loss: Float[Array, "position pair"]  # (position, pair), friction work per pinion angle, N m/rad
 
 
 def load_contact(

@@ -20,59 +20,46 @@ _BELOW_ONE = "direction only (below 1)"
 
 
 class Otherwise(NamedTuple):
-    """What a row would be under another choice than its own.
+    """What a row would be under another choice than its own."""
 
-    Attributes
-    ----------
-    choice : the other choice: the program's default where the row is computed as published, another reading
-        where the paper leaves one open
-    computed, difference, verdict
-        As of the row.
-    """
-
+    #: the other choice: the program's default where the row is computed as published, another reading where
+    #: the paper leaves one open
     choice: str
+    #: computed, difference, verdict: As of the row.
     computed: Any
     difference: float | list[float] | None
     verdict: str
 
 
 class Row(NamedTuple):
-    """A published value, ours, and how they compare.
-
-    Attributes
-    ----------
-    published, computed : lists where a row of a table is compared column by column
-    difference : computed less published: relative to the published value where the tolerance is
-    verdict : {"pass", "fail", "direction", "reported"}
-        "direction": only the direction is compared, and it is the published one; "reported": the published
-        value is not reproducible, or a claim does not hold in our physics.
-    compared : {"number", "claim", "direction", "implementation"}
-        What the row compares; "implementation": the paper has a figure only, and the value of another
-        implementation of its equations takes the number's place.
-    part : what of the value matters, where that is not the whole: the "loss" of an efficiency, the "rise" of
-        a ratio above 1
-    part_difference : computed less published, of this part
-    tolerance_share : the tolerance as a share of the value or of its part; the largest of several columns
-    tolerance_reason : why this share is larger than `WIDE`
-    otherwise : the same row under another choice
-    """
+    """A published value, ours, and how they compare."""
 
     id: str
     quantity: str
     unit: str
+    #: published, computed: lists where a row of a table is compared column by column
     published: Any
     computed: Any
+    #: computed less published: relative to the published value where the tolerance is
     difference: float | list[float] | None
     tolerance: float | list[float] | None
     tolerance_kind: str
+    #: {"pass", "fail", "direction", "reported"} "direction": only the direction is compared, and it is the
+    #: published one; "reported": the published value is not reproducible, or a claim does not hold in our
+    #: physics.
     verdict: str
     note: str
+    #: {"number", "claim", "direction", "implementation"} What the row compares; "implementation": the paper
+    #: has a figure only, and the value of another implementation of its equations takes the number's place.
     compared: str = "number"
+    #: what of the value matters, where that is not the whole: the "loss" of an efficiency, the "rise" of a
+    #: ratio above 1
     part: str = ""
-    part_difference: float | None = None
+    part_difference: float | None = None  # computed less published, of this part
+    #: the tolerance as a share of the value or of its part; the largest of several columns
     tolerance_share: float | None = None
-    tolerance_reason: str = ""
-    otherwise: Otherwise | None = None
+    tolerance_reason: str = ""  # why this share is larger than `WIDE`
+    otherwise: Otherwise | None = None  # the same row under another choice
 
     @property
     def hangs_on_choice(self) -> bool:

@@ -70,16 +70,10 @@ def closure_of(name: Law) -> Closure:
 
 
 class DriveUnderLaw(NamedTuple):
-    """One drive of the study under one law.
+    """One drive of the study under one law."""
 
-    Attributes
-    ----------
-    ratio : i
-    module : m
-    """
-
-    ratio: float
-    module: float
+    ratio: float  # i
+    module: float  # m
     law: Law
 
     @property

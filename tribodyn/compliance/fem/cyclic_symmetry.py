@@ -22,22 +22,13 @@ _SIDES = 4  # right-hand sides solved at a time
 
 
 class HalfSector(NamedTuple):
-    """Nodes of half a sector between its axis of symmetry (the x axis) and its edge at the angle π/Z.
+    """Nodes of half a sector between its axis of symmetry (the x axis) and its edge at the angle π/Z."""
 
-    Attributes
-    ----------
-    teeth : Z, number of sectors
-    nodes : number of all nodes
-    held : nodes that do not move
-    axis : nodes on the axis of symmetry
-    edge : nodes on the edge that are not held
-    """
-
-    teeth: int
-    nodes: int
-    held: NDArray[np.int64]
-    axis: NDArray[np.int64]
-    edge: NDArray[np.int64]
+    teeth: int  # Z, number of sectors
+    nodes: int  # number of all nodes
+    held: NDArray[np.int64]  # nodes that do not move
+    axis: NDArray[np.int64]  # nodes on the axis of symmetry
+    edge: NDArray[np.int64]  # nodes on the edge that are not held
 
 
 class ReducedSector(NamedTuple):

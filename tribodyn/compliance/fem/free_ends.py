@@ -47,20 +47,14 @@ _TAIL = 8.0
 
 
 class Openings(NamedTuple):
-    """Openings of a section's end face, 1 at one corner of its cells each; unit Young's modulus.
+    """Openings of a section's end face, 1 at one corner of its cells each; unit Young's modulus."""
 
-    Attributes
-    ----------
-    place : (2, J), m
-    constant, linear : (dof, J); F = constant + k linear; u, v, w of a node of the section's basis follow each
-        other
-    stiffness : (J, J), D
-    """
-
-    place: Float[Array, "2 opening"]
+    place: Float[Array, "2 opening"]  # (2, J), m
+    #: constant, linear: (dof, J); F = constant + k linear; u, v, w of a node of the section's basis follow
+    #: each other
     constant: csr_matrix
     linear: csr_matrix
-    stiffness: Float[Array, "opening opening"]
+    stiffness: Float[Array, "opening opening"]  # (J, J), D
 
     def forces(self, wave_number: float) -> Float[Array, "dof opening"]:
         """F (dof, J) at the wave number k, rad/m."""
@@ -106,19 +100,14 @@ _SECTORS = np.arange(-NEIGHBOURS, NEIGHBOURS + 1)
 
 
 class EndFace(NamedTuple):
-    """End face of a gear: how the openings of a sector's two halves hang together.
+    """End face of a gear: how the openings of a sector's two halves hang together."""
 
-    Attributes
-    ----------
-    openings : of the half y > 0
-    upper, lower : (J, O); openings of both halves in terms of those that are free; the lower half's are
-        mirror images
-    ahead : (J, O), part of `lower` on the edge, to be taken times the conjugate phase
-    """
-
-    openings: Openings
+    openings: Openings  # of the half y > 0
+    #: upper, lower: (J, O); openings of both halves in terms of those that are free; the lower half's are
+    #: mirror images
     upper: Float[Array, "half free"]
     lower: Float[Array, "half free"]
+    #: (J, O), part of `lower` on the edge, to be taken times the conjugate phase
     ahead: Float[Array, "half free"]
 
     def joined(self, phase: complex) -> Complex[Array, "both free"]:

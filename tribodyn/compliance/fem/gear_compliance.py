@@ -15,23 +15,17 @@ class LeadHarmonics(NamedTuple):
     """Response of a gear to line loads cos kz along its teeth, for unit Young's modulus; amplitudes.
 
     K wave numbers, M positions of the load as in `GearCompliance`, P positions along the root.
-
-    Attributes
-    ----------
-    wave_number : (K,), k, rad/m, increasing from 0
-    inside : (K, 2, M)
-    between : (K, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`, per unit line load
-    root_position : (2, P), x and y in the tooth's frame, m, of the points on the loaded flank's side, y > 0,
-        from the middle of the gap to the flank; those of the other side are their mirror images
-    root_stress : (K, 2 NEIGHBOURS + 1, 2, P, M); stress along the profile, tension positive, per unit line
-        load, 1/m: on the tooth k − NEIGHBOURS pitches towards +y of the loaded one, on its own side y > 0 (0)
-        and y < 0 (1)
     """
 
-    wave_number: Float[Array, " wave"]
-    inside: Float[Array, "wave 2 radius"]
+    wave_number: Float[Array, " wave"]  # (K,), k, rad/m, increasing from 0
+    inside: Float[Array, "wave 2 radius"]  # (K, 2, M)
+    #: (K, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`, per unit line load
     between: Float[Array, "wave sector radius radius"]
+    #: (2, P), x and y in the tooth's frame, m, of the points on the loaded flank's side, y > 0, from the
+    #: middle of the gap to the flank; those of the other side are their mirror images
     root_position: Float[Array, "2 point"]
+    #: (K, 2 NEIGHBOURS + 1, 2, P, M); stress along the profile, tension positive, per unit line load, 1/m: on
+    #: the tooth k − NEIGHBOURS pitches towards +y of the loaded one, on its own side y > 0 (0) and y < 0 (1)
     root_stress: Float[Array, "wave sector 2 point radius"]
 
 
@@ -42,20 +36,14 @@ class FreeEnds(NamedTuple):
     or 1 for k' = 0: at the K wave numbers solved, between which a spline interpolates. k and k' are even
     (0) or odd (1) numbers of half waves over the width b, both the same. M positions of the load, P along the
     root as in `LeadHarmonics`.
-
-    Attributes
-    ----------
-    wave_number : (K,), k, rad/m
-    radius : (M,), as in `GearCompliance`; fewer
-    own : (2, K', K, M), of a loaded position's surface, m
-    between : (2, K', K, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`, m
-    root_stress : (2, K', K, 2 NEIGHBOURS + 1, 2, P, M), as in `LeadHarmonics`
     """
 
-    wave_number: Float[Array, " wave"]
-    radius: Float[Array, " radius"]
-    own: Float[Array, "2 wave wave radius"]
+    wave_number: Float[Array, " wave"]  # (K,), k, rad/m
+    radius: Float[Array, " radius"]  # (M,), as in `GearCompliance`; fewer
+    own: Float[Array, "2 wave wave radius"]  # (2, K', K, M), of a loaded position's surface, m
+    #: (2, K', K, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`, m
     between: Float[Array, "2 wave wave sector radius radius"]
+    #: (2, K', K, 2 NEIGHBOURS + 1, 2, P, M), as in `LeadHarmonics`
     root_stress: Float[Array, "2 wave wave sector 2 point radius"]
 
 
@@ -63,25 +51,20 @@ class GearCompliance(NamedTuple):
     """Compliances of a gear's flanks in plane strain, for unit Young's modulus and width.
 
     Multiply by 1/(E b) for m/N. M positions along the flank, from the fillet to the tip.
-
-    Attributes
-    ----------
-    radius : (M,), distance of the positions from the axis, m, increasing
-    inside : (2, M), displacement, along the load, of the points at the depth and at twice the depth below a
-        loaded position
-    between : (2 NEIGHBOURS + 1, M, M); displacement at position i of the flank k − NEIGHBOURS pitches towards
-        +y of the tooth's frame, the side of the loaded flank, per load at position j; infinite in truth for
-        the tooth itself where i = j
-    depth : depth below the surface to which `inside` refers, m
-    lead : loads that vary along the teeth, and root stress, where they were requested
-    ends : with `lead`: that the end faces are free; without it they are planes of symmetry
     """
 
-    radius: Float[Array, " radius"]
+    radius: Float[Array, " radius"]  # (M,), distance of the positions from the axis, m, increasing
+    #: (2, M), displacement, along the load, of the points at the depth and at twice the depth below a loaded
+    #: position
     inside: Float[Array, "2 radius"]
+    #: (2 NEIGHBOURS + 1, M, M); displacement at position i of the flank k − NEIGHBOURS pitches towards +y of
+    #: the tooth's frame, the side of the loaded flank, per load at position j; infinite in truth for the
+    #: tooth itself where i = j
     between: Float[Array, "sector radius radius"]
-    depth: float
+    depth: float  # depth below the surface to which `inside` refers, m
+    #: loads that vary along the teeth, and root stress, where they were requested
     lead: LeadHarmonics | None = None
+    #: with `lead`: that the end faces are free; without it they are planes of symmetry
     ends: FreeEnds | None = None
 
 

@@ -21,27 +21,20 @@ _NEWTON_STEPS = 8
 
 
 class GearModel(NamedTuple):
-    """Half a sector of the gear, y ≥ 0, in its tooth's frame.
+    """Half a sector of the gear, y ≥ 0, in its tooth's frame."""
 
-    Attributes
-    ----------
-    basis : of one component of the displacement
-    position : (2, M), vertices of the loaded flank, m
-    loads : (2 N, M), unit normal load on each of them; u and v of a node follow each other
-    inner : (2 M, 2 N); rows that read the displacement along the load at the depth, then at twice the depth,
-        below each
-    beyond : (2 M,), whether these points lie on the other half, y < 0; their rows then read the mirror image
-    root_position : (2, 2 R + 1)
-    root : (2 R + 1,), nodes along the root and where they are, in the order of `SectorMesh.root`
-    """
-
-    basis: Basis
+    basis: Basis  # of one component of the displacement
     half: HalfSector
-    position: Float[Array, "2 vertex"]
+    position: Float[Array, "2 vertex"]  # (2, M), vertices of the loaded flank, m
+    #: (2 N, M), unit normal load on each of them; u and v of a node follow each other
     loads: Float[Array, "dof vertex"]
+    #: (2 M, 2 N); rows that read the displacement along the load at the depth, then at twice the depth, below
+    #: each
     inner: Float[Array, "reader dof"]
+    #: (2 M,), whether these points lie on the other half, y < 0; their rows then read the mirror image
     beyond: NDArray[np.bool_]
-    root_position: Float[Array, "2 root"]
+    root_position: Float[Array, "2 root"]  # (2, 2 R + 1)
+    #: (2 R + 1,), nodes along the root and where they are, in the order of `SectorMesh.root`
     root: NDArray[np.int64]
 
 

@@ -36,20 +36,14 @@ _ORDER = 5  # of the spline
 
 
 class LeadCompliance(NamedTuple):
-    """Response at N wave numbers, for unit Young's modulus; M positions of the load, P along the root.
+    """Response at N wave numbers, for unit Young's modulus; M positions of the load, P along the root."""
 
-    Attributes
-    ----------
-    radius : (M,), m
-    own : (N, M), displacement along the load per line load, freed of the depth: to be added to
-        Weber-Banaschek's deflection from the surface to `GearCompliance.depth`
-    between : (N, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`
-    root_stress : (N, 2 NEIGHBOURS + 1, 2, P, M), as in `LeadHarmonics`, 1/m
-    """
-
-    radius: Float[Array, " radius"]
+    radius: Float[Array, " radius"]  # (M,), m
+    #: (N, M), displacement along the load per line load, freed of the depth: to be added to Weber-Banaschek's
+    #: deflection from the surface to `GearCompliance.depth`
     own: Float[Array, "wave radius"]
-    between: Float[Array, "wave sector radius radius"]
+    between: Float[Array, "wave sector radius radius"]  # (N, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`
+    #: (N, 2 NEIGHBOURS + 1, 2, P, M), as in `LeadHarmonics`, 1/m
     root_stress: Float[Array, "wave sector 2 point radius"]
 
 

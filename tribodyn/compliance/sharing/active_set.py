@@ -28,20 +28,14 @@ _MINIMUM_LOAD = 1e-7
 
 
 class Pressed(NamedTuple):
-    """Loads of the places.
+    """Loads of the places."""
 
-    Attributes
-    ----------
-    load : (position, place), N, ≥ 0
-    deflection : (position,), ξ, m
-    overlap : (position, place), ξ a − g less what the other places' loads deflect, m: what a place's own load
-        takes up where it is positive; the distance still open where negative
-    stiffness : (position,), dT/dξ, N m/m: of the places that touch, the local deflection's tangent included
-    """
-
-    load: Float[Array, "position place"]
-    deflection: Float[Array, " position"]
+    load: Float[Array, "position place"]  # (position, place), N, ≥ 0
+    deflection: Float[Array, " position"]  # (position,), ξ, m
+    #: (position, place), ξ a − g less what the other places' loads deflect, m: what a place's own load takes
+    #: up where it is positive; the distance still open where negative
     overlap: Float[Array, "position place"]
+    #: (position,), dT/dξ, N m/m: of the places that touch, the local deflection's tangent included
     stiffness: Float[Array, " position"]
 
 

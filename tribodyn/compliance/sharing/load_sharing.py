@@ -47,25 +47,15 @@ _ENTRIES = 2_000_000
 
 
 class SharedLoad(NamedTuple):
-    """State of the mesh; arrays over (position, pair, slice) unless said otherwise.
+    """State of the mesh; arrays over (position, pair, slice) unless said otherwise."""
 
-    Attributes
-    ----------
-    slice_load : N, ≥ 0
-    deflection : (position,), ξ = r_p θ_p − r_g θ_g, m
-    overlap : m
-        ξ cos α − g less what the other slices' loads deflect: what a slice's own load takes up where it is
-        positive; the distance still open where negative.
-    contact_deflection : m
-        u_1 + u_2.
-    stiffness : (position,), dT_g/dξ of what touches, N m/m
-    """
-
-    slice_load: Float[Array, "position pair slice"]
-    deflection: Float[Array, " position"]
+    slice_load: Float[Array, "position pair slice"]  # N, ≥ 0
+    deflection: Float[Array, " position"]  # (position,), ξ = r_p θ_p − r_g θ_g, m
+    #: m ξ cos α − g less what the other slices' loads deflect: what a slice's own load takes up where it is
+    #: positive; the distance still open where negative.
     overlap: Float[Array, "position pair slice"]
-    contact_deflection: Float[Array, "position pair slice"]
-    stiffness: Float[Array, " position"]
+    contact_deflection: Float[Array, "position pair slice"]  # m u_1 + u_2.
+    stiffness: Float[Array, " position"]  # (position,), dT_g/dξ of what touches, N m/m
 
     @property
     def normal_load(self) -> Float[Array, "position pair"]:
@@ -256,20 +246,12 @@ def effective_contact_ratio(roll: Float[Array, "position pair"], shared: SharedL
 
 
 class LoadedFlanks(NamedTuple):
-    """What the load contact model needs to know except position, load and friction.
+    """What the load contact model needs to know except position, load and friction."""
 
-    Attributes
-    ----------
-    flexible : with `lead` where slices hold each other
-    modifications : of flanks and axes
-    slices : equal slices of the face
-    coupled : whether slices hold each other through the teeth and bodies
-    """
-
-    flexible: PairFlexibility
-    modifications: Modifications = UNMODIFIED
-    slices: int = 1
-    coupled: bool = True
+    flexible: PairFlexibility  # with `lead` where slices hold each other
+    modifications: Modifications = UNMODIFIED  # of flanks and axes
+    slices: int = 1  # equal slices of the face
+    coupled: bool = True  # whether slices hold each other through the teeth and bodies
 
     def face(self) -> Float[Array, " slice"]:
         """Middles of the slices, m from the middle of the face."""

@@ -32,18 +32,11 @@ from tribodyn.numerics.shapes import Array, Float
 
 
 class PairFlexibility(NamedTuple):
-    """Elasticity of both gears of a drive; see `load_sharing.flexibility`.
-
-    Attributes
-    ----------
-    materials : (ElasticMaterial, ElasticMaterial)
-    width : common face width, m
-    gears : (GearCompliance, GearCompliance)
-    """
+    """Elasticity of both gears of a drive; see `load_sharing.flexibility`."""
 
     assembly: Assembly
     materials: tuple[ElasticMaterial, ElasticMaterial]
-    width: float
+    width: float  # common face width, m
     gears: tuple[GearCompliance, GearCompliance]
 
 

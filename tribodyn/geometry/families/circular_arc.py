@@ -28,17 +28,13 @@ class ArcPath(NamedTuple):
 
     With β = α − α_P = asin(r/D): dφ = cos β dβ D/(r_p cos(α_P + β)), which integrates to
     φ = [β cos α_P − sin α_P ln(cos(α_P + β)/cos α_P)] D/r_p.
-
-    Parameters
-    ----------
-    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
-    angle : pressure angle α_P at the pitch point, rad
-    approach_diameter, recess_diameter : D of either arc, m; negative where α falls away from P
     """
 
+    #: pinion_pitch_radius, gear_pitch_radius: pitch radii, m
     pinion_pitch_radius: Any
     gear_pitch_radius: Any
-    angle: Any
+    angle: Any  # pressure angle α_P at the pitch point, rad
+    #: approach_diameter, recess_diameter: D of either arc, m; negative where α falls away from P
     approach_diameter: Any
     recess_diameter: Any
 

@@ -49,20 +49,16 @@ class CRCPath(NamedTuple):
     """Path of contact whose equivalent radius is the same everywhere.
 
     It is known from `lower` to `upper` only; beyond them α keeps its last value and nothing else holds.
-
-    Parameters
-    ----------
-    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
-    lower, upper : signed distances (m) between which the path is solved: as far as rack and mate reach, and a
-        margin
-    coefficients : Chebyshev coefficients of sin α over lower … upper, (DEGREE + 1,)
     """
 
+    #: pinion_pitch_radius, gear_pitch_radius: pitch radii, m
     pinion_pitch_radius: Any
     gear_pitch_radius: Any
+    #: lower, upper: signed distances (m) between which the path is solved: as far as rack and mate reach, and
+    #: a margin
     lower: Any
     upper: Any
-    coefficients: Any
+    coefficients: Any  # Chebyshev coefficients of sin α over lower … upper, (DEGREE + 1,)
 
     def _sine(self, r: PerContact) -> tuple[PerContact, PerContact]:
         basis = chebyshev_basis((2 * r - self.lower - self.upper) / (self.upper - self.lower))

@@ -15,17 +15,12 @@ _ROUNDING = 1e-9
 
 
 class InvolutePath(NamedTuple):
-    """Straight path of contact at the working pressure angle; closed forms throughout.
+    """Straight path of contact at the working pressure angle; closed forms throughout."""
 
-    Parameters
-    ----------
-    pinion_pitch_radius, gear_pitch_radius : working pitch radii, m
-    angle : working pressure angle, rad
-    """
-
+    #: pinion_pitch_radius, gear_pitch_radius: working pitch radii, m
     pinion_pitch_radius: Any
     gear_pitch_radius: Any
-    angle: Any
+    angle: Any  # working pressure angle, rad
 
     def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle, the same everywhere, rad."""

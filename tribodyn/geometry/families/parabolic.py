@@ -18,16 +18,12 @@ from tribodyn.numerics.parameter import Parameter
 
 
 class ParabolaPath(NamedTuple):
-    """Two half parabolas; closed forms throughout.
+    """Two half parabolas; closed forms throughout."""
 
-    Parameters
-    ----------
-    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
-    approach_parameter, recess_parameter : p2 and p1: semi-latus rectum of either parabola, m
-    """
-
+    #: pinion_pitch_radius, gear_pitch_radius: pitch radii, m
     pinion_pitch_radius: Any
     gear_pitch_radius: Any
+    #: approach_parameter, recess_parameter: p2 and p1: semi-latus rectum of either parabola, m
     approach_parameter: Any
     recess_parameter: Any
 

@@ -29,23 +29,18 @@ _ANGLE_TOLERANCE = np.radians(2.0)
 
 
 class PointsPath(NamedTuple):
-    """Piecewise cubic pressure angle.
+    """Piecewise cubic pressure angle."""
 
-    Parameters
-    ----------
-    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
-    knots, angles : (n,), signed distances (m), ascending, 0 among them, and pressure angles (rad) there
-    left_slopes, right_slopes : (n − 1,), dα/dr at either end of each interval, rad/m
-    rotations : (n,), pinion angle φ at the knots, rad
-    """
-
+    #: pinion_pitch_radius, gear_pitch_radius: pitch radii, m
     pinion_pitch_radius: Any
     gear_pitch_radius: Any
+    #: knots, angles: (n,), signed distances (m), ascending, 0 among them, and pressure angles (rad) there
     knots: Any
     angles: Any
+    #: left_slopes, right_slopes: (n − 1,), dα/dr at either end of each interval, rad/m
     left_slopes: Any
     right_slopes: Any
-    rotations: Any
+    rotations: Any  # (n,), pinion angle φ at the knots, rad
 
     def _interval(self, r: PerContact) -> Int[Array, "*contact"]:
         xp = namespace(self, r)

@@ -30,18 +30,13 @@ _NEWTON_STEPS = 6
 
 
 class PowerRackPath(NamedTuple):
-    """Path of contact of a rack whose flank is a power law.
+    """Path of contact of a rack whose flank is a power law."""
 
-    Parameters
-    ----------
-    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
-    module : unit of the rack's height, m
-    form, exponent : a_P and n
-    """
-
+    #: pinion_pitch_radius, gear_pitch_radius: pitch radii, m
     pinion_pitch_radius: Any
     gear_pitch_radius: Any
-    module: Any
+    module: Any  # unit of the rack's height, m
+    #: form, exponent: a_P and n
     form: Any
     exponent: Any
 

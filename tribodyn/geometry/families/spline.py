@@ -28,20 +28,15 @@ _STEEPEST = np.radians(80.0)
 
 
 class SplineShape(NamedTuple):
-    """Values of the path.
+    """Values of the path."""
 
-    Parameters
-    ----------
-    angles : (n,), pressure angles at the knots, rad, from the approach's end to the recess's
-    knots : (n,), optional; signed distances of the knots, m, ascending, 0 among them; plain numbers
-    path_length : optional; in place of knots: the n knots divide half this length evenly on either side of P,
-        n // 2 intervals in approach and (n − 1) // 2 in recess, m
-    corner : by how much the corner at P raises α from P to half the path length on either side, rad
-    """
-
-    angles: Any
+    angles: Any  # (n,), pressure angles at the knots, rad, from the approach's end to the recess's
+    #: (n,), optional; signed distances of the knots, m, ascending, 0 among them; plain numbers
     knots: Any = None
+    #: optional; in place of knots: the n knots divide half this length evenly on either side of P, n // 2
+    #: intervals in approach and (n − 1) // 2 in recess, m
     path_length: Any = None
+    #: by how much the corner at P raises α from P to half the path length on either side, rad
     corner: Any = 0.0
 
 

@@ -24,20 +24,16 @@ class PairGeometry(NamedTuple):
     On the path of contact these are the path's. Outside, direction and curvature are those at the end of the
     path, and the signed distance is the corner's distance from the pitch point, which makes the sliding
     velocity exact.
-
-    Attributes
-    ----------
-    motion : direction, arms, curvatures and speeds, `path.kinematics`
-    gap : distance between corner and flank along the flank's normal while nothing is loaded, m; 0 on the path
-    pinion_radius, gear_radius : where each flank is touched: distance from its own axis, m
-    pinion_place, gear_place : the same as the signed distance at which that point of the flank is on the path
-        of contact, m; both are the contact's own on the path
     """
 
-    motion: Kinematics
+    motion: Kinematics  # direction, arms, curvatures and speeds, `path.kinematics`
+    #: distance between corner and flank along the flank's normal while nothing is loaded, m; 0 on the path
     gap: PerContact
+    #: pinion_radius, gear_radius: where each flank is touched: distance from its own axis, m
     pinion_radius: PerContact
     gear_radius: PerContact
+    #: pinion_place, gear_place: the same as the signed distance at which that point of the flank is on the
+    #: path of contact, m; both are the contact's own on the path
     pinion_place: PerContact
     gear_place: PerContact
 

@@ -30,25 +30,16 @@ class Limits(NamedTuple):
 
 
 class Deviations(NamedTuple):
-    """Deviations of one gear.
+    """Deviations of one gear."""
 
-    Attributes
-    ----------
-    pitch : (teeth,), index deviations of the flanks, m, positive where material is missing
-    single_pitch : pitch deviation between the two teeth of it that are in mesh first, m
-    slope : material missing at the tip more than at the root, m
-    form : peak to valley of the form deviation, m
-    phase : of the form deviation over the path of contact
-    helix : material missing at the end of the face more than at its start, m
-    """
-
+    #: (teeth,), index deviations of the flanks, m, positive where material is missing
     pitch: Float[Array, " tooth"]
-    single_pitch: float
-    slope: float
-    form: float
+    single_pitch: float  # pitch deviation between the two teeth of it that are in mesh first, m
+    slope: float  # material missing at the tip more than at the root, m
+    form: float  # peak to valley of the form deviation, m
     waves: int
-    phase: float
-    helix: float
+    phase: float  # of the form deviation over the path of contact
+    helix: float  # material missing at the end of the face more than at its start, m
 
 
 def sampled(limits: Limits, teeth: int, seed: int, gear: int) -> Deviations:

@@ -20,54 +20,36 @@ class Relief(NamedTuple):
     """Relief of one end of the profile: amount × (1 − distance/length)^exponent from that end inwards.
 
     The ends are those of the path of contact: the pinion's tip meets at its end, the gear's at its beginning.
-
-    Parameters
-    ----------
-    amount : material missing at the end of the active profile, m along the normal
-    length : how far it reaches from that end, m along the line of action (|Δr|, the roll length of an
-        involute)
-    exponent : 1: linear, 2: parabolic
     """
 
-    amount: float = 0.0
+    amount: float = 0.0  # material missing at the end of the active profile, m along the normal
+    #: how far it reaches from that end, m along the line of action (|Δr|, the roll length of an involute)
     length: float = 0.0
-    exponent: float = 1.0
+    exponent: float = 1.0  # 1: linear, 2: parabolic
 
 
 class LeadRelief(NamedTuple):
-    """Relief along the face: parabola, straight part, parabola (Jia et al., y1, y2, y3); crowning.
+    """Relief along the face: parabola, straight part, parabola (Jia et al., y1, y2, y3); crowning."""
 
-    Parameters
-    ----------
-    start, end : material missing at both ends of the face, m along the normal
-    unmodified : length of the straight part, m
-    crowning : material missing at both ends of a parabola over the whole face, m; adds to the relief
-    """
-
+    #: start, end: material missing at both ends of the face, m along the normal
     start: float = 0.0
     end: float = 0.0
-    unmodified: float = 0.0
+    unmodified: float = 0.0  # length of the straight part, m
+    #: material missing at both ends of a parabola over the whole face, m; adds to the relief
     crowning: float = 0.0
 
 
 class FlankModification(NamedTuple):
-    """How the flanks of one gear differ from the family's: the driving flanks, or both.
-
-    Parameters
-    ----------
-    profile_error : material missing along the normal over the pinion's roll angle from the pitch point (rad,
-        m)
-    pitch_error : one per tooth in the order in which they enter, m along the normal, material missing > 0;
-        empty: none
-    both_flanks : whether the back flanks have the same reliefs and profile error; otherwise they are
-        unmodified
-    """
+    """How the flanks of one gear differ from the family's: the driving flanks, or both."""
 
     tip: Relief = Relief()
     root: Relief = Relief()
     lead: LeadRelief = LeadRelief()
+    #: material missing along the normal over the pinion's roll angle from the pitch point (rad, m)
     profile_error: Table | None = None
+    #: one per tooth in the order in which they enter, m along the normal, material missing > 0; empty: none
     pitch_error: tuple[float, ...] = ()
+    #: whether the back flanks have the same reliefs and profile error; otherwise they are unmodified
     both_flanks: bool = False
 
 
@@ -79,15 +61,10 @@ class Misalignment(NamedTuple):
     off towards +y (away from the pinion) and +x at z > 0,
 
         in_plane = skew cos α_w + inclination sin α_w,  out_of_plane = inclination cos α_w − skew sin α_w.
-
-    Parameters
-    ----------
-    in_plane : within the plane of action: the gap grows by this times z
-    out_of_plane : perpendicular to it; of second order only, for an involute
     """
 
-    in_plane: float = 0.0
-    out_of_plane: float = 0.0
+    in_plane: float = 0.0  # within the plane of action: the gap grows by this times z
+    out_of_plane: float = 0.0  # perpendicular to it; of second order only, for an involute
 
 
 class Modifications(NamedTuple):

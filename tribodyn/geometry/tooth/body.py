@@ -18,26 +18,22 @@ from tribodyn.numerics.shapes import Array, Float
 
 
 class ToothOutline(NamedTuple):
-    """Half a tooth as points, from the root circle over the fillet and the flank to the tip circle.
+    """Half a tooth as points, from the root circle over the fillet and the flank to the tip circle."""
 
-    Parameters
-    ----------
-    fillet_x, fillet_y, flank_x, flank_y : points (m) in the tooth's frame; the fillet's last point is the
-        flank's first
-    root_radius, form_radius, tip_radius : radii of the root circle, of the junction and of the tip circle, m
-    root_half_angle : angle between the tooth's axis and the point where the fillet meets the root circle, rad
-    tip_half_thickness : half thickness at the tip circle, m; negative where the tooth would be pointed
-    """
-
+    #: fillet_x, fillet_y, flank_x, flank_y: points (m) in the tooth's frame; the fillet's last point is the
+    #: flank's first
     fillet_x: Float[Array, " fillet"]
     fillet_y: Float[Array, " fillet"]
     flank_x: Float[Array, " flank"]
     flank_y: Float[Array, " flank"]
+    #: root_radius, form_radius, tip_radius: radii of the root circle, of the junction and of the tip circle,
+    #: m
     root_radius: Any
     form_radius: Any
     tip_radius: Any
+    #: angle between the tooth's axis and the point where the fillet meets the root circle, rad
     root_half_angle: Any
-    tip_half_thickness: Any
+    tip_half_thickness: Any  # half thickness at the tip circle, m; negative where the tooth would be pointed
 
 
 def tooth_outline(tooth: Tooth, flank_points: int = 60, fillet_points: int = 30) -> ToothOutline:

@@ -21,18 +21,13 @@ _ROUNDING_POINTS = 16
 
 
 class RackOutline(NamedTuple):
-    """One pitch of a rack cutter: one tooth of the tool between the middles of its two gaps.
+    """One pitch of a rack cutter: one tooth of the tool between the middles of its two gaps."""
 
-    Parameters
-    ----------
-    x, y : points (m) from x = −pitch/2 to pitch/2, symmetric about the tooth's axis x = 0
-    pitch : distance between neighbouring teeth, m
-    tip_height, root_height : y of the tool's tip and root, m
-    """
-
+    #: x, y: points (m) from x = −pitch/2 to pitch/2, symmetric about the tooth's axis x = 0
     x: Float[Array, " point"]
     y: Float[Array, " point"]
-    pitch: float
+    pitch: float  # distance between neighbouring teeth, m
+    #: tip_height, root_height: y of the tool's tip and root, m
     tip_height: float
     root_height: float
 

@@ -33,53 +33,40 @@ _NEWTON_STEPS = 8
 
 
 class Tooth(NamedTuple):
-    """One tooth as two curves: `flank_point` over r, `fillet_point` over the angle of the rack's normal.
+    """One tooth as two curves: `flank_point` over r, `fillet_point` over the angle of the rack's normal."""
 
-    Parameters
-    ----------
-    path : generating path of contact, seen from the body
-    half_angle : half thickness angle of the tooth on the generating pitch circle, rad
-    form_distance, tip_distance : signed distances r (m) on the generating path where the flank begins (at the
-        fillet) and ends
-    form_angle : angle of the rack's normal where the fillet ends at the flank, rad; it grows to π/2 at the
-        root
-    overrun : −u_p where the rack's flank ends, m per rad: positive if it reaches beyond the point of zero
-        velocity, by this distance for the involute, and undercuts the tooth
-    corner_x, corner_y : centre of the rack's rounded tip in the rack's frame at φ = 0, m
-    corner_radius : radius of the rack's rounded tip, m
-    corner_limit : symmetry axis of the rack's tooth, m: with corner_x beyond it the two rounded corners would
-        overlap
-    root_radius, form_radius, tip_radius : radii of the root circle, of the junction of fillet and flank and
-        of the tip circle, m
-    """
-
-    path: Any
-    half_angle: Any
+    path: Any  # generating path of contact, seen from the body
+    half_angle: Any  # half thickness angle of the tooth on the generating pitch circle, rad
+    #: form_distance, tip_distance: signed distances r (m) on the generating path where the flank begins (at
+    #: the fillet) and ends
     form_distance: Any
     tip_distance: Any
+    #: angle of the rack's normal where the fillet ends at the flank, rad; it grows to π/2 at the root
     form_angle: Any
+    #: −u_p where the rack's flank ends, m per rad: positive if it reaches beyond the point of zero velocity,
+    #: by this distance for the involute, and undercuts the tooth
     overrun: Any
+    #: corner_x, corner_y: centre of the rack's rounded tip in the rack's frame at φ = 0, m
     corner_x: Any
     corner_y: Any
-    corner_radius: Any
+    corner_radius: Any  # radius of the rack's rounded tip, m
+    #: symmetry axis of the rack's tooth, m: with corner_x beyond it the two rounded corners would overlap
     corner_limit: Any
+    #: root_radius, form_radius, tip_radius: radii of the root circle, of the junction of fillet and flank and
+    #: of the tip circle, m
     root_radius: Any
     form_radius: Any
     tip_radius: Any
 
 
 class ToothContact(NamedTuple):
-    """Where the mate touches a tooth and how its normal load stands to the tooth's axis.
+    """Where the mate touches a tooth and how its normal load stands to the tooth's axis."""
 
-    Parameters
-    ----------
-    x, y : contact point in the tooth's frame, m
-    load_angle : angle α_1 (rad) from the perpendicular of the tooth's axis to the normal load F: F cos α_1
-        bends the tooth towards its axis, F sin α_1 presses it along the axis into the body
-    """
-
+    #: x, y: contact point in the tooth's frame, m
     x: PerContact
     y: PerContact
+    #: angle α_1 (rad) from the perpendicular of the tooth's axis to the normal load F: F cos α_1 bends the
+    #: tooth towards its axis, F sin α_1 presses it along the axis into the body
     load_angle: PerContact
 
 

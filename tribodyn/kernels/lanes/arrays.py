@@ -15,18 +15,12 @@ ALIGNMENT = 8
 
 
 class Element(NamedTuple):
-    """What an array holds: its type to numba, the floats that it takes, and how it is read and written.
-
-    Attributes
-    ----------
-    load : (context, builder, pointer) -> value
-    store : (context, builder, pointer, value)
-    """
+    """What an array holds: its type to numba, the floats that it takes, and how it is read and written."""
 
     type: Any
     length: int
-    load: Callable[..., Any]
-    store: Callable[..., Any]
+    load: Callable[..., Any]  # (context, builder, pointer) -> value
+    store: Callable[..., Any]  # (context, builder, pointer, value)
 
 
 class ElementArrayType(types.Type):

@@ -48,21 +48,13 @@ class LaneTableType(types.Type):
 
 
 class Field(NamedTuple):
-    """A field of a record.
-
-    Attributes
-    ----------
-    ndim : axes of the table; 0: a number
-    row : among the block's numbers or addresses
-    first_length : where the table's shape begins among all lengths
-    shared : whether the table is the same in every lane
-    """
+    """A field of a record."""
 
     name: str
-    ndim: int
-    row: int
-    first_length: int
-    shared: bool
+    ndim: int  # axes of the table; 0: a number
+    row: int  # among the block's numbers or addresses
+    first_length: int  # where the table's shape begins among all lengths
+    shared: bool  # whether the table is the same in every lane
 
 
 class LaneRecordType(types.Type):
@@ -75,18 +67,13 @@ class LaneRecordType(types.Type):
 
 
 class LaneRecord(NamedTuple):
-    """One of a model's named tuples over the lanes, as Python hands it to a kernel.
-
-    Attributes
-    ----------
-    numbers, addresses : (F, WIDTH) float64, (T, WIDTH) int64
-    lengths : (L,) int64, shapes of all tables, one after the other; the same in every lane
-    """
+    """One of a model's named tuples over the lanes, as Python hands it to a kernel."""
 
     fields: tuple[Field, ...]
+    #: numbers, addresses: (F, WIDTH) float64, (T, WIDTH) int64
     numbers: np.ndarray
     addresses: np.ndarray
-    lengths: np.ndarray
+    lengths: np.ndarray  # (L,) int64, shapes of all tables, one after the other; the same in every lane
 
     def as_argument(self) -> PackedValue:
         """As kernels read it: the addresses of the three arrays; the caller keeps them alive."""

@@ -53,16 +53,12 @@ class PackedValue(NamedTuple):
     """A value as the kernels read it; stands for it among a kernel's arguments.
 
     What many calls have in common is packed once. Arrays inside are pointed at: the value keeps them alive.
-
-    Attributes
-    ----------
-    layout : Numeric, Array, RecordLayout, FunctionLayout, or what an object makes of itself by `as_argument`
-    value : what was packed
     """
 
+    #: Numeric, Array, RecordLayout, FunctionLayout, or what an object makes of itself by `as_argument`
     layout: Any
     words: bytes
-    value: Any = None
+    value: Any = None  # what was packed
 
 
 FLOAT, INT, BOOL = Numeric("float"), Numeric("int"), Numeric("bool")

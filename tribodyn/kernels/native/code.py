@@ -17,33 +17,19 @@ class KernelFunction:
 
 
 class Compiled(NamedTuple):
-    """A kernel's machine code as it is kept.
+    """A kernel's machine code as it is kept."""
 
-    Attributes
-    ----------
-    symbol : name of the entry, see `Code`
-    returns, single : as for `Code`
-    needs : names that the code does not define
-    body : the object file
-    """
-
-    symbol: str
+    symbol: str  # name of the entry, see `Code`
+    #: returns, single: as for `Code`
     returns: str
     single: bool
-    needs: list[str]
-    body: bytes
+    needs: list[str]  # names that the code does not define
+    body: bytes  # the object file
 
 
 class Code(NamedTuple):
-    """Machine code in memory.
+    """Machine code in memory."""
 
-    Attributes
-    ----------
-    address : of a C function `int32 entry(arguments, results)` on blocks of words, see `arguments`
-    returns : a letter of the struct module for every number that it returns; empty: it returns None
-    single : whether it returns a number and not a tuple
-    """
-
-    address: int
-    returns: str
-    single: bool
+    address: int  # of a C function `int32 entry(arguments, results)` on blocks of words, see `arguments`
+    returns: str  # a letter of the struct module for every number that it returns; empty: it returns None
+    single: bool  # whether it returns a number and not a tuple

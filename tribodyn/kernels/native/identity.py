@@ -21,18 +21,13 @@ _serial = count()
 
 
 class FunctionLayout(NamedTuple):
-    """Layout of a function among a kernel's arguments: no words, but the code depends on it.
-
-    Attributes
-    ----------
-    identity : name, and a digest of the function and of all that it refers to; of a function whose code may
-        not be kept, a number that is this process's own
-    kept : whether machine code that contains the function may be kept on disk
-    """
+    """Layout of a function among a kernel's arguments: no words, but the code depends on it."""
 
     function: Callable[..., Any]
+    #: name, and a digest of the function and of all that it refers to; of a function whose code may not be
+    #: kept, a number that is this process's own
     identity: str
-    kept: bool
+    kept: bool  # whether machine code that contains the function may be kept on disk
     words: int = 0
 
     def __repr__(self) -> str:

@@ -16,28 +16,18 @@ def always(_record: Record) -> bool:
 
 
 class Drawing(NamedTuple):
-    """What a figure shows, what draws it, and whether a record holds enough for it.
+    """What a figure shows, what draws it, and whether a record holds enough for it."""
 
-    Parameters
-    ----------
-    about : in a line
-    draw : (records, view) -> Figure; raises InputError for records that it cannot show
-    fits : whether a record holds enough; what does not fit is drawn only when asked for by name
-    """
-
-    about: str
+    about: str  # in a line
+    #: (records, view) -> Figure; raises InputError for records that it cannot show
     draw: Callable[[Sequence[Record], View], Figure]
+    #: whether a record holds enough; what does not fit is drawn only when asked for by name
     fits: Callable[[Record], bool] = always
 
 
 class SweepDrawing(NamedTuple):
-    """The same for a figure of sweeps.
+    """The same for a figure of sweeps."""
 
-    Parameters
-    ----------
-    about : in a line
-    draw : (records, at) -> Figure; `at` is a parameter's name to its value in SI, for a single case
-    """
-
-    about: str
+    about: str  # in a line
+    #: (records, at) -> Figure; `at` is a parameter's name to its value in SI, for a single case
     draw: Callable[[Sequence[SweepRecord], Mapping[str, float | str]], Figure]

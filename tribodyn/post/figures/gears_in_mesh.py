@@ -13,22 +13,16 @@ MILLIMETRE = 1e-3
 
 
 class GearsInMesh(NamedTuple):
-    """What the picture shows, m from the pitch point; x along the pitch tangent, y along the centres.
+    """What the picture shows, m from the pitch point; x along the pitch tangent, y along the centres."""
 
-    Parameters
-    ----------
-    pinion, gear : closed outlines as they stand, (points, 2)
-    path : path of contact, (points, 2)
-    pitch_radii, tip_radii : of pinion and gear
-    key_points : name, as mathematical text, -> (x, y)
-    """
-
+    #: pinion, gear: closed outlines as they stand, (points, 2)
     pinion: np.ndarray
     gear: np.ndarray
-    path: np.ndarray
+    path: np.ndarray  # path of contact, (points, 2)
+    #: pitch_radii, tip_radii: of pinion and gear
     pitch_radii: tuple[float, float]
     tip_radii: tuple[float, float]
-    key_points: dict[str, tuple[float, float]]
+    key_points: dict[str, tuple[float, float]]  # name, as mathematical text, -> (x, y)
 
 
 def key_rolls(start: float, end: float, pitch: float) -> dict[str, float]:

@@ -28,20 +28,12 @@ CHANGING = 0.05
 
 
 class Track(NamedTuple):
-    """Spectra along a run.
+    """Spectra along a run."""
 
-    Attributes
-    ----------
-    speed : (n,); mean pinion speed in each window, rad/s
-    time : (n,); at its middle, s
-    orders : (m,); orders of the mesh
-    amplitudes : (n, m); of the rotational transmission error, m
-    """
-
-    speed: np.ndarray
-    time: np.ndarray
-    orders: np.ndarray
-    amplitudes: np.ndarray
+    speed: np.ndarray  # (n,); mean pinion speed in each window, rad/s
+    time: np.ndarray  # (n,); at its middle, s
+    orders: np.ndarray  # (m,); orders of the mesh
+    amplitudes: np.ndarray  # (n, m); of the rotational transmission error, m
 
 
 def worth_tracking(record: Record) -> bool:

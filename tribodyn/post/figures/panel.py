@@ -34,36 +34,23 @@ ALONE = ",  $C_p$ to $C_g$: it carries alone"
 
 
 class View(NamedTuple):
-    """Which part of the records is drawn, and over what.
+    """Which part of the records is drawn, and over what."""
 
-    Attributes
-    ----------
-    cycles : how many of the last whole mesh cycles; None for all
-    against : `phase` (mesh cycles) or `time` (ms)
-    asked : whether somebody asked for that abscissa
-    """
-
-    cycles: int | None = 2
-    against: str = "phase"
-    asked: bool = False
+    cycles: int | None = 2  # how many of the last whole mesh cycles; None for all
+    against: str = "phase"  # `phase` (mesh cycles) or `time` (ms)
+    asked: bool = False  # whether somebody asked for that abscissa
 
 
 class Trace(NamedTuple):
-    """A dataset and how engineers read it.
-
-    Attributes
-    ----------
-    symbol, unit : for the axis
-    from_zero : whether the axis starts at 0
-    flag : dataset that says where the law behind it is inside its range, if any
-    """
+    """A dataset and how engineers read it."""
 
     dataset: str
     title: str
+    #: symbol, unit: for the axis
     symbol: str
     unit: str
-    from_zero: bool = False
-    flag: str = ""
+    from_zero: bool = False  # whether the axis starts at 0
+    flag: str = ""  # dataset that says where the law behind it is inside its range, if any
 
     @property
     def factor(self) -> float:

@@ -9,22 +9,13 @@ from tribodyn.record.reader import Record
 
 
 class PageMap(NamedTuple):
-    """A map as a study describes it.
+    """A map as a study describes it."""
 
-    Attributes
-    ----------
-    name : of the dataset
-    roll : (positions,); roll angle of the pair from the pitch point, rad
-    face : (slices,); place on the face from its middle, m
-    values : (positions, slices); SI; NaN: left blank
-    top : percentile of the values at the top of the scale of colours
-    """
-
-    name: str
-    roll: np.ndarray
-    face: np.ndarray
-    values: np.ndarray
-    top: float = 100.0
+    name: str  # of the dataset
+    roll: np.ndarray  # (positions,); roll angle of the pair from the pitch point, rad
+    face: np.ndarray  # (slices,); place on the face from its middle, m
+    values: np.ndarray  # (positions, slices); SI; NaN: left blank
+    top: float = 100.0  # percentile of the values at the top of the scale of colours
 
 
 def as_data(record: Record, found: PageMap) -> dict[str, Any]:

@@ -34,26 +34,17 @@ CYCLES = 2
 
 
 class Told(NamedTuple):
-    """What a record's study says of it.
+    """What a record's study says of it."""
 
-    Attributes
-    ----------
-    reported : quantities of its summary by heading
-    sentences : how far to trust it
-    panels : datasets that are shown at first
-    tables : (title, columns, rows); the sheet of its gears, or what else stands under `heading`
-    profiles : what is shown at the cursor
-    pictures : sequence of (name, about, figure)
-    """
-
-    reported: Reported
-    sentences: Sequence[str]
-    panels: Sequence[str] = ()
+    reported: Reported  # quantities of its summary by heading
+    sentences: Sequence[str]  # how far to trust it
+    panels: Sequence[str] = ()  # datasets that are shown at first
     maps: Sequence[PageMap] = ()
+    #: (title, columns, rows); the sheet of its gears, or what else stands under `heading`
     tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
-    profiles: Profiles | None = None
+    profiles: Profiles | None = None  # what is shown at the cursor
     heading: str = "Geometry"
-    pictures: Sequence[tuple[str, str, Figure]] = ()
+    pictures: Sequence[tuple[str, str, Figure]] = ()  # sequence of (name, about, figure)
 
 
 def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) -> str:

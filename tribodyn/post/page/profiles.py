@@ -10,28 +10,17 @@ from tribodyn.record.reader import Record
 
 
 class Profile(NamedTuple):
-    """A quantity that a page shows over a place, as a study describes it.
+    """A quantity that a page shows over a place, as a study describes it."""
 
-    Attributes
-    ----------
-    name : of the dataset, over the record's axis and the place
-    top : upper end of its axis, SI; None: its maximum
-    """
-
-    name: str
-    top: float | None = None
+    name: str  # of the dataset, over the record's axis and the place
+    top: float | None = None  # upper end of its axis, SI; None: its maximum
 
 
 class Profiles(NamedTuple):
-    """What a page shows at the sample under the cursor.
+    """What a page shows at the sample under the cursor."""
 
-    Attributes
-    ----------
-    title : heading of the section
-    place, label : scale that the profiles are over, and what is said of it at the axis
-    """
-
-    title: str
+    title: str  # heading of the section
+    #: place, label: scale that the profiles are over, and what is said of it at the axis
     place: str
     label: str
     rows: Sequence[Profile]

@@ -32,20 +32,13 @@ NEUTRAL = 1e-6
 
 
 class BranchPoint(NamedTuple):
-    """A motion on a branch.
+    """A motion on a branch."""
 
-    Attributes
-    ----------
-    point : state and parameter in units of the branch
-    tangent : of the branch, of length 1
-    residual : change over a period, in units
-    halves : change of the state over half the period, in units; None where the period is odd
-    """
-
-    point: Float[Array, " unknown"]
-    tangent: Float[Array, " unknown"]
+    point: Float[Array, " unknown"]  # state and parameter in units of the branch
+    tangent: Float[Array, " unknown"]  # of the branch, of length 1
     multipliers: Complex[Array, " state"]
-    residual: float
+    residual: float  # change over a period, in units
+    #: change of the state over half the period, in units; None where the period is odd
     halves: Float[Array, " state"] | None
 
     @property
@@ -170,20 +163,12 @@ class Arclength:
 
 
 class Turn(NamedTuple):
-    """How a branch goes on where nothing is found behind a value of the parameter.
+    """How a branch goes on where nothing is found behind a value of the parameter."""
 
-    Attributes
-    ----------
-    folded : whether the parameter turns back
-    value : where it does; otherwise a value behind, at which the branch goes on
-    within : distance between the places that locate it
-    state : there
-    """
-
-    folded: bool
-    value: float
-    within: float
-    state: Float[Array, " state"]
+    folded: bool  # whether the parameter turns back
+    value: float  # where it does; otherwise a value behind, at which the branch goes on
+    within: float  # distance between the places that locate it
+    state: Float[Array, " state"]  # there
 
 
 def follow_arc(

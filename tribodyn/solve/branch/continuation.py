@@ -43,24 +43,17 @@ VALUES, PERIODS = 256, 96
 
 
 class Leg(NamedTuple):
-    """A way to go: from the motion at one value of the parameter to another value.
+    """A way to go: from the motion at one value of the parameter to another value."""
 
-    Attributes
-    ----------
-    line : which of the family's lines
-    start, target : values of the parameter; equal where nothing was found before
-    state : at the start
-    period : of the motion there; 0: it has none, or is not known
-    finest : minimum step where steps are expensive; 0: as small as it takes; inf: there is nothing in between
-    reach : largest magnitude that the parameter takes: near zero, steps are measured by a quarter of it
-    """
-
-    line: int
+    line: int  # which of the family's lines
+    #: start, target: values of the parameter; equal where nothing was found before
     start: float
     target: float
-    state: Float[Array, " state"]
-    period: int
+    state: Float[Array, " state"]  # at the start
+    period: int  # of the motion there; 0: it has none, or is not known
+    #: minimum step where steps are expensive; 0: as small as it takes; inf: there is nothing in between
     finest: float = 0.0
+    #: largest magnitude that the parameter takes: near zero, steps are measured by a quarter of it
     reach: float = 0.0
 
     def size(self, value: float) -> float:
@@ -69,20 +62,13 @@ class Leg(NamedTuple):
 
 
 class Arrival(NamedTuple):
-    """How a leg ended.
+    """How a leg ended."""
 
-    Attributes
-    ----------
-    orbit : at the target
-    next_state : from which the next leg begins; of a motion without period the last one marched in between
-    ends : of the branches that were left on the way
-    seeds : from where these go on, one for each end
-    """
-
-    orbit: Orbit
+    orbit: Orbit  # at the target
+    #: from which the next leg begins; of a motion without period the last one marched in between
     next_state: Float[Array, " state"]
-    ends: tuple[BranchEnd, ...]
-    seeds: tuple[Seed, ...] = ()
+    ends: tuple[BranchEnd, ...]  # of the branches that were left on the way
+    seeds: tuple[Seed, ...] = ()  # from where these go on, one for each end
 
 
 _Requests = Generator[Request, RequestResult, Arrival]

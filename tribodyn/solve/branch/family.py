@@ -38,39 +38,22 @@ class SystemFamily(Protocol):
 
 
 class BranchEnd(NamedTuple):
-    """Where a branch that was followed is left.
+    """Where a branch that was followed is left."""
 
-    Attributes
-    ----------
-    kind : one of `KINDS`
-    value : of the parameter
-    within : the branch was found on one side of it and not on the other, no farther apart than this
-    period : of the motion that ends
-    multiplier : largest by modulus, at the last point found on the branch
-    """
-
-    kind: str
-    value: float
-    within: float
-    period: int
-    multiplier: complex
+    kind: str  # one of `KINDS`
+    value: float  # of the parameter
+    within: float  # the branch was found on one side of it and not on the other, no farther apart than this
+    period: int  # of the motion that ends
+    multiplier: complex  # largest by modulus, at the last point found on the branch
 
 
 class Seed(NamedTuple):
-    """A place near the end of a stable branch, from which the branch goes on unstably.
+    """A place near the end of a stable branch, from which the branch goes on unstably."""
 
-    Attributes
-    ----------
-    value : of the parameter
-    state : of a stable motion there
-    period : of that: of fewer periods than the branch has had where it ends by merging
-    way : sense of the parameter, ±1, in which the end is from there
-    """
-
-    value: float
-    state: Float[Array, " state"]
-    period: int
-    way: float
+    value: float  # of the parameter
+    state: Float[Array, " state"]  # of a stable motion there
+    period: int  # of that: of fewer periods than the branch has had where it ends by merging
+    way: float  # sense of the parameter, ±1, in which the end is from there
 
 
 def kind_of_end(

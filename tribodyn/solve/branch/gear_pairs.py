@@ -20,17 +20,11 @@ ModelAt = Callable[[int, float], Model]
 
 
 class ContinuedBranch(NamedTuple):
-    """A branch beyond the end of its stable part.
+    """A branch beyond the end of its stable part."""
 
-    Attributes
-    ----------
-    end : number of that end among those of the leg
-    steadies : its motions
-    """
-
-    end: int
+    end: int  # number of that end among those of the leg
     branch: UnstableBranch
-    steadies: list[SteadyMotion]
+    steadies: list[SteadyMotion]  # its motions
 
 
 class LegResult(NamedTuple):
@@ -42,16 +36,10 @@ class LegResult(NamedTuple):
 
 
 class UnstableRange(NamedTuple):
-    """What of the branches beyond their ends is wanted.
+    """What of the branches beyond their ends is wanted."""
 
-    Attributes
-    ----------
-    span : (lowest, highest), range of the parameter
-    motions : motions on a branch at most, evenly along its arclength
-    """
-
-    span: tuple[float, float]
-    motions: int
+    span: tuple[float, float]  # (lowest, highest), range of the parameter
+    motions: int  # motions on a branch at most, evenly along its arclength
 
 
 class GearLines:

@@ -33,20 +33,13 @@ MERGED = 1e-3
 
 
 class UnstableBranch(NamedTuple):
-    """Unstable periodic motions along a branch, in the order of its arclength.
+    """Unstable periodic motions along a branch, in the order of its arclength."""
 
-    Attributes
-    ----------
-    period : periods of the excitation in one of the motion
-    values : of the parameter
-    orbits : the motions
-    finish : where it becomes stable again, or merges with a motion of fewer periods; None: it goes on beyond
-        the range, or cannot be followed farther
-    """
-
-    period: int
-    values: Float[Array, " point"]
-    orbits: list[Orbit]
+    period: int  # periods of the excitation in one of the motion
+    values: Float[Array, " point"]  # of the parameter
+    orbits: list[Orbit]  # the motions
+    #: where it becomes stable again, or merges with a motion of fewer periods; None: it goes on beyond the
+    #: range, or cannot be followed farther
     finish: BranchEnd | None
 
     @property

@@ -42,17 +42,11 @@ def width_here() -> int:
 
 
 class BatchPart(NamedTuple):
-    """Cases that are integrated side by side, by their places in the batch.
-
-    Attributes
-    ----------
-    width : at least the number of cases; what is missing is filled up
-    one_table : whether all cases of this shape have the same
-    """
+    """Cases that are integrated side by side, by their places in the batch."""
 
     method: DiffraxMethod
-    width: int
-    one_table: bool
+    width: int  # at least the number of cases; what is missing is filled up
+    one_table: bool  # whether all cases of this shape have the same
     places: Int[Array, " case"]
 
 

@@ -54,37 +54,23 @@ def _rates(phase: Any, y: Any, cycle: Any, segment: Any, numbers: Any, options: 
 
 
 class Carried(NamedTuple):
-    """What is handed from one segment to the next; all with leading axes for the cases of a batch.
+    """What is handed from one segment to the next; all with leading axes for the cases of a batch."""
 
-    Attributes
-    ----------
-    y : at the end of the segment before; of a run that failed where the last whole segment ended
-    step : first step to try, mesh cycles
-    steps : accepted in this mesh cycle so far
-    status : a `Status`
-    """
-
+    #: at the end of the segment before; of a run that failed where the last whole segment ended
     y: Float[Array, "*case state"]
-    step: Float[Array, "*case"]
-    steps: Int[Array, "*case"]
-    status: Int[Array, "*case"]
+    step: Float[Array, "*case"]  # first step to try, mesh cycles
+    steps: Int[Array, "*case"]  # accepted in this mesh cycle so far
+    status: Int[Array, "*case"]  # a `Status`
 
 
 class SegmentControl(NamedTuple):
-    """How to integrate, segment by segment; with a leading axis for the cases of a batch.
+    """How to integrate, segment by segment; with a leading axis for the cases of a batch."""
 
-    Attributes
-    ----------
-    at : phases to sample, filled up with `NEVER`
-    stops : phases that steps end on
-    max_steps : steps allowed in one mesh cycle
-    """
-
-    at: Float[Array, "*case segment room"]
-    stops: Float[Array, "*case segment stop"]
+    at: Float[Array, "*case segment room"]  # phases to sample, filled up with `NEVER`
+    stops: Float[Array, "*case segment stop"]  # phases that steps end on
     rtol: Float[Array, "*case"]
     atol: Float[Array, "*case state"]
-    max_steps: Int[Array, "*case"]
+    max_steps: Int[Array, "*case"]  # steps allowed in one mesh cycle
 
 
 class SegmentResult(NamedTuple):

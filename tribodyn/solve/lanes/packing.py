@@ -37,23 +37,14 @@ class Kept(NamedTuple):
 
 
 class Packed(NamedTuple):
-    """Models of one shape.
-
-    Attributes
-    ----------
-    fields : fields of every record
-    numbers : (C, F) float64
-    addresses : (C, T) int64
-    lengths : (L,) int64
-    kept : what the addresses point into
-    """
+    """Models of one shape."""
 
     shape: ModelShape
-    fields: tuple[tuple[Field, ...], ...]
-    numbers: np.ndarray
-    addresses: np.ndarray
-    lengths: np.ndarray
-    kept: list[Kept]
+    fields: tuple[tuple[Field, ...], ...]  # fields of every record
+    numbers: np.ndarray  # (C, F) float64
+    addresses: np.ndarray  # (C, T) int64
+    lengths: np.ndarray  # (L,) int64
+    kept: list[Kept]  # what the addresses point into
 
 
 def shape_of(model: Model, known: dict[int, tuple[Any, ...]] | None = None) -> ModelShape:

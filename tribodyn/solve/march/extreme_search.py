@@ -44,22 +44,15 @@ UNKNOWN = 1e150
 
 
 class Search(NamedTuple):
-    """What a search knows.
+    """What a search knows."""
 
-    Attributes
-    ----------
-    measures : (ROWS, measures)
-    state : (STATES,); scratch: a state inside a step
-    extreme, cycles, segments : (EXTREMES,); the most extreme measures so far, and where; as in `Extremes`
-    states : (EXTREMES, STATES)
-    """
-
-    measures: Float[Array, "row measure"]
-    state: Float[Array, " state"]
+    measures: Float[Array, "row measure"]  # (ROWS, measures)
+    state: Float[Array, " state"]  # (STATES,); scratch: a state inside a step
+    #: extreme, cycles, segments: (EXTREMES,); the most extreme measures so far, and where; as in `Extremes`
     extreme: Float[Array, " extreme"]
     cycles: Float[Array, " extreme"]
     segments: Float[Array, " extreme"]
-    states: Float[Array, "extreme state"]
+    states: Float[Array, "extreme state"]  # (EXTREMES, STATES)
 
     @classmethod
     def begun(cls, pairs: int) -> Self:

@@ -42,18 +42,11 @@ PHASE_DIFFERENCE = 1e-7
 
 
 class Differences(NamedTuple):
-    """Where the derivatives go.
+    """Where the derivatives go."""
 
-    Attributes
-    ----------
-    trial : (STATES,); scratch
-    jacobian : (STATES, MECHANICAL or more); receives ∂f/∂y
-    slope : (STATES,); receives ∂f/∂φ
-    """
-
-    trial: Float[Array, " state"]
-    jacobian: Float[Array, "state mechanical"]
-    slope: Float[Array, " state"]
+    trial: Float[Array, " state"]  # (STATES,); scratch
+    jacobian: Float[Array, "state mechanical"]  # (STATES, MECHANICAL or more); receives ∂f/∂y
+    slope: Float[Array, " state"]  # (STATES,); receives ∂f/∂φ
 
 
 @kernel

@@ -41,30 +41,23 @@ STATE, ERROR, SCRATCH = 0, 1, 2
 
 
 class Method(NamedTuple):
-    """What a method adds to the march: seven kernels.
+    """What a method adds to the march: seven kernels."""
 
-    Attributes
-    ----------
-    attempt : (fresh, step, place, y, control, model, work, buffer) -> int
-        Fills the first two rows of the buffer and returns how many right-hand sides that took; `fresh` says
-        that nothing is known yet at the place and `y`. It leaves `work` as it is at the end of the step.
-    sample : (theta, step, y, buffer, out); writes the state at the share `theta` of the step last attempted
-    accept : (buffer) -> bool
-        Keeps what the next step can use of an accepted one; returns whether that one begins fresh.
-    adapted : (step, error, last_error, buffer) -> float
-        The next step to try.
-    contacts : (phase, segment, model, work, buffer); fills `work` with the contacts at the end of the step
-        last attempted, if it is not so yet
-    opened, stepped
-        What seeks extremes at the start of a segment and over an accepted step, see `extreme_search`: its
-        `open_segment` and `search_step`, or `ignore_segment` and `ignore_step`.
-    """
-
+    #: (fresh, step, place, y, control, model, work, buffer) -> int Fills the first two rows of the buffer and
+    #: returns how many right-hand sides that took; `fresh` says that nothing is known yet at the place and
+    #: `y`. It leaves `work` as it is at the end of the step.
     attempt: Callable[..., Any]
+    #: (theta, step, y, buffer, out); writes the state at the share `theta` of the step last attempted
     sample: Callable[..., Any]
+    #: (buffer) -> bool Keeps what the next step can use of an accepted one; returns whether that one begins
+    #: fresh.
     accept: Callable[..., Any]
-    adapted: Callable[..., Any]
+    adapted: Callable[..., Any]  # (step, error, last_error, buffer) -> float The next step to try.
+    #: (phase, segment, model, work, buffer); fills `work` with the contacts at the end of the step last
+    #: attempted, if it is not so yet
     contacts: Callable[..., Any]
+    #: opened, stepped: What seeks extremes at the start of a segment and over an accepted step, see
+    #: `extreme_search`: its `open_segment` and `search_step`, or `ignore_segment` and `ignore_step`.
     opened: Callable[..., Any]
     stepped: Callable[..., Any]
 
@@ -79,22 +72,13 @@ class Place(NamedTuple):
 
 
 class Control(NamedTuple):
-    """What the step control of one case needs.
+    """What the step control of one case needs."""
 
-    Attributes
-    ----------
-    step : first step to try, mesh cycles
-    atol : (STATES,); absolute tolerances
-    scale : (STATES,); sizes of the states
-    stops : (segments, stops); phases that steps end on, see `reversal.stops`
-    slope_tolerance : of derivatives with respect to the start, where numbers carry them, over the scale of
-        the states
-    """
-
-    step: float
-    atol: Float[Array, " state"]
-    scale: Float[Array, " state"]
-    stops: Float[Array, "segment stop"]
+    step: float  # first step to try, mesh cycles
+    atol: Float[Array, " state"]  # (STATES,); absolute tolerances
+    scale: Float[Array, " state"]  # (STATES,); sizes of the states
+    stops: Float[Array, "segment stop"]  # (segments, stops); phases that steps end on, see `reversal.stops`
+    #: of derivatives with respect to the start, where numbers carry them, over the scale of the states
     slope_tolerance: float = 1.0
 
 

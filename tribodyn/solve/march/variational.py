@@ -66,18 +66,11 @@ def engage_with_derivative(y, model, work):
 
 
 class DualMethod(NamedTuple):
-    """A native method over dual numbers.
+    """A native method over dual numbers."""
 
-    Attributes
-    ----------
-    integrate : kernel
-    buffer : () -> its buffer over floats
-    tolerance : of the derivatives in a step, over the scale of the states
-    """
-
-    integrate: Callable[..., Any]
-    buffer: Callable[[], Float[Array, "row state"]]
-    tolerance: float
+    integrate: Callable[..., Any]  # kernel
+    buffer: Callable[[], Float[Array, "row state"]]  # () -> its buffer over floats
+    tolerance: float  # of the derivatives in a step, over the scale of the states
 
 
 #: What takes the place of a method, by the names of `methods`. With these tolerances multipliers of a mesh
@@ -92,22 +85,13 @@ METHODS = {
 
 
 class Derived(NamedTuple):
-    """The ends of marches and their derivatives.
+    """The ends of marches and their derivatives."""
 
-    Attributes
-    ----------
-    state : (R, STATES); behind the engagement that ends the last mesh cycle
-    slopes : (R, STATES, D); its derivatives in the directions given
-    status : (R,); A `Status`
-    reached : (R,); mesh cycles done
-    steps : (R,); accepted steps
-    """
-
-    state: Float[Array, "row state"]
-    slopes: Float[Array, "row state direction"]
-    status: Int[Array, " row"]
-    reached: Float[Array, " row"]
-    steps: Int[Array, " row"]
+    state: Float[Array, "row state"]  # (R, STATES); behind the engagement that ends the last mesh cycle
+    slopes: Float[Array, "row state direction"]  # (R, STATES, D); its derivatives in the directions given
+    status: Int[Array, " row"]  # (R,); A `Status`
+    reached: Float[Array, " row"]  # (R,); mesh cycles done
+    steps: Int[Array, " row"]  # (R,); accepted steps
 
 
 def march_with_derivative(

@@ -28,17 +28,12 @@ class Entry(NamedTuple):
 
 
 class DiffraxMethod(NamedTuple):
-    """The `METHOD` of a file that diffrax runs.
+    """The `METHOD` of a file that diffrax runs."""
 
-    Attributes
-    ----------
-    solver : () -> diffrax's solver
-    stages : evaluations of the right-hand side in a step, without those of an implicit method's iteration
-    proportional, integral : gains of the step-size controller
-    """
-
-    solver: Callable[[], Any]
+    solver: Callable[[], Any]  # () -> diffrax's solver
+    #: evaluations of the right-hand side in a step, without those of an implicit method's iteration
     stages: int
+    #: proportional, integral: gains of the step-size controller
     proportional: float
     integral: float
 

@@ -51,32 +51,23 @@ def periodic(period: int) -> str:
 
 @dataclass(frozen=True)
 class Orbit:
-    """One system's steady state, or what can be said instead.
+    """One system's steady state, or what can be said instead."""
 
-    Attributes
-    ----------
-    state : on the motion that `kind` names, at the start of a period of the excitation
-    last : where marching ended: the start for a neighbouring system
-    period : periods of the excitation in one of the motion; 0 where none was found
-    residual : maximum change of the state over one period of the motion, each over its scale; of a motion
-        that is not periodic the smallest over 1 … `MAX_PERIOD` periods
-    multipliers : Floquet multipliers over one period of the motion, largest first; NaN where it has none
-    stable : whether the motion is periodic, with no multiplier outside the unit circle
-    kind : "period-1" … "period-8"; "longer period"; "quasi-periodic", "chaotic", or "not periodic" where it
-        is undecided which; "failed"; "unstable" only where shooting alone was asked for
-    method : "marching" or "shooting": what closed the orbit to the tolerance
-    cycles : periods of the excitation marched before the motion was found or given up
-    """
-
+    #: on the motion that `kind` names, at the start of a period of the excitation
     state: Float[Array, " state"]
-    last: Float[Array, " state"]
-    period: int
+    last: Float[Array, " state"]  # where marching ended: the start for a neighbouring system
+    period: int  # periods of the excitation in one of the motion; 0 where none was found
+    #: maximum change of the state over one period of the motion, each over its scale; of a motion that is not
+    #: periodic the smallest over 1 … `MAX_PERIOD` periods
     residual: float
+    #: Floquet multipliers over one period of the motion, largest first; NaN where it has none
     multipliers: Complex[Array, " state"]
-    stable: bool
+    stable: bool  # whether the motion is periodic, with no multiplier outside the unit circle
+    #: "period-1" … "period-8"; "longer period"; "quasi-periodic", "chaotic", or "not periodic" where it is
+    #: undecided which; "failed"; "unstable" only where shooting alone was asked for
     kind: str
-    method: str
-    cycles: int
+    method: str  # "marching" or "shooting": what closed the orbit to the tolerance
+    cycles: int  # periods of the excitation marched before the motion was found or given up
     message: str
 
 
@@ -95,17 +86,11 @@ def orbit_without_period(
 
 
 class Recurrence(NamedTuple):
-    """How nearly a motion repeats after a number of excitation periods.
-
-    Attributes
-    ----------
-    change : maximum change over that period, of states in units of their scale
-    earlier : the same, `half` periods before
-    """
+    """How nearly a motion repeats after a number of excitation periods."""
 
     period: int
-    change: float
-    earlier: float
+    change: float  # maximum change over that period, of states in units of their scale
+    earlier: float  # the same, `half` periods before
     half: int
 
     @property
@@ -143,17 +128,13 @@ def recognised(found: list[Recurrence]) -> list[Recurrence]:
 
 
 class Wandering(NamedTuple):
-    """The kind of a motion that does not repeat soon.
+    """The kind of a motion that does not repeat soon."""
 
-    Attributes
-    ----------
-    kind : chaotic where neighbours part, quasi-periodic where they neither part nor gather and the motion
-        comes back near former states, of a longer period where they gather; not periodic where none of these
-        holds, or the motion is not settled
-    exponent, error : largest Lyapunov exponent, per period of the excitation, and its standard error
-    """
-
+    #: chaotic where neighbours part, quasi-periodic where they neither part nor gather and the motion comes
+    #: back near former states, of a longer period where they gather; not periodic where none of these holds,
+    #: or the motion is not settled
     kind: str
+    #: exponent, error: largest Lyapunov exponent, per period of the excitation, and its standard error
     exponent: float
     error: float
 

@@ -18,29 +18,17 @@ DIFFERENCE = 1e-3
 
 
 class Marched(NamedTuple):
-    """States once per period, and what stopped a row.
+    """States once per period, and what stopped a row."""
 
-    Attributes
-    ----------
-    states : after one, two, … periods; NaN from a failure on
-    reasons : one per row, empty where all went well
-    """
-
-    states: Float[Array, "row period state"]
-    reasons: list[str]
+    states: Float[Array, "row period state"]  # after one, two, … periods; NaN from a failure on
+    reasons: list[str]  # one per row, empty where all went well
 
 
 class Tangent(NamedTuple):
-    """The image of states under the n-fold map, and its derivative there.
+    """The image of states under the n-fold map, and its derivative there."""
 
-    Attributes
-    ----------
-    image : NaN where a row failed
-    jacobian : ∂image_i/∂state_j: at a fixed point the monodromy matrix
-    """
-
-    image: Float[Array, "row state"]
-    jacobian: Float[Array, "row state state"]
+    image: Float[Array, "row state"]  # NaN where a row failed
+    jacobian: Float[Array, "row state state"]  # ∂image_i/∂state_j: at a fixed point the monodromy matrix
     reasons: list[str]
 
 

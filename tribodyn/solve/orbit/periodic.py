@@ -34,18 +34,14 @@ class SteadyMotion(Orbit):
     Its states stand at phase 0 after engagement, with lag and works zero; its multipliers leave the rigid
     rotation out, and displacements are measured by the static deflection, velocities by that times the mesh's
     natural frequency.
-
-    Attributes
-    ----------
-    samples : over one period of the motion, works counted from its start; over `WANDERING` mesh cycles of a
-        motion without period
-    end : at the end of the samples, before the next engagement: the works and the lag of whole mesh cycles
-    extremes : of the dense motion over those cycles; None where it failed
     """
 
+    #: over one period of the motion, works counted from its start; over `WANDERING` mesh cycles of a motion
+    #: without period
     samples: Float[Array, "sample state"]
+    #: at the end of the samples, before the next engagement: the works and the lag of whole mesh cycles
     end: Float[Array, " state"]
-    extremes: Extremes | None
+    extremes: Extremes | None  # of the dense motion over those cycles; None where it failed
 
 
 def steady_states(

@@ -20,24 +20,16 @@ MERGED = 1e-3
 
 
 class Shot(NamedTuple):
-    """Result of shooting for one system.
-
-    Attributes
-    ----------
-    residual : max |x − Pⁿ(x)| over the scale of each state; inf where the map failed
-    multipliers : eigenvalues of the n-fold map's derivative, largest modulus first: Floquet's where the
-        residual vanishes
-    jacobian : that derivative
-    steps : Newton steps taken
-    reason : why there is no solution; empty where the residual is within the tolerance
-    """
+    """Result of shooting for one system."""
 
     state: Float[Array, " state"]
-    residual: float
+    residual: float  # max |x − Pⁿ(x)| over the scale of each state; inf where the map failed
+    #: eigenvalues of the n-fold map's derivative, largest modulus first: Floquet's where the residual
+    #: vanishes
     multipliers: Complex[Array, " state"]
-    jacobian: Float[Array, "state state"]
-    steps: int
-    reason: str
+    jacobian: Float[Array, "state state"]  # that derivative
+    steps: int  # Newton steps taken
+    reason: str  # why there is no solution; empty where the residual is within the tolerance
 
 
 def shoot(

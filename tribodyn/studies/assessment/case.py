@@ -14,51 +14,30 @@ from tribodyn.tribology.lubricant import LubricantData
 
 @dataclass(frozen=True)
 class AssessmentSettings:
-    """What is asked beyond the drive and its duty, and what the standards need to know.
+    """What is asked beyond the drive and its duty, and what the standards need to know."""
 
-    Parameters
-    ----------
-    application_factor : K_A
-    lubrication : {"dip", "spray", "submerged"}
-    structure_factor : X_W of ISO/TS 6336-20
-    adequate_tip_relief : whether the standards may count on the tip relief that the flanks have
-    torque_shares : torques of the loaded error, over the duty's
-    speed_range : (float, float); first and last speed of the steady states, over the duty's
-    speeds : how many, besides the duty's
-    samples : of the deviations, whose scatter is given
-    friction_laws : the first is that of everything but the spread of the losses
-    damping_ratio : ζ of the mesh
-    """
-
-    application_factor: float
-    lubrication: str
-    structure_factor: float
-    adequate_tip_relief: bool
-    torque_shares: tuple[float, ...]
+    application_factor: float  # K_A
+    lubrication: str  # {"dip", "spray", "submerged"}
+    structure_factor: float  # X_W of ISO/TS 6336-20
+    adequate_tip_relief: bool  # whether the standards may count on the tip relief that the flanks have
+    torque_shares: tuple[float, ...]  # torques of the loaded error, over the duty's
+    #: (float, float); first and last speed of the steady states, over the duty's
     speed_range: tuple[float, float]
-    speeds: int
-    samples: int
-    friction_laws: tuple[str, ...]
-    damping_ratio: float
+    speeds: int  # how many, besides the duty's
+    samples: int  # of the deviations, whose scatter is given
+    friction_laws: tuple[str, ...]  # the first is that of everything but the spread of the losses
+    damping_ratio: float  # ζ of the mesh
 
 
 @dataclass(frozen=True, kw_only=True)
 class AssessmentCase(GearCase):
-    """One assessment, complete.
+    """One assessment, complete."""
 
-    Parameters
-    ----------
-    lubricant : with its data sheet, at the temperature of the oil
-    oil_temperature : of the duty, K
-    quality : deviations of the gears by ISO 1328-1
-    limits : name of a limit -> its value, SI units
-    """
-
-    lubricant: LubricantData
-    oil_temperature: float
-    quality: Quality
+    lubricant: LubricantData  # with its data sheet, at the temperature of the oil
+    oil_temperature: float  # of the duty, K
+    quality: Quality  # deviations of the gears by ISO 1328-1
     settings: AssessmentSettings
-    limits: Mapping[str, Any]
+    limits: Mapping[str, Any]  # name of a limit -> its value, SI units
 
 
 #: Positions of the slow rotation, and places of one pair's path among them.

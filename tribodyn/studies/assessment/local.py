@@ -19,24 +19,18 @@ _WIDEST = 0.1
 
 
 class LocalValues(NamedTuple):
-    """Values along the path of contact, and those at the points A to E.
+    """Values along the path of contact, and those at the points A to E."""
 
-    Attributes
-    ----------
-    roll_angle : (places,); rotation of the pinion since the pair met at the pitch point, rad, increasing
-    normal_load : (places,); of the pair, slow rotation, N
-    radius, sliding : (places,); equivalent radius, m, and sliding speed, m/s
-    films : arrays over the places; the pressure with the dynamic and the application factor. NaN where there
-        is no Hertz contact: without load, or where the radius vanishes.
-    points : (7,); roll angles of the points, rad
-    """
-
+    #: (places,); rotation of the pinion since the pair met at the pitch point, rad, increasing
     roll_angle: Float[Array, " place"]
-    normal_load: Float[Array, " place"]
+    normal_load: Float[Array, " place"]  # (places,); of the pair, slow rotation, N
+    #: radius, sliding: (places,); equivalent radius, m, and sliding speed, m/s
     radius: Float[Array, " place"]
     sliding: Float[Array, " place"]
+    #: arrays over the places; the pressure with the dynamic and the application factor. NaN where there is no
+    #: Hertz contact: without load, or where the radius vanishes.
     films: Films
-    points: Float[Array, " point"]
+    points: Float[Array, " point"]  # (7,); roll angles of the points, rad
 
     def at_points(self, values: Any) -> Float[Array, " point"]:
         """Values (places,) at the points."""

@@ -39,30 +39,23 @@ class Strength(NamedTuple):
 
 
 class Standard(NamedTuple):
-    """Results by the standards.
-
-    Attributes
-    ----------
-    films : of method B at the `POINTS`
-    single_stiffness, mesh_stiffness, mesh_stiffness_face : c', c_γα, c_γβ, Pa
-    transverse, face : K_Hα by method B, K_Hβ of the contact analysis
-    losses : H_v
-    flash_bulk, flash_contact : θ_M and θ_Bmax of ISO/TS 6336-20, K
-    integral : θ_int of ISO/TS 6336-21, K
-    """
+    """Results by the standards."""
 
     path: ContactPath
-    films: Films
+    films: Films  # of method B at the `POINTS`
     dynamic: DynamicFactor
+    #: single_stiffness, mesh_stiffness, mesh_stiffness_face: c', c_γα, c_γβ, Pa
     single_stiffness: float
     mesh_stiffness: float
     mesh_stiffness_face: float
+    #: transverse, face: K_Hα by method B, K_Hβ of the contact analysis
     transverse: float
     face: float
-    losses: float
+    losses: float  # H_v
+    #: flash_bulk, flash_contact: θ_M and θ_Bmax of ISO/TS 6336-20, K
     flash_bulk: float
     flash_contact: float
-    integral: float
+    integral: float  # θ_int of ISO/TS 6336-21, K
 
 
 def oil_of(case: AssessmentCase) -> Oil:

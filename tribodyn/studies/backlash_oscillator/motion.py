@@ -219,18 +219,11 @@ def _advance(state, parameters, periods, strobes, tangent, figures, with_tangent
 
 
 class Rows(NamedTuple):
-    """Where the results of rows are written.
+    """Where the results of rows are written."""
 
-    Attributes
-    ----------
-    strobes : states after every period
-    tangents : the identity before, the derivative of the last state after
-    figures : zeros before, extremes ∓inf
-    """
-
-    strobes: Float[Array, "row period 2"]
-    tangents: Float[Array, "row 2 2"]
-    figures: Float[Array, "row figure"]
+    strobes: Float[Array, "row period 2"]  # states after every period
+    tangents: Float[Array, "row 2 2"]  # the identity before, the derivative of the last state after
+    figures: Float[Array, "row figure"]  # zeros before, extremes ∓inf
     status: Int[Array, " row"]
 
 

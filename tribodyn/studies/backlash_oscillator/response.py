@@ -50,53 +50,37 @@ WITHOUT_PERIOD = {
 
 
 class MeasuredBranch(NamedTuple):
-    """A branch beyond the end of its stable part.
+    """A branch beyond the end of its stable part."""
 
-    Attributes
-    ----------
-    end : place of that end in `Response.ends`
-    measures : of its motions, as `measured` gives them
-    """
-
-    end: int
+    end: int  # place of that end in `Response.ends`
     branch: UnstableBranch
-    measures: dict[str, np.ndarray]
+    measures: dict[str, np.ndarray]  # of its motions, as `measured` gives them
 
 
 class Response(NamedTuple):
-    """Motion at every frequency, reached by going up (column 0) and down (column 1).
+    """Motion at every frequency, reached by going up (column 0) and down (column 1)."""
 
-    Attributes
-    ----------
-    frequency : (F,), Ω
-    rms : (F, 2), root mean square of x about its mean, over one period of the motion; over `WINDOW` periods
-        of the excitation where it is not periodic. NaN where it failed
-    free, back : (F, 2), shares of the time without contact, and in contact on the back side
-    period : (F, 2), of the motion in periods of the excitation; 0 where it is not periodic
-    kind : (F, 2), of `MotionKind`; STABLE: periodic
-    residual : (F, 2), change of the state over a period of the motion
-    multiplier : (F, 2, 2) complex, Floquet multipliers over a period of the motion; NaN where it has none
-    displacement, velocity : (F, 2), state where cos Ωτ = 1, at the start of the motion
-    messages : frequency, direction and text of remarks on single points
-    ends : direction and where branches were left, in the order in which they were met
-    beyond : unstable motions beyond these, where the case asks for them
-    """
-
-    frequency: np.ndarray
+    frequency: np.ndarray  # (F,), Ω
+    #: (F, 2), root mean square of x about its mean, over one period of the motion; over `WINDOW` periods of
+    #: the excitation where it is not periodic. NaN where it failed
     rms: np.ndarray
     peak_to_peak: np.ndarray
     mean: np.ndarray
+    #: free, back: (F, 2), shares of the time without contact, and in contact on the back side
     free: np.ndarray
     back: np.ndarray
-    period: np.ndarray
-    kind: np.ndarray
-    residual: np.ndarray
+    period: np.ndarray  # (F, 2), of the motion in periods of the excitation; 0 where it is not periodic
+    kind: np.ndarray  # (F, 2), of `MotionKind`; STABLE: periodic
+    residual: np.ndarray  # (F, 2), change of the state over a period of the motion
+    #: (F, 2, 2) complex, Floquet multipliers over a period of the motion; NaN where it has none
     multiplier: np.ndarray
+    #: displacement, velocity: (F, 2), state where cos Ωτ = 1, at the start of the motion
     displacement: np.ndarray
     velocity: np.ndarray
-    messages: list[tuple[float, int, str]]
+    messages: list[tuple[float, int, str]]  # frequency, direction and text of remarks on single points
+    #: direction and where branches were left, in the order in which they were met
     ends: list[tuple[int, BranchEnd]]
-    beyond: list[MeasuredBranch]
+    beyond: list[MeasuredBranch]  # unstable motions beyond these, where the case asks for them
 
 
 def frequency_response(

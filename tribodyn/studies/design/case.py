@@ -13,28 +13,19 @@ DRAWN = "drawn"
 
 
 class Free(NamedTuple):
-    """A free key.
+    """A free key."""
 
-    Attributes
-    ----------
-    keys : dotted keys of the base scenario that take the same value
-    name : of its dataset in the record
-    low, high : bounds in its unit; of choices their numbers
-    unit : as it is written; "" for a plain number
-    si, units : factor to SI, and the SI unit
-    whole : whether its values are whole numbers
-    choices : the values as TOML has them, where it is a choice; else none
-    """
-
-    keys: tuple[str, ...]
-    name: str
+    keys: tuple[str, ...]  # dotted keys of the base scenario that take the same value
+    name: str  # of its dataset in the record
+    #: low, high: bounds in its unit; of choices their numbers
     low: float
     high: float
-    unit: str = ""
+    unit: str = ""  # as it is written; "" for a plain number
+    #: si, units: factor to SI, and the SI unit
     si: float = 1.0
     units: str = "1"
-    whole: bool = False
-    choices: tuple[Any, ...] = ()
+    whole: bool = False  # whether its values are whole numbers
+    choices: tuple[Any, ...] = ()  # the values as TOML has them, where it is a choice; else none
 
     @property
     def continuous(self) -> bool:
@@ -75,19 +66,13 @@ class WeightedDuty(NamedTuple):
 
 
 class Tolerance(NamedTuple):
-    """What varies beyond the designer's reach.
-
-    Attributes
-    ----------
-    plus_minus : in its unit
-    distribution : "uniform", "normal" (`plus_minus` is three standard deviations), "ends" (both ends alone),
-        `DRAWN`
-    """
+    """What varies beyond the designer's reach."""
 
     key: str
     name: str
-    plus_minus: float
+    plus_minus: float  # in its unit
     unit: str
+    #: "uniform", "normal" (`plus_minus` is three standard deviations), "ends" (both ends alone), `DRAWN`
     distribution: str
 
 

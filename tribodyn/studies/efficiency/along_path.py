@@ -76,19 +76,12 @@ class PathState(NamedTuple):
 
 
 class MeshDuty(NamedTuple):
-    """What the mesh has to do.
+    """What the mesh has to do."""
 
-    Attributes
-    ----------
-    gear_torque : N m, ≠ 0, constant; against the gear's motion, < 0 where the gear drives
-    pinion_speed : rad/s
-    sharing : one of `places.SHARINGS`
-    """
-
-    gear_torque: float
-    pinion_speed: float
+    gear_torque: float  # N m, ≠ 0, constant; against the gear's motion, < 0 where the gear drives
+    pinion_speed: float  # rad/s
     closure: Closure
-    sharing: Sharing = "elastic"
+    sharing: Sharing = "elastic"  # one of `places.SHARINGS`
 
     @property
     def way(self) -> float:
@@ -153,20 +146,14 @@ def _share(mesh: Places, duty: MeshDuty, seen: Contacts, friction: Array) -> _Lo
 
 
 class CycleEfficiency(NamedTuple):
-    """Means over a mesh cycle, by energy.
+    """Means over a mesh cycle, by energy."""
 
-    Attributes
-    ----------
-    efficiency : as `mesh.power_flow` defines it
-    power_in, power_out, power_friction : W, as in `PathState`
-    friction_coefficient : mean weighted with load and sliding
-    """
-
-    efficiency: float
+    efficiency: float  # as `mesh.power_flow` defines it
+    #: power_in, power_out, power_friction: W, as in `PathState`
     power_in: float
     power_out: float
     power_friction: float
-    friction_coefficient: float
+    friction_coefficient: float  # mean weighted with load and sliding
 
 
 def cycle_efficiency(

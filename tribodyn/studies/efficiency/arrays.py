@@ -16,21 +16,14 @@ _INSIDE = 1e-9
 
 
 class Samples(NamedTuple):
-    """Phases of the table in the order in which they are passed.
+    """Phases of the table in the order in which they are passed."""
 
-    Attributes
-    ----------
-    turned : (K,), rotation since the first sample, in pitches
-    phase : (K,), phase of the table at each sample. Where the gear drives it falls: contact begins where the
-        table's ends, in the mirrored world in which the back flanks are driving flanks
-    later : (K,); where the table counts the pairs one slot later than the record
-    way : +1, or −1 where the gear drives
-    """
-
-    turned: Array
+    turned: Array  # (K,), rotation since the first sample, in pitches
+    #: (K,), phase of the table at each sample. Where the gear drives it falls: contact begins where the
+    #: table's ends, in the mirrored world in which the back flanks are driving flanks
     phase: Array
-    later: np.ndarray
-    way: float
+    later: np.ndarray  # (K,); where the table counts the pairs one slot later than the record
+    way: float  # +1, or −1 where the gear drives
 
     def by_pair(self, values: Array) -> Array:
         """Values (K, Q) of the table's slots, as those of the record's: the pair that entered last, last."""

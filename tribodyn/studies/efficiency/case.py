@@ -20,19 +20,12 @@ if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run
 
 @dataclass(frozen=True, kw_only=True)
 class EfficiencyCase(LubricatedCase):
-    """One efficiency study, complete; its mesh compliance is that of the elastic load sharing.
+    """One efficiency study, complete; its mesh compliance is that of the elastic load sharing."""
 
-    Parameters
-    ----------
-    load_sharing : {"elastic", "uniform", "single-pair"}
-        That of the samples recorded; the summary has all three.
-    samples_per_cycle : samples over the one mesh cycle recorded
-    spectrum : (float, EfficiencyCase); share of time and case of every duty of a load spectrum; empty: there
-        is none
-    """
-
+    #: {"elastic", "uniform", "single-pair"} That of the samples recorded; the summary has all three.
     load_sharing: "Sharing" = "elastic"
-    samples_per_cycle: int = 200
+    samples_per_cycle: int = 200  # samples over the one mesh cycle recorded
+    #: (float, EfficiencyCase); share of time and case of every duty of a load spectrum; empty: there is none
     spectrum: tuple[tuple[float, "EfficiencyCase"], ...] = ()
 
 

@@ -20,20 +20,14 @@ SHARINGS: dict[Sharing, str] = {
 
 
 class Places(NamedTuple):
-    """The mesh at some phases: K phases, Q pairs.
+    """The mesh at some phases: K phases, Q pairs."""
 
-    Attributes
-    ----------
-    phase : (K,), mesh cycles
-    cycle : a table of one node in each of K segments, driving flanks only; its kinematics are the path's own,
-        and in contact are the pairs that may carry load under the load sharing in use
-    roll : (K, Q), pinion angles of the pairs from the pitch point, rad
-    flanks : by what the pairs share the load; None: by the table's compliances, or not elastically
-    """
-
-    phase: Array
+    phase: Array  # (K,), mesh cycles
+    #: a table of one node in each of K segments, driving flanks only; its kinematics are the path's own, and
+    #: in contact are the pairs that may carry load under the load sharing in use
     cycle: MeshCycle
-    roll: Array
+    roll: Array  # (K, Q), pinion angles of the pairs from the pitch point, rad
+    #: by what the pairs share the load; None: by the table's compliances, or not elastically
     flanks: LoadedFlanks | None
 
 

@@ -21,48 +21,34 @@ POINTS = 24
 
 
 class UnitContact(NamedTuple):
-    """One pair over one pitch of pinion rotation; arrays (…, point), speeds per rad/s of the pinion.
+    """One pair over one pitch of pinion rotation; arrays (…, point), speeds per rad/s of the pinion."""
 
-    Attributes
-    ----------
-    rotation : pinion angle ψ from the pitch point, −π/z1 … π/z1, rad
-    weight : of the quadrature; they sum to 1
-    pinion_normal_arm, gear_normal_arm : A, arms of the normal load, m
-    pinion_friction_arm, gear_friction_arm : T, arms of the friction force, m
-    curvature : relative curvature, 1/m
-    pinion_speed, gear_speed : rolling speeds u_1, u_2, m/rad
-    pitch_point_length, pitch_point_rate : how the contact at a vanishing radius is averaged over its width
-        See `geometry.pitch_point`, m and 1/rad; 0: it is not, as in Veciana's study.
-    """
-
-    rotation: Array
-    weight: Array
+    rotation: Array  # pinion angle ψ from the pitch point, −π/z1 … π/z1, rad
+    weight: Array  # of the quadrature; they sum to 1
+    #: pinion_normal_arm, gear_normal_arm: A, arms of the normal load, m
     pinion_normal_arm: Array
     gear_normal_arm: Array
+    #: pinion_friction_arm, gear_friction_arm: T, arms of the friction force, m
     pinion_friction_arm: Array
     gear_friction_arm: Array
-    curvature: Array
+    curvature: Array  # relative curvature, 1/m
+    #: pinion_speed, gear_speed: rolling speeds u_1, u_2, m/rad
     pinion_speed: Array
     gear_speed: Array
+    #: pitch_point_length, pitch_point_rate: how the contact at a vanishing radius is averaged over its width
+    #: See `geometry.pitch_point`, m and 1/rad; 0: it is not, as in Veciana's study.
     pitch_point_length: Any = 0.0
     pitch_point_rate: Any = 0.0
 
 
 class TorqueRatio(NamedTuple):
-    """What the pair does; arrays like the contact's, `efficiency` without the last axis.
+    """What the pair does; arrays like the contact's, `efficiency` without the last axis."""
 
-    Attributes
-    ----------
-    efficiency : mean of Γ_2/Γ_1 over the pitch, divided by the gear ratio; where the gear drives of Γ_1/Γ_2
-    torque_ratio : Γ_2/Γ_1, or Γ_1/Γ_2
-    normal_load : N
-    friction_coefficient : 1
-    """
-
+    #: mean of Γ_2/Γ_1 over the pitch, divided by the gear ratio; where the gear drives of Γ_1/Γ_2
     efficiency: Any
-    torque_ratio: Array
-    normal_load: Array
-    friction_coefficient: Array
+    torque_ratio: Array  # Γ_2/Γ_1, or Γ_1/Γ_2
+    normal_load: Array  # N
+    friction_coefficient: Array  # 1
 
 
 def rotations(pinion_teeth: float, points: int = POINTS) -> tuple[Array, Array]:

@@ -17,20 +17,13 @@ class EhlCase(LubricatedCase):
     """One study of the solved contact, complete.
 
     It has no laws of its own: every law of the registries is evaluated beside the solution.
-
-    Parameters
-    ----------
-    positions : positions of the pair at which its contact is solved
-    transient : whether the way is also solved with squeeze
-    loads : (array, array); roll angles from the pitch point, rad, and normal loads there, N; None:
-        quasi-static
-    step : of the contact's grid, over the distance from inlet and end of the film
     """
 
-    positions: int
-    transient: bool
+    positions: int  # positions of the pair at which its contact is solved
+    transient: bool  # whether the way is also solved with squeeze
+    #: (array, array); roll angles from the pitch point, rad, and normal loads there, N; None: quasi-static
     loads: tuple[NDArray[np.float64], NDArray[np.float64]] | None
-    step: float
+    step: float  # of the contact's grid, over the distance from inlet and end of the film
 
 
 #: Contacts of the traction curve, and laws beside the solution.

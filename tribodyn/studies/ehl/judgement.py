@@ -47,33 +47,22 @@ _TABLES = ("drive", "lubricant", "operating")
 
 
 class LawRatio(NamedTuple):
-    """A law beside the solved contact; all numbers are shares.
+    """A law beside the solved contact; all numbers are shares."""
 
-    Attributes
-    ----------
-    what : "film" or "friction"
-    law : its name
-    minimum, median, maximum : of the ratio of the law's value to the solved one over the pair's way
-    in_range : share of the way inside the range that the law states; NaN: it states none
-    in_judged_range : share of the way inside the limits by the solved contact of many oils and surfaces
-        (`judged_range.JudgedRange`); NaN: there are none
-    right : share of the way where the ratio is within `RIGHT` of 1
-    map : (loads, speeds), median ratio; empty without a map
-    against : which solved quantity it is compared with: what the law stands for
-    range : of the law, in words; "" where none is stated
-    """
-
-    what: str
-    law: str
+    what: str  # "film" or "friction"
+    law: str  # its name
+    #: minimum, median, maximum: of the ratio of the law's value to the solved one over the pair's way
     minimum: float
     median: float
     maximum: float
-    in_range: float
+    in_range: float  # share of the way inside the range that the law states; NaN: it states none
+    #: share of the way inside the limits by the solved contact of many oils and surfaces
+    #: (`judged_range.JudgedRange`); NaN: there are none
     in_judged_range: float
-    right: float
-    map: tuple[tuple[float, ...], ...] = ()
-    against: str = ""
-    range: str = ""
+    right: float  # share of the way where the ratio is within `RIGHT` of 1
+    map: tuple[tuple[float, ...], ...] = ()  # (loads, speeds), median ratio; empty without a map
+    against: str = ""  # which solved quantity it is compared with: what the law stands for
+    range: str = ""  # of the law, in words; "" where none is stated
 
     def row(self) -> list[str]:
         """Its row of the table."""
@@ -88,21 +77,14 @@ def _share(value: float, without: str) -> str:
 
 @dataclass(frozen=True)
 class LawsJudged:
-    """All laws beside the solved contact of a scenario: what `judge` found.
+    """All laws beside the solved contact of a scenario: what `judge` found."""
 
-    Attributes
-    ----------
-    title : of the scenario
-    positions : of the pair, at which contacts were solved
-    load_factors, speed_factors : on torque and speed, of the map; empty without a map
-    ratios : of every law
-    """
-
-    title: str
-    positions: int
+    title: str  # of the scenario
+    positions: int  # of the pair, at which contacts were solved
+    #: load_factors, speed_factors: on torque and speed, of the map; empty without a map
     load_factors: tuple[float, ...]
     speed_factors: tuple[float, ...]
-    ratios: list[LawRatio]
+    ratios: list[LawRatio]  # of every law
 
     @property
     def laws(self) -> dict[tuple[str, str], LawRatio]:

@@ -42,34 +42,24 @@ SWEEPS_NONLINEAR = 12
 
 @dataclass(frozen=True)
 class PreparedPair(PreparedGears[Case]):
-    """A case made ready to integrate.
-
-    Parameters
-    ----------
-    masses : (mass kg, inertia kg m²); of pinion and gear alone, without what is attached to them
-    given : as it was before: with the oil that enters the mesh
-    """
+    """A case made ready to integrate."""
 
     model: Model
+    #: (mass kg, inertia kg m²); of pinion and gear alone, without what is attached to them
     masses: tuple[tuple[float, float], tuple[float, float]]
-    given: Case
+    given: Case  # as it was before: with the oil that enters the mesh
 
 
 class Tabulated(NamedTuple):
-    """What the geometry and elasticity of a case make of it: costly, and the same for every speed.
-
-    Attributes
-    ----------
-    table : the same as the right-hand side reads it
-    masses : (mass kg, inertia kg m²); of pinion and gear alone
-    split : () -> the cycle of the driving flanks alone, in which a segment begins where friction turns; made
-        at the first call
-    """
+    """What the geometry and elasticity of a case make of it: costly, and the same for every speed."""
 
     cycle: MeshCycle
-    table: Polynomials
+    table: Polynomials  # the same as the right-hand side reads it
+    #: (mass kg, inertia kg m²); of pinion and gear alone
     masses: tuple[tuple[float, float], tuple[float, float]]
     assembly: Assembly
+    #: () -> the cycle of the driving flanks alone, in which a segment begins where friction turns; made at
+    #: the first call
     split: Callable[[], MeshCycle]
 
 

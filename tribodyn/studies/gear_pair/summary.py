@@ -49,19 +49,12 @@ WORKING = {1.0: "", -1.0: "back_"}
 
 
 class Extreme(NamedTuple):
-    """An extreme of a run: its value, and where it is.
-
-    Attributes
-    ----------
-    time : s
-    mesh_cycle : mesh cycles since the start, whole and fraction
-    pair : number of the pair; None where it is the whole mesh's
-    """
+    """An extreme of a run: its value, and where it is."""
 
     value: float
-    time: float
-    mesh_cycle: float
-    pair: int | None
+    time: float  # s
+    mesh_cycle: float  # mesh cycles since the start, whole and fraction
+    pair: int | None  # number of the pair; None where it is the whole mesh's
 
 
 class RunningExtremes:

@@ -13,32 +13,21 @@ from tribodyn.standards.flank_tolerances import FlankTolerances
 
 
 class Quality(NamedTuple):
-    """Deviations that the standard reckons with, of the gear that has the larger ones.
+    """Deviations that the standard reckons with, of the gear that has the larger ones."""
 
-    Attributes
-    ----------
-    grade : by ISO 1328-1
-    single_pitch, profile_form : f_pT and f_fαT, m
-    """
-
-    grade: float
+    grade: float  # by ISO 1328-1
+    #: single_pitch, profile_form: f_pT and f_fαT, m
     single_pitch: float
     profile_form: float
 
 
 class Rated(NamedTuple):
-    """Results of ISO 6336-1.
-
-    Attributes
-    ----------
-    line_load : F_t K_A/b at the reference circle, N/m
-    base_pitch_deviation : see `base_pitch_deviation`
-    """
+    """Results of ISO 6336-1."""
 
     dynamic: DynamicFactor
     stiffness: ReferenceStiffness
-    line_load: float
-    base_pitch_deviation: float
+    line_load: float  # F_t K_A/b at the reference circle, N/m
+    base_pitch_deviation: float  # see `base_pitch_deviation`
 
 
 def quality_of(

@@ -28,43 +28,30 @@ LAYOUT = Layout(
 
 @dataclass(frozen=True, kw_only=True)
 class GearCase(CaseHead):
-    """Gears, their duty and their mesh.
+    """Gears, their duty and their mesh."""
 
-    Parameters
-    ----------
-    family : name of the family of paths of contact
-    drive : geometry of both gears
-    materials, masses : pairs of MaterialData and of BodyMass
-    roughness, mean_roughness : composite rms roughness σ of the flanks, and their arithmetic mean roughness
-        Ra, m
-    quality : deviations of the gears by ISO 1328-1; None: the drive has no tolerance class
-    """
-
-    family: str
-    drive: Drive
+    family: str  # name of the family of paths of contact
+    drive: Drive  # geometry of both gears
+    #: materials, masses: pairs of MaterialData and of BodyMass
     materials: tuple[MaterialData, MaterialData]
     masses: tuple[BodyMass, BodyMass]
+    #: roughness, mean_roughness: composite rms roughness σ of the flanks, and their arithmetic mean roughness
+    #: Ra, m
     roughness: float
     mean_roughness: float
     operating: OperatingData
     mesh: MeshData
-    quality: Quality | None
+    quality: Quality | None  # deviations of the gears by ISO 1328-1; None: the drive has no tolerance class
 
 
 @dataclass(frozen=True, kw_only=True)
 class LubricatedCase(GearCase):
-    """Gears with oil between the flanks: the oil, the laws of film and friction, and where heat goes.
+    """Gears with oil between the flanks: the oil, the laws of film and friction, and where heat goes."""
 
-    Parameters
-    ----------
-    lubricant : at the temperature of the oil that enters the mesh; in `PreparedGears.case` at that of the
-        teeth
-    temperature : how the bulk temperature of the teeth follows from the losses; None: it is that of the oil
-    losses : load-independent losses, where they are to be added
-    """
-
+    #: at the temperature of the oil that enters the mesh; in `PreparedGears.case` at that of the teeth
     lubricant: LubricantData
     film: FilmData = field(default_factory=FilmData)
     friction: FrictionData = field(default_factory=lambda: FrictionData("none"))
+    #: how the bulk temperature of the teeth follows from the losses; None: it is that of the oil
     temperature: TemperatureData | None = None
-    losses: LossData | None = None
+    losses: LossData | None = None  # load-independent losses, where they are to be added

@@ -27,27 +27,18 @@ from tribodyn.studies.protocol.load import load
 
 
 class DriveModel(NamedTuple):
-    """A gear pair as it stands in a drive file.
+    """A gear pair as it stands in a drive file."""
 
-    Parameters
-    ----------
-    title, name : title of the drive or scenario, and its name
-    family : name of the family of paths of contact
-    masses : None where they follow from the outline
-    path : the file that was named
-    origins : which file each part came from; the drive stands at the key "drive"
-    table : the drive as a drive file has it, with everything that it refers to
-    """
-
+    #: title, name: title of the drive or scenario, and its name
     title: str
     name: str
-    family: str
+    family: str  # name of the family of paths of contact
     drive: Drive
     materials: tuple[MaterialData, MaterialData]
-    masses: tuple[BodyMass, BodyMass]
-    path: Path
-    origins: Origins
-    table: Mapping[str, Any]
+    masses: tuple[BodyMass, BodyMass]  # None where they follow from the outline
+    path: Path  # the file that was named
+    origins: Origins  # which file each part came from; the drive stands at the key "drive"
+    table: Mapping[str, Any]  # the drive as a drive file has it, with everything that it refers to
 
     def sheet(self, assembly: Assembly) -> dict[str, Any]:
         """The geometry sheet: name to (value, unit), of pinion and gear in tables of their own."""

@@ -15,19 +15,12 @@ AnyCase = TypeVar("AnyCase", bound=LubricatedCase)
 
 @dataclass(frozen=True)
 class PreparedGears(Generic[AnyCase]):
-    """Gears put together, and their mesh tabulated.
+    """Gears put together, and their mesh tabulated."""
 
-    Parameters
-    ----------
-    case
-        Its oil at the temperature at which film and friction are evaluated: that of the teeth.
-    thermal : bulk temperature and load-independent losses, where the scenario asks for them
-    """
-
-    case: AnyCase
+    case: AnyCase  # Its oil at the temperature at which film and friction are evaluated: that of the teeth.
     assembly: Assembly
     cycle: MeshCycle
-    thermal: Thermal | None
+    thermal: Thermal | None  # bulk temperature and load-independent losses, where the scenario asks for them
 
 
 def assembled(case: GearCase) -> Assembly:

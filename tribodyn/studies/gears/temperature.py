@@ -33,23 +33,14 @@ SHARE = 0.5
 
 
 class Thermal(NamedTuple):
-    """Where temperature, film and friction have settled.
+    """Where temperature, film and friction have settled."""
 
-    Attributes
-    ----------
-    lubricant : at the bulk temperature
-    mesh_loss : mean loss to tooth friction, W
-    losses : load-independent ones by name
-    temperatures : None: the teeth are taken to be as warm as the oil
-    given_off : heat that leaves the network, W; None without a network
-    """
-
-    lubricant: LubricantData
-    mesh_loss: float
-    losses: dict[str, Loss]
-    temperatures: Temperatures | None
+    lubricant: LubricantData  # at the bulk temperature
+    mesh_loss: float  # mean loss to tooth friction, W
+    losses: dict[str, Loss]  # load-independent ones by name
+    temperatures: Temperatures | None  # None: the teeth are taken to be as warm as the oil
     heat: Heat
-    given_off: float | None
+    given_off: float | None  # heat that leaves the network, W; None without a network
 
 
 def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], float]) -> Thermal | None:

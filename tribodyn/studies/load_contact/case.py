@@ -10,22 +10,14 @@ from tribodyn.studies.protocol.estimate import Driver, Estimate
 
 @dataclass(frozen=True, kw_only=True)
 class LoadContactCase(GearCase):
-    """One study of teeth in slow rotation under load, complete.
+    """One study of teeth in slow rotation under load, complete."""
 
-    Parameters
-    ----------
-    gear_torques : torques of the Harris map, > 0 and increasing, N m; empty: none is made
-    friction_coefficient : μ of all pairs, ≥ 0
-    positions_per_cycle : positions of the pinion in one mesh cycle
-    cycles : mesh cycles to roll through; more than one where teeth differ
-    lubricated : the same gears with oil, at a speed > 0, for the film over the face; None: there is no
-        lubricant
-    """
-
+    #: torques of the Harris map, > 0 and increasing, N m; empty: none is made
     gear_torques: tuple[float, ...] = ()
-    friction_coefficient: float = 0.0
-    positions_per_cycle: int = 60
-    cycles: int = 1
+    friction_coefficient: float = 0.0  # μ of all pairs, ≥ 0
+    positions_per_cycle: int = 60  # positions of the pinion in one mesh cycle
+    cycles: int = 1  # mesh cycles to roll through; more than one where teeth differ
+    #: the same gears with oil, at a speed > 0, for the film over the face; None: there is no lubricant
     lubricated: LubricatedCase | None = None
 
 

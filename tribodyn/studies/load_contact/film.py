@@ -15,17 +15,12 @@ from tribodyn.tribology.surface_state import contact_friction, fraction_in_range
 
 
 class FaceFilm(NamedTuple):
-    """Film over the face, and what a summary says of it.
+    """Film over the face, and what a summary says of it."""
 
-    Attributes
-    ----------
-    arrays : datasets of the record (T, P, S): film by the film law, m, and whether that is inside its range;
-        NaN where the slice carries nothing
-    figures : of the summary, SI units
-    """
-
+    #: datasets of the record (T, P, S): film by the film law, m, and whether that is inside its range; NaN
+    #: where the slice carries nothing
     arrays: dict[str, Float[Array, "position pair slice"]]
-    figures: dict[str, Any]
+    figures: dict[str, Any]  # of the summary, SI units
 
 
 def film_over_face(assembly: Assembly, loaded: LoadedContact, case: LubricatedCase) -> FaceFilm:

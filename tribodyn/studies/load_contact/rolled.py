@@ -11,18 +11,12 @@ from tribodyn.record.reader import Record
 
 
 class FaceMap(NamedTuple):
-    """A quantity of one pair over its roll angle and the face.
+    """A quantity of one pair over its roll angle and the face."""
 
-    Attributes
-    ----------
-    roll : (positions,); roll angle of the pair, 0 at the pitch point, increasing, rad
-    face : (slices,); middles of the slices from the middle of the face, m
-    values : (positions, slices)
-    """
-
+    #: (positions,); roll angle of the pair, 0 at the pitch point, increasing, rad
     roll: Float[Array, " position"]
-    face: Float[Array, " slice"]
-    values: Float[Array, "position slice"]
+    face: Float[Array, " slice"]  # (slices,); middles of the slices from the middle of the face, m
+    values: Float[Array, "position slice"]  # (positions, slices)
 
 
 def require_positions(record: Record) -> None:

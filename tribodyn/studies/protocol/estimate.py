@@ -14,37 +14,24 @@ PROGRAM, HEAD = 160 * 2.0**20, 30e3
 
 
 class Driver(NamedTuple):
-    """A key that an estimate grows with.
-
-    Attributes
-    ----------
-    value, usual : here, and usually; or anything of that ratio, where there is a `remedy`
-    remedy : what to do about it, where that is not to reduce the value
-    """
+    """A key that an estimate grows with."""
 
     key: str
+    #: value, usual: here, and usually; or anything of that ratio, where there is a `remedy`
     value: float
     usual: float
-    remedy: str = ""
+    remedy: str = ""  # what to do about it, where that is not to reduce the value
 
 
 class Estimate(NamedTuple):
-    """What a run takes.
+    """What a run takes."""
 
-    Attributes
-    ----------
-    memory : bytes at once, the program included; true within a factor of about two where it is large
-    record : bytes of the record; while it is concluded there are two of it
-    seconds : of one core, compiling not included; of the right order
-    drivers : what to reduce
-    shared : seconds, in addition, that cases of a sweep which share a table spend once
-    """
-
+    #: bytes at once, the program included; true within a factor of about two where it is large
     memory: float = 0.0
-    record: float = 0.0
-    seconds: float = 0.0
-    drivers: Sequence[Driver] = ()
-    shared: float = 0.0
+    record: float = 0.0  # bytes of the record; while it is concluded there are two of it
+    seconds: float = 0.0  # of one core, compiling not included; of the right order
+    drivers: Sequence[Driver] = ()  # what to reduce
+    shared: float = 0.0  # seconds, in addition, that cases of a sweep which share a table spend once
 
 
 #: Above any of these a run is refused unless it is asked for; from this share on `check` says the estimate.

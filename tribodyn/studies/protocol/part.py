@@ -13,30 +13,21 @@ import numpy as np
 
 
 class Request(NamedTuple):
-    """What an assessment asks of the studies.
-
-    Attributes
-    ----------
-    tables : tables ``drive``, ``lubricant``, ``bearings``, ``mesh``, ``temperature`` and ``losses`` as a
-        scenario has them, the last only where given; ``oil_temperature``, a quantity as text;
-        ``damping_ratio``
-    pinion_speed, gear_torque : rad/s and N m
-    torques : over which the loaded error is asked for, N m, increasing
-    speeds : over which steady states are asked for, rad/s, increasing; that of the duty is one of them
-    laws : friction laws, the first of them for everything but the spread of the losses
-    pitch_deviation : base pitch deviation f_pb − y_α of the drive's tolerance class, m
-    samples : samples of the class's deviations whose scatter is asked for, numbered from 1
-    """
+    """What an assessment asks of the studies."""
 
     title: str
+    #: tables ``drive``, ``lubricant``, ``bearings``, ``mesh``, ``temperature`` and ``losses`` as a scenario
+    #: has them, the last only where given; ``oil_temperature``, a quantity as text; ``damping_ratio``
     tables: Mapping[str, Any]
+    #: pinion_speed, gear_torque: rad/s and N m
     pinion_speed: float
     gear_torque: float
-    torques: Sequence[float]
+    torques: Sequence[float]  # over which the loaded error is asked for, N m, increasing
+    #: over which steady states are asked for, rad/s, increasing; that of the duty is one of them
     speeds: Sequence[float]
-    laws: Sequence[str]
-    pitch_deviation: float
-    samples: int
+    laws: Sequence[str]  # friction laws, the first of them for everything but the spread of the losses
+    pitch_deviation: float  # base pitch deviation f_pb − y_α of the drive's tolerance class, m
+    samples: int  # samples of the class's deviations whose scatter is asked for, numbered from 1
 
     def operating(self) -> dict[str, Any]:
         """Table ``operating`` of a scenario at the duty."""
@@ -48,40 +39,26 @@ class Request(NamedTuple):
 
 
 class Task(NamedTuple):
-    """A scenario to be run.
+    """A scenario to be run."""
 
-    Attributes
-    ----------
-    name : of its file
-    about : what it finds, in a few words: shown while it runs
-    scenario : as a file has it, with its kind
-    key, values : what is varied: then only figures are kept, one row per value. None: one run, with its
-        record.
-    needed : whether the assessment ends where this cannot be run
-    """
-
-    name: str
-    about: str
-    scenario: Mapping[str, Any]
+    name: str  # of its file
+    about: str  # what it finds, in a few words: shown while it runs
+    scenario: Mapping[str, Any]  # as a file has it, with its kind
+    #: key, values: what is varied: then only figures are kept, one row per value. None: one run, with its
+    #: record.
     key: str = ""
     values: Sequence[str] = ()
-    needed: bool = True
+    needed: bool = True  # whether the assessment ends where this cannot be run
 
 
 class TaskResult(NamedTuple):
-    """What a task gave.
+    """What a task gave."""
 
-    Attributes
-    ----------
-    path : the record of a run, or the file with the rows
-    summary : of a run
-    rows : figure -> values (n,) over what was varied; NaN where a case failed
-    failures : what could not be computed, and why; of a run that is not needed there is no summary then
-    """
-
-    path: Path
-    summary: Mapping[str, Any] = MappingProxyType({})
+    path: Path  # the record of a run, or the file with the rows
+    summary: Mapping[str, Any] = MappingProxyType({})  # of a run
+    #: figure -> values (n,) over what was varied; NaN where a case failed
     rows: Mapping[str, np.ndarray] = MappingProxyType({})
+    #: what could not be computed, and why; of a run that is not needed there is no summary then
     failures: Sequence[str] = ()
 
 
@@ -97,34 +74,21 @@ class ReportCurve(NamedTuple):
 
 
 class Findings(NamedTuple):
-    """What a study found.
+    """What a study found."""
 
-    Attributes
-    ----------
-    figures : numbers by name, SI units, see `docs/assessment.md`
-    along : arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch
-        point)
-    spread : values (samples,) of figures by name, over the samples of deviations; NaN where one failed
-    """
-
-    figures: Mapping[str, Any]
+    figures: Mapping[str, Any]  # numbers by name, SI units, see `docs/assessment.md`
+    #: arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch point)
     along: Mapping[str, Any] = MappingProxyType({})
     curves: Sequence[ReportCurve] = ()
+    #: values (samples,) of figures by name, over the samples of deviations; NaN where one failed
     spread: Mapping[str, np.ndarray] = MappingProxyType({})
 
 
 class Contribution(NamedTuple):
-    """The part that a study plays.
+    """The part that a study plays."""
 
-    Attributes
-    ----------
-    order : tasks of lower order run first
-    title : heading of its results
-    tasks : request -> its tasks
-    answer : (Request, results of its tasks by name) -> Findings
-    """
-
-    order: int
-    title: str
-    tasks: Callable[[Request], Sequence[Task]]
+    order: int  # tasks of lower order run first
+    title: str  # heading of its results
+    tasks: Callable[[Request], Sequence[Task]]  # request -> its tasks
+    #: (Request, results of its tasks by name) -> Findings
     answer: Callable[[Request, Mapping[str, TaskResult]], Findings]

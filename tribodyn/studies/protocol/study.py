@@ -44,23 +44,15 @@ _ALSO_IN = {"rules": "scenario", "check": "run", "estimate": "case"}
 
 @dataclass(frozen=True)
 class CaseHead:
-    """What every case begins with.
+    """What every case begins with."""
 
-    Parameters
-    ----------
-    title : what it shows
-    name : stem of the scenario's file; names the record
-    kind : kind of the study
-    toml : the scenario as TOML with everything written out (references replaced by their content, units kept,
-        overrides applied); loading it gives this case again
-    sha256 : digest of `toml`
-    """
-
-    title: str
-    name: str
-    kind: str
+    title: str  # what it shows
+    name: str  # stem of the scenario's file; names the record
+    kind: str  # kind of the study
+    #: the scenario as TOML with everything written out (references replaced by their content, units kept,
+    #: overrides applied); loading it gives this case again
     toml: str
-    sha256: str
+    sha256: str  # digest of `toml`
 
 
 @dataclass(frozen=True)

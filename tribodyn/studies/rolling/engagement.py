@@ -33,44 +33,29 @@ Mode = Literal["as_published", "corrected"]
 
 
 class RollingFriction(NamedTuple):
-    """Friction of the contacts.
+    """Friction of the contacts."""
 
-    Attributes
-    ----------
-    rolling_arm : μ, lever arm of rolling resistance, m
-    sliding_coefficient : f_s of the slip between element and cam
-    """
-
-    rolling_arm: float
-    sliding_coefficient: float
+    rolling_arm: float  # μ, lever arm of rolling resistance, m
+    sliding_coefficient: float  # f_s of the slip between element and cam
 
 
 class ElementStates(NamedTuple):
-    """Every element at every instant; arrays (time, element), or (time,) where said.
+    """Every element at every instant; arrays (time, element), or (time,) where said."""
 
-    Attributes
-    ----------
-    element_angle : φ, 0 … 2π, rad
-    cam_distance, crown_distance : L_A and L_B, distances of the contacts from the pitch point, m
-    normal_load : R, N; zero where the element carries nothing
-    slip_speed : of the element's surface over the cam's, m/s; positive counter-clockwise about P
-    spin_speed : ω_b, rotation of the element in the cage, rad/s
-    power_cam, power_crown : losses at the cam (rolling and sliding) and at the crown (rolling), W
-    power_in, power_out : of shaft and cam, (time,), W
-    efficiency : (time,)
-    """
-
-    element_angle: Array
+    element_angle: Array  # φ, 0 … 2π, rad
+    #: cam_distance, crown_distance: L_A and L_B, distances of the contacts from the pitch point, m
     cam_distance: Array
     crown_distance: Array
-    normal_load: Array
-    slip_speed: Array
-    spin_speed: Array
+    normal_load: Array  # R, N; zero where the element carries nothing
+    slip_speed: Array  # of the element's surface over the cam's, m/s; positive counter-clockwise about P
+    spin_speed: Array  # ω_b, rotation of the element in the cage, rad/s
+    #: power_cam, power_crown: losses at the cam (rolling and sliding) and at the crown (rolling), W
     power_cam: Array
     power_crown: Array
+    #: power_in, power_out: of shaft and cam, (time,), W
     power_in: Array
     power_out: Array
-    efficiency: Array
+    efficiency: Array  # (time,)
 
     @property
     def power_friction(self) -> Array:

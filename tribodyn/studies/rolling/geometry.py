@@ -30,20 +30,12 @@ _ANGLES = 4001
 
 
 class RollingDrive(NamedTuple):
-    """A gear with intermediate rolling elements.
+    """A gear with intermediate rolling elements."""
 
-    Attributes
-    ----------
-    pitch_radius : r2, radius of the cage's pitch circle ("generating circle"), m
-    elements : Z2, number of rolling elements
-    displacement : χ, radius of the circle of the elements' centres over `pitch_radius`; above 1
-    element_radius : r_b, m
-    """
-
-    pitch_radius: float
-    elements: int
-    displacement: float
-    element_radius: float
+    pitch_radius: float  # r2, radius of the cage's pitch circle ("generating circle"), m
+    elements: int  # Z2, number of rolling elements
+    displacement: float  # χ, radius of the circle of the elements' centres over `pitch_radius`; above 1
+    element_radius: float  # r_b, m
 
     @property
     def centre_distance(self) -> float:

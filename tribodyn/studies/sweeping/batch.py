@@ -10,20 +10,14 @@ from tribodyn.studies.protocol.estimate import Estimate
 
 
 class NeighbourWay(NamedTuple):
-    """The way to a case along the first varied parameter, from the neighbour whose motion it goes on from.
-
-    Attributes
-    ----------
-    start, target : values of the parameter, SI units
-    period : of the neighbour's motion; 0: it has none
-    span : (lowest, highest), range of the parameter in the sweep
-    """
+    """The way to a case along the first varied parameter, from the neighbour whose motion it goes on from."""
 
     neighbour: Any
+    #: start, target: values of the parameter, SI units
     start: float
     target: float
-    period: int
-    span: tuple[float, float]
+    period: int  # of the neighbour's motion; 0: it has none
+    span: tuple[float, float]  # (lowest, highest), range of the parameter in the sweep
 
     @property
     def reach(self) -> float:
@@ -32,19 +26,13 @@ class NeighbourWay(NamedTuple):
 
 
 class Chunk(NamedTuple):
-    """Cases to be evaluated together.
+    """Cases to be evaluated together."""
 
-    Attributes
-    ----------
-    numbers : (n,) int, of the cases in the sweep's record
-    cases : a text where the case could not even be made: why
-    states : (n, states) or None, where to start from; NaN, or None for all, where a case begins by itself
-    ways : how each got there; None, also for all, where a case begins by itself
-    """
-
-    numbers: np.ndarray
-    cases: tuple[Any, ...]
+    numbers: np.ndarray  # (n,) int, of the cases in the sweep's record
+    cases: tuple[Any, ...]  # a text where the case could not even be made: why
+    #: (n, states) or None, where to start from; NaN, or None for all, where a case begins by itself
     states: np.ndarray | None = None
+    #: how each got there; None, also for all, where a case begins by itself
     ways: tuple[NeighbourWay | None, ...] | None = None
 
 

@@ -16,21 +16,14 @@ _FLAT = -6.0
 
 
 class Roughness(NamedTuple):
-    """Two rough surfaces as one, pressed on a smooth one.
+    """Two rough surfaces as one, pressed on a smooth one."""
 
-    Attributes
-    ----------
-    height : σ, rms of both surfaces together, m
-    density : σ β n, height times radius times number per area of the asperities; 0.03 … 0.05 of ground steel
-        (Greenwood & Tripp 1970)
-    slope : σ/β
-    friction : f_c, friction coefficient of the asperities
-    """
-
-    height: float
+    height: float  # σ, rms of both surfaces together, m
+    #: σ β n, height times radius times number per area of the asperities; 0.03 … 0.05 of ground steel
+    #: (Greenwood & Tripp 1970)
     density: float = 0.05
-    slope: float = 0.01
-    friction: float = 0.12
+    slope: float = 0.01  # σ/β
+    friction: float = 0.12  # f_c, friction coefficient of the asperities
 
 
 def check(roughness: Roughness) -> None:

@@ -16,26 +16,16 @@ FLOODED = 60.0
 
 
 class FilmGrid(NamedTuple):
-    """Nodes and what depends on them alone; faces are those between the nodes of the film.
+    """Nodes and what depends on them alone; faces are those between the nodes of the film."""
 
-    Attributes
-    ----------
-    node : places ξ relative to the end of the film, in half widths b
-    end : number of the node where the film ends, ξ = 0: the last one between smooth surfaces
-    step : distances between nodes
-    weight : of the pressures at the nodes in ∫ P dξ
-    upwind : (3, faces) weights of the nodes i − 1, i, i + 1 in the value at face i + ½, third order, upwind
-    deformation : (nodes, nodes) of the pressures in the film at nodes, −influence/π
-    face_deformation : (faces, nodes) the same at the faces, by `upwind`
-    """
-
-    node: Array
-    end: int
-    step: Array
-    weight: Array
+    node: Array  # places ξ relative to the end of the film, in half widths b
+    end: int  # number of the node where the film ends, ξ = 0: the last one between smooth surfaces
+    step: Array  # distances between nodes
+    weight: Array  # of the pressures at the nodes in ∫ P dξ
+    #: (3, faces) weights of the nodes i − 1, i, i + 1 in the value at face i + ½, third order, upwind
     upwind: Array
-    deformation: Array
-    face_deformation: Array
+    deformation: Array  # (nodes, nodes) of the pressures in the film at nodes, −influence/π
+    face_deformation: Array  # (faces, nodes) the same at the faces, by `upwind`
 
 
 def film_width(film: float) -> float:

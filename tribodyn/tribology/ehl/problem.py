@@ -17,25 +17,15 @@ LEAST_LOAD, GREATEST_LOAD, GREATEST_MATERIAL = 0.01, 1e12, 1000.0
 
 
 class LineContact(NamedTuple):
-    """What is between the surfaces and how they move; x runs in the direction of entrainment.
+    """What is between the surfaces and how they move; x runs in the direction of entrainment."""
 
-    Attributes
-    ----------
-    line_load : w, N/m
-    radius : R, 1/R = 1/R_1 + 1/R_2, m
-    entrainment_speed : mean speed u = (u_1 + u_2)/2 of the surfaces relative to the contact, m/s, > 0
-    effective_modulus : E', 2/E' = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2, Pa
-    sliding_speed : u_1 − u_2, m/s, any sign
-    roughness : Roughness, or None of smooth surfaces
-    """
-
-    line_load: float
-    radius: float
-    entrainment_speed: float
+    line_load: float  # w, N/m
+    radius: float  # R, 1/R = 1/R_1 + 1/R_2, m
+    entrainment_speed: float  # mean speed u = (u_1 + u_2)/2 of the surfaces relative to the contact, m/s, > 0
     fluid: Fluid
-    effective_modulus: float
-    sliding_speed: float = 0.0
-    roughness: Roughness | None = None
+    effective_modulus: float  # E', 2/E' = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2, Pa
+    sliding_speed: float = 0.0  # u_1 − u_2, m/s, any sign
+    roughness: Roughness | None = None  # Roughness, or None of smooth surfaces
 
     @property
     def half_width(self) -> float:

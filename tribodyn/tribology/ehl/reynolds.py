@@ -28,19 +28,12 @@ KEPT_PRESSURE, KEPT_FLOW, LONGEST_WAY = 0.2, 0.3, 0.3
 
 
 class SmoothReduced(NamedTuple):
-    """A contact in Hertz's units.
+    """A contact in Hertz's units."""
 
-    Attributes
-    ----------
-    speed : λ
-    hertz_pressure : p_H, Pa, at which `fluid` is evaluated
-    compliance : 1; 0: rigid surfaces
-    """
-
-    speed: float
-    hertz_pressure: float
+    speed: float  # λ
+    hertz_pressure: float  # p_H, Pa, at which `fluid` is evaluated
     fluid: Fluid
-    compliance: float = 1.0
+    compliance: float = 1.0  # 1; 0: rigid surfaces
 
 
 class FilmState(NamedTuple):
@@ -57,18 +50,13 @@ class FilmState(NamedTuple):
 
 
 class FlowCorrection(NamedTuple):
-    """What shear and heat make of the flow, at the nodes.
+    """What shear and heat make of the flow, at the nodes."""
 
-    Attributes
-    ----------
-    thinning, response : ln(η_effective/η0) is thinning + response · ln(η/η0), η the Newtonian isothermal
-        viscosity, as the pressure varies about that at which they were made
-    drift : flow that layers of unequal viscosity add, over ρ u h
-    """
-
+    #: thinning, response: ln(η_effective/η0) is thinning + response · ln(η/η0), η the Newtonian isothermal
+    #: viscosity, as the pressure varies about that at which they were made
     thinning: Array
     response: Array
-    drift: Array
+    drift: Array  # flow that layers of unequal viscosity add, over ρ u h
 
 
 def newtonian(grid: FilmGrid) -> FlowCorrection:

@@ -20,18 +20,11 @@ Array = Any
 
 
 class Squeeze(NamedTuple):
-    """Time derivatives in Hertz's units of the instant: `rate` times what is, less what was.
+    """Time derivatives in Hertz's units of the instant: `rate` times what is, less what was."""
 
-    Attributes
-    ----------
-    rate : c b/(Δt u), c the difference formula's weight of the instant itself
-    mass : of the masses ρ H ΔX that nodes up to the end held before, in the same measure (nodes,)
-    place : of the places of the faces and, last, of the end (faces + 1,)
-    """
-
-    rate: float
-    mass: Array
-    place: Array
+    rate: float  # c b/(Δt u), c the difference formula's weight of the instant itself
+    mass: Array  # of the masses ρ H ΔX that nodes up to the end held before, in the same measure (nodes,)
+    place: Array  # of the places of the faces and, last, of the end (faces + 1,)
 
 
 class Snapshot(NamedTuple):

@@ -45,25 +45,16 @@ _SHORTEST_WAY = 1.0 / 64.0
 
 
 class Solution(NamedTuple):
-    """A solved contact.
-
-    Attributes
-    ----------
-    state : State, in Hertz's units
-    film : H at the nodes
-    closure : what shear and heat make of the flow
-    steps : of Newton's method
-    imbalance : largest residual: of mass flow over the flow, of force over the load
-    """
+    """A solved contact."""
 
     problem: LineContact
     reduced: Reduced
     grid: FilmGrid
-    state: FilmState
-    film: Array
-    closure: FlowCorrection
-    steps: int
-    imbalance: float
+    state: FilmState  # State, in Hertz's units
+    film: Array  # H at the nodes
+    closure: FlowCorrection  # what shear and heat make of the flow
+    steps: int  # of Newton's method
+    imbalance: float  # largest residual: of mass flow over the flow, of force over the load
 
     @property
     def place(self) -> Array:

@@ -30,18 +30,11 @@ JUDGED_RANGE = {"M": (2.0, 500.0), "L": (2.0, 15.0), "pressure": (0.0, 1.4e9), "
 
 
 class SmoothFilm(NamedTuple):
-    """Natural logarithms of what a contact has whatever its load and speed.
+    """Natural logarithms of what a contact has whatever its load and speed."""
 
-    Attributes
-    ----------
-    log_modulus : of E' in Pa
-    log_material : of G = α_PV E'
-    log_inlet_viscosity : of η0 in Pa·s
-    """
-
-    log_modulus: Any
-    log_material: Any
-    log_inlet_viscosity: Any
+    log_modulus: Any  # of E' in Pa
+    log_material: Any  # of G = α_PV E'
+    log_inlet_viscosity: Any  # of η0 in Pa·s
 
 
 def smooth_film_of(given: LawInput) -> SmoothFilm:

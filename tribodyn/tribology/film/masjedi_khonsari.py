@@ -48,24 +48,14 @@ RANGE = (
 
 
 class RoughFilm(NamedTuple):
-    """Natural logarithms of what a contact has whatever its load and speed, so that none is taken twice.
+    """Natural logarithms of what a contact has whatever its load and speed, so that none is taken twice."""
 
-    Attributes
-    ----------
-    log_modulus : of E' in Pa
-    log_material : of G = α_PV E'
-    log_hardness : of V = H_v/E'
-    log_roughness : of σ in m
-    log_inlet_viscosity : of η0 in Pa·s
-    log_asperity_factor : of the factor inside the logarithm of the asperity load ratio
-    """
-
-    log_modulus: Any
-    log_material: Any
-    log_hardness: Any
-    log_roughness: Any
-    log_inlet_viscosity: Any
-    log_asperity_factor: Any
+    log_modulus: Any  # of E' in Pa
+    log_material: Any  # of G = α_PV E'
+    log_hardness: Any  # of V = H_v/E'
+    log_roughness: Any  # of σ in m
+    log_inlet_viscosity: Any  # of η0 in Pa·s
+    log_asperity_factor: Any  # of the factor inside the logarithm of the asperity load ratio
 
 
 @law

@@ -8,15 +8,10 @@ from tribodyn.tribology.law import FrictionLaw, LawInput
 
 
 class Constant(NamedTuple):
-    """The one coefficient of a contact, given or computed.
+    """The one coefficient of a contact, given or computed."""
 
-    Attributes
-    ----------
-    coefficient : μ
-    in_range : smallest share allowed by the limits of the formula that it was computed by; NaN: none stated
-    """
-
-    coefficient: Any
+    coefficient: Any  # μ
+    #: smallest share allowed by the limits of the formula that it was computed by; NaN: none stated
     in_range: Any
 
 

@@ -23,32 +23,22 @@ MAXIMUM_EXPONENT = 600.0
 
 
 class MixedFriction(NamedTuple):
-    """Numbers of the mixed law; SI.
+    """Numbers of the mixed law; SI."""
 
-    Attributes
-    ----------
-    asperity_friction : friction coefficient f_c of touching asperities
-    limiting_shear_coefficient : Λ_lim, limiting shear stress over pressure
-    limiting_share : 1: the limiting shear stress follows the pressure on the fluid, p(1 − λ); 0: the whole p
-    log_inlet_viscosity : ln of η0 in Pa·s
-    viscosity_pressure_index : Roelands' z
-    temperature_viscosity : K_T, 1/K
-    viscosity_pressure_factor : pressure in Roelands' law over the mean pressure: 1, or 4/π for the maximum
-    peclet_sliding : 1: both Péclet numbers contain the sliding speed; 0: each surface's own speed
-    pinion_conductivity, gear_conductivity : W/(m K)
-    pinion_heat_capacity, gear_heat_capacity : per volume, as they stand in the Péclet numbers, J/(m³ K)
-    """
-
-    asperity_friction: Any
-    limiting_shear_coefficient: Any
+    asperity_friction: Any  # friction coefficient f_c of touching asperities
+    limiting_shear_coefficient: Any  # Λ_lim, limiting shear stress over pressure
+    #: 1: the limiting shear stress follows the pressure on the fluid, p(1 − λ); 0: the whole p
     limiting_share: Any
-    log_inlet_viscosity: Any
-    viscosity_pressure_index: Any
-    temperature_viscosity: Any
+    log_inlet_viscosity: Any  # ln of η0 in Pa·s
+    viscosity_pressure_index: Any  # Roelands' z
+    temperature_viscosity: Any  # K_T, 1/K
+    #: pressure in Roelands' law over the mean pressure: 1, or 4/π for the maximum
     viscosity_pressure_factor: Any
-    peclet_sliding: Any
+    peclet_sliding: Any  # 1: both Péclet numbers contain the sliding speed; 0: each surface's own speed
+    #: pinion_conductivity, gear_conductivity: W/(m K)
     pinion_conductivity: Any
     gear_conductivity: Any
+    #: pinion_heat_capacity, gear_heat_capacity: per volume, as they stand in the Péclet numbers, J/(m³ K)
     pinion_heat_capacity: Any
     gear_heat_capacity: Any
 

@@ -45,24 +45,16 @@ ENDS: dict[str, Any] = {
 
 
 class Branch(NamedTuple):
-    """One curve: where its cases stand, and how it is drawn.
-
-    Attributes
-    ----------
-    place : of its cases in a dataset; a slice stands for the first parameter
-    x : (n,); the first parameter as engineers read it
-    style : line style: solid upwards and for single cases, dashed downwards
-    label : what distinguishes it, except the direction
-    direction : "up", "down" or ""
-    """
+    """One curve: where its cases stand, and how it is drawn."""
 
     record: SweepRecord
-    place: tuple[int | slice, ...]
-    x: np.ndarray
+    place: tuple[int | slice, ...]  # of its cases in a dataset; a slice stands for the first parameter
+    x: np.ndarray  # (n,); the first parameter as engineers read it
     color: str
+    #: line style: solid upwards and for single cases, dashed downwards
     style: str | tuple[int, tuple[float, ...]]
-    label: str
-    direction: str
+    label: str  # what distinguishes it, except the direction
+    direction: str  # "up", "down" or ""
 
     def values(self, name: str) -> np.ndarray:
         """A dataset along the branch, NaN where a case is not done."""

@@ -23,21 +23,13 @@ Moved = Mapping[tuple[int, str], float]
 
 
 class Candidate(NamedTuple):
-    """A candidate and its score.
+    """A candidate and its score."""
 
-    Attributes
-    ----------
-    values : of the free keys, as TOML has them
-    numbers : (free,), the same as the record has them
-    found : figures of its cases
-    factor : its resolution over that of the scenario
-    """
-
-    values: Overrides
-    numbers: tuple[float, ...]
-    found: Figures
+    values: Overrides  # of the free keys, as TOML has them
+    numbers: tuple[float, ...]  # (free,), the same as the record has them
+    found: Figures  # figures of its cases
     score: Score
-    factor: int = 1
+    factor: int = 1  # its resolution over that of the scenario
 
 
 Keep = Callable[[Candidate], None]
@@ -45,15 +37,11 @@ Keep = Callable[[Candidate], None]
 
 
 class Unfinished(NamedTuple):
-    """What an unfinished search has in its record.
+    """What an unfinished search has in its record."""
 
-    Attributes
-    ----------
-    known : values and figures of candidates, in their order, by their resolution over that of the scenario
-    start : figures of the base scenario's cases, by the same; none where they have to be evaluated
-    """
-
+    #: values and figures of candidates, in their order, by their resolution over that of the scenario
     known: Mapping[int, Sequence[tuple[Overrides, Figures]]] = MappingProxyType({})
+    #: figures of the base scenario's cases, by the same; none where they have to be evaluated
     start: Mapping[int, Figures] = MappingProxyType({})
     moved: Moved = MappingProxyType({})
 

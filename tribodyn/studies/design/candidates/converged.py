@@ -38,18 +38,11 @@ At = Callable[[int], Archive]
 
 
 class Converged(NamedTuple):
-    """Where a search ended.
+    """Where a search ended."""
 
-    Attributes
-    ----------
-    archive : of the last resolution
-    stands : whether the figures stand; None where that was not tested
-    evaluations : on finer resolutions
-    """
-
-    archive: Archive
-    stands: bool | None = None
-    evaluations: int = 0
+    archive: Archive  # of the last resolution
+    stands: bool | None = None  # whether the figures stand; None where that was not tested
+    evaluations: int = 0  # on finer resolutions
 
 
 def converged(case: DesignCase, levels: Levels, method: str) -> Converged:

@@ -19,24 +19,15 @@ Rows = Sequence[Sequence[Mapping[str, float]]]
 
 
 class Score(NamedTuple):
-    """What a candidate is worth.
+    """What a candidate is worth."""
 
-    Attributes
-    ----------
-    objectives : NaN where it has no figures
-    margins : of the constraints, over their limits: not negative where they hold
-    by_duty : (duties,), the first objective at each duty
-    figures : figures over all duties, as the objectives take them
-    message : why it has no figures
-    shape : the least distance of its gears from the limits of their existence, in modules; None where the
-        free keys do not change them
-    """
-
-    objectives: tuple[float, ...]
-    margins: tuple[float, ...]
-    by_duty: tuple[float, ...]
-    figures: dict[str, float]
-    message: str = ""
+    objectives: tuple[float, ...]  # NaN where it has no figures
+    margins: tuple[float, ...]  # of the constraints, over their limits: not negative where they hold
+    by_duty: tuple[float, ...]  # (duties,), the first objective at each duty
+    figures: dict[str, float]  # figures over all duties, as the objectives take them
+    message: str = ""  # why it has no figures
+    #: the least distance of its gears from the limits of their existence, in modules; None where the free
+    #: keys do not change them
     shape: float | None = None
 
     @property

@@ -39,29 +39,18 @@ CREEP = 1e-3
 
 
 class SweepSettings(NamedTuple):
-    """How every case of a sweep is brought to its window.
+    """How every case of a sweep is brought to its window."""
 
-    Attributes
-    ----------
-    steady : whether the periodic motion is sought; otherwise `cycles` mesh cycles are marched
-    cycles : mesh cycles to march, or at most to march in search of the steady state
-    window : mesh cycles that the figures are taken from
-    points : points of the Poincaré section, one per mesh cycle
-    samples : samples in a mesh cycle
-    method : integration method instead of the scenario's; empty for the scenario's own
-    followed : whether steady motions are followed from case to case, to the ends of their branches
-    unstable : whether branches are continued beyond these
-    """
-
-    steady: bool
-    cycles: int
-    window: int
-    points: int
-    samples: int
+    steady: bool  # whether the periodic motion is sought; otherwise `cycles` mesh cycles are marched
+    cycles: int  # mesh cycles to march, or at most to march in search of the steady state
+    window: int  # mesh cycles that the figures are taken from
+    points: int  # points of the Poincaré section, one per mesh cycle
+    samples: int  # samples in a mesh cycle
     modes: int
-    method: str = ""
+    method: str = ""  # integration method instead of the scenario's; empty for the scenario's own
+    #: whether steady motions are followed from case to case, to the ends of their branches
     followed: bool = False
-    unstable: bool = False
+    unstable: bool = False  # whether branches are continued beyond these
 
 
 def evaluate(chunk: Chunk, settings: SweepSettings, workers: int | None = None) -> dict[str, np.ndarray]:

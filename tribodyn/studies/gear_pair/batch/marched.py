@@ -18,51 +18,34 @@ if TYPE_CHECKING:
 
 
 class CaseWindow(NamedTuple):
-    """A case's way through its window.
+    """A case's way through its window."""
 
-    Attributes
-    ----------
-    first_cycle : whole mesh cycles done before
-    states : (cycles · samples, STATES), over whole mesh cycles, the sample that closes the last not included
-    start, end : (STATES,), states at both ends; the difference of their works is the window's
-    extremes : of the motion between the samples
-    """
-
-    first_cycle: int
+    first_cycle: int  # whole mesh cycles done before
+    #: (cycles · samples, STATES), over whole mesh cycles, the sample that closes the last not included
     states: np.ndarray
+    #: start, end: (STATES,), states at both ends; the difference of their works is the window's
     start: np.ndarray
     end: np.ndarray
-    extremes: Extremes | None = None
+    extremes: Extremes | None = None  # of the motion between the samples
 
 
 class Outcome(NamedTuple):
-    """Outcome of a case.
+    """Outcome of a case."""
 
-    Attributes
-    ----------
-    window : None where the case failed
-    state : (STATES,), after the engagement at phase 0, clock and audit at zero: where a neighbour continues
-    section : (points, STATES), states at the start of mesh cycles, the last ones
-    solution : sort of motion, as `orbit.motions.Orbit.kind`; or "transient"
-    cycles : mesh cycles integrated
-    message : why it failed, or a remark on its result
-    period, stable, multiplier_max, residual : as `sweep_layout.CASES` has them
-    ends : of the branches that were left on the way from the neighbour
-    continued : those branches beyond their ends
-    """
-
-    window: CaseWindow | None
+    window: CaseWindow | None  # None where the case failed
+    #: (STATES,), after the engagement at phase 0, clock and audit at zero: where a neighbour continues
     state: np.ndarray
-    section: np.ndarray
-    solution: str
-    cycles: int
-    message: str = ""
+    section: np.ndarray  # (points, STATES), states at the start of mesh cycles, the last ones
+    solution: str  # sort of motion, as `orbit.motions.Orbit.kind`; or "transient"
+    cycles: int  # mesh cycles integrated
+    message: str = ""  # why it failed, or a remark on its result
+    #: period, stable, multiplier_max, residual: as `sweep_layout.CASES` has them
     period: int = 0
     stable: int = UNKNOWN
     multiplier_max: float = float("nan")
     residual: float = float("nan")
-    ends: tuple[BranchEnd, ...] = ()
-    continued: "tuple[ContinuedBranch, ...]" = ()
+    ends: tuple[BranchEnd, ...] = ()  # of the branches that were left on the way from the neighbour
+    continued: "tuple[ContinuedBranch, ...]" = ()  # those branches beyond their ends
 
 
 def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:

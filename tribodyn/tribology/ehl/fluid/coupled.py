@@ -34,21 +34,13 @@ _PARTS = 8
 
 
 class CoupledSolution(NamedTuple):
-    """A contact with its shear and heat.
+    """A contact with its shear and heat."""
 
-    Attributes
-    ----------
-    solution : pressures and films, under the closure that shear and heat make
-    heat : Heat, or None of an isothermal contact
-    friction : ∫ τ_m + f_c p_a dx, N/m, of the sign of the sliding speed
-    rounds : of shear, heat and pressures
-    """
-
-    solution: Solution
+    solution: Solution  # pressures and films, under the closure that shear and heat make
     shear: Shear
-    heat: FilmHeat | None
-    friction: float
-    rounds: int
+    heat: FilmHeat | None  # Heat, or None of an isothermal contact
+    friction: float  # ∫ τ_m + f_c p_a dx, N/m, of the sign of the sliding speed
+    rounds: int  # of shear, heat and pressures
 
     @property
     def temperature(self) -> Array:

@@ -15,20 +15,12 @@ MAXIMUM_LOG_VISCOSITY = 600.0
 
 
 class Fluid(NamedTuple):
-    """How viscosity and density follow pressure.
+    """How viscosity and density follow pressure."""
 
-    Attributes
-    ----------
-    viscosity : η0, Pa·s, at ambient pressure and inlet temperature
-    pressure_viscosity : α, d ln η/dp at ambient pressure, 1/Pa
-    viscosity_pressure_index : z of Roelands' law; 1 is Barus' law, ln(η/η0) = α p
-    compressible : whether density follows Dowson & Higginson; else it is constant
-    """
-
-    viscosity: float
-    pressure_viscosity: float
-    viscosity_pressure_index: float = 1.0
-    compressible: bool = True
+    viscosity: float  # η0, Pa·s, at ambient pressure and inlet temperature
+    pressure_viscosity: float  # α, d ln η/dp at ambient pressure, 1/Pa
+    viscosity_pressure_index: float = 1.0  # z of Roelands' law; 1 is Barus' law, ln(η/η0) = α p
+    compressible: bool = True  # whether density follows Dowson & Higginson; else it is constant
 
 
 def log_viscosity(pressure: Array, fluid: Fluid) -> tuple[Array, Array]:

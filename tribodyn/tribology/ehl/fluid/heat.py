@@ -34,42 +34,28 @@ _SURFACE_STEPS = 40
 
 
 class HeatProperties(NamedTuple):
-    """What conducts and stores heat.
+    """What conducts and stores heat."""
 
-    Attributes
-    ----------
-    temperature_viscosity : K_T = −d ln η/dT at ambient pressure, 1/K
-    conductivity : of the oil, W/(m K)
-    heat_capacity : of the oil, per volume at ambient pressure, J/(m³ K)
-    solid_conductivity, solid_heat_capacity : of surfaces 1 and 2, W/(m K), J/(m³ K)
-    """
-
-    temperature_viscosity: float
-    conductivity: float = 0.14
-    heat_capacity: float = 1.7e6
+    temperature_viscosity: float  # K_T = −d ln η/dT at ambient pressure, 1/K
+    conductivity: float = 0.14  # of the oil, W/(m K)
+    heat_capacity: float = 1.7e6  # of the oil, per volume at ambient pressure, J/(m³ K)
+    #: solid_conductivity, solid_heat_capacity: of surfaces 1 and 2, W/(m K), J/(m³ K)
     solid_conductivity: tuple[float, float] = (46.0, 46.0)
     solid_heat_capacity: tuple[float, float] = (3.6e6, 3.6e6)
 
 
 class FilmHeat(NamedTuple):
-    """Temperatures above the inlet's, K, and where the heat goes, W/m.
+    """Temperatures above the inlet's, K, and where the heat goes, W/m."""
 
-    Attributes
-    ----------
-    layers : Θ (x, layer), from surface 2 to surface 1
-    surface_1, surface_2 : Θ of the surfaces (x)
-    made : by shear
-    into_1, into_2 : conducted into the surfaces
-    carried : by the oil out of the film
-    """
-
-    layers: Array
+    layers: Array  # Θ (x, layer), from surface 2 to surface 1
+    #: surface_1, surface_2: Θ of the surfaces (x)
     surface_1: Array
     surface_2: Array
-    made: float
+    made: float  # by shear
+    #: into_1, into_2: conducted into the surfaces
     into_1: float
     into_2: float
-    carried: float
+    carried: float  # by the oil out of the film
 
 
 def check(thermal: HeatProperties) -> None:
@@ -100,16 +86,11 @@ def moving_source(place: Array, edge: Array, speed: float, conductivity: float, 
 
 
 class WarmedSurfaces(NamedTuple):
-    """Both surfaces under the nodes of a film.
-
-    Attributes
-    ----------
-    width : of the cells about the nodes, m (x)
-    response : temperatures of surfaces 1 and 2 by the fluxes into their cells, K m²/W, each (x, x)
-    """
+    """Both surfaces under the nodes of a film."""
 
     thermal: HeatProperties
-    width: Array
+    width: Array  # of the cells about the nodes, m (x)
+    #: temperatures of surfaces 1 and 2 by the fluxes into their cells, K m²/W, each (x, x)
     response: tuple[Array, Array]
 
 

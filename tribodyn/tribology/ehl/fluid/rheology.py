@@ -16,21 +16,15 @@ _MOST_EYRING = 600.0
 
 
 class Rheology(NamedTuple):
-    """Law of shear and its constants, of which a law reads its own.
+    """Law of shear and its constants, of which a law reads its own."""
 
-    Attributes
-    ----------
-    law : "newtonian", "eyring", "limiting" or "carreau"
-    eyring_stress : τ_0, Pa: γ' = τ_0/η sinh(τ/τ_0)
-    limiting_coefficient, limiting_floor : Λ and τ_00 (Pa) of the limiting shear stress τ_L = τ_00 + Λ p: γ' =
-        −τ_L/η ln(1 − |τ|/τ_L) (Bair & Winer 1979)
-    carreau_modulus, carreau_index : G (Pa) and n: τ = η γ' [1 + (η γ'/G)²]^((n − 1)/2) (Bair 2007)
-    """
-
-    law: str = "newtonian"
-    eyring_stress: float = 5e6
+    law: str = "newtonian"  # "newtonian", "eyring", "limiting" or "carreau"
+    eyring_stress: float = 5e6  # τ_0, Pa: γ' = τ_0/η sinh(τ/τ_0)
+    #: limiting_coefficient, limiting_floor: Λ and τ_00 (Pa) of the limiting shear stress τ_L = τ_00 + Λ p: γ'
+    #: = −τ_L/η ln(1 − |τ|/τ_L) (Bair & Winer 1979)
     limiting_coefficient: float = 0.05
     limiting_floor: float = 2e6
+    #: carreau_modulus, carreau_index: G (Pa) and n: τ = η γ' [1 + (η γ'/G)²]^((n − 1)/2) (Bair 2007)
     carreau_modulus: float = 5e6
     carreau_index: float = 0.5
 

@@ -36,26 +36,15 @@ _LEVEL = 1e-3
 
 
 class Shear(NamedTuple):
-    """Shear at the nodes (x) or in the layers (x, layer), from surface 2 to surface 1; SI.
+    """Shear at the nodes (x) or in the layers (x, layer), from surface 2 to surface 1; SI."""
 
-    Attributes
-    ----------
-    stress : τ_m, Pa (x)
-    heat : ∫ τ γ' dz of each layer, W/m² (x, layer)
-    velocity : mean of each layer, m/s (x, layer)
-    fluidity : flow by pressure over −h³/12 dp/dx, 1/(Pa s) (x)
-    drift : over u h (x)
-    response : d ln τ_m/d ln η (x)
-    newtonian : stress of a Newtonian fluid that flows as this one does at τ_m, Pa (x)
-    """
-
-    stress: Array
-    heat: Array
-    velocity: Array
-    fluidity: Array
-    drift: Array
-    response: Array
-    newtonian: Array
+    stress: Array  # τ_m, Pa (x)
+    heat: Array  # ∫ τ γ' dz of each layer, W/m² (x, layer)
+    velocity: Array  # mean of each layer, m/s (x, layer)
+    fluidity: Array  # flow by pressure over −h³/12 dp/dx, 1/(Pa s) (x)
+    drift: Array  # over u h (x)
+    response: Array  # d ln τ_m/d ln η (x)
+    newtonian: Array  # stress of a Newtonian fluid that flows as this one does at τ_m, Pa (x)
 
 
 def sheared(
