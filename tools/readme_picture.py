@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from tribodyn.post.figures import over_phase as panels
+from tribodyn.post.figures.over_mesh import TRACES
 from tribodyn.post.figures.panel import View, draw, legend
 from tribodyn.post.figures.path_of_contact import draw_path
 from tribodyn.post.style import house_style, mark_panel, new_figure, save
@@ -17,13 +17,6 @@ from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
-PANELS = (
-    panels.DEFLECTION,
-    panels.NORMAL_LOAD,
-    panels.FRICTION_FORCE,
-    panels.FILM_THICKNESS,
-    panels.EFFICIENCY,
-)
 
 
 def comparison(records: list[Record]):
@@ -33,7 +26,7 @@ def comparison(records: list[Record]):
         figure = new_figure(11.0, 6.2)
         axes = figure.subplots(2, 3).ravel()
         draw_path(axes[0], records[0])
-        for panel, trace in zip(axes[1:], PANELS, strict=True):
+        for panel, trace in zip(axes[1:], TRACES, strict=True):
             draw(panel, records, trace, view, first=panel in (axes[1], axes[2]))
         for letter, panel in zip("abcdef", axes, strict=True):
             mark_panel(panel, letter)

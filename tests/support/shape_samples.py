@@ -8,7 +8,7 @@ from jaxtyping import TypeCheckError
 from tribodyn.compliance.energy import section_integrals
 from tribodyn.compliance.sharing.condensed import condense
 from tribodyn.compliance.sharing.load_sharing import extended_rolls, flexibility, share_load
-from tribodyn.drawing.profile import tooth_profile
+from tribodyn.drawing.cad import tooth_profile
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family

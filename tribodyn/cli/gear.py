@@ -100,9 +100,8 @@ def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tup
 def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int, force: bool) -> list[Path]:
     """Write every drawing of a gear pair into a folder; return the files."""
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.drawing.dxf import write_gear, write_pair, write_rack
+    from tribodyn.drawing.cad import tooth_profile, write_gear, write_pair, write_profile, write_rack
     from tribodyn.drawing.picture import pair_figure
-    from tribodyn.drawing.profile import tooth_profile, write_profile
     from tribodyn.geometry.drive import SIDES
     from tribodyn.numerics.output_files import check_output
     from tribodyn.post.style import save

@@ -64,7 +64,7 @@ def tables(some: Iterable[TextTable]) -> str:
 
 def picture_of_run(record: Record, study: Study) -> str:
     """Draw the first datasets of a record over the last mesh cycles; nothing, where there are none."""
-    from tribodyn.post.page.series import in_engineers_units, series_of
+    from tribodyn.post.page.data import in_engineers_units, series_of
     from tribodyn.post.style import literal
 
     series = {found.name: found for found in series_of(record)}

@@ -8,9 +8,8 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
-from tribodyn.post.shown_units import shown, shown_unit
-from tribodyn.quantities.quantity import Quantity
-from tribodyn.quantities.scatter import SPREAD, scatter
+from tribodyn.quantities.catalogue import SPREAD, scatter
+from tribodyn.quantities.quantity import Quantity, shown, shown_unit
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 

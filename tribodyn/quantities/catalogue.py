@@ -1,13 +1,17 @@
-"""All reported quantities by name."""
+"""All reported quantities by name, and their scatter over samples."""
 
+import warnings
 from collections.abc import Mapping
+from typing import Any
 
-from tribodyn.quantities import computation, load, losses, motion, oscillator, rolling, solved
+import numpy as np
+
+from tribodyn.quantities import load, losses, motion, single_studies
 from tribodyn.quantities.quantity import Quantity
 
 QUANTITIES: Mapping[str, Quantity] = {
     quantity.name: quantity
-    for module in (motion, losses, load, solved, rolling, oscillator, computation)
+    for module in (motion, losses, load, single_studies)
     for quantity in module.QUANTITIES
 }
 
@@ -28,3 +32,18 @@ def scatter_of(name: str) -> Quantity:
         below="over samples: median, 5, 95 %",
         listed=True,
     )
+
+
+#: What is said of a scatter: percentiles.
+SPREAD = {"median": 50.0, "p5": 5.0, "p95": 95.0}
+
+
+def scatter(values: Any, over: tuple[int, ...] | None = None) -> dict[str, Any]:
+    """Median, 5 and 95 % of values over axes, by default all, linear between samples.
+
+    NaN is left out; the result is NaN where nothing else is left.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # no sample is known
+        found = np.nanpercentile(np.asarray(values, dtype=float), list(SPREAD.values()), axis=over)
+    return dict(zip(SPREAD, found, strict=True))

@@ -1,6 +1,8 @@
 """What a record of a run and one of a sweep have in common while they are open."""
 
+import re
 import tomllib
+from collections.abc import Collection, Mapping
 from functools import cached_property
 from pathlib import Path
 from types import TracebackType
@@ -10,9 +12,46 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError, harmless
-from tribodyn.quantities import renamed
 from tribodyn.record.soundness import UNREADABLE, blamed, check_sound, reason_of
 from tribodyn.record.withheld import samples_withheld
+
+#: Dataset (time, pair) of the deflection along a pair's normal, its older name, and one beside both.
+NORMAL, OLDER, BESIDE = "transmission_error_normal", "transmission_error", "transmission_error_rotational"
+_SPEEDS = {f"contact_loss_{end}": f"contact_loss_speed_{end}" for end in ("from", "to")}
+_OF_A_MESH = re.compile(r"(back_)?transmission_error_(rotational_)?(mean|peak_to_peak|max|min)")
+
+
+def todays_name(name: Any, names: Collection[str]) -> Any:
+    """Name of today of a dataset among the names of a file; others as they are."""
+    return NORMAL if name == OLDER and BESIDE in names else name
+
+
+def stored_name(name: Any, names: Collection[str]) -> Any:
+    """Name among those of a file of a dataset that is asked for by its older name or by that of today."""
+    name = todays_name(name, names)
+    return OLDER if name == NORMAL and name not in names else name
+
+
+def summary_of_today(summary: Mapping[str, Any], names: Collection[str]) -> dict[str, Any]:
+    """The summary of a record whose file has these names, under the names of today."""
+    if OLDER in names and BESIDE in names:
+        return _without_normal(summary)
+    if "dynamic_factor_max_speed" in summary:  # speeds at which contact is lost, elsewhere frequencies
+        return {_SPEEDS.get(name, name): value for name, value in summary.items()}
+    return dict(summary)
+
+
+def _without_normal(summary: Mapping[str, Any]) -> dict[str, Any]:
+    def name_of(name: str) -> str:
+        found = _OF_A_MESH.fullmatch(name)
+        if not found:
+            return name
+        return f"{found[1] or ''}transmission_error_{'' if found[2] else 'normal_'}{found[3]}"
+
+    return {
+        name_of(name): _without_normal(value) if isinstance(value, Mapping) else value
+        for name, value in summary.items()
+    }
 
 
 class OpenRecord:
@@ -63,13 +102,13 @@ class OpenRecord:
         self._file.close()
 
     def __contains__(self, name: object) -> bool:
-        stored = renamed.stored(name, self._file)
+        stored = stored_name(name, self._file)
         return stored in self._file and isinstance(self._file[stored], h5py.Dataset)
 
     def dims_of(self, name: str) -> tuple[str, ...]:
         """Names of a dataset's dimensions; none of a group, or of a number."""
         if name not in self._known_dims:
-            item = self._file[renamed.stored(name, self._file)]
+            item = self._file[stored_name(name, self._file)]
             dims: tuple[str, ...] = ()
             if isinstance(item, h5py.Dataset) and item.shape:
                 axes = (self._name_of(dim[0]) if len(dim) else "" for dim in item.dims)
@@ -118,7 +157,7 @@ class OpenRecord:
         if name not in self:
             raise InputError("dataset", name, "no such dataset", f"one of {', '.join(self)}")  # pyright: ignore
         try:
-            return self._file[renamed.stored(name, self._file)]
+            return self._file[stored_name(name, self._file)]
         except (KeyError, RuntimeError) as error:
             raise self._damaged(error) from error
 

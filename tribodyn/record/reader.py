@@ -9,10 +9,9 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.quantities import renamed
 from tribodyn.record import schema, trust
 from tribodyn.record.layout import counted
-from tribodyn.record.opened import OpenRecord, attributes
+from tribodyn.record.opened import OpenRecord, attributes, stored_name, summary_of_today, todays_name
 from tribodyn.record.sweep_schema import SWEEP
 from tribodyn.record.withheld import withheld
 
@@ -25,9 +24,7 @@ class Record(OpenRecord):
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return one dataset in SI units, first axis time; `pair` and `dof` give the other axes' labels."""
-        return self._read(
-            name, slice(self.samples) if renamed.today(name, self._file) in self._along else ...
-        )
+        return self._read(name, slice(self.samples) if todays_name(name, self._file) in self._along else ...)
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names of the datasets over time, or over what takes its place."""
@@ -49,7 +46,7 @@ class Record(OpenRecord):
         """The axis, and the datasets along it."""
         names = str(self.attrs["datasets"]).split() if "datasets" in self.attrs else sorted(self._file)
         datasets = [name for name in names if self.axis in self.dims_of(name)[:1]]
-        return self.axis, *(renamed.today(name, self._file) for name in datasets if name != self.axis)
+        return self.axis, *(todays_name(name, self._file) for name in datasets if name != self.axis)
 
     @property
     def trust(self) -> str:
@@ -90,7 +87,7 @@ class Record(OpenRecord):
             for parent in parents:
                 place = place.setdefault(parent, {})
             place[leaf] = value
-        return withheld(renamed.of_older(nested, self._file))
+        return withheld(summary_of_today(nested, self._file))
 
     @cached_property
     def mesh_cycle(self) -> dict[str, Any]:
@@ -156,7 +153,7 @@ class Record(OpenRecord):
         if self.samples < 0:
             raise ValueError(f"{self.samples} samples")
         for name in self._along:
-            if self._file[renamed.stored(name, self._file)].shape[0] < self.samples:
+            if self._file[stored_name(name, self._file)].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
         axis = np.asarray(self._file[self.axis][: self.samples])
         if axis.dtype.kind != "f" or not np.all(np.abs(axis) < LARGEST):

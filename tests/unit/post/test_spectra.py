@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.post.spectra import amplitude_spectrum
+from tribodyn.post.cycles import amplitude_spectrum
 
 
 def signal(samples: int, per_cycle: int) -> np.ndarray:

@@ -8,7 +8,7 @@ import pytest
 
 import tribodyn as td
 from tests.support import synthetic_record
-from tribodyn.quantities.renamed import of_older
+from tribodyn.record.opened import summary_of_today
 from tribodyn.record.reader import open_record
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import evaluated
@@ -47,8 +47,8 @@ def test_an_older_record_is_read_under_the_names_of_today(tmp_path: Path):
 def test_speeds_at_which_contact_is_lost_are_no_frequencies():
     older = {"dynamic_factor_max_speed": 3.0, "contact_loss_from": 1.0, "contact_loss_to": 2.0}
     today = {"dynamic_factor_max_speed": 3.0, "contact_loss_speed_from": 1.0, "contact_loss_speed_to": 2.0}
-    assert of_older(older, ()) == of_older(today, ()) == today
-    assert of_older({"contact_loss_from": 0.6}, ()) == {"contact_loss_from": 0.6}
+    assert summary_of_today(older, ()) == summary_of_today(today, ()) == today
+    assert summary_of_today({"contact_loss_from": 0.6}, ()) == {"contact_loss_from": 0.6}
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
-from tribodyn.quantities.renamed import of_older
+from tribodyn.record.opened import summary_of_today
 from tribodyn.record.sweep_reader import open_any
 
 RECORDS = Path(__file__).parents[2] / "fixtures/records-0.1.0"
@@ -62,7 +62,7 @@ def test_every_dataset_reads_as_it_was_written(name):
 def test_the_summary_reads_as_it_was_written(name):
     path = RECORDS / f"{name}.h5"
     with h5py.File(path) as file, open_any(path) as record:
-        written = of_older(file["summary"].attrs, file)
+        written = summary_of_today(file["summary"].attrs, file)
         assert set(record.summary) == set(written)
         for key, value in written.items():
             np.testing.assert_array_equal(record.summary[key], value, err_msg=key)

@@ -11,12 +11,18 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.page.maps import PageMap
-from tribodyn.post.page.maps import as_data as map_as_data
-from tribodyn.post.page.profiles import Profiles
-from tribodyn.post.page.profiles import as_data as profiles_as_data
+from tribodyn.post.page.data import (
+    PageMap,
+    Profiles,
+    extrapolated,
+    in_engineers_units,
+    map_data,
+    packed,
+    profiles_data,
+    series_data,
+    series_of,
+)
 from tribodyn.post.page.rolling_teeth import rolling_teeth
-from tribodyn.post.page.series import as_data, extrapolated, in_engineers_units, packed, series_of
 from tribodyn.post.report import EXCEEDED
 from tribodyn.post.style import inline
 from tribodyn.quantities.quantity import Quantity, Reported
@@ -64,9 +70,9 @@ def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) 
     data = [_record(record, len(records)) for record in records]
     if figures:
         for one, record, what in zip(data, records, told, strict=True):
-            one["maps"] = [map_as_data(record, found) for found in what.maps]
+            one["maps"] = [map_data(record, found) for found in what.maps]
             if what.profiles:
-                one["profiles"] = profiles_as_data(record, what.profiles)
+                one["profiles"] = profiles_data(record, what.profiles)
                 over_places = {row.name for row in what.profiles.rows}
                 one["series"] = [series for series in one["series"] if series["name"] not in over_places]
     if not figures:
@@ -144,7 +150,7 @@ def _record(record: Record, count: int) -> dict[str, Any]:
         window[0] = max(window[0], window[1] - CYCLES * cycle)
     elif record.axis == "phase":
         cycle = 1.0
-    series = [as_data(one) for one in series_of(record, count)]
+    series = [series_data(one) for one in series_of(record, count)]
     for one in series:
         one["short"] = one["name"].replace("_", " ")
     return {

@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.post.page.series import packed
+from tribodyn.post.page.data import packed
 from tribodyn.record.reader import Record
 
 #: The dataset that says which pairs carry load.

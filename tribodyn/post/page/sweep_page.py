@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
 from tribodyn.post.figures.sweep.branch import axis_label, branches
+from tribodyn.post.page.data import packed
 from tribodyn.post.page.page import assembled, origin, picture, table
-from tribodyn.post.page.series import packed
 from tribodyn.post.sweep_report import described, sweep_rows, sweep_said, sweep_warnings
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_reader import SweepRecord

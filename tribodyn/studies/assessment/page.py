@@ -12,9 +12,8 @@ from tribodyn.errors import InputError
 from tribodyn.numerics.output_files import write_output
 from tribodyn.post.page.page import table, warnings_of
 from tribodyn.post.style import inline
-from tribodyn.quantities.catalogue import quantities
+from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
-from tribodyn.quantities.scatter import SPREAD
 from tribodyn.record.reader import Record, open_record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts

@@ -11,8 +11,7 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.sheet.outlines import geometry_arrays
 from tribodyn.geometry.sheet.sheet import geometry_sheet
-from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.quantities.scatter import SPREAD, scatter
+from tribodyn.quantities.catalogue import QUANTITIES, SPREAD, scatter
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts

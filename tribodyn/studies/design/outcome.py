@@ -47,7 +47,7 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force:
         text = f"{HEAD}{printable(case.title)}\n{tomli_w.dumps(data)}"
         files.append(write_output(best_path(record, "toml", name), text, force=force))
     if loaded and loaded.study.has_gears:
-        from tribodyn.drawing.dxf import write_pair
+        from tribodyn.drawing.cad import write_pair
         from tribodyn.geometry.families import family
         from tribodyn.geometry.limits.checks import check
 

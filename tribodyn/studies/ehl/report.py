@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.post.page.profiles import Profile, Profiles
+from tribodyn.post.page.data import Profile, Profiles
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record

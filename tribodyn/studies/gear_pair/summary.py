@@ -21,7 +21,7 @@ from tribodyn.dynamics.recorded import pair_numbers
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
 from tribodyn.mesh.quasi_static import total_stiffness
-from tribodyn.post.spectra import amplitude_spectrum
+from tribodyn.post.cycles import amplitude_spectrum
 from tribodyn.tribology.surface_state import fraction_in_range
 
 #: Summary name -> record name and sign of what is largest there, over the whole run and over its last cycles.

@@ -1,10 +1,9 @@
 """Figures of sweeps of a gear pair's dynamics."""
 
 from tribodyn.post.figures.drawing import SweepDrawing
-from tribodyn.post.figures.sweep.campbell import campbell_figure
 from tribodyn.post.figures.sweep.response import Panel, response_figure
 from tribodyn.post.figures.sweep.section import bifurcation_figure, poincare_figure
-from tribodyn.post.figures.sweep.waterfall import waterfall_figure
+from tribodyn.post.figures.sweep.spectra import campbell_figure, waterfall_figure
 from tribodyn.quantities.catalogue import QUANTITIES
 
 PANELS = (

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribodyn.post.page.maps import PageMap
+from tribodyn.post.page.data import PageMap
 from tribodyn.post.report import on_closures
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported

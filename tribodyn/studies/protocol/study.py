@@ -25,8 +25,7 @@ from tribodyn.studies.protocol.results import TextTable as TextTable
 if TYPE_CHECKING:
     from tribodyn.errors import InputError
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
-    from tribodyn.post.page.maps import PageMap
-    from tribodyn.post.page.profiles import Profiles
+    from tribodyn.post.page.data import PageMap, Profiles
     from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.reader import Record
     from tribodyn.scenario.quantity import Table

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.post.cycles import last_cycles
-from tribodyn.post.figures import over_phase as quantities
+from tribodyn.post.figures import over_mesh
 from tribodyn.post.figures.panel import Trace, View, abscissa, draw, legend
 from tribodyn.post.figures.spectrum import steady_spectrum
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
@@ -127,12 +127,12 @@ def spectrum(records: Path) -> Figure:
 
 
 FIGURES: dict[str, Callable[[Path], Figure]] = {
-    "transmission-error": partial(_compared, quantities.DEFLECTION, None),
+    "transmission-error": partial(_compared, over_mesh.DEFLECTION, None),
     "spectrum": spectrum,
     "normal-load": normal_load,
-    "friction-force": partial(_compared, quantities.FRICTION_FORCE, _friction),
-    "friction-coefficient": partial(_compared, quantities.FRICTION_COEFFICIENT, None),
-    "film": partial(_compared, quantities.FILM_THICKNESS, None),
-    "entrainment": partial(_compared, quantities.ENTRAINMENT, None),
-    "efficiency": partial(_compared, quantities.EFFICIENCY, _efficiency),
+    "friction-force": partial(_compared, over_mesh.FRICTION_FORCE, _friction),
+    "friction-coefficient": partial(_compared, over_mesh.FRICTION_COEFFICIENT, None),
+    "film": partial(_compared, over_mesh.FILM_THICKNESS, None),
+    "entrainment": partial(_compared, over_mesh.ENTRAINMENT, None),
+    "efficiency": partial(_compared, over_mesh.EFFICIENCY, _efficiency),
 }

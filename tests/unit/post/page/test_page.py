@@ -13,8 +13,8 @@ import tribodyn as td
 from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tribodyn.cli.app import app
 from tribodyn.interface.run import Run
+from tribodyn.post.page.data import MOST_SAMPLES, extrapolated, thinned
 from tribodyn.post.page.rolling_teeth import rolling_teeth
-from tribodyn.post.page.series import MOST_SAMPLES, extrapolated, thinned
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import open_any
 from tribodyn.studies.pages.page import write_report

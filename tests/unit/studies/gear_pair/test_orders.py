@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.orders import HOP, MOST_HOPPED, WINDOW, track, worth_tracking
+from tribodyn.post.figures.spectrum import HOP, MOST_HOPPED, WINDOW, track, worth_tracking
 from tribodyn.studies.pages.pictures import figure
 
 TEETH, PER_CYCLE, CYCLES = 20, 32, 120

@@ -13,8 +13,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from tribodyn.errors import InputError
-from tribodyn.post.shown_units import shown, shown_unit
 from tribodyn.post.style import PALETTE, QUIET, literal
+from tribodyn.quantities.quantity import shown, shown_unit
 from tribodyn.record.sweep_reader import SweepRecord, VariedKey
 from tribodyn.record.sweep_schema import DONE
 

@@ -19,10 +19,9 @@ from tribodyn.post.figures.sweep.branch import (
     shade_contact_loss,
     sweep_title,
 )
-from tribodyn.post.shown_units import shown_unit
 from tribodyn.post.style import PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
 from tribodyn.post.sweep_report import described
-from tribodyn.quantities.quantity import Quantity
+from tribodyn.quantities.quantity import Quantity, shown_unit
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 

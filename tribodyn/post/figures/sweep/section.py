@@ -16,8 +16,8 @@ from tribodyn.post.figures.sweep.branch import (
     regime_handles,
     sweep_title,
 )
-from tribodyn.post.shown_units import shown
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
+from tribodyn.quantities.quantity import shown
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 

@@ -1,4 +1,4 @@
-"""DXF drawings for CAD and wire erosion: gears, rack cutters, and the pair in mesh; in millimetres.
+"""Files for CAD and wire erosion, in millimetres: DXF of gears, cutters and the pair, CSV of a profile.
 
 Outlines are closed polylines (LWPOLYLINE); circles are circles, so that a bore can be picked. What writes a
 file raises as `write_output`.
@@ -6,7 +6,7 @@ file raises as `write_output`.
 
 from io import StringIO
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from ezdxf import units
@@ -15,7 +15,7 @@ from ezdxf.filemanagement import new
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
-from tribodyn.geometry.tooth.body import gear_polygon
+from tribodyn.geometry.tooth.body import ROOT_POINTS, TIP_POINTS, gear_polygon, half_profile, tooth_outline
 from tribodyn.geometry.tooth.rack import rack_outline
 from tribodyn.numerics.output_files import MARKS, write_output
 
@@ -121,3 +121,44 @@ def _add_line(drawing: Any, layer: str, points: np.ndarray, close: bool = False)
     line = drawing.modelspace().add_lwpolyline((), close=close, dxfattribs={"layer": layer})
     # at once: to append n points takes n² steps; behind x and y stand widths and a bulge, which are zero
     line.lwpoints.extend(np.pad(_MILLIMETRES * points, ((0, 0), (0, 3))))
+
+
+class ToothProfile(NamedTuple):
+    """One tooth from the middle of a gap to the middle of the next."""
+
+    #: curve that each point belongs to: root, fillet, flank or tip; a point where two meet belongs to the
+    #: fillet, or to the flank at the tip
+    part: list[str]
+    #: radius, angle: polar coordinates about the axis from the tooth's axis of symmetry, m and rad; the angle
+    #: grows
+    radius: np.ndarray
+    angle: np.ndarray
+
+
+def tooth_profile(assembly: Assembly, side: Side, flank_points: int = 60) -> ToothProfile:
+    """Points of one tooth of a body, of plain numbers; the gear repeats it `teeth` times."""
+    fillet_points = max(flank_points // 2, 8)
+    shape = tooth_outline(assembly.tooth(side), flank_points, fillet_points)
+    radius, angle = half_profile(shape, body_of(assembly.drive, side).teeth)
+    part = [
+        *["root"] * ROOT_POINTS,
+        *["fillet"] * fillet_points,
+        *["flank"] * (flank_points - 1),
+        *["tip"] * TIP_POINTS,
+    ]
+    return ToothProfile(
+        part + part[::-1],
+        np.concatenate([radius, radius[::-1]]),
+        np.concatenate([-angle, angle[::-1]]),
+    )
+
+
+def write_profile(path: Path, profile: ToothProfile, *, force: bool = False) -> Path:
+    """Write a profile as CSV: x along the tooth's axis outwards, y across, mm; raises as `write_output`."""
+    x, y = profile.radius * np.cos(profile.angle), profile.radius * np.sin(profile.angle)
+    columns = (1e3 * x, 1e3 * y, 1e3 * profile.radius, np.degrees(profile.angle))
+    lines = [
+        ",".join([part, *(f"{number:.9g}" for number in numbers)])
+        for part, *numbers in zip(profile.part, *columns, strict=True)
+    ]
+    return write_output(path, MARKS[".csv"].decode() + "\n".join(lines) + "\n", force=force)

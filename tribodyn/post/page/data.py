@@ -1,6 +1,10 @@
-"""Datasets of a record as series of a page: in engineers' units, few enough points, extremes kept."""
+"""What a page shows of a record: series along its axis, maps over the face, profiles at the cursor.
+
+All in engineers' units; a series has few enough points, and its extremes are kept.
+"""
 
 import base64
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -156,7 +160,7 @@ def packed(values: np.ndarray, kind: str = "<f4") -> str:
     return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
 
 
-def as_data(series: Series) -> dict[str, Any]:
+def series_data(series: Series) -> dict[str, Any]:
     """A series as the page reads it; `whole` where no sample is left out."""
     curves = []
     for one in series.curves:
@@ -165,3 +169,66 @@ def as_data(series: Series) -> dict[str, Any]:
             {"label": one.label, "y": packed(one.values), "i": None if whole else packed(one.places, "<u4")}
         )
     return {"name": series.name, "title": series.title, "unit": series.unit, "curves": curves}
+
+
+class PageMap(NamedTuple):
+    """A map as a study describes it."""
+
+    name: str  # of the dataset
+    roll: np.ndarray  # (positions,); roll angle of the pair from the pitch point, rad
+    face: np.ndarray  # (slices,); place on the face from its middle, m
+    values: np.ndarray  # (positions, slices); SI; NaN: left blank
+    top: float = 100.0  # percentile of the values at the top of the scale of colours
+
+
+def map_data(record: Record, found: PageMap) -> dict[str, Any]:
+    """A map as the page reads it, in engineers' units."""
+    values, unit = in_engineers_units(found.values, record.units(found.name))
+    return {
+        "name": found.name,
+        "title": f"{record.long_name(found.name)}, of one pair from entry to exit",
+        "unit": unit,
+        "x": packed(np.degrees(found.roll)),
+        "y": packed(found.face * 1e3),
+        "z": packed(values.T),
+        "top": float(np.nanpercentile(values, found.top)) if np.any(np.isfinite(values)) else 0.0,
+    }
+
+
+class Profile(NamedTuple):
+    """A quantity that a page shows over a place, as a study describes it."""
+
+    name: str  # of the dataset, over the record's axis and the place
+    top: float | None = None  # upper end of its axis, SI; None: its maximum
+
+
+class Profiles(NamedTuple):
+    """What a page shows at the sample under the cursor."""
+
+    title: str  # heading of the section
+    #: place, label: scale that the profiles are over, and what is said of it at the axis
+    place: str
+    label: str
+    rows: Sequence[Profile]
+
+
+def profiles_data(record: Record, found: Profiles) -> dict[str, Any]:
+    """Profiles as the page reads them, in engineers' units; samples × places, row after row."""
+    rows = []
+    for one in found.rows:
+        values, unit = in_engineers_units(np.asarray(record[one.name]), record.units(one.name))
+        finite = values[np.isfinite(values)]
+        top = float(finite.max()) if finite.size else 1.0
+        if one.top is not None and top > 0.0:
+            top *= one.top / float(np.nanmax(record[one.name]))
+        rows.append(
+            {
+                "name": one.name,
+                "title": record.long_name(one.name),
+                "unit": unit,
+                "low": min(float(finite.min()), 0.0) if finite.size else 0.0,
+                "high": top,
+                "y": packed(values),
+            }
+        )
+    return {"title": found.title, "label": found.label, "x": packed(record[found.place]), "rows": rows}

@@ -1,0 +1,248 @@
+"""Spectra of the cases over a parameter: the Campbell diagram and the waterfall.
+
+The Campbell diagram draws natural frequencies and orders of the mesh over the speed, and the answer at the
+orders. In the waterfall a line of the spectrum is a mark at its frequency, coloured by its amplitude.
+"""
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from tribodyn.errors import InputError
+from tribodyn.post.cycles import Spectrum, amplitude_spectrum
+from tribodyn.post.figures.sweep.branch import Branch, axis_label, chosen_branch, sweep_title
+from tribodyn.post.style import INK, PALETTE, QUIET, ROW, WIDTH, mark_panel, new_figure
+from tribodyn.record.sweep_reader import SweepRecord
+
+
+def spectra(branch: Branch) -> list[Spectrum | None]:
+    """Spectrum, m over mesh orders, of every case; None where there is no window.
+
+    Raises
+    ------
+    InputError
+        If no case has one.
+    """
+    per_cycle = branch.record.samples_per_cycle
+    results = [_spectrum(window, per_cycle) for window in branch.values("transmission_error_rotational")]
+    if not any(results):
+        raise InputError("record", str(branch.record.path), "no case is done", "wait, or sweep again")
+    return results
+
+
+def _spectrum(window: np.ndarray, per_cycle: int) -> Spectrum | None:
+    window = window[np.isfinite(window)]
+    return amplitude_spectrum(window, per_cycle) if window.size >= per_cycle else None
+
+
+def order_amplitudes(branch: Branch, orders: int) -> np.ndarray:
+    """Amplitudes (cases, orders) of the mesh orders 1 … orders, m; NaN where a case is not done."""
+    rows = [np.full(orders, np.nan) if one is None else one.harmonics(orders) for one in spectra(branch)]
+    return np.array(rows)
+
+
+#: No case chosen.
+NOWHERE: Mapping[str, float | str] = MappingProxyType({})
+#: Orders of the mesh that are drawn.
+RAYS = 6
+#: Area of the largest marker, square points.
+LARGEST_AREA = 160.0
+
+
+def campbell_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str] = NOWHERE) -> Figure:
+    """Draw modes (dashed) and orders of the mesh (rays) over the first parameter, up and down apart.
+
+    The area of a marker on an order is the amplitude of the transmission error there. Of several other
+    parameters the branch nearest to `at` is drawn, or the first.
+    """
+    drawn, named = chosen_branch(records, at)
+    figure = new_figure(WIDTH if len(drawn) == 1 else 1.35 * WIDTH, 4.4)
+    panels = figure.subplots(1, len(drawn), sharex=True, sharey=True, squeeze=False)[0]
+    largest = max(float(np.nanmax(order_amplitudes(branch, RAYS))) for branch in drawn) or 1.0
+    for letter, axes, branch in zip("ab", panels, drawn, strict=False):
+        _draw_modes(axes, branch)
+        _draw_orders(axes, branch, largest)
+        axes.set_xlabel(axis_label(records[0].parameters[0]))
+        way = {"up": "Parameter increasing", "down": "Parameter decreasing"}
+        title = way.get(branch.direction, "Modes (dashed) and orders of the mesh frequency $f_m$")
+        mark_panel(axes, letter if len(drawn) > 1 else "", title, 1)
+    panels[0].set_ylabel("Frequency (kHz)")
+    shares = (1.0, 0.5, 0.1)
+    figure.legend(
+        [_marker(share) for share in shares],
+        [f"{share * largest * 1e6:.2g} µm" for share in shares],
+        loc="outside lower center",
+        ncols=len(shares),
+        title="Dashed: modes.  Rays: orders of the mesh frequency $f_m$.  "
+        "Area of the marks: amplitude of the transmission error",
+        title_fontsize=7.5,
+    )
+    shown = f": {named}" if named else ""
+    figure.suptitle(sweep_title(records) + shown, x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+def _marker(share: float) -> Line2D:
+    size = float(np.sqrt(LARGEST_AREA * share))
+    return Line2D(
+        [], [], linestyle="none", marker="o", markersize=size, color=PALETTE[1], markeredgewidth=0, alpha=0.65
+    )
+
+
+def _draw_modes(axes: Axes, branch: Branch) -> None:
+    modes = branch.values("mode_frequency") * 1e-3
+    for mode in range(modes.shape[1]):
+        known = np.flatnonzero(np.isfinite(modes[:, mode]))
+        if not known.size:
+            continue
+        axes.plot(branch.x, modes[:, mode], color=QUIET, linestyle=(0, (4, 2)), linewidth=0.9)
+        first = known[np.argmin(branch.x[known])]
+        axes.annotate(
+            f"mode {mode + 1}: {modes[first, mode]:.3g} kHz",
+            (branch.x[first], modes[first, mode]),
+            xytext=(2, 2),
+            textcoords="offset points",
+            fontsize=7,
+            color=INK,
+        )
+    axes.set_ylim(0, 1.15 * float(np.nanmax(modes)))
+
+
+def _draw_orders(axes: Axes, branch: Branch, largest: float) -> None:
+    frequency = branch.values("mesh_frequency") * 1e-3
+    amplitudes = order_amplitudes(branch, RAYS)
+    top = axes.get_ylim()[1]
+    for order in range(1, RAYS + 1):
+        ray = order * frequency
+        axes.plot(branch.x, ray, color=PALETTE[5], linewidth=0.7, zorder=1)
+        inside = np.flatnonzero(np.isfinite(ray) & (ray <= top))
+        axes.scatter(
+            branch.x,
+            np.where(ray <= top, ray, np.nan),
+            s=LARGEST_AREA * np.nan_to_num(amplitudes[:, order - 1]) / largest,
+            facecolor=PALETTE[1],
+            edgecolor="none",
+            alpha=0.65,
+            zorder=2,
+        )
+        if inside.size:
+            last = inside[np.argmax(branch.x[inside])]
+            axes.annotate(
+                "$f_m$" if order == 1 else f"{order}$f_m$",
+                (branch.x[last], ray[last]),
+                xytext=(3, 4),
+                textcoords="offset points",
+                fontsize=7,
+                color=PALETTE[0],
+                annotation_clip=False,
+            )
+    axes.margins(x=0.03)
+
+
+#: Orders of the mesh that are shown at least.
+LEAST_ORDERS = 4
+#: Lines weaker than the highest by more than this are not shown, dB.
+RANGE = 60.0
+_LOWEST = 10 ** (-RANGE / 20)
+
+
+def waterfall_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str] = NOWHERE) -> Figure:
+    """Draw amplitude spectra of the transmission error over frequency and the first parameter.
+
+    Up and down beside each other where both were followed; of several other parameters the branch nearest to
+    `at`, or the first.
+    """
+    drawn, named = chosen_branch(records, at)
+    figure = new_figure(WIDTH if len(drawn) == 1 else 1.35 * WIDTH, 4.6)
+    panels = figure.subplots(1, len(drawn), squeeze=False, sharex=True, sharey=True)[0]
+    highest = max(_highest(branch) for branch in drawn) * 1e6 or 1.0
+    norm = LogNorm(highest * _LOWEST, highest)
+    limit = max(map(_limit, drawn))
+    lines: Any = None
+    for letter, axes, branch in zip("ab", panels, drawn, strict=False):
+        lines = _draw(axes, branch, norm, limit)
+        way = {"up": ", parameter increasing", "down": ", parameter decreasing"}.get(branch.direction, "")
+        mark_panel(axes, letter if len(drawn) > 1 else "", f"Spectra of the transmission error{way}", 2)
+        axes.set_xlabel("Frequency (kHz)")
+    panels[0].set_ylabel(axis_label(records[0].parameters[0]))
+    bar = figure.colorbar(lines, ax=list(panels), label="Amplitude (µm)", pad=0.02)
+    bar.outline.set_visible(False)
+    shown = f": {named}" if named else ""
+    figure.suptitle(f"{sweep_title(records)}{shown}", x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+def _highest(branch: Branch) -> float:
+    return max(float(one.amplitudes[1:].max()) for one in spectra(branch) if one is not None)
+
+
+def _limit(branch: Branch) -> float:
+    """Highest frequency shown, kHz: above the highest mode and the first orders."""
+    modes, mesh = branch.values("mode_frequency"), branch.values("mesh_frequency")
+    return 1e-3 * max(1.05 * float(np.nanmax(modes)), LEAST_ORDERS * float(np.nanmax(mesh)))
+
+
+def _draw(axes: Axes, branch: Branch, norm: LogNorm, limit: float) -> LineCollection:
+    frequency = branch.values("mesh_frequency") * 1e-3
+    low, high = _edges(branch.x)
+    places, amplitudes = [], []
+    for i, one in enumerate(spectra(branch)):
+        if one is None:
+            continue
+        levels = one.amplitudes * 1e6
+        for k in np.flatnonzero(
+            (one.orders > 0)
+            & (levels > _LOWEST * float(norm.vmax or 0.0))
+            & (one.orders * frequency[i] <= limit)
+        ):
+            x = one.orders[k] * frequency[i]
+            places.append([(x, low[i]), (x, high[i])])
+            amplitudes.append(levels[k])
+    order = np.argsort(amplitudes)  # the strongest on top
+    lines = LineCollection(
+        [places[i] for i in order],
+        array=np.array(amplitudes)[order],
+        norm=norm,
+        cmap="viridis_r",
+        linewidths=1.8,
+        capstyle="butt",
+    )
+    axes.add_collection(lines)
+    modes = branch.values("mode_frequency") * 1e-3
+    last = int(np.argmax(branch.x))
+    for mode in range(modes.shape[1]):
+        axes.plot(modes[:, mode], branch.x, color=QUIET, linestyle=(0, (3, 2)), linewidth=0.7, zorder=0.9)
+        if np.isfinite(modes[last, mode]):
+            axes.annotate(
+                f"mode {mode + 1}",
+                (modes[last, mode], 1),
+                xycoords=("data", "axes fraction"),
+                xytext=(0, 3 + ROW * (mode % 2)),
+                textcoords="offset points",
+                ha="center",
+                fontsize=6.5,
+                color=INK,
+            )
+    axes.set_xlim(0, limit)
+    axes.set_ylim(float(np.min(low)), float(np.max(high)))
+    axes.grid(False)
+    return lines
+
+
+def _edges(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where the mark of each case begins and ends: halfway to its neighbours."""
+    if len(x) < 2:
+        return x - 0.5, x + 0.5
+    order = np.argsort(x)
+    middle = (x[order][1:] + x[order][:-1]) / 2.0
+    first, last = 2 * x[order][0] - middle[0], 2 * x[order][-1] - middle[-1]
+    low, high = np.empty(len(x)), np.empty(len(x))
+    low[order], high[order] = np.concatenate([[first], middle]), np.concatenate([middle, [last]])
+    return low, high
