@@ -15,7 +15,7 @@ from tribodyn.errors import InputError
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, house_style, new_figure, save
 from tribodyn.record.reader import open_record
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, number_of, value_at
-from tribodyn.studies.design.candidates.pool import Pool
+from tribodyn.studies.design.candidates.evaluation import Pool
 from tribodyn.studies.design.candidates.scoring import Scoring
 from tribodyn.studies.pages.pictures import overview
 from tribodyn.studies.protocol.load import load_scenario

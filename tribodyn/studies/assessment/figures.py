@@ -1,16 +1,82 @@
-"""Pictures of an assessment's record: pressure, temperature and film along the path of contact."""
+"""Pictures of an assessment: those of its record, and those of the first page of its report."""
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import View
-from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, new_figure
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.assessment.pictures import draw_film, draw_losses
+from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment.standard import ZERO_CELSIUS
+from tribodyn.studies.protocol.part import ReportCurve
+
+
+def pictures(record: Record, curves: Sequence[ReportCurve]) -> Figure:
+    """Curves of the other studies, then the specific film along the path and the losses by friction law."""
+    with house_style():
+        panels = len(curves) + 2
+        rows = math.ceil(panels / 2)
+        figure = new_figure(WIDTH, 0.82 * PANEL_HEIGHT * rows)
+        axes = list(figure.subplots(rows, 2, squeeze=False).flat)
+        for place, curve in zip(axes, curves, strict=False):
+            _curve(place, curve)
+        draw_film(axes[len(curves)], record)
+        draw_losses(axes[len(curves) + 1], record.summary)
+        for place in axes[panels:]:
+            place.set_visible(False)
+    return figure
+
+
+def _curve(axes: Axes, curve: ReportCurve) -> None:
+    for number, (label, values) in enumerate(curve.lines.items()):
+        axes.plot(curve.x, values, color=PALETTE[number % len(PALETTE)], label=label)
+    if curve.mark is not None:
+        axes.axvline(curve.mark, color=QUIET, linewidth=0.8, linestyle="--")
+    axes.set(title=curve.title, xlabel=curve.x_label, ylabel=curve.y_label)
+
+
+def draw_film(axes: Axes, record: Record) -> None:
+    """Specific film along the path of contact, and that of the standard at its points."""
+    roll = record["roll_angle"] * 180.0 / math.pi
+    axes.plot(roll, record["specific_film"], color=PALETTE[0], label="simulated")
+    iso, own = record.summary.get("iso"), record.summary["point_angles"]
+    angles = [float(own[name]) * 180.0 / math.pi for name in POINTS]
+    if iso:
+        axes.plot(
+            angles,
+            [iso["lambda_GF"][name] for name in POINTS],
+            "o",
+            color=PALETTE[1],
+            markersize=4,
+            clip_on=False,
+            label="ISO/TS 6336-22",
+        )
+    permissible = record.summary["margins"].get("iso", {}).get("lambda_GFP")
+    if permissible is not None:
+        axes.axhline(permissible, color="#b3261e", linewidth=0.9, linestyle="--", label="permissible")
+    axes.set_ylim(bottom=0.0)
+    axes.set(title="Specific film along the path of contact", xlabel="Roll angle (°)", ylabel="λ_GF")
+    axes.legend(loc="best")
+
+
+def draw_losses(axes: Axes, summary: Any) -> None:
+    """Loss by every friction law, and by the standard."""
+    losses = {literal(name): float(value) for name, value in summary["loss_by_law"].items()}
+    iso = summary.get("iso", {}).get("loss")
+    if iso is not None:
+        losses["ISO/TR 15144-1"] = float(iso)
+    names = sorted(losses, key=lambda name: losses[name])
+    axes.barh(names, [losses[name] for name in names], color=PALETTE[5], height=0.62)
+    for number, name in enumerate(names):
+        axes.text(losses[name], number, f" {losses[name]:.3g}", va="center", fontsize=7)
+    axes.grid(visible=False, axis="y")
+    axes.set(title="Loss to tooth friction by law (W)")
+    axes.set_xlim(0.0, 1.15 * max(losses.values()))
 
 
 def along_path(records: Sequence[Record], _view: View) -> Figure:

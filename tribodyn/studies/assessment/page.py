@@ -18,8 +18,8 @@ from tribodyn.record.reader import Record, open_record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.figures import pictures
 from tribodyn.studies.assessment.margins import LIMITS
-from tribodyn.studies.assessment.pictures import pictures
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.protocol.load import load
 from tribodyn.studies.protocol.part import ReportCurve

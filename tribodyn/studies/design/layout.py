@@ -11,7 +11,7 @@ from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.archive import Candidate, Unfinished
 from tribodyn.studies.design.candidates.candidates import Overrides, samples_of, shapes_gears, value_at
-from tribodyn.studies.design.candidates.pool import Figures
+from tribodyn.studies.design.candidates.evaluation import Figures
 from tribodyn.studies.design.candidates.sources import units_by_figure
 from tribodyn.studies.design.case import DesignCase, Free, Objective
 

@@ -10,11 +10,10 @@ import tomli_w
 
 from tribodyn.errors import printable
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
-from tribodyn.studies.design.candidates.archive import Archive, Candidate
+from tribodyn.studies.design.candidates.archive import Archive, Candidate, front
 from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.candidates.sources import standing
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.methods.front import front
 
 #: First line of a file with the best scenario, before the title of the search.
 HEAD = MARKS[".toml"].decode()

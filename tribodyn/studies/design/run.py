@@ -26,7 +26,7 @@ from tribodyn.studies.design.candidates.archive import (
 )
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, shares_of, start_of
 from tribodyn.studies.design.candidates.converged import Converged, converged
-from tribodyn.studies.design.candidates.pool import Cluster, Evaluators, Figures, Pool, workers_for
+from tribodyn.studies.design.candidates.evaluation import Cluster, Evaluators, Figures, Pool, workers_for
 from tribodyn.studies.design.candidates.scoring import SLACK, Scoring
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.layout import (

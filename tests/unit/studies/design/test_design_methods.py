@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.studies.design.candidates.archive import Archive
+from tribodyn.studies.design.candidates.archive import Archive, front
 from tribodyn.studies.design.candidates.candidates import start_of
 from tribodyn.studies.design.methods import METHODS, method_of
-from tribodyn.studies.design.methods.front import front
 from tribodyn.studies.design.outcome import chosen_best, headline
 from tribodyn.studies.design.short_form import loaded_search
 

@@ -11,7 +11,7 @@ import pytest
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
-from tribodyn.studies.design.candidates import archive, pool
+from tribodyn.studies.design.candidates import archive, evaluation
 from tribodyn.studies.design.report import sentences
 from tribodyn.studies.pages.page import report
 
@@ -60,7 +60,7 @@ def test_what_a_search_leaves(tmp_path: Path):
 def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     evaluated: list[Any] = []
 
-    class Counted(pool.Pool):
+    class Counted(evaluation.Pool):
         def submit(self, several: Any) -> Any:
             evaluated.append(several)
             return super().submit(several)

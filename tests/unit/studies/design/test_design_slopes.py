@@ -8,8 +8,7 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate
-from tribodyn.studies.design.candidates.scoring import Scoring
-from tribodyn.studies.design.candidates.slopes import Derivatives, margin_slope, objective_slope
+from tribodyn.studies.design.candidates.scoring import Derivatives, Scoring, margin_slope, objective_slope
 from tribodyn.studies.design.short_form import loaded_search
 
 F, G = "efficiency", "contact_ratio"

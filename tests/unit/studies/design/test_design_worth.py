@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from scipy.special import ndtr
 
-from tribodyn.studies.design.candidates.archive import Candidate
+from tribodyn.studies.design.candidates.archive import Candidate, front
 from tribodyn.studies.design.candidates.candidates import samples_of
 from tribodyn.studies.design.candidates.scoring import Score, Scoring
 from tribodyn.studies.design.case import Constraint, DesignCase, Objective, Robust, Tolerance, WeightedDuty
-from tribodyn.studies.design.methods.front import front
 from tribodyn.studies.design.short_form import loaded_search
 
 KEYS = ("drive.pinion.profile_shift", "drive.gear.profile_shift")

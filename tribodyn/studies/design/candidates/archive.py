@@ -12,8 +12,12 @@ import numpy as np
 
 from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.candidates import Overrides, cases_of, chosen, number_of, shapes_gears
-from tribodyn.studies.design.candidates.evaluation import distance_from_limits, loaded_source
-from tribodyn.studies.design.candidates.pool import Evaluators, Figures
+from tribodyn.studies.design.candidates.evaluation import (
+    Evaluators,
+    Figures,
+    distance_from_limits,
+    loaded_source,
+)
 from tribodyn.studies.design.candidates.scoring import Score, Scoring
 from tribodyn.studies.design.candidates.sources import BASE, split
 from tribodyn.studies.design.case import DesignCase
@@ -267,3 +271,14 @@ def resolutions(case: DesignCase, factor: int) -> Overrides:
 def identity(values: Mapping[str, Any]) -> str:
     """What tells candidates apart."""
     return json.dumps(values, sort_keys=True)
+
+
+def front(evaluations: list[Candidate]) -> list[Candidate]:
+    """The feasible candidates that no other is better than in both objectives, by the first objective."""
+    some = [candidate for candidate in evaluations if candidate.score.feasible]
+    some.sort(key=lambda candidate: (candidate.score.objectives, candidate.numbers))
+    found: list[Candidate] = []
+    for candidate in some:
+        if not found or candidate.score.objectives[1] < found[-1].score.objectives[1]:
+            found.append(candidate)
+    return found

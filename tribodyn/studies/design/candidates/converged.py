@@ -12,14 +12,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.studies.design.candidates.archive import Archive, Candidate, Levels, SpentError, resolutions
+from tribodyn.studies.design.candidates.archive import (
+    Archive,
+    Candidate,
+    Levels,
+    SpentError,
+    front,
+    resolutions,
+)
 from tribodyn.studies.design.candidates.candidates import shares_of
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.layout import FACTORS
 from tribodyn.studies.design.methods import SMOOTH
-from tribodyn.studies.design.methods.front import front
-from tribodyn.studies.design.methods.local import RADIUS, minimise
-from tribodyn.studies.design.methods.views import Scalar
+from tribodyn.studies.design.methods.local import RADIUS, Scalar, minimise
 
 #: Relative change of the figure from one resolution to the next, twice in a row, within which it stands. What
 #: is left of errors of first order is as much again.

@@ -8,9 +8,14 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.methods.front import epsilon_constraint, nsga2
-from tribodyn.studies.design.methods.local import derivatives_of, local
-from tribodyn.studies.design.methods.population import cma_es, count_of_all, differential_evolution, every
+from tribodyn.studies.design.methods.local import derivatives_of, epsilon_constraint, local
+from tribodyn.studies.design.methods.population import (
+    cma_es,
+    count_of_all,
+    differential_evolution,
+    every,
+    nsga2,
+)
 
 Method = Callable[[Archive, np.ndarray], None]
 """Searches from the shares at which the base scenario stands."""

@@ -1,17 +1,84 @@
-"""Local searches by SciPy from the best of a Sobol sequence; side by side, but COBYQA, which SciPy locks."""
+"""Local searches by SciPy from the best of a Sobol sequence, and the front that they make of two objectives.
 
+They run side by side, but COBYQA, which SciPy locks.
+"""
+
+import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.studies.design.candidates.archive import Archive, SpentError
+from tribodyn.studies.design.candidates.archive import Archive, SpentError, front
 from tribodyn.studies.design.candidates.candidates import chosen, shares_of
-from tribodyn.studies.design.candidates.slopes import Derivatives, margin_slope, objective_slope
+from tribodyn.studies.design.candidates.scoring import (
+    NO_FIGURES,
+    SLACK,
+    Derivatives,
+    Score,
+    margin_slope,
+    objective_slope,
+)
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.methods.views import Scalar
+
+#: Stands for the objective of a candidate without figures, over that of the start.
+POOR = 1.5
+
+
+class Scalar:
+    """One objective, relative to the start, and margins that must not be negative.
+
+    Parameters
+    ----------
+    bound : upper bound of the other objective
+    """
+
+    def __init__(self, archive: Archive, objective: int = 0, bound: float | None = None) -> None:
+        self.archive = archive
+        self.objective = objective
+        self.bound = bound
+        self.scales = [self._scale(place) for place in range(len(archive.case.objectives))]
+
+    def _scale(self, place: int) -> float:
+        values = [candidate.score.objectives[place] for candidate in self.archive.evaluations]
+        known = [abs(value) for value in values if math.isfinite(value) and value]
+        return known[0] if known else 1.0
+
+    def value(self, score: Score) -> float:
+        """The objective over its scale; a poor one where there is none."""
+        value = score.objectives[self.objective] / self.scales[self.objective]
+        return value if math.isfinite(value) else POOR
+
+    def margins(self, score: Score) -> list[float]:
+        """Margins of the constraints, that of the bound last."""
+        margins = [self._unknown(score) if score.message else margin for margin in score.margins]
+        if score.shape is not None:
+            margins.append(score.shape)
+        if self.bound is None:
+            return margins
+        other = score.objectives[1 - self.objective]
+        room = (self.bound - other) / self.scales[1 - self.objective]
+        return [*margins, room if math.isfinite(room) else self._unknown(score)]
+
+    @staticmethod
+    def _unknown(score: Score) -> float:
+        """Stands for a margin of a candidate without figures: the distance of its shape, if known."""
+        return -NO_FIGURES if score.shape is None else min(score.shape, 0.0)
+
+    def merit(self, score: Score) -> float:
+        """Objective of a feasible candidate; of others above all those, growing with what they miss."""
+        missed = -sum(min(0.0, margin) for margin in self.margins(score))
+        if score.message:
+            return 1e6 + score.violation
+        return 1e6 + missed if missed > SLACK else self.value(score)
+
+    def merits(self, several: Sequence[np.ndarray]) -> np.ndarray:
+        """Merits of candidates that are evaluated side by side."""
+        return np.array([self.merit(score) for score in self.archive.score_all(several)])
+
 
 #: Share of the evaluations that go into the first look, and how many of them a free key is worth at most.
 FIRST_LOOK, LOOK_PER_KEY = 0.3, 10
@@ -205,3 +272,35 @@ def slopes_of(
         return value, margins
 
     return lambda shares: slopes(shares)[0], lambda shares: slopes(shares)[1]
+
+
+def epsilon_constraint(archive: Archive, start: np.ndarray) -> None:
+    """Minimise each objective alone, then the first under bounds of the second between, by COBYQA."""
+    case = archive.case
+    share = case.search.evaluations // (case.search.points + 1)
+
+    def search() -> None:
+        ends = [Scalar(archive, place) for place in (0, 1)]
+        places = [first_look(view, start)[0] for view in ends]
+        in_turn(
+            [
+                partial(minimise, "cobyqa", view, place, share)
+                for view, place in zip(ends, places, strict=True)
+            ]
+        )
+        found = front(archive.evaluations)
+        if len(found) < 2:
+            return
+        high, low = found[0].score.objectives[1], found[-1].score.objectives[1]
+        bounds = np.linspace(high, low, case.search.points)[1:-1]
+        in_turn([partial(_under, archive, float(bound), share) for bound in bounds])
+
+    ended_when_spent(search)
+
+
+def _under(archive: Archive, bound: float, most: int) -> None:
+    """Minimise the first objective from the best candidate that keeps a bound of the second."""
+    keeping = [point for point in front(archive.evaluations) if point.score.objectives[1] <= bound]
+    if keeping:
+        best = min(keeping, key=lambda point: point.score.objectives[0])
+        minimise("cobyqa", Scalar(archive, 0, bound), shares_of(archive.case, best.values), most)

@@ -1,14 +1,14 @@
-"""Global searches: differential evolution, CMA-ES, every combination of whole numbers and choices."""
+"""Global searches: differential evolution, CMA-ES, NSGA-II, every combination of numbers and choices."""
 
 import math
 from itertools import product
+from typing import Any
 
 import numpy as np
 
 from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.case import DesignCase, Free
-from tribodyn.studies.design.methods.local import ended_when_spent, sobol
-from tribodyn.studies.design.methods.views import Scalar
+from tribodyn.studies.design.methods.local import Scalar, ended_when_spent, sobol
 
 #: Candidates in a generation per free key.
 PER_KEY = 6
@@ -83,3 +83,35 @@ def every(archive: Archive, _start: np.ndarray) -> None:
         else:
             axes.append(np.arange(count) / max(1, count - 1))
     archive.score_all(list(product(*axes)))
+
+
+def nsga2(archive: Archive, start: np.ndarray) -> None:
+    """Search by NSGA-II, of the package pymoo."""
+    from pymoo.algorithms.moo.nsga2 import NSGA2  # pyright: ignore[reportMissingImports]
+    from pymoo.core.problem import Problem  # pyright: ignore[reportMissingImports]
+    from pymoo.optimize import minimize  # pyright: ignore[reportMissingImports]
+
+    case, count = archive.case, len(start)
+    views = [Scalar(archive, place) for place in (0, 1)]
+
+    class Wanted(Problem):  # pyright: ignore[reportGeneralTypeIssues, reportUntypedBaseClass]
+        def __init__(self) -> None:
+            super().__init__(n_var=count, n_obj=2, n_ieq_constr=len(case.constraints) + 1, xl=0.0, xu=1.0)
+
+        def _evaluate(self, x: np.ndarray, out: dict[str, np.ndarray], *_: Any, **__: Any) -> None:
+            scores = archive.score_all(list(x))
+            out["F"] = np.array([[view.value(score) for view in views] for score in scores])
+            missed = [[*(-m for m in score.margins), float(bool(score.message))] for score in scores]
+            out["G"] = np.array(missed)
+
+    size = max(16, PER_KEY * count)
+
+    def search() -> None:
+        minimize(
+            Wanted(),
+            NSGA2(pop_size=size),
+            ("n_gen", max(2, case.search.evaluations // size)),
+            seed=case.search.seed,
+        )
+
+    ended_when_spent(search)
