@@ -16,7 +16,7 @@ from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
-from tribodyn.solve.orbit.period_map import by_differences
+from tribodyn.solve.orbit.motions import by_differences
 from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances, tolerances_from
 from tribodyn.solve.transient import make_integrator
 

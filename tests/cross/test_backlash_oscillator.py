@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 
 from tests.support.foreign_marching import oscillator_march
 from tests.support.harmonic_balance import HarmonicBalance, restoring, turning_points
-from tribodyn.solve.branch.family import FOLD, PERIOD_DOUBLING
+from tribodyn.solve.branch.arclength import FOLD, PERIOD_DOUBLING
 from tribodyn.solve.orbit.search import find
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import OscillatorMap

@@ -15,9 +15,9 @@ from tribodyn.dynamics.parameters import (
     XI,
 )
 from tribodyn.errors import InputError
-from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.orbit.periodic import WANDERING, steady_states
+from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 

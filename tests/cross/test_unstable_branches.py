@@ -6,8 +6,8 @@ from scipy.interpolate import CubicSpline
 
 from tests.support.foreign_marching import gear_march, oscillator_march
 from tests.support.harmonic_balance import HarmonicBalance, turning_points
+from tribodyn.solve.branch.arclength import FOLD, MERGING, PERIOD_DOUBLING
 from tribodyn.solve.branch.continuation import Leg
-from tribodyn.solve.branch.family import FOLD, MERGING, PERIOD_DOUBLING
 from tribodyn.solve.branch.gear_pairs import UnstableRange, followed_states
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.tolerances import state_scales

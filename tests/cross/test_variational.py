@@ -9,7 +9,7 @@ from tribodyn.dynamics.parameters import SLIP, STATES
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.march.reversal import stops
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
-from tribodyn.solve.orbit.period_map import DIFFERENCE
+from tribodyn.solve.orbit.motions import DIFFERENCE
 
 SPEED = {"operating.pinion_speed": "400 rad/s"}
 MOTOR = {

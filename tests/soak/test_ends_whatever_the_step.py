@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from tribodyn.solve.branch.arclength import NEIMARK_SACKER
 from tribodyn.solve.branch.continuation import Leg, follow
-from tribodyn.solve.branch.family import NEIMARK_SACKER
 from tribodyn.solve.branch.gear_pairs import GearLines
 from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.orbit.periodic import steady_states

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribodyn.solve.orbit.period_map import Marched, by_differences
+from tribodyn.solve.orbit.motions import Marched, by_differences
 
 
 class ClosedForm:

@@ -13,8 +13,7 @@ from scipy.integrate import solve_ivp
 
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.native import packed
-from tribodyn.solve.engagement import engage
-from tribodyn.solve.right_hand_side import rhs, work_array
+from tribodyn.solve.right_hand_side import engage, rhs, work_array
 
 #: Steps of the parameter from the neighbour to the point, periods marched at each, and then in a block.
 STEPS, CARRIED, BLOCK = 6, 24, 48

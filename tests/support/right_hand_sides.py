@@ -16,7 +16,7 @@ from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.kernels.native import kernel
 from tribodyn.solve.jax.integrator import right_hand_side
-from tribodyn.solve.lanes.packing import lane_model, pack
+from tribodyn.solve.lanes.batch import lane_model, pack
 from tribodyn.solve.right_hand_side import rhs
 
 #: Whole cycles before; the load may depend on time.

@@ -13,7 +13,7 @@ from tools.fuzz.inputs import CURVE, Input, mutated, scenarios
 from tribodyn.cli.options import overrides
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.errors import InputError, InputErrors, SimulationError
-from tribodyn.kernels.native.code import Compiled
+from tribodyn.kernels.native.arguments import Compiled
 from tribodyn.kernels.native.store import compiled_in, content_of
 from tribodyn.numerics.cache import arrays_kept_or_made, kept_or_made, trusted_folder
 from tribodyn.post.report import as_json

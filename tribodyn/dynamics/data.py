@@ -1,9 +1,15 @@
-"""What a case says of shafts, bearings, drive and load, in SI units."""
+"""What a case says of shafts, bearings, drive and load, in SI units; stiffness of rolling bearings.
+
+From type, size and load: E. P. Gargiulo, "A simple way to estimate bearing stiffness", Machine Design 52
+(1980) 107: Palmgren's deflections with the load of the most loaded element, 5 F/(Z cos α), without preload,
+with normal clearance.
+"""
 
 from dataclasses import dataclass
 from typing import Literal
 
 from tribodyn.numerics.curve import Table
+from tribodyn.numerics.elementary import cos, exp, log
 
 
 @dataclass(frozen=True)
@@ -37,3 +43,44 @@ class OperatingData:
     torque_harmonics: tuple[tuple[float, float, float], ...] = ()
     load_inertia: float = 0.0  # on the gear's shaft, kg m²
     load_damping: float = 0.0  # load torque per gear speed above nominal, N m s/rad
+
+
+BearingType = Literal[
+    "deep-groove-ball", "angular-contact-ball", "cylindrical-roller", "tapered-roller", "needle-roller"
+]
+#: Of those with line contact.
+ROLLERS = ("cylindrical-roller", "tapered-roller", "needle-roller")
+
+_INCH, _POUND = 0.0254, 4.4482216152605
+#: Gargiulo's factors, lbf and inch: of point contact, and of line contact.
+_BALL, _ROLLER = 0.0325e6, 0.30e6
+
+
+@dataclass(frozen=True)
+class RollingBearing:
+    """A row of rolling elements under a radial load."""
+
+    type: BearingType
+    elements: int  # Z, number of rolling elements
+    diameter: float  # D of a rolling element, m; of balls alone
+    length: float  # l, effective length of a roller, m; of rollers alone
+    contact_angle: float  # α, rad
+    radial_load: float  # F_r of one bearing, N
+    count: int  # bearings that carry the shaft, alike and equally loaded
+
+
+def radial_stiffness(bearing: RollingBearing) -> float:
+    """Stiffness dF/dδ of all `count` bearings in the direction of the load, N/m; shaft and housing are rigid.
+
+    Balls 0.0325e6 (D F Z² cos⁵ α)^(1/3), rollers 0.30e6 F^0.1 Z^0.9 l^0.8 cos^1.9 α, lbf and inch. Across the
+    load a bearing without preload is softer; the same is taken for both axes.
+    """
+    load, elements = log(bearing.radial_load / _POUND), log(float(bearing.elements))
+    angle = log(cos(bearing.contact_angle))
+    if bearing.type in ROLLERS:
+        size = log(bearing.length / _INCH)
+        one = _ROLLER * exp(0.1 * load + 0.9 * elements + 0.8 * size + 1.9 * angle)
+    else:
+        size = log(bearing.diameter / _INCH)
+        one = _BALL * exp((size + load + 2.0 * elements + 5.0 * angle) / 3.0)
+    return bearing.count * one * _POUND / _INCH

@@ -5,16 +5,18 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from scipy.integrate import BDF, DOP853, LSODA, Radau
 
 from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES, Model
 from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import IntegratedCycles, Status, sample_phases
 from tribodyn.solve.march.step_control import STANDSTILL, unbounded
-from tribodyn.solve.right_hand_side import rhs, work_array
+from tribodyn.solve.right_hand_side import engage, rhs, work_array
 from tribodyn.solve.tolerances import StepTolerances
 
+#: SciPy's class of each method.
+SOLVERS: dict[str, Any] = {"radau": Radau, "bdf": BDF, "lsoda": LSODA, "dop853": DOP853}
 #: Smallest relative tolerance that SciPy's solvers take without a word.
 SMALLEST_RTOL = 3e-14
 #: Share of the nominal speed at which the pinion has come to rest for these solvers.
@@ -46,12 +48,12 @@ class ScipyIntegrator:
 
     Parameters
     ----------
-    method : one of `methods` that SciPy runs: its `METHOD` is a class of solvers
+    method : name of one of `methods` that SciPy runs
     samples : samples per mesh cycle
     """
 
-    def __init__(self, method: Any, model: Model, samples: int, tolerances: StepTolerances):
-        self.method = method.METHOD
+    def __init__(self, method: str, model: Model, samples: int, tolerances: StepTolerances):
+        self.method = SOLVERS[method]
         self.model = model
         self.boundary = np.asarray(model.table.boundary)
         self.phases = sample_phases(self.boundary, samples)

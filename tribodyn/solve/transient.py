@@ -9,10 +9,10 @@ from tribodyn.dynamics.extremes import Extremes, no_extremes, take_in
 from tribodyn.dynamics.parameters import LAG, Model
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.choice import choose
-from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.integrator import REASONS, IntegratedCycles, Integrator, Status
-from tribodyn.solve.march.native_integrator import NativeIntegrator
-from tribodyn.solve.methods import AUTO, Runs, integrator_class, method_file, runs
+from tribodyn.solve.march.marching import NativeIntegrator
+from tribodyn.solve.methods import AUTO, Runs, integrator_class, runs
+from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import StepTolerances, tolerances_from
 
 #: Mesh cycles between two writes of a native run, at most.
@@ -85,8 +85,8 @@ class MarchedAgain:
         return part._replace(extremes=found)
 
     def _follower(self, state: Float[Array, " state"]) -> NativeIntegrator:
-        file = method_file(choose(AUTO, self._model, state).method)
-        self._native = NativeIntegrator(file, self._model, 0, self._tolerances)
+        method = choose(AUTO, self._model, state).method
+        self._native = NativeIntegrator(method, self._model, 0, self._tolerances)
         self._native.extremes = True
         return self._native
 
@@ -95,7 +95,7 @@ def make_integrator(
     method: str, model: Model, samples: int, tolerances: StepTolerances, extremes: bool = False
 ) -> Integrator:
     """Return the integrator that a method's name stands for; `extremes` says whether they are sought."""
-    made = integrator_class(method)(method_file(method), model, samples, tolerances)
+    made = integrator_class(method)(method, model, samples, tolerances)
     if runs(method) is not Runs.NATIVE:
         made = MarchedAgain(made, model, samples, tolerances)
     made.extremes = extremes

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from tribodyn.dynamics.rolling_bearing import RollingBearing, radial_stiffness
+from tribodyn.dynamics.data import RollingBearing, radial_stiffness
 from tribodyn.errors import InputError
 from tribodyn.interface.scenario import scenario
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tribodyn.kernels.duals import functions  # noqa: F401  (its import gives the laws their derivatives)
-from tribodyn.kernels.duals.arrays import LENGTH, VALUE, duals_of
+from tribodyn.kernels.duals.functions import LENGTH, VALUE, duals_of
 from tribodyn.kernels.duals.numbers import DIRECTIONS
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics import elementary

@@ -8,7 +8,7 @@ from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics import elementary
-from tribodyn.solve.lanes.packing import lane_model, pack, shape_of
+from tribodyn.solve.lanes.batch import lane_model, pack, shape_of
 
 EPS = np.finfo(float).eps
 extended = pytest.mark.skipif(

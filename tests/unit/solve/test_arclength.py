@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
-from tribodyn.solve.branch.arclength import Arclength, BranchPoint
+from tribodyn.solve.branch.arclength import FOLD, MERGING, PERIOD_DOUBLING, Arclength, BranchPoint, Seed
 from tribodyn.solve.branch.continuation import Leg, follow
-from tribodyn.solve.branch.family import FOLD, MERGING, PERIOD_DOUBLING, Seed
 from tribodyn.solve.branch.unstable import unstable_branches
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
+from tribodyn.solve.branch.arclength import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING
 from tribodyn.solve.branch.continuation import Leg, between, follow
-from tribodyn.solve.branch.family import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING
 
 
 def swept(family, values, start, **options):

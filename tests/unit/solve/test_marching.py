@@ -7,14 +7,12 @@ from tribodyn.dynamics.parameters import SLIP
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.march.step_control import MINIMUM_STEP, STANDSTILL
-from tribodyn.solve.methods import integrator_class, method_file
+from tribodyn.solve.methods import integrator_class
 from tribodyn.solve.tolerances import tolerances_from
 
 
 def ended(model, state, method, max_steps=1000, step=None):
-    integrator = integrator_class(method)(
-        method_file(method), model, 8, tolerances_from(model, state, 1e-6, max_steps)
-    )
+    integrator = integrator_class(method)(method, model, 8, tolerances_from(model, state, 1e-6, max_steps))
     if step is not None:
         integrator.step = step
     return integrator.integrate(state, 0, 1)
@@ -73,5 +71,5 @@ def test_switching_leaves_the_explicit_method_that_jumps_across_the_reversal(pre
     state = static_equilibrium(model)
     tolerances = tolerances_from(model, state, 1e-5, 20_000)
     for method in ("rodas4", "switching"):
-        found = integrator_class(method)(method_file(method), model, 8, tolerances).integrate(state, 0, 1)
+        found = integrator_class(method)(method, model, 8, tolerances).integrate(state, 0, 1)
         assert found.status == Status.DONE

@@ -5,7 +5,6 @@ import pytest
 
 from tests.support.plain_kernels import make_plain, plain
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
-from tribodyn.solve.march import dormand_prince
 from tribodyn.solve.march.marching import SCRATCH
 from tribodyn.solve.methods import dopri5, rodas4, switching
 from tribodyn.solve.methods.switching import COUNT, EXPLICIT_RUN, MODE, STIFFNESS, WHICH
@@ -21,7 +20,7 @@ def stages(rates, step):
     y, k, stage = np.ones(STATES), np.zeros((7, STATES)), np.ones(STATES)
     k[0] = rates(y)
     for s in range(1, 7):
-        dormand_prince.stage_state(s, step, y, k, stage)
+        dopri5.stage_state(s, step, y, k, stage)
         stage[MECHANICAL:] = 0.0
         k[s] = rates(stage)
     return k

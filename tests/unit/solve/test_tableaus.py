@@ -7,8 +7,8 @@ from scipy.integrate._ivp import dop853_coefficients as reference_8
 from scipy.optimize import approx_fprime
 
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
-from tribodyn.solve.march import dormand_prince as pair
 from tribodyn.solve.march import explicit_8 as triple
+from tribodyn.solve.methods import dopri5 as pair
 from tribodyn.solve.methods import rodas4 as rosenbrock
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tribodyn.solve.march.turning import NEAR, SHARES, UNLIMITED, next_share
+from tribodyn.solve.march.step_control import NEAR, SHARES, UNLIMITED, next_share
 
 
 def test_steps_end_at_both_ends_of_the_width_at_a_fifth_of_it_and_where_sliding_vanishes():

@@ -6,8 +6,15 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import ClosedForm, logistic
+from tribodyn.solve.branch.arclength import (
+    CORNER,
+    FOLD,
+    MERGING,
+    NEIMARK_SACKER,
+    PERIOD_DOUBLING,
+    kind_of_end,
+)
 from tribodyn.solve.branch.continuation import VALUES, between
-from tribodyn.solve.branch.family import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING, kind_of_end
 from tribodyn.solve.orbit.motions import Recurrence, recognised, recurrences, wanderings
 from tribodyn.solve.orbit.search import BLOCK, LOOK, NOISE, Progress
 from tribodyn.solve.orbit.shooting import closed_orbit, critical_direction, eigenvalues, shoot, way_out

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tribodyn import FilmLaw, FrictionLaw, InputError, Parameter
-from tribodyn.kernels.native.identity import function_layout
+from tribodyn.kernels.native.arguments import function_layout
 from tribodyn.numerics.elementary import exp, log
 from tribodyn.record.reader import open_record
 from tribodyn.solve.ensemble import march

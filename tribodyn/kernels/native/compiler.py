@@ -18,8 +18,7 @@ from numba.core.errors import NumbaError
 from numba.core.registry import cpu_target
 
 from tribodyn.errors import InputError
-from tribodyn.kernels.native.arguments import RecordLayout, functions_in
-from tribodyn.kernels.native.code import Compiled, KernelFunction
+from tribodyn.kernels.native.arguments import Compiled, KernelFunction, RecordLayout, functions_in
 from tribodyn.kernels.native.functions import register_laws
 from tribodyn.kernels.native.parts import FUSE, part_of
 from tribodyn.kernels.native.records import WORDS, RecordType, fields_of, letter_of, put

@@ -8,8 +8,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from tribodyn.kernels.native.arguments import together
-from tribodyn.kernels.native.code import Code, KernelFunction
+from tribodyn.kernels.native.arguments import Code, KernelFunction, together
 
 _ENTRY = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
 

@@ -9,7 +9,7 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.extending import overload, typeof_impl
 
-from tribodyn.kernels.native.code import KernelFunction
+from tribodyn.kernels.native.arguments import KernelFunction
 
 #: What LLVM may do with floats: make one rounding of a product and a sum.
 FUSE = {"contract"}

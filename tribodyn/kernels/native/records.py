@@ -12,8 +12,7 @@ from numba.core.typing.templates import AttributeTemplate, infer_getattr
 from numba.extending import lower_getattr_generic, models, register_model
 from numba.np.arrayobj import populate_array
 
-from tribodyn.kernels.native.arguments import Array, Numeric, RecordLayout
-from tribodyn.kernels.native.identity import FunctionLayout
+from tribodyn.kernels.native.arguments import Array, FunctionLayout, Numeric, RecordLayout
 
 intrinsic = cast(Any, extending.intrinsic)
 

@@ -20,8 +20,7 @@ import llvmlite
 import llvmlite.binding as llvm
 
 from tribodyn.errors import InputError
-from tribodyn.kernels.native.arguments import is_kept
-from tribodyn.kernels.native.code import Code, Compiled
+from tribodyn.kernels.native.arguments import Code, Compiled, is_kept
 from tribodyn.numerics.cache import kept_or_made
 from tribodyn.numerics.sources import code_of, digest_of
 

@@ -6,8 +6,7 @@ from typing import Annotated, cast
 
 from pydantic import Field
 
-from tribodyn.dynamics.data import BearingData
-from tribodyn.dynamics.rolling_bearing import ROLLERS, BearingType, RollingBearing, radial_stiffness
+from tribodyn.dynamics.data import ROLLERS, BearingData, BearingType, RollingBearing, radial_stiffness
 from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, written

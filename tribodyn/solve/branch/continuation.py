@@ -17,7 +17,15 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float
-from tribodyn.solve.branch.family import CORNER, FOLD, NEAR_ZERO, BranchEnd, Seed, SystemFamily, kind_of_end
+from tribodyn.solve.branch.arclength import (
+    CORNER,
+    FOLD,
+    NEAR_ZERO,
+    BranchEnd,
+    Seed,
+    SystemFamily,
+    kind_of_end,
+)
 from tribodyn.solve.branch.requests import Continue, Correct, FollowArc, Relax, Request, RequestResult, fulfil
 from tribodyn.solve.orbit.motions import FAILED, Orbit
 

@@ -12,7 +12,7 @@ from tribodyn.solve.branch.continuation import Arrival, Leg, follow
 from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.choice import choose
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
-from tribodyn.solve.orbit.period_map import PeriodMap
+from tribodyn.solve.orbit.motions import PeriodMap
 from tribodyn.solve.orbit.periodic import FINE, SteadyMotion, sampled
 
 ModelAt = Callable[[int, float], Model]
@@ -43,7 +43,7 @@ class UnstableRange(NamedTuple):
 
 
 class GearLines:
-    """Gear pairs on lines along a parameter, as `family.SystemFamily`.
+    """Gear pairs on lines along a parameter, as `arclength.SystemFamily`.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class GearLines:
         self.moving, self.settings = moving, settings
 
     def at(self, lines: Sequence[int], values: Sequence[float]) -> tuple[PeriodMap, list[str]]:
-        """See `family.SystemFamily`."""
+        """See `arclength.SystemFamily`."""
         models, starts, refusals = [], [], []
         for line, value in zip(lines, values, strict=True):
             try:

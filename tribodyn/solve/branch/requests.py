@@ -7,10 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.branch.arclength import Turn, follow_arc
-from tribodyn.solve.branch.family import Seed, SystemFamily
-from tribodyn.solve.orbit.motions import NOT_PERIODIC, Orbit, failed_orbit
-from tribodyn.solve.orbit.period_map import PeriodMap
+from tribodyn.solve.branch.arclength import Seed, SystemFamily, Turn, follow_arc
+from tribodyn.solve.orbit.motions import NOT_PERIODIC, Orbit, PeriodMap, failed_orbit
 from tribodyn.solve.orbit.search import find
 from tribodyn.solve.orbit.shooting import closed_orbit, shoot
 

@@ -8,18 +8,16 @@ import numpy as np
 from tribodyn.numerics.shapes import Array, Complex, Float
 from tribodyn.solve.branch.arclength import (
     FIRST,
+    FOLD,
     GROWTH,
     LOCATED,
+    MERGING,
     MOST_PLACES,
+    NEAR_ZERO,
     SMALLEST,
     Arclength,
-    BranchPoint,
-)
-from tribodyn.solve.branch.family import (
-    FOLD,
-    MERGING,
-    NEAR_ZERO,
     BranchEnd,
+    BranchPoint,
     Seed,
     SystemFamily,
     kind_of_end,

@@ -11,8 +11,14 @@ import jax.numpy as jnp
 from tribodyn.dynamics.contact_forces import FRICTION_FORCE, TURNED, contact_forces
 from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.parameters import Model, Options
-from tribodyn.solve.march.step_control import unbounded
-from tribodyn.solve.march.turning import MOST_TRIES, begin_turning, keep_turned, longest_step, turn_of
+from tribodyn.solve.march.step_control import (
+    MOST_TRIES,
+    begin_turning,
+    keep_turned,
+    longest_step,
+    turn_of,
+    unbounded,
+)
 
 #: What stands for a motion that grew without bound: diffrax has no result of its own for it, and gives this
 #: one only where rejected steps are stored, which is not done here.
@@ -69,9 +75,9 @@ class LimitedSteps(_CountingSteps):
 
 
 class TurningSteps(_CountingSteps):
-    """Wraps a controller; a step that turns friction too far is tried again, shorter, see `turning`.
+    """Wraps a controller; a step that turns friction too far is tried again, shorter, see `step_control`.
 
-    It applies where the tolerance sees friction turn: `turning.resolves_turns`.
+    It applies where the tolerance sees friction turn: `step_control.resolves_turns`.
     """
 
     applies: Any

@@ -19,7 +19,9 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.xla_cache import use_compilation_cache
 from tribodyn.solve.integrator import Ensemble, March, Status, nothing_yet
 from tribodyn.solve.jax.integrator import (
+    METHODS,
     Carried,
+    DiffraxMethod,
     SegmentControl,
     SegmentResult,
     beginning,
@@ -27,8 +29,7 @@ from tribodyn.solve.jax.integrator import (
     padded_phases,
     steps_end_on,
 )
-from tribodyn.solve.lanes.packing import by_shape
-from tribodyn.solve.methods import DiffraxMethod, method_file
+from tribodyn.solve.lanes.batch import by_shape
 from tribodyn.solve.tolerances import tolerances_of_many
 
 #: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
@@ -65,12 +66,12 @@ def through_jax(
 
     Notes
     -----
-    Compiled once for a method, a width, a shape of models (`lanes.packing.ModelShape`), tables shared or
+    Compiled once for a method, a width, a shape of models (`lanes.batch.ModelShape`), tables shared or
     not, and every `jax.integrator.ROOM` samples per cycle; for no number, and not for fewer cases.
     """
     use_compilation_cache()
     result = nothing_yet(states, march.window * march.samples, march.extremes)
-    parts = _parts(models, method_file(method).METHOD, width_here())
+    parts = _parts(models, METHODS[method], width_here())
     threads = workers if jax.default_backend() == "cpu" else 1
     cancelled = threading.Event()
     ticks: list[BatchPart] = []

@@ -6,7 +6,7 @@ that no number of the scenario is compiled in. Steps end where friction reverses
 """
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -22,13 +22,11 @@ from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE, Model, Options
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.xla_cache import use_compilation_cache
-from tribodyn.solve.engagement import engaged
 from tribodyn.solve.integrator import IntegratedCycles, Status, sample_phases
 from tribodyn.solve.jax.controllers import GROWN, LimitedSteps, TurningSteps
 from tribodyn.solve.march.reversal import SHARES, filled_up, stops_of_many
-from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_STEP, RELATIVE
-from tribodyn.solve.march.turning import resolves_turns
-from tribodyn.solve.methods import DiffraxMethod
+from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_STEP, RELATIVE, resolves_turns
+from tribodyn.solve.right_hand_side import engaged
 from tribodyn.solve.tolerances import StepTolerances
 
 jax.config.update("jax_enable_x64", True)
@@ -51,6 +49,23 @@ def _rates(phase: Any, y: Any, cycle: Any, segment: Any, numbers: Any, options: 
     rates: dict[int, Any] = {}
     derivatives(phase, cycle, segment, y, Model(*numbers, options=options), {}, rates)
     return jnp.stack([jnp.asarray(rates[i], dtype=y.dtype) for i in range(STATES)])
+
+
+class DiffraxMethod(NamedTuple):
+    """A solver of diffrax."""
+
+    solver: Callable[[], Any]
+    #: evaluations of the right-hand side in a step, without those of an implicit method's iteration
+    stages: int
+    proportional: float  # this and the next: gains of the step-size controller
+    integral: float
+
+
+METHODS = {
+    "tsit5": DiffraxMethod(diffrax.Tsit5, 6, 0.2, 0.4),
+    "dopri8": DiffraxMethod(diffrax.Dopri8, 13, 0.2, 0.4),
+    "kvaerno5": DiffraxMethod(diffrax.Kvaerno5, 7, 0.0, 1.0),
+}
 
 
 class Carried(NamedTuple):
@@ -207,13 +222,13 @@ class DiffraxIntegrator:
 
     Parameters
     ----------
-    method : one of `methods` that diffrax runs: its `METHOD`
+    method : name of one of `METHODS`
     samples : samples per mesh cycle
     """
 
-    def __init__(self, method: Any, model: Model, samples: int, tolerances: StepTolerances):
+    def __init__(self, method: str, model: Model, samples: int, tolerances: StepTolerances):
         use_compilation_cache()
-        self.method: DiffraxMethod = method.METHOD
+        self.method = METHODS[method]
         self.options: Options = model.options
         self.numbers = jax.tree.map(partial(jnp.asarray, dtype=float), model.numbers)
         self.boundary = np.asarray(model.table.boundary)

@@ -1,20 +1,154 @@
-"""Cases sorted by the shape of their models into queues, and threads that work through these in lanes."""
+"""Cases packed by the shape of their models into queues, and threads that work through these in lanes.
+
+Of a model numbers and addresses of tables are packed as rows, from which lanes are filled.
+"""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.contact_forces import QUANTITIES
+from tribodyn.dynamics.extremes import EXTREMES, measures_of
+from tribodyn.dynamics.extremes import ROWS as ROWS_OF_MEASURES
+from tribodyn.dynamics.parameters import STATES, Model, Options
+from tribodyn.kernels.lanes.tables import Field, LaneRecord
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import March, nothing_yet
 from tribodyn.solve.lanes.march import march_lanes
-from tribodyn.solve.lanes.packing import Packed, by_shape, lane_model, pack
-from tribodyn.solve.lanes.queue import Queue, empty_lanes
+from tribodyn.solve.lanes.queue import CASE, ROWS, LaneBlock, Queue
 from tribodyn.solve.march.reversal import stops_of_many
+from tribodyn.solve.methods.dopri5 import STAGES
 from tribodyn.solve.tolerances import tolerances_of_many
+
+#: The model's named tuples of numbers and tables.
+RECORDS = tuple(name for name in Model._fields if name != "options")
+#: Tables that models of one shape have in common, value for value: branches may hang on them.
+SHARED = ("side", "in_contact")
+
+
+class ModelShape(NamedTuple):
+    """What must be the same in all lanes: the options, and the shape of every field."""
+
+    options: Options
+    shapes: tuple[tuple[tuple[int, ...], ...], ...]
+    contacts: bytes  # side of every slot, and which are in contact in which segment
+
+    @property
+    def pairs(self) -> int:
+        """Number of pair slots."""
+        return self.shapes[0][2][0]
+
+
+class Kept(NamedTuple):
+    """A table as it came, as contiguous floats, and where these are."""
+
+    given: Any
+    array: np.ndarray
+    address: int
+
+
+class Packed(NamedTuple):
+    """Models of one shape."""
+
+    shape: ModelShape
+    fields: tuple[tuple[Field, ...], ...]  # fields of every record
+    numbers: np.ndarray  # (C, F) float64
+    addresses: np.ndarray  # (C, T) int64
+    lengths: np.ndarray  # (L,) int64
+    kept: list[Kept]  # what the addresses point into
+
+
+def shape_of(model: Model, known: dict[int, tuple[Any, ...]] | None = None) -> ModelShape:
+    """What a model must have in common with another to run beside it.
+
+    `known` keeps the shapes of records, for models that have some in common.
+    """
+    known = {} if known is None else known
+    shapes, contacts = [], b""
+    for name in RECORDS:
+        record = getattr(model, name)
+        if id(record) not in known:
+            tables = [getattr(record, table) for table in SHARED] if name == "table" else []
+            known[id(record)] = (
+                tuple(getattr(value, "shape", ()) for value in record),
+                b"".join(np.asarray(table, dtype=float).tobytes() for table in tables),
+            )
+        own_shapes, own_contacts = known[id(record)]
+        shapes.append(own_shapes)
+        contacts += own_contacts
+    return ModelShape(model.options, tuple(shapes), contacts)
+
+
+def by_shape(models: Sequence[Model]) -> list[np.ndarray]:
+    """Places of the models of each shape; a record that many have in common is examined once."""
+    known: dict[int, tuple[Any, ...]] = {}
+    groups: dict[ModelShape, list[int]] = {}
+    for place, model in enumerate(models):
+        groups.setdefault(shape_of(model, known), []).append(place)
+    return [np.array(places) for places in groups.values()]
+
+
+def pack(models: Sequence[Model]) -> Packed:
+    """Rows of models of one shape; tables stay where they are."""
+    shape = shape_of(models[0])
+    fields, lengths = _fields(models[0], shape)
+    kept: dict[int, Kept] = {}
+    numbers = np.empty((len(models), sum(f.ndim == 0 for group in fields for f in group)))
+    addresses = np.empty((len(models), sum(f.ndim > 0 for group in fields for f in group)), dtype=np.int64)
+    rows: dict[int, tuple[Any, list[float], list[int]]] = {}
+    for case, model in enumerate(models):
+        first_number = first_address = 0
+        for name, group in zip(RECORDS, fields, strict=True):
+            record = getattr(model, name)
+            if id(record) not in rows:
+                rows[id(record)] = (record, *_row(record, group, kept))
+            _, own_numbers, own_addresses = rows[id(record)]
+            numbers[case, first_number : first_number + len(own_numbers)] = own_numbers
+            addresses[case, first_address : first_address + len(own_addresses)] = own_addresses
+            first_number += len(own_numbers)
+            first_address += len(own_addresses)
+    return Packed(shape, fields, numbers, addresses, np.array(lengths, dtype=np.int64), list(kept.values()))
+
+
+def _fields(model: Model, shape: ModelShape) -> tuple[tuple[tuple[Field, ...], ...], list[int]]:
+    fields, lengths = [], []
+    number = address = 0
+    for name, shapes in zip(RECORDS, shape.shapes, strict=True):
+        group = []
+        for field, axes in zip(getattr(model, name)._fields, shapes, strict=True):
+            row = address if axes else number
+            group.append(Field(field, len(axes), row, len(lengths), field in SHARED))
+            number += not axes
+            address += bool(axes)
+            lengths += axes
+        fields.append(tuple(group))
+    return tuple(fields), lengths
+
+
+def _row(record: Any, fields: tuple[Field, ...], kept: dict[int, Kept]) -> tuple[list[float], list[int]]:
+    """Numbers and addresses of one record; a table that several records share is kept once."""
+    numbers, addresses = [], []
+    for value, field in zip(record, fields, strict=True):
+        if not field.ndim:
+            numbers.append(float(value))
+            continue
+        if id(value) not in kept:
+            array = np.ascontiguousarray(value, dtype=np.float64)
+            kept[id(value)] = Kept(value, array, array.ctypes.data)
+        addresses.append(kept[id(value)].address)
+    return numbers, addresses
+
+
+def lane_model(packed: Packed) -> tuple[Model, np.ndarray, np.ndarray]:
+    """A model over the lanes, and its numbers (F, WIDTH) and addresses (T, WIDTH), all of the first case."""
+    numbers = np.repeat(packed.numbers[0][:, None], WIDTH, axis=1)
+    addresses = np.repeat(packed.addresses[0][:, None], WIDTH, axis=1)
+    records: list[Any] = [LaneRecord(group, numbers, addresses, packed.lengths) for group in packed.fields]
+    return Model(**dict(zip(RECORDS, records, strict=True)), options=packed.shape.options), numbers, addresses
+
 
 #: Time between two reports of progress, s.
 INTERVAL = 0.1
@@ -72,6 +206,27 @@ def run_threads(
             for batch in batches:
                 batch.queue.stop[0] = 1
             pool.shutdown(cancel_futures=True)
+
+
+def empty_lanes(
+    packed: Packed, numbers: Float[Array, "number lane"], addresses: Int[Array, "table lane"]
+) -> LaneBlock:
+    """Lanes without cases."""
+    pairs = packed.shape.pairs
+    of_states = [(STATES,)] * 4
+    of_extremes = [(EXTREMES,)] * 3
+    shapes = (
+        (ROWS,),
+        *of_states,
+        (STAGES, STATES),
+        (QUANTITIES + pairs, pairs),
+        (ROWS_OF_MEASURES, measures_of(pairs)),
+        *of_extremes,
+        (EXTREMES, STATES),
+    )
+    block = LaneBlock(numbers, addresses, *(np.zeros((*shape, WIDTH)) for shape in shapes))
+    block.rows[CASE] = -1.0
+    return block
 
 
 def _work(batch: LaneBatch, march: March) -> None:

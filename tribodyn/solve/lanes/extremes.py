@@ -27,8 +27,8 @@ from tribodyn.kernels.lanes.vectors import any_of
 from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import where
 from tribodyn.solve.lanes.queue import CASE, CYCLE
-from tribodyn.solve.march.dormand_prince import dense_output
 from tribodyn.solve.march.extreme_search import begin_rates, promising, rate_of, worthwhile
+from tribodyn.solve.methods.dopri5 import dense_output
 
 #: A row that no measure stands in.
 NONE = 1e9

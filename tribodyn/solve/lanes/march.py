@@ -13,7 +13,6 @@ from tribodyn.kernels.lanes.vectors import WIDTH, any_of
 from tribodyn.kernels.native import kernel
 from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import maximum, minimum, where
-from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.lanes.extremes import open_lanes, search_lanes, seeking
 from tribodyn.solve.lanes.queue import (
@@ -39,7 +38,26 @@ from tribodyn.solve.lanes.queue import (
     keep_sample,
     take_cases,
 )
-from tribodyn.solve.march.dormand_prince import (
+from tribodyn.solve.march.step_control import (
+    MINIMUM_ERROR,
+    MOST_TRIES,
+    RELATIVE,
+    RETRY,
+    begin_turning,
+    collected,
+    cut_at_stop,
+    keep_turned,
+    longest_step,
+    next_step,
+    refused,
+    resolves_turns,
+    step_error,
+    step_outcome,
+    turn_of,
+    unbounded,
+    weighed_error,
+)
+from tribodyn.solve.methods.dopri5 import (
     STAGES,
     C,
     dense_output,
@@ -48,27 +66,7 @@ from tribodyn.solve.march.dormand_prince import (
     shrinkage,
     stage_state,
 )
-from tribodyn.solve.march.step_control import (
-    MINIMUM_ERROR,
-    RELATIVE,
-    RETRY,
-    collected,
-    cut_at_stop,
-    next_step,
-    refused,
-    step_error,
-    step_outcome,
-    unbounded,
-    weighed_error,
-)
-from tribodyn.solve.march.turning import (
-    MOST_TRIES,
-    begin_turning,
-    keep_turned,
-    longest_step,
-    resolves_turns,
-    turn_of,
-)
+from tribodyn.solve.right_hand_side import engage
 
 
 @kernel

@@ -7,20 +7,13 @@ The rows are in three groups: step control, counters, flags.
 
 from typing import NamedTuple
 
-import numpy as np
-
-from tribodyn.dynamics.contact_forces import QUANTITIES
-from tribodyn.dynamics.extremes import EXTREMES, LOWEST, Extremes, measures_of
-from tribodyn.dynamics.extremes import ROWS as ROWS_OF_MEASURES
-from tribodyn.dynamics.parameters import STATES
+from tribodyn.dynamics.extremes import EXTREMES, LOWEST, Extremes
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, count
 from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import where
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import Ensemble, Status
-from tribodyn.solve.lanes.packing import Packed
-from tribodyn.solve.march.dormand_prince import STAGES
 from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR
 
 #: Step control: phase (mesh cycles, 0 … 1); end of the segment, a lane runs while its phase is below; next
@@ -42,7 +35,7 @@ NEVER = 2.0
 class LaneBlock(NamedTuple):
     """Scratch of the lanes that one thread works with; from `measures` on as in `extreme_search.Search`.
 
-    `numbers` and `addresses` are those of the lanes' models, see `packing`.
+    `numbers` and `addresses` are those of the lanes' models, see `batch`.
     """
 
     numbers: Float[Array, "number lane"]
@@ -66,7 +59,7 @@ class Queue(NamedTuple):
 
     Attributes
     ----------
-    numbers, addresses : the models, see `packing`
+    numbers, addresses : the models, see `batch`
     stops : phases that steps end on, see `reversal.stops`
     state … evaluations : results, as in `Ensemble`; `state` holds the start before
     measure … extreme_state : results, as in `Extremes`, where they are sought
@@ -96,27 +89,6 @@ class Queue(NamedTuple):
         extremes = Extremes(self.measure, self.at, self.segment, self.extreme_state)
         counts = self.status, self.reached, self.steps, self.evaluations
         return Ensemble(self.state, self.samples, *counts, extremes)
-
-
-def empty_lanes(
-    packed: Packed, numbers: Float[Array, "number lane"], addresses: Int[Array, "table lane"]
-) -> LaneBlock:
-    """Lanes without cases."""
-    pairs = packed.shape.pairs
-    of_states = [(STATES,)] * 4
-    of_extremes = [(EXTREMES,)] * 3
-    shapes = (
-        (ROWS,),
-        *of_states,
-        (STAGES, STATES),
-        (QUANTITIES + pairs, pairs),
-        (ROWS_OF_MEASURES, measures_of(pairs)),
-        *of_extremes,
-        (EXTREMES, STATES),
-    )
-    block = LaneBlock(numbers, addresses, *(np.zeros((*shape, WIDTH)) for shape in shapes))
-    block.rows[CASE] = -1.0
-    return block
 
 
 @part

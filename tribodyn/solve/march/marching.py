@@ -1,40 +1,44 @@
 """The march of the native methods through mesh cycles: segments, steps and samples, the same for all.
 
-A method is seven functions, see `Method`, and a buffer whose first two rows are the new state and its error.
+A method is seven functions, see `Method`, and a buffer whose first two rows are the new state and its error;
+`NativeIntegrator` puts it behind the interface of integrators.
 """
 
 from collections.abc import Callable
+from importlib import import_module
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE
-from tribodyn.kernels.native import kernel
+from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE, Model
+from tribodyn.kernels.native import kernel, packed
 from tribodyn.numerics.elementary import largest_slope, maximum, minimum, plain
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.engagement import engage
-from tribodyn.solve.integrator import Status
+from tribodyn.solve.integrator import IntegratedCycles, March, Status
+from tribodyn.solve.march.extreme_search import Search
+from tribodyn.solve.march.reversal import stops
 from tribodyn.solve.march.step_control import (
+    FIRST_STEP,
     MINIMUM_ERROR,
+    MOST_TRIES,
     RELATIVE,
     RETRY,
+    begin_turning,
     collected,
     cut_at_stop,
+    keep_turned,
+    longest_step,
     next_step,
     refused,
+    resolves_turns,
     step_error,
     step_outcome,
+    turn_of,
     unbounded,
     weighed_error,
 )
-from tribodyn.solve.march.turning import (
-    MOST_TRIES,
-    begin_turning,
-    keep_turned,
-    longest_step,
-    resolves_turns,
-    turn_of,
-)
+from tribodyn.solve.right_hand_side import engage, work_array
+from tribodyn.solve.tolerances import StepTolerances
 
 #: Rows of a method's buffer: the new state and its error; the method's own rows follow.
 STATE, ERROR, SCRATCH = 0, 1, 2
@@ -217,3 +221,41 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
 def scratch_buffer(rows: int) -> Float[Array, "row state"]:
     """Buffer with so many rows of a method's own."""
     return np.zeros((SCRATCH + rows, STATES))
+
+
+class NativeIntegrator:
+    """Integrates with a compiled kernel; see `integrator.Integrator`.
+
+    Parameters
+    ----------
+    method : name of one of `methods` that is native: a module with `integrate` and `buffer`
+    samples : samples per mesh cycle
+    """
+
+    def __init__(self, method: str, model: Model, samples: int, tolerances: StepTolerances):
+        file = import_module(f"tribodyn.solve.methods.{method}")
+        self._integrate, self._buffer = file.integrate, file.buffer()
+        self._work = work_array(model)
+        self._model = packed(model)
+        self._stops = stops(model)
+        self.samples = samples
+        self.tolerances = tolerances
+        self.extremes = False
+        self._pairs = int(model.table.side.shape[0])
+        self.step = FIRST_STEP
+        self.started = False
+
+    def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
+        """See `integrator.Integrator`."""
+        y = state.copy()
+        out = np.empty((cycles * self.samples, STATES))
+        rtol, atol, max_steps = self.tolerances
+        march = March(first_cycle, cycles, cycles, self.samples, self.started, rtol, max_steps, self.extremes)
+        search = Search.begun(self._pairs)
+        control = Control(self.step, atol, atol / rtol, self._stops)
+        status, reached, self.step, steps, evaluations, written = self._integrate(
+            march, control, self._model, y, out, self._work, self._buffer, search
+        )
+        self.started = True
+        found = search.found() if self.extremes else None
+        return IntegratedCycles(out[:written], y, Status(status), reached, steps, evaluations, "", found)

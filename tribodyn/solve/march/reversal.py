@@ -2,8 +2,8 @@
 
 The friction of a pair changes sign about its pitch point, over less than a step of the vibration.
 With the nominal sliding velocity the place is known beforehand, as engagement is; there the force is C1 only.
-With the sliding of the bodies as they move it is found on the way, see `turning`, and steps end nowhere else.
-A step across it evaluates the reversal in some of its stages or in none, and its error estimate misses
+With the sliding of the bodies as they move it is found on the way, see `step_control`, and steps end nowhere
+else. A step across it evaluates the reversal in some of its stages or in none, and its error estimate misses
 it: on the CRC drive that made the error of the transmission error 30 times what it is without friction.
 """
 

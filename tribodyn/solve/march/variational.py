@@ -20,11 +20,10 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.duals import functions  # noqa: F401  (its import gives the laws their derivatives)
-from tribodyn.kernels.duals.arrays import LENGTH, VALUE, duals_of
+from tribodyn.kernels.duals.functions import LENGTH, VALUE, duals_of
 from tribodyn.kernels.duals.numbers import DIRECTIONS
 from tribodyn.kernels.native import PackedValue, kernel, packed
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import March, Status
 from tribodyn.solve.march import explicit_8
 from tribodyn.solve.march.extreme_search import ignore_segment, ignore_step
@@ -32,7 +31,7 @@ from tribodyn.solve.march.marching import Control, march_with
 from tribodyn.solve.march.reversal import stops_of_many
 from tribodyn.solve.march.step_control import FIRST_STEP
 from tribodyn.solve.methods import rodas4
-from tribodyn.solve.right_hand_side import work_array
+from tribodyn.solve.right_hand_side import engage, work_array
 from tribodyn.solve.tolerances import tolerances_of_many
 
 #: Floats to a cache line, on which dual numbers begin: half the time of a march that lets them cross it.

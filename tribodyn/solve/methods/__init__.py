@@ -1,9 +1,8 @@
-"""The methods of integration, by the names that a scenario gives them; one file for each.
+"""The methods of integration, by the names that a scenario gives them; a file for each native one.
 
-A file is imported when its method is used: those of JAX and SciPy take long to import.
+What runs a method is imported when it is used: JAX and SciPy take long to import.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
@@ -27,17 +26,6 @@ class Entry(NamedTuple):
     runs: Runs
 
 
-class DiffraxMethod(NamedTuple):
-    """The `METHOD` of a file that diffrax runs."""
-
-    solver: Callable[[], Any]  # () -> diffrax's solver
-    #: evaluations of the right-hand side in a step, without those of an implicit method's iteration
-    stages: int
-    #: proportional, integral: gains of the step-size controller
-    proportional: float
-    integral: float
-
-
 METHODS = {
     "dopri5": Entry("Dormand-Prince 5(4), native kernel", Runs.NATIVE),
     "switching": Entry("dopri5, and rodas4 where the mesh cycle is stiff, native", Runs.NATIVE),
@@ -58,9 +46,9 @@ SOLVERS = {
     AUTO: "explicit or stiff by an estimate; the record says which and why",
     **{name: entry.about for name, entry in METHODS.items()},
 }
-#: Which class makes an integrator of a method, given its file.
+#: Which class makes an integrator of a method, given its name.
 _INTEGRATORS = {
-    Runs.NATIVE: "tribodyn.solve.march.native_integrator:NativeIntegrator",
+    Runs.NATIVE: "tribodyn.solve.march.marching:NativeIntegrator",
     Runs.SCIPY: "tribodyn.solve.scipy_integrator:ScipyIntegrator",
     Runs.JAX: "tribodyn.solve.jax.integrator:DiffraxIntegrator",
 }
@@ -89,12 +77,7 @@ def runs(name: str) -> Runs | None:
     return METHODS[name].runs if name in METHODS else None
 
 
-def method_file(name: str) -> Any:
-    """The file of a method, imported."""
-    return import_module(f"{__name__}.{name}")
-
-
 def integrator_class(name: str) -> Any:
-    """The class of integrators that runs a method; takes its file, model, samples and tolerances."""
+    """The class of integrators that runs a method; takes its name, model, samples and tolerances."""
     module, _, attribute = _INTEGRATORS[METHODS[name].runs].partition(":")
     return getattr(import_module(module), attribute)

@@ -8,10 +8,10 @@ Differential Equations II (2nd ed., 1996), IV.2, the other from the Jacobian tha
 from tribodyn.dynamics.parameters import MECHANICAL
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.march.dormand_prince import A
 from tribodyn.solve.march.extreme_search import open_segment, search_step
 from tribodyn.solve.march.marching import SCRATCH, Method, march_with, scratch_buffer
 from tribodyn.solve.methods import dopri5, rodas4
+from tribodyn.solve.methods.dopri5 import A
 
 #: First velocity among the mechanical states.
 HALF = MECHANICAL // 2

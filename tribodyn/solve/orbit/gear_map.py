@@ -27,11 +27,11 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import usable_cores
 from tribodyn.solve.choice import choose
-from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.integrator import MAX_STEPS, REASONS, Status
 from tribodyn.solve.methods import Runs, runs
-from tribodyn.solve.orbit.period_map import DIFFERENCE, Marched, Tangent, by_differences
+from tribodyn.solve.orbit.motions import DIFFERENCE, Marched, Tangent, by_differences
+from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales
 
 
@@ -46,7 +46,7 @@ def moving_states(model: Model) -> tuple[int, ...]:
 
 
 class GearMap:
-    """Maps over a mesh cycle of gear pairs with the same moving states, as `period_map.PeriodMap`.
+    """Maps over a mesh cycle of gear pairs with the same moving states, as `motions.PeriodMap`.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class GearMap:
     def march(
         self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int, fine: bool
     ) -> Marched:
-        """See `period_map.PeriodMap`."""
+        """See `motions.PeriodMap`."""
         samples, end, reasons, _ = self.integrate(self.full(states), cases, periods, 1, fine)
         for row, case in enumerate(cases):
             if self.models[case].options.formulation == ENERGY_CONSISTENT and not reasons[row]:
@@ -106,7 +106,7 @@ class GearMap:
         return Marched(after, reasons)
 
     def tangent(self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int) -> Tangent:
-        """See `period_map.PeriodMap`; by the variational equations where `exact`, else by differences."""
+        """See `motions.PeriodMap`; by the variational equations where `exact`, else by differences."""
         if not self.exact:
             return by_differences(self.march, states, cases, periods, self.scale)
         from tribodyn.solve.march.variational import march_with_derivative

@@ -1,6 +1,6 @@
 """Steady states of periodically driven systems: march, recognise the period, shoot, judge the stability.
 
-Written over `period_map.PeriodMap`, so that the gear model and the backlash oscillator share it. A system is
+Written over `motions.PeriodMap`, so that the gear model and the backlash oscillator share it. A system is
 marched until its states once per period repeat, or until the contraction shows that Newton's method would get
 there sooner, with the period that the states show; a state that shooting found is taken only if it is stable
 and near what marching was heading for, otherwise marching goes on. What is returned is the motion itself: an
@@ -17,6 +17,7 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.orbit.motions import (
     MAX_PERIOD,
     Orbit,
+    PeriodMap,
     Recurrence,
     failed_orbit,
     orbit_without_period,
@@ -24,7 +25,6 @@ from tribodyn.solve.orbit.motions import (
     recurrences,
     wanderings,
 )
-from tribodyn.solve.orbit.period_map import PeriodMap
 from tribodyn.solve.orbit.shooting import NEUTRAL, Shot, closed_orbit, critical_direction, shoot
 
 Method = Literal["auto", "marching", "shooting"]

@@ -5,8 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float, Int
-from tribodyn.solve.orbit.motions import UNSTABLE, Orbit, periodic
-from tribodyn.solve.orbit.period_map import PeriodMap
+from tribodyn.solve.orbit.motions import UNSTABLE, Orbit, PeriodMap, periodic
 
 #: Halvings of a Newton step before shooting gives up, and the smallest relative decrease that it must bring.
 HALVINGS = 7

@@ -16,7 +16,7 @@ import numpy as np
 
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.orbit.period_map import Marched, Tangent
+from tribodyn.solve.orbit.motions import Marched, Tangent
 
 #: Columns of a row of parameters: ζ, F_m, F_e, ε, Ω.
 DAMPING, MEAN_FORCE, ERROR_AMPLITUDE, STIFFNESS_VARIATION, FREQUENCY = range(5)
@@ -246,7 +246,7 @@ def march_rows(states, parameters, periods, into, with_tangent, with_figures, bu
 
 
 class OscillatorMap:
-    """The oscillator's map over a period of the excitation, as `period_map.PeriodMap`.
+    """The oscillator's map over a period of the excitation, as `motions.PeriodMap`.
 
     Its parameters are rows (C, 5) of ζ, F_m, F_e, ε, Ω. The state is (x, dx/dτ) where cos Ωτ = 1, in units of
     the half backlash; it is its own scale.
@@ -261,12 +261,12 @@ class OscillatorMap:
     def march(
         self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int, fine: bool = True
     ) -> Marched:
-        """See `period_map.PeriodMap`; always as fine as rounding allows."""
+        """See `motions.PeriodMap`; always as fine as rounding allows."""
         rows, reasons = self._run(states, cases, periods, False, False)
         return Marched(rows.strobes, reasons)
 
     def tangent(self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int) -> Tangent:
-        """See `period_map.PeriodMap`; by the variational equation."""
+        """See `motions.PeriodMap`; by the variational equation."""
         rows, reasons = self._run(states, cases, periods, True, False)
         return Tangent(rows.strobes[:, -1], rows.tangents, reasons)
 

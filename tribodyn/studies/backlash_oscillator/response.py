@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.solve.branch.arclength import BranchEnd
 from tribodyn.solve.branch.continuation import Leg, follow
-from tribodyn.solve.branch.family import BranchEnd
 from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.orbit import motions as orbit
 from tribodyn.solve.orbit.motions import Orbit
@@ -132,7 +132,7 @@ def _empty_response(frequency: np.ndarray) -> Response:
 
 
 class _Oscillators:
-    """The oscillator over its frequency, as `family.SystemFamily`."""
+    """The oscillator over its frequency, as `arclength.SystemFamily`."""
 
     def __init__(self, case: BacklashOscillatorCase):
         self.case = case

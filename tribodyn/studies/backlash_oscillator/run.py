@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.solve.branch.family import KINDS, BranchEnd
+from tribodyn.solve.branch.arclength import KINDS, BranchEnd
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.layout import LAYOUT, LAYOUT_WITH_UNSTABLE
 from tribodyn.studies.backlash_oscillator.response import (

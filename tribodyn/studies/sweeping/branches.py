@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.sweep_schema import FIRST_PARAMETER
-from tribodyn.solve.branch.family import KINDS, BranchEnd
+from tribodyn.solve.branch.arclength import KINDS, BranchEnd
 
 if TYPE_CHECKING:  # the layout of a sweep needs no solver
     from tribodyn.solve.branch.unstable import UnstableBranch

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tribodyn.solve.branch.family import FOLD, KINDS, BranchEnd
+from tribodyn.solve.branch.arclength import FOLD, KINDS, BranchEnd
 from tribodyn.solve.branch.unstable import UnstableBranch
 from tribodyn.solve.orbit import motions as orbit
 from tribodyn.solve.orbit.motions import Orbit

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.parameters import XI
 from tribodyn.record.trust import Judge, judge_tribology
-from tribodyn.solve.engagement import engage_next
+from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.studies.gear_pair.assumptions import judge_block
 from tribodyn.studies.gear_pair.batch.marched import CaseWindow
 from tribodyn.studies.gear_pair.prepare import PreparedPair

@@ -7,10 +7,10 @@ import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes, extremes_of
 from tribodyn.dynamics.parameters import LAG, STATES, WORKS, Model
-from tribodyn.solve.branch.family import BranchEnd
-from tribodyn.solve.engagement import engage_next
+from tribodyn.solve.branch.arclength import BranchEnd
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.integrator import REASONS, Status
+from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
 
 if TYPE_CHECKING:
