@@ -23,7 +23,7 @@ from tribodyn.compliance.fem.ring_mesh import sector_mesh
 from tribodyn.compliance.fem.strips import curved_basis, strip_stiffness
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek_slope
 from tribodyn.geometry.path import kinematics
-from tribodyn.validation.jia_study import ARC_MINUTE, PINION_TORQUE, elastic
+from tribodyn.validation.jia import ARC_MINUTE, PINION_TORQUE, elastic
 
 BORE, DEPTH = 8e-3, 0.33
 # Half waves over the face.

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.body import gear_polygon
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.path import kinematics, position
-from tribodyn.geometry.tooth.body import gear_polygon
 from tribodyn.post.style import INK, PALETTE, house_style, new_figure, save
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare

@@ -16,7 +16,7 @@ import numpy as np
 
 from tools.marked_block import put
 from tribodyn.errors import SimulationError
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import MaterialData
 from tribodyn.scenario.tables.lubricant import lubricant_of
 from tribodyn.scenario.tables.model_files import Lubricant
 from tribodyn.tribology.closure import closure, without_nominal_conditions

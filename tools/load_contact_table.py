@@ -16,13 +16,13 @@ from tribodyn.compliance.sharing.load_sharing import flexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
+from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.validation.load_contact import load_contact
+from tribodyn.validation.diez_ibarbia_study import load_contact
 
 DRIVES = (
     "diez-ibarbia-18-36",

@@ -25,14 +25,12 @@ from tribodyn.compliance.foundation import Foundation
 from tribodyn.compliance.iso6336 import MEASURED_CORRECTION, theoretical_stiffness
 from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import SIDES, Drive, GearBody
-from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
+from tribodyn.geometry.families import Family, crc, involute
 from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.tooth.tooth import contact_in_tooth_frame
-from tribodyn.mesh.data import MeshData
+from tribodyn.geometry.tooth import contact_in_tooth_frame
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
+from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 
 WIDTH, LINE_LOAD = 0.0267, 235e3  # m, N/m

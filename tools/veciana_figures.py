@@ -14,8 +14,7 @@ import h5py
 import numpy as np
 
 from tribodyn.post.style import house_style, save
-from tribodyn.validation.figures.veciana import FIGURES
-from tribodyn.validation.veciana_curves import Arrays
+from tribodyn.validation.veciana_figures import FIGURES, Arrays
 
 
 def write(path: Path, arrays: Arrays, about: str) -> None:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from tribodyn.derivatives.differentiable import Differentiable
     from tribodyn.errors import InputError, OutputError, SimulationError
-    from tribodyn.geometry.family import Family
+    from tribodyn.geometry.families import Family
     from tribodyn.interface.drive import GearPair, constraints, drive
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
     from tribodyn.interface.line_contact import line_contact
@@ -79,7 +79,7 @@ __all__ = [
 # imported when asked for, so that `tribodyn --help` needs none of it
 _PLACES = {
     "Differentiable": "tribodyn.derivatives.differentiable",
-    "Family": "tribodyn.geometry.family",
+    "Family": "tribodyn.geometry.families",
     "FilmLaw": "tribodyn.tribology.law",
     "FrictionLaw": "tribodyn.tribology.law",
     "GearPair": "tribodyn.interface.drive",

@@ -7,7 +7,7 @@ there and the surface. Here the elements resolve the contact, and the displaceme
 import numpy as np
 import pytest
 
-from tribodyn.compliance.fem import gear_model
+from tribodyn.compliance.fem import gear
 from tribodyn.compliance.fem.cyclic_symmetry import half_sector, ring_response
 from tribodyn.compliance.fem.ring_mesh import half_sector_mesh
 from tribodyn.compliance.fem.strips import curved_basis, plane_stiffness
@@ -19,7 +19,7 @@ from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.tooth.tooth import flank_point
+from tribodyn.geometry.tooth import flank_point
 from tribodyn.studies.protocol.load import load_scenario
 
 LINE_LOAD = 235e3
@@ -54,7 +54,7 @@ def resolved_compliance(case, assembly, side, material, level):
 
     mesh = half_sector_mesh(tooth, round(body.teeth), body.bore_radius, level)
     basis = curved_basis(mesh.nodes, mesh.cells)
-    rows = gear_model._probes(basis, at + 1e-9 * normal, np.tile(normal, at.shape[1]))
+    rows = gear._probes(basis, at + 1e-9 * normal, np.tile(normal, at.shape[1]))
     response = ring_response(
         half_sector(basis.doflocs, round(body.teeth), body.bore_radius),
         plane_stiffness(basis, material.poisson_ratio),

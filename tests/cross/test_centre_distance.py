@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.table import MeshData
 from tribodyn.studies import STUDIES
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load

@@ -8,10 +8,9 @@ import pytest
 from tests.support.compile_fast import ONE_CALL
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import cycloidal
-from tribodyn.geometry.material import MaterialData
-from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.record.reader import open_record
 from tribodyn.studies.protocol.load import load_scenario

@@ -11,7 +11,7 @@ from tribodyn.geometry.assembly import circumferential_backlash, normal_backlash
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import involute
 from tribodyn.geometry.limits.checks import check
-from tribodyn.geometry.sheet.measures import Involute, allowance_of_pins, allowance_of_span, over_pins, span
+from tribodyn.geometry.sheet import Involute, allowance_of_pins, allowance_of_span, over_pins, span
 
 ALLOWANCES = st.floats(-0.04, 0.0)
 

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from tests.support.involute_forms import closed_form_contact_ratio
 from tests.support.random_drives import DEGENERATE, FAMILIES, drives
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.body import gear_polygon, section_area_and_inertia, tooth_outline
 from tribodyn.geometry.drive import SIDES, tip_radius
 from tribodyn.geometry.path import (
     contact_limits,
@@ -18,8 +19,7 @@ from tribodyn.geometry.path import (
     radius,
     seen_from,
 )
-from tribodyn.geometry.tooth.body import gear_polygon, section_area_and_inertia, tooth_outline
-from tribodyn.geometry.tooth.tooth import cut_tooth, flank_point, thickness_half_angle
+from tribodyn.geometry.tooth import cut_tooth, flank_point, thickness_half_angle
 
 
 def limits_of(family, drive):

@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 from tests.support.random_drives import drives
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import MaterialData
 from tribodyn.mesh.cycle import as_arrays, from_arrays
-from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)

@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import MaterialData
 from tribodyn.tribology.closure import closure, closure_of, without_nominal_conditions
 from tribodyn.tribology.contact import Surfaces, local_contact
 from tribodyn.tribology.data import FrictionData

@@ -8,7 +8,7 @@ from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
 from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import (
@@ -18,7 +18,6 @@ from tribodyn.geometry.flanks.modification import (
     Modifications,
     Relief,
 )
-from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import (
+    Family,
     circular_arc,
     crc,
     cycloidal,
@@ -18,7 +19,6 @@ from tribodyn.geometry.families import (
     s_gear,
     spline,
 )
-from tribodyn.geometry.family import Family
 from tribodyn.geometry.limits.checks import check
 
 FAMILIES: dict[str, Family] = {

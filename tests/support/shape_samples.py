@@ -10,12 +10,11 @@ from tribodyn.compliance.sharing.condensed import condense
 from tribodyn.compliance.sharing.load_sharing import extended_rolls, flexibility, share_load
 from tribodyn.drawing.cad import tooth_profile
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.body import gear_polygon, rack_outline
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import contact_ratio, distance_at_radius, kinematics
-from tribodyn.geometry.tooth.body import gear_polygon
-from tribodyn.geometry.tooth.rack import rack_outline
 from tribodyn.mesh.cycle import polynomials
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate

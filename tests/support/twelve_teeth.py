@@ -7,7 +7,7 @@ from tribodyn.compliance.fem.ring_mesh import sector_mesh
 from tribodyn.compliance.fem.strips import curved_basis
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth.tooth import cut_tooth
+from tribodyn.geometry.tooth import cut_tooth
 
 POISSON = 0.3
 BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)

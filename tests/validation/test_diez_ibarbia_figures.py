@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tribodyn.post.style import house_style
+from tribodyn.validation.diez_ibarbia_figures import FIGURES
 from tribodyn.validation.diez_ibarbia_study import (
     CONDITIONS,
     at_load,
@@ -18,7 +19,6 @@ from tribodyn.validation.diez_ibarbia_study import (
     pair_of,
     theoretical_contact_ratio,
 )
-from tribodyn.validation.figures.diez_ibarbia import FIGURES
 
 PITCH = 2 * math.pi / 18
 COSINE = math.cos(math.radians(20))

@@ -11,9 +11,8 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.post.style import house_style
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation import validate
-from tribodyn.validation.figures.jia import FIGURES
-from tribodyn.validation.jia import geometry
-from tribodyn.validation.jia_study import CROWNED, maximum_line_load
+from tribodyn.validation.jia import CROWNED, geometry, maximum_line_load
+from tribodyn.validation.jia_figures import FIGURES
 from tribodyn.validation.rows import compare, published
 
 GEOMETRY = [f"jia/{name}" for name in ("k1-max", "k2-max", "k-min", "cr-novel", "cr-involute", "hertz-pitch")]

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from tests.support import synthetic_record
-from tribodyn.validation.figures.liu_ni import FIGURES
+from tribodyn.validation.liu_ni_figures import FIGURES
 from tribodyn.validation.rows import published
 
 

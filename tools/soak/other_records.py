@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, at_radii
-from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, at_radii, at_wave_numbers
 from tribodyn.compliance.sharing.face_root_stress import root_stress
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.record.reader import Record

@@ -20,10 +20,9 @@ from tribodyn.compliance.foundation import (
     ring_foundation,
 )
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import GearBody, Side, body_of
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import GearBody, MaterialData, Side, body_of
 from tribodyn.geometry.path import PerContact, distance_at_radius
-from tribodyn.geometry.tooth.tooth import (
+from tribodyn.geometry.tooth import (
     Tooth,
     contact_in_tooth_frame,
     fillet_point,

@@ -11,8 +11,7 @@ import math
 from typing import NamedTuple
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_circle_radius
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import SIDES, MaterialData, body_of, reference_radius, tip_circle_radius
 
 _PER_MM_UM = 1e9  # N/(mm µm) in Pa
 #: C_M, by which measured stiffness falls short of the theory.

@@ -14,9 +14,15 @@ from ezdxf.filemanagement import new
 
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.body import (
+    ROOT_POINTS,
+    TIP_POINTS,
+    gear_polygon,
+    half_profile,
+    rack_outline,
+    tooth_outline,
+)
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
-from tribodyn.geometry.tooth.body import ROOT_POINTS, TIP_POINTS, gear_polygon, half_profile, tooth_outline
-from tribodyn.geometry.tooth.rack import rack_outline
 from tribodyn.numerics.output_files import MARKS, write_output
 
 #: Layer -> (AutoCAD colour index, line type).

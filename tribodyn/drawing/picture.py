@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.body import gear_polygon
 from tribodyn.geometry.drive import SIDES, tip_radius
 from tribodyn.geometry.path import position
-from tribodyn.geometry.tooth.body import gear_polygon
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh, draw_gears, draw_whole, key_rolls, placed
 from tribodyn.post.style import WIDTH, house_style, literal, mark_panel, new_figure
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.geometry.drive import SIDES, Drive, Side, tip_circle_radius, tip_radius
-from tribodyn.geometry.family import Family
+from tribodyn.geometry.families import Family
 from tribodyn.geometry.path import (
     Path,
     contact_limits,
@@ -18,7 +18,7 @@ from tribodyn.geometry.path import (
     radius,
     seen_from,
 )
-from tribodyn.geometry.tooth.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
+from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
 from tribodyn.numerics.elementary import as_float, cos, namespace, sqrt
 
 _SAMPLES = 400

@@ -7,7 +7,7 @@ from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_r
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.spline import FEWEST, SplineShape, working_path
 from tribodyn.geometry.path import Path, distance_at_radius
-from tribodyn.geometry.tooth.tooth import thickness_half_angle
+from tribodyn.geometry.tooth import thickness_half_angle
 
 # The knots reach as far as the racks' flanks, but not much further than the contact, and a little more.
 _FURTHEST, _MARGIN = 1.5, 1.02

@@ -17,8 +17,8 @@ from tribodyn.geometry.limits.limits import plain_distances
 from tribodyn.interface import shown
 from tribodyn.interface.scenario import in_toml
 from tribodyn.interface.words import in_python
-from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh
 from tribodyn.studies.gears.check import sheet_tables

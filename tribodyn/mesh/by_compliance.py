@@ -5,10 +5,9 @@ from typing import TYPE_CHECKING
 from tribodyn.compliance.energy import loaded_tooth, polynomials_over_ring
 from tribodyn.compliance.foundation import outside_fitted_range
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 
 #: A body's compliance by the polynomials that differs by this share from the ring's is reported.

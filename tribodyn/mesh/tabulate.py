@@ -20,13 +20,12 @@ from tribodyn.compliance.energy import (
 )
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.table import (
     Elasticity,
+    MeshData,
     Slots,
     back_entry,
     check_backlash,

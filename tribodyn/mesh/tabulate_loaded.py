@@ -17,16 +17,15 @@ from tribodyn.compliance.fem.gear_compliance import without_neighbours
 from tribodyn.compliance.sharing.condensed import Condensed, condense
 from tribodyn.compliance.sharing.flank_gap import relief_rolls
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
-from tribodyn.compliance.sharing.loaded_contact import reach
-from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved, check_torque
+from tribodyn.compliance.sharing.loaded_contact import check_contact, check_resolved, check_torque, reach
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import MaterialData
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import back_flanks, uneven_teeth
-from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.table import (
     Elasticity,
+    MeshData,
     back_entry,
     check_backlash,
     check_bores,

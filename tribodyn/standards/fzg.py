@@ -73,7 +73,7 @@ def scuffing_temperature(load_stage: float, lubricant: float, structure: float =
 
     Parameters
     ----------
-    lubricant : X_L of `flash_temperature`, with the viscosity
+    lubricant : X_L of `scuffing.lubricant_factor`, with the viscosity
     structure : X_W: 1 case-hardened with usual austenite, 1.5 nitrided (table 2)
     """
     return 273.15 + 80.0 + (0.85 + 1.4 * structure) * lubricant * load_stage**2
@@ -89,7 +89,7 @@ def scuffing_integral_temperature(
 
     Parameters
     ----------
-    lubricant : X_L of `integral_temperature`, without the viscosity
+    lubricant : X_L of `scuffing.ScuffingMesh`, without the viscosity
     viscosity_40 : kinematic viscosity at 40 °C, m²/s
     """
     torque = scuffing_torque(load_stage)

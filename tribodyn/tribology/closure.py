@@ -7,8 +7,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.elementary import as_float, is_jax, minimum
 from tribodyn.tribology.contact import Surfaces

@@ -12,7 +12,7 @@ from functools import cache
 from typing import Any, Literal, NamedTuple, Self
 
 from tribodyn.errors import InputError, near_name, quoted
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import MaterialData
 from tribodyn.numerics.elementary import LAWS, absolute, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.tribology.contact import Surfaces, flash_temperature_rise, hertz_half_width

@@ -37,10 +37,10 @@ CHOICES = {
 }
 #: Paper's name -> module that draws its figures.
 FIGURES = {
-    "liu-ni-2022": "tribodyn.validation.figures.liu_ni",
-    "veciana-2024": "tribodyn.validation.figures.veciana",
-    "diez-ibarbia": "tribodyn.validation.figures.diez_ibarbia",
-    "jia-2022": "tribodyn.validation.figures.jia",
+    "liu-ni-2022": "tribodyn.validation.liu_ni_figures",
+    "veciana-2024": "tribodyn.validation.veciana_figures",
+    "diez-ibarbia": "tribodyn.validation.diez_ibarbia_figures",
+    "jia-2022": "tribodyn.validation.jia_figures",
 }
 
 

@@ -20,11 +20,11 @@ from tribodyn.validation.diez_ibarbia_study import (
     elastic,
     equal_load_efficiencies,
     gear_torque,
+    load_contact,
     loss_factors,
     mean_friction,
     peak,
 )
-from tribodyn.validation.load_contact import load_contact
 from tribodyn.validation.rows import Row, compare, published
 
 PAPER = "diez-ibarbia"

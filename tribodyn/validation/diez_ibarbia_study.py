@@ -1,4 +1,7 @@
-"""Numbers behind the figures of Diez-Ibarbia et al.: a shifted pair by equal loads and by load contact.
+"""Values behind the figures of Diez-Ibarbia et al.: a shifted pair by equal loads and by load contact.
+
+The latter is the proposed approach of section 2.2: load sharing with constant friction coefficient in slow
+rotation, corner contact included.
 
 Every pair of the study is the paper's 18/36 with a shift x1 = −x2 in one of three ways of choosing the tips
 (`shifted`), at one of five operating conditions, with Niemann's mean coefficient of friction.
@@ -9,23 +12,95 @@ from functools import cache
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tribodyn.compliance.sharing.load_sharing import LEVEL, flexibility
+from tribodyn.compliance.sharing.load_sharing import (
+    LEVEL,
+    LoadedFlanks,
+    effective_contact_ratio,
+    extended_rolls,
+    flexibility,
+)
+from tribodyn.compliance.sharing.loaded_contact import check_contact, reach
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, tip_radius
 from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
 from tribodyn.geometry.path import kinematics
+from tribodyn.mesh.power_flow import efficiency
 from tribodyn.numerics.elementary import cos, sin, sqrt
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import nominal_conditions
 from tribodyn.tribology.friction.niemann import niemann
-from tribodyn.validation.load_contact import LoadContact, load_contact
 
-Array = NDArray[np.float64]
+#: Positions over one pitch: the efficiency is then known to 1e-6 (test_load_contact_efficiency).
+POSITIONS = 240
+# Corners are followed to this many deflections of a single pair; two is enough for any load sharing.
+_REACH = 2.5
+
+
+class LoadContact(NamedTuple):
+    """One mesh cycle of a pair in slow rotation."""
+
+    efficiency: float  # as `mesh.power_flow` defines it
+    #: effective contact ratio: pinion angle over which a pair carries load, over the pitch
+    contact_ratio: float
+    #: roll, normal_load: (position, pair), pinion angle of each pair from the pitch point, rad, and its load,
+    #: N
+    roll: Float[Array, "position pair"]
+    normal_load: Float[Array, "position pair"]
+    loss: Float[Array, "position pair"]  # (position, pair), friction work per pinion angle, N m/rad
+
+
+def load_contact(
+    flexible: PairFlexibility,
+    gear_torque: float,
+    friction_coefficient: float,
+    positions: int = POSITIONS,
+    modifications: Modifications = UNMODIFIED,
+    slices: int = 1,
+    coupled: bool = True,
+) -> LoadContact:
+    """Run a pair through one mesh cycle.
+
+    Raises InputError if the torque drives nothing, or as `roll_through` does.
+
+    Parameters
+    ----------
+    flexible : `load_sharing.flexibility` of the drive
+    gear_torque : T_g, N m, constant; < 0 where the gear drives, on back flanks
+    friction_coefficient : μ, the same for all pairs
+    positions : equal steps over one pitch
+    modifications, slices, coupled
+        As for `loaded_contact.roll_through`, without pitch errors.
+    """
+    for broken in uneven_teeth(modifications):
+        raise broken
+    assembly = flexible.assembly
+    torque, way = abs(gear_torque), math.copysign(1.0, gear_torque)
+    if way < 0.0:
+        modifications = back_flanks(modifications, float(assembly.path.pressure_angle(0.0)))
+    flanks = LoadedFlanks(flexible, modifications, slices, coupled)
+    check_contact(flanks, torque)
+    ratio = assembly.path.pinion_pitch_radius / assembly.path.gear_pitch_radius
+    limits = reach(flanks, torque, _REACH)
+    roll = extended_rolls(assembly, limits, positions)
+    shared = flanks.share(roll, torque, way * friction_coefficient)
+    sliding = np.abs(pair_geometry(assembly, roll).motion.sliding)
+    loss = friction_coefficient * shared.normal_load * sliding
+    gear, lost = gear_torque * ratio, float(np.mean(np.sum(loss, axis=1)))
+    return LoadContact(
+        efficiency=float(efficiency(gear + lost, gear, lost)),
+        contact_ratio=effective_contact_ratio(roll, shared, 2.0 * np.pi / assembly.drive.pinion.teeth),
+        roll=roll,
+        normal_load=shared.normal_load,
+        loss=loss,
+    )
+
 
 Scenario = Literal["S1", "S2", "S3"]
 SCENARIOS: dict[Scenario, str] = {
@@ -51,10 +126,10 @@ _POINTS = 801
 class Course(NamedTuple):
     """One pair of teeth from first to last contact; arrays (point,), increasing roll."""
 
-    roll: Array  # pinion angle from the pitch point, rad
-    share: Array  # LSR = F_N/F_Nmax, F_Nmax = T_G/ρ_oG
-    sliding: Array  # |V_s|/V, V the pitch line velocity
-    loss: Array  # H_vinst = μ F_N |V_s|/(F_Nmax V), the paper's (4)
+    roll: Float[Array, " point"]  # pinion angle from the pitch point, rad
+    share: Float[Array, " point"]  # LSR = F_N/F_Nmax, F_Nmax = T_G/ρ_oG
+    sliding: Float[Array, " point"]  # |V_s|/V, V the pitch line velocity
+    loss: Float[Array, " point"]  # H_vinst = μ F_N |V_s|/(F_Nmax V), the paper's (4)
 
 
 def shifted(drive: Drive, scenario: Scenario, shift: float) -> Drive:

@@ -6,7 +6,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import MaterialData
 from tribodyn.studies.efficiency.quadrature import Array
 from tribodyn.studies.efficiency.torque_ratio import TorqueRatio, UnitContact, rotations, torque_ratio
 from tribodyn.tribology.closure import closure, without_nominal_conditions

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 
 from tribodyn import Family, InputError, Parameter
 from tribodyn.geometry.drive import Drive, reference_radius
-from tribodyn.geometry.family import unshifted
-from tribodyn.geometry.limits.reach import refuse_shift, require_reach
+from tribodyn.geometry.families import unshifted
+from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import integrated_rotation, inverted_rotation
 from tribodyn.numerics.elementary import namespace, sqrt
 

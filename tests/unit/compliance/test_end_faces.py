@@ -7,9 +7,8 @@ from skfem import Basis, ElementHex2, ElementVector, MeshHex
 
 from tests.support.solid_elements import node_at, plate, solid_energy
 from tribodyn.compliance.fem.free_ends import openings, parity_weights
-from tribodyn.compliance.fem.lead_harmonics import spline_weights, wave_numbers
-from tribodyn.compliance.fem.root_stress import edge_points, edge_values, stress_rows
-from tribodyn.compliance.fem.strips import strip_stiffness
+from tribodyn.compliance.fem.gear_compliance import spline_weights, wave_numbers
+from tribodyn.compliance.fem.strips import edge_points, edge_values, stress_rows, strip_stiffness
 
 POISSON = 0.3
 

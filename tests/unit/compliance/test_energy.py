@@ -19,12 +19,11 @@ from tribodyn.compliance.energy import (
 )
 from tribodyn.compliance.foundation import ring_compliance, sainsot_velex
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import SIDES, Drive, GearBody
+from tribodyn.geometry.body import tooth_outline
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import distance_at_radius, kinematics
-from tribodyn.geometry.tooth.body import tooth_outline
-from tribodyn.geometry.tooth.tooth import contact_in_tooth_frame
+from tribodyn.geometry.tooth import contact_in_tooth_frame
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 

@@ -6,12 +6,17 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
-from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers, spline_weights
+from tribodyn.compliance.fem.gear_compliance import (
+    NEIGHBOURS,
+    FreeEnds,
+    at_radii,
+    at_wave_numbers,
+    spline_weights,
+)
 from tribodyn.compliance.sharing import face_root_stress
-from tribodyn.compliance.sharing.face_compliance import _add_free_ends, end_modes
 from tribodyn.compliance.sharing.face_root_stress import _of_free_ends, _of_one_gear
 from tribodyn.compliance.sharing.loaded_contact import _ages
+from tribodyn.compliance.sharing.slices import _add_free_ends, end_modes
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 
 POSITIONS, PAIRS, WAVES, POINTS, RADII, SLICES = 2, 4, 5, 2, 3, 4

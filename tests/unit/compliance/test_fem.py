@@ -6,16 +6,15 @@ from scipy.sparse.linalg import spsolve
 from scipy.spatial import KDTree
 
 from tests.support.twelve_teeth import POISSON, TOOTH, few_cells, whole_ring
-from tribodyn.compliance.fem.gear import gear_compliance
+from tribodyn.compliance.fem.gear import gear_compliance, gear_model
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS
-from tribodyn.compliance.fem.gear_model import gear_model
 from tribodyn.compliance.fem.ring_mesh import graded, sector_mesh
 from tribodyn.compliance.fem.strips import curved_basis, plane_stiffness
 from tribodyn.errors import InputError
+from tribodyn.geometry.body import section_area_and_inertia, tooth_outline
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth.body import section_area_and_inertia, tooth_outline
-from tribodyn.geometry.tooth.tooth import cut_tooth, flank_point
+from tribodyn.geometry.tooth import cut_tooth, flank_point
 
 DEEP = 1.5e-3  # twice that is beyond the tooth's axis
 

@@ -10,7 +10,7 @@ from tribodyn.compliance.fem.cache import cached_gear_compliance
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth.tooth import cut_tooth
+from tribodyn.geometry.tooth import cut_tooth
 from tribodyn.numerics.cache import cache_folder
 
 BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)

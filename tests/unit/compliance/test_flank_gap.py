@@ -28,7 +28,7 @@ from tribodyn.geometry.flanks.modification import (
     Modifications,
     Relief,
 )
-from tribodyn.geometry.tooth.tooth import flank_point, thickness_half_angle
+from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
 WIDTH, ANGLE = 26.7e-3, np.radians(20.0)
 DRIVE = Drive(

@@ -21,11 +21,10 @@ from tribodyn.compliance.foundation import (
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.tooth.tooth import contact_in_tooth_frame
+from tribodyn.geometry.tooth import contact_in_tooth_frame
 
 NU = 0.3
 jax.config.update("jax_enable_x64", True)

@@ -16,13 +16,17 @@ from tribodyn.compliance.fem.free_ends import (
     openings,
     parity_weights,
 )
+from tribodyn.compliance.fem.gear import gear_model
 from tribodyn.compliance.fem.gear_compliance import without_neighbours
-from tribodyn.compliance.fem.gear_model import gear_model
 from tribodyn.compliance.fem.ring_mesh import sector_mesh
-from tribodyn.compliance.fem.root_stress import edge_parameters, edge_values, stress_rows
-from tribodyn.compliance.fem.strips import curved_basis, strip_stiffness
-from tribodyn.compliance.sharing.face_compliance import slice_compliance
-from tribodyn.compliance.sharing.slices import pair_harmonics
+from tribodyn.compliance.fem.strips import (
+    curved_basis,
+    edge_parameters,
+    edge_values,
+    stress_rows,
+    strip_stiffness,
+)
+from tribodyn.compliance.sharing.slices import pair_harmonics, slice_compliance
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 
 TEETH, POISSON = 6, 0.3  # of the teeth of twelve

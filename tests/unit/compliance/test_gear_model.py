@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.support.twelve_teeth import TOOTH
-from tribodyn.compliance.fem.gear_model import gear_model
-from tribodyn.geometry.tooth.tooth import flank_point
+from tribodyn.compliance.fem.gear import gear_model
+from tribodyn.geometry.tooth import flank_point
 
 DEPTHS = pytest.mark.parametrize("depth", [0.75e-3, 1.6e-3])
 

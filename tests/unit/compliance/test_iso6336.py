@@ -15,9 +15,8 @@ from tribodyn.compliance.iso6336 import (
     theoretical_stiffness,
 )
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.material import MaterialData
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 IRON = STEEL.__class__("iron", 118e9, 0.3, 7200.0, 46.0, 470.0, 6e9)

@@ -6,21 +6,21 @@ from scipy.integrate import quad
 from scipy.sparse.linalg import spsolve
 
 from tests.support.twelve_teeth import BODY, POISSON, TOOTH, few_cells, whole_ring
-from tribodyn.compliance.fem.gear import gear_compliance, lead_harmonics
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance, LeadHarmonics
-from tribodyn.compliance.fem.gear_model import gear_model
-from tribodyn.compliance.fem.lead_harmonics import (
+from tribodyn.compliance.fem.gear import gear_compliance, gear_model, lead_harmonics
+from tribodyn.compliance.fem.gear_compliance import (
     LARGEST,
+    NEIGHBOURS,
+    GearCompliance,
+    LeadHarmonics,
     at_wave_numbers,
     half_space,
     half_space_surface,
     own_at_solved,
     wave_numbers,
 )
-from tribodyn.compliance.fem.root_stress import stress_rows
-from tribodyn.compliance.fem.strips import strip_stiffness
+from tribodyn.compliance.fem.strips import stress_rows, strip_stiffness
 from tribodyn.compliance.local import freed_of_depth, weber_banaschek
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import MaterialData
 
 MODULE, DEPTH = 3e-3, 0.75e-3
 

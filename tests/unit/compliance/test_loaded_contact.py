@@ -15,7 +15,7 @@ from tribodyn.compliance.sharing.loaded_contact import loaded_error, mean_pairs,
 from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import (
@@ -26,7 +26,6 @@ from tribodyn.geometry.flanks.modification import (
     Modifications,
     Relief,
 )
-from tribodyn.geometry.material import MaterialData
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
 WIDTH, ANGLE = 26.7e-3, np.radians(20.0)

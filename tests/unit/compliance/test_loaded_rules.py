@@ -9,7 +9,7 @@ import pytest
 from tests.support.faces_in_slices import DRIVE, STEEL, WIDTH
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
-from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved, check_torque
+from tribodyn.compliance.sharing.loaded_contact import check_contact, check_resolved, check_torque
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble

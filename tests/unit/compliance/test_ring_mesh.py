@@ -8,7 +8,7 @@ import pytest
 from tribodyn.compliance.fem.ring_mesh import half_sector_cells, half_sector_mesh
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth.tooth import cut_tooth, fillet_point, flank_point
+from tribodyn.geometry.tooth import cut_tooth, fillet_point, flank_point
 
 MODULE = 3e-3
 

@@ -6,11 +6,19 @@ from scipy.sparse.linalg import spsolve
 
 from tribodyn.compliance.fem.gear import lead_harmonics
 from tribodyn.compliance.fem.ring_mesh import half_sector_mesh
-from tribodyn.compliance.fem.root_stress import edge_parameters, edge_points, edge_values, stress_rows
-from tribodyn.compliance.fem.strips import COMPONENTS, curved_basis, plane_stiffness, strip_stiffness
+from tribodyn.compliance.fem.strips import (
+    COMPONENTS,
+    curved_basis,
+    edge_parameters,
+    edge_points,
+    edge_values,
+    plane_stiffness,
+    stress_rows,
+    strip_stiffness,
+)
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth.tooth import cut_tooth
+from tribodyn.geometry.tooth import cut_tooth
 
 POISSON, MODULE, ANGLE = 0.3, 3e-3, np.radians(20.0)
 

@@ -9,8 +9,7 @@ from scipy.optimize import brentq, nnls
 from scipy.special import ellipe, ellipk
 
 from tests.support.faces_in_slices import WIDTH
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS
-from tribodyn.compliance.fem.lead_harmonics import half_space_surface
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, half_space_surface
 from tribodyn.compliance.sharing import slices as slices_of_faces
 from tribodyn.compliance.sharing.active_set import press
 from tribodyn.compliance.sharing.load_sharing import half_width, press_pairs

@@ -7,8 +7,7 @@ from skfem import Basis, ElementHex2, ElementVector, MeshHex
 
 from tests.support.solid_elements import POISSON, node_at, plate, solid_energy
 from tribodyn.compliance.fem.free_ends import openings
-from tribodyn.compliance.fem.root_stress import edge_points, stress_rows
-from tribodyn.compliance.fem.strips import plane_stiffness, strip_stiffness
+from tribodyn.compliance.fem.strips import edge_points, plane_stiffness, stress_rows, strip_stiffness
 
 
 def solve_strip(basis, k, load):

@@ -20,10 +20,10 @@ from tribodyn.drawing.cad import (
 )
 from tribodyn.drawing.picture import gears_in_mesh, pair_figure
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.body import section_area_and_inertia, tooth_outline
 from tribodyn.geometry.drive import body_of, tip_radius
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.tooth.body import section_area_and_inertia, tooth_outline
-from tribodyn.geometry.tooth.tooth import cut_tooth
+from tribodyn.geometry.tooth import cut_tooth
 from tribodyn.post.style import save
 
 SHARP = STANDARD._replace(pinion=STANDARD.pinion._replace(fillet_radius=0.0, bore_radius=0.0))

@@ -8,7 +8,7 @@ from tribodyn.geometry.assembly import assemble, tip_corner_gap
 from tribodyn.geometry.drive import Drive, GearBody, reference_radius
 from tribodyn.geometry.families import crc, involute, spline
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.tooth.tooth import fillet_point, flank_point
+from tribodyn.geometry.tooth import fillet_point, flank_point
 
 OFF = (-1.5e-3, -0.4e-3, 0.5e-3, 1.2e-3)
 

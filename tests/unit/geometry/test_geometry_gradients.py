@@ -8,11 +8,11 @@ import pytest
 
 from tests.support.compile_fast import ONE_CALL
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.body import mass_and_inertia, tooth_outline
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, tip_radius
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.path import contact_limits, contact_ratio, kinematics, seen_from
-from tribodyn.geometry.tooth.body import mass_and_inertia, tooth_outline
-from tribodyn.geometry.tooth.tooth import contact_in_tooth_frame, cut_tooth, thickness_half_angle
+from tribodyn.geometry.tooth import contact_in_tooth_frame, cut_tooth, thickness_half_angle
 
 jax.config.update("jax_enable_x64", True)
 

@@ -5,11 +5,10 @@ import pytest
 
 from tests.support.sample_drives import DRIVES, LIU_NI, SHIFTED, SOUND, STANDARD, bodies
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.body import CLEARANCE, rack_flank, rack_outline, tooth_outline
 from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.tooth.body import tooth_outline
-from tribodyn.geometry.tooth.rack import CLEARANCE, rack_flank, rack_outline
-from tribodyn.geometry.tooth.tooth import cut_tooth
+from tribodyn.geometry.tooth import cut_tooth
 
 
 @pytest.mark.parametrize("side", SIDES)

@@ -7,7 +7,7 @@ from tests.support.sample_drives import LIU_NI, SHIFTED, STANDARD, UNDERCUT
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.sheet.sheet import geometry_sheet
+from tribodyn.geometry.sheet import geometry_sheet
 
 
 @pytest.mark.parametrize("drive", [STANDARD, SHIFTED])

@@ -16,18 +16,18 @@ from tests.support.sample_drives import (
     root_radius,
 )
 from tribodyn.geometry.assembly import assemble, tip_clearance, tip_corner_gap
-from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
-from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.path import contact_limits, kinematics, seen_from
-from tribodyn.geometry.sheet.sheet import geometry_sheet
-from tribodyn.geometry.tooth.body import (
+from tribodyn.geometry.body import (
     ToothOutline,
     gear_polygon,
     mass_and_inertia,
     section_area_and_inertia,
     tooth_outline,
 )
-from tribodyn.geometry.tooth.tooth import (
+from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
+from tribodyn.geometry.families import crc, involute
+from tribodyn.geometry.path import contact_limits, kinematics, seen_from
+from tribodyn.geometry.sheet import geometry_sheet
+from tribodyn.geometry.tooth import (
     contact_in_tooth_frame,
     cut_tooth,
     fillet_point,

@@ -7,7 +7,7 @@ from tests.support.sample_drives import LIU_NI
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.limits.reach import refuse_shift, require_reach
+from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 
 DRIVE = LIU_NI._replace(
     pinion=LIU_NI.pinion._replace(addendum=0.8, dedendum=1.3, fillet_radius=0.2),

@@ -9,7 +9,7 @@ from tests.support.sample_drives import SHIFTED, STANDARD
 from tribodyn.geometry.assembly import assemble, tip_break
 from tribodyn.geometry.drive import PROFILES, body_of
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.sheet.measures import (
+from tribodyn.geometry.sheet import (
     Gauge,
     Involute,
     allowance_of_pins,
@@ -21,7 +21,7 @@ from tribodyn.geometry.sheet.measures import (
     thickness_lines,
     usual_span_teeth,
 )
-from tribodyn.geometry.tooth.tooth import flank_point
+from tribodyn.geometry.tooth import flank_point
 
 ALLOWANCE = -90e-6
 CASES = [(drive, side) for drive in (STANDARD, SHIFTED) for side in ("pinion", "gear")]

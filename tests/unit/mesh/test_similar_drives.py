@@ -8,14 +8,13 @@ import pytest
 
 from tests.support.sample_drives import SOUND
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.body import mass_and_inertia
+from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.sheet.sheet import geometry_sheet
-from tribodyn.geometry.tooth.body import mass_and_inertia
-from tribodyn.mesh.data import MeshData
+from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.mesh.power_flow import mean_efficiency
 from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static
+from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import tabulate
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)

@@ -16,14 +16,13 @@ from tests.support.involute_forms import closed_form_contact_ratio
 from tribodyn.compliance.energy import hertz_linear, loaded_tooth, tooth_compliance
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import SIDES, Drive, GearBody
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.by_compliance import compliance_remark
-from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.power_flow import mean_efficiency
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
+from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.numerics.curve import interpolate
 
@@ -213,7 +212,7 @@ def test_back_flanks_are_the_mirror_image(family):
 def test_no_jax_in_a_plain_run():
     code = (
         "import math, sys\n"
-        "from tribodyn.geometry.material import MaterialData\nfrom tribodyn.mesh.data import MeshData\n"
+        "from tribodyn.geometry.drive import MaterialData\nfrom tribodyn.mesh.table import MeshData\n"
         "from tribodyn.geometry.assembly import assemble\nfrom tribodyn.geometry.families import crc\n"
         "from tribodyn.geometry.drive import Drive, GearBody\n"
         "from tribodyn.mesh.tabulate import tabulate\n"

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tribodyn.standards.dynamic_factor import (
+from tribodyn.standards.load_factors import (
     DynamicMesh,
     coefficients,
     dynamic_factor,

@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 
 from tribodyn.standards import contact_path as paths
-from tribodyn.standards import flash_temperature as flash
-from tribodyn.standards import fzg
-from tribodyn.standards import integral_temperature as integral
-from tribodyn.standards.integral_temperature import ScuffingMesh
+from tribodyn.standards import fzg, scuffing
 from tribodyn.standards.micropitting import Oil
+from tribodyn.standards.scuffing import ScuffingMesh
 
 STEEL = 2.0 / (2.0 * (1.0 - 0.09) / 206e9)
 #: B_M of ISO/TR 13989-1, annex A, 435 N/(mm^½ m^½ s^½ K).
@@ -19,10 +17,10 @@ CONTACT = 435.0 * math.sqrt(1e3)
 
 def test_factors_as_tabulated():
     # ISO/TR 13989-2: X_M 50.0 of steel, table 2: X_αβ 0.978 (20°, β 0), 0.966 (20°, β 20°)
-    assert integral.thermal_flash_factor(STEEL, CONTACT) == pytest.approx(50.0, abs=0.15)
+    assert scuffing.thermal_flash_factor(STEEL, CONTACT) == pytest.approx(50.0, abs=0.15)
     angle = math.radians(20.0)
-    assert integral.pressure_angle_factor(angle, angle, 0.0) == pytest.approx(0.978, abs=5e-4)
-    assert integral.pressure_angle_factor(angle, angle, angle) == pytest.approx(0.966, abs=1.5e-3)
+    assert scuffing.pressure_angle_factor(angle, angle, 0.0) == pytest.approx(0.978, abs=5e-4)
+    assert scuffing.pressure_angle_factor(angle, angle, angle) == pytest.approx(0.966, abs=1.5e-3)
 
 
 def test_blok_is_the_adapted_form_for_spur_gears():
@@ -33,7 +31,7 @@ def test_blok_is_the_adapted_form_for_spur_gears():
     radius = paths.equivalent_radius(path, distance)
     normal = load / math.cos(path.pressure_angle)  # tangential at the working pitch circle
     width = np.sqrt(8.0 * normal * radius / (math.pi * STEEL))
-    found = flash.flash_rise(
+    found = scuffing.flash_rise(
         friction, normal, width, paths.rolling_speeds(path, distance, speed), (CONTACT, CONTACT)
     )
     u, gamma = (
@@ -56,8 +54,8 @@ def test_strength_of_an_oil_from_its_load_stage():
     assert fzg.scuffing_temperature(12.0, 0.85) - 273.15 == pytest.approx(80.0 + 2.25 * 0.85 * 144.0)
     higher = fzg.scuffing_integral_temperature(12.0, 1.0, 220e-6)
     assert higher > fzg.scuffing_integral_temperature(11.0, 1.0, 220e-6)
-    assert flash.safety(500.0, 400.0, 350.0) == pytest.approx(3.0)
-    assert integral.safety(573.15, 423.15) == pytest.approx(2.0)
+    assert scuffing.flash_safety(500.0, 400.0, 350.0) == pytest.approx(3.0)
+    assert scuffing.integral_safety(573.15, 423.15) == pytest.approx(2.0)
 
 
 def test_permissible_film_is_that_of_the_annex():
@@ -87,7 +85,7 @@ def test_shares_of_bulk_and_flash_in_the_integral_temperature():
     path = fzg.test_path()
     torque = fzg.scuffing_torque(12)
     mesh = ScuffingMesh(torque / 36e-3 / 20e-3, 8.3, 0.02, 363.15, 0.5e-6, STEEL, CONTACT, math.radians(20.0))
-    found = integral.integral_temperature(path, mesh)
+    found = scuffing.integral_temperature(path, mesh)
     assert found.integral == pytest.approx(found.bulk + 1.5 * found.flash_rise)
     assert found.bulk - 363.15 == pytest.approx(0.7 * found.flash_rise)
     assert found.integral > 363.15
@@ -95,8 +93,8 @@ def test_shares_of_bulk_and_flash_in_the_integral_temperature():
 
 def test_mean_flash_over_the_path_is_continuous_over_the_cases():
     for first, second in ((0.5, 0.5), (1.0, 0.6), (0.6, 1.0), (1.2, 0.8)):
-        near = integral.contact_ratio_factor(first - 1e-9, second)
-        assert integral.contact_ratio_factor(first + 1e-9, second) == pytest.approx(near, rel=0.02)
-    assert integral.approach_factor(1.0, 1.5) == pytest.approx(1.0)
-    assert integral.approach_factor(1.0, 3.0) == pytest.approx(0.6)
-    assert integral.approach_factor(1.0, 0.5) == 1.0
+        near = scuffing.contact_ratio_factor(first - 1e-9, second)
+        assert scuffing.contact_ratio_factor(first + 1e-9, second) == pytest.approx(near, rel=0.02)
+    assert scuffing.approach_factor(1.0, 1.5) == pytest.approx(1.0)
+    assert scuffing.approach_factor(1.0, 3.0) == pytest.approx(0.6)
+    assert scuffing.approach_factor(1.0, 0.5) == 1.0

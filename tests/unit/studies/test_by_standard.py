@@ -6,9 +6,8 @@ import pytest
 
 from tests.support.short_studies import short_case
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.material import MaterialData
 from tribodyn.standards.flank_tolerances import flank_tolerances
 from tribodyn.studies.gears.by_standard import quality_of, rated
 

@@ -6,9 +6,8 @@ from typing import Any
 import pytest
 
 from tribodyn.geometry.assembly import Assembly, assemble
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.material import MaterialData
 from tribodyn.studies.gears.check import sheet_and_stiffness, sheet_tables, with_unit
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7830.0, 46.0, 470.0, 6e9)

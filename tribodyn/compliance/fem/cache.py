@@ -11,10 +11,15 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from tribodyn.compliance.fem.gear_compliance import FreeEnds, GearCompliance, LeadHarmonics
-from tribodyn.compliance.fem.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
-from tribodyn.geometry.tooth.body import tooth_outline
-from tribodyn.geometry.tooth.tooth import Tooth
+from tribodyn.compliance.fem.gear_compliance import (
+    LARGEST_AT_ENDS,
+    FreeEnds,
+    GearCompliance,
+    LeadHarmonics,
+    wave_numbers,
+)
+from tribodyn.geometry.body import tooth_outline
+from tribodyn.geometry.tooth import Tooth
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.sources import digest_of

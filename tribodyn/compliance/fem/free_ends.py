@@ -33,12 +33,18 @@ from scipy.spatial import KDTree
 from skfem import Basis, BilinearForm, ElementQuad1
 
 from tribodyn.compliance.fem.cyclic_symmetry import Ring, phases, reduced_ring
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, FreeEnds
-from tribodyn.compliance.fem.gear_model import GearModel, gear_model
-from tribodyn.compliance.fem.lead_harmonics import spline_weights
-from tribodyn.compliance.fem.root_stress import edge_parameters, edge_values, stress_rows
-from tribodyn.compliance.fem.strips import COMPONENTS, moduli, strip_stiffness, value_and_gradient
-from tribodyn.geometry.tooth.tooth import Tooth
+from tribodyn.compliance.fem.gear import GearModel, gear_model
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, FreeEnds, spline_weights
+from tribodyn.compliance.fem.strips import (
+    COMPONENTS,
+    edge_parameters,
+    edge_values,
+    moduli,
+    stress_rows,
+    strip_stiffness,
+    value_and_gradient,
+)
+from tribodyn.geometry.tooth import Tooth
 from tribodyn.numerics.shapes import Array, Complex, Float
 from tribodyn.numerics.work import part, steps
 
@@ -80,7 +86,7 @@ def parity_weights(solved: Float[Array, " wave"], width: float) -> Float[Array, 
 
     Parameters
     ----------
-    solved : (K,), wave numbers of `lead_harmonics.wave_numbers`, rad/m
+    solved : (K,), wave numbers of `gear_compliance.wave_numbers`, rad/m
     width : b, m
     """
     step, largest = np.pi / width, solved[-1]
@@ -144,7 +150,7 @@ def free_ends(
     tooth, teeth, bore_radius, poisson_ratio, depth
         As for `fem.gear_compliance`.
     level : that of the root's points at which the stress is wanted; the elements are those of `LEVEL`
-    wave_number : (K,), of `lead_harmonics.wave_numbers` up to `LARGEST_AT_ENDS`/module, rad/m
+    wave_number : (K,), of `gear_compliance.wave_numbers` up to `LARGEST_AT_ENDS`/module, rad/m
     width : b, m
     """
     model = gear_model(tooth, teeth, bore_radius, depth, LEVEL)

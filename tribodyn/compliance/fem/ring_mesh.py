@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from tribodyn.geometry.tooth.tooth import Tooth, fillet_point, flank_point
+from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point
 from tribodyn.numerics.shapes import Array, Float
 
 #: Cells at level 1: along the flank, along the upper and the lower half of the fillet with the root circle,

@@ -14,9 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.sharing.face_compliance import slice_compliance
 from tribodyn.compliance.sharing.load_sharing import SharedLoad, contact_deflection, in_batches, press_pairs
-from tribodyn.compliance.sharing.slices import PairFlexibility, friction_ratio, peak_ratio
+from tribodyn.compliance.sharing.slices import PairFlexibility, friction_ratio, peak_ratio, slice_compliance
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, part_of
 from tribodyn.numerics.shapes import Array, Float
 

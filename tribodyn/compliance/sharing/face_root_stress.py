@@ -4,10 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
-from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers
-from tribodyn.compliance.sharing.face_compliance import end_modes
-from tribodyn.compliance.sharing.slices import PairFlexibility, modes, wave_numbers
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, FreeEnds, at_radii, at_wave_numbers
+from tribodyn.compliance.sharing.slices import PairFlexibility, end_modes, modes, wave_numbers
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
 from tribodyn.numerics.shapes import Array, Float
 

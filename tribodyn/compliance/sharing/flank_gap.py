@@ -23,7 +23,7 @@ from tribodyn.geometry.flanks.modification import (
     broken_flank_rules,
 )
 from tribodyn.geometry.path import PerContact
-from tribodyn.geometry.tooth.tooth import thickness_half_angle
+from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.curve import check_cover, interpolate
 from tribodyn.numerics.shapes import Array, Float, Int
 

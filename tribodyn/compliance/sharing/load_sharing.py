@@ -24,9 +24,8 @@ from tribodyn.compliance.local import (
     weber_banaschek_slope,
 )
 from tribodyn.compliance.sharing.active_set import press
-from tribodyn.compliance.sharing.face_compliance import slice_compliance
 from tribodyn.compliance.sharing.flank_gap import flank_gap
-from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions
+from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions, slice_compliance
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
@@ -193,7 +192,7 @@ def press_pairs(
 ) -> SharedLoad:
     """Share torques (position,) among pairs of slices; arrays (position, pair), the gap (…, slice).
 
-    `compliance` (position, pair, slice, pair, slice) as made by `face_compliance.slice_compliance`.
+    `compliance` (position, pair, slice, pair, slice) as made by `slices.slice_compliance`.
     """
     positions, pairs, slices = gap.shape
     places = pairs * slices

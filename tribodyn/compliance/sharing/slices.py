@@ -1,7 +1,5 @@
 """Face width in slices: how the load of one slice moves the others, of its own tooth and of the neighbours.
 
-Between planes of symmetry; what free end faces add is in `face_compliance`.
-
 A spur tooth is the same all along z, so a line load q cos kz displaces it by λ(k) q cos kz. With planes of
 symmetry at the end faces (z from one of them) the loads of S equal slices are the sum of the cosines
 
@@ -15,7 +13,8 @@ on slice t is
 Cosines at the middles of equal slices are orthogonal: λ the same for all n makes slices that do not feel
 each other, Λ = λ S/b δ_st, and a uniform load meets λ(0), plane strain, alone. The local deflection under the
 surface is each slice's own (`local`), with its line load; λ holds what a load that varies along the face
-makes less than that, down to wavelengths of the contact's width.
+makes less than that, down to wavelengths of the contact's width. What free end faces add follows from
+`fem.free_ends`.
 """
 
 from typing import NamedTuple
@@ -23,8 +22,14 @@ from typing import NamedTuple
 import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance
-from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers
+from tribodyn.compliance.fem.gear_compliance import (
+    NEIGHBOURS,
+    FreeEnds,
+    GearCompliance,
+    at_radii,
+    at_wave_numbers,
+    spline_weights,
+)
 from tribodyn.compliance.local import ElasticMaterial, freed_of_depth
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
@@ -142,3 +147,74 @@ def peak_ratio(slice_load: Float[Array, "*pair slice"]) -> Float[Array, "*pair"]
 def _share(slice_load: Float[Array, "*pair slice"]) -> Float[Array, "*pair slice"]:
     mean = np.mean(slice_load, axis=-1, keepdims=True)
     return np.where(mean > 0.0, slice_load / np.where(mean > 0.0, mean, 1.0), 1.0)
+
+
+def slice_compliance(
+    flexible: PairFlexibility, geometry: PairGeometry, slices: int = 1, coupled: bool = True
+) -> Float[Array, "position pair slice pair slice"]:
+    """Λ (position, pair, slice, pair, slice), m/N, without the slices' own local deflection.
+
+    Parameters
+    ----------
+    geometry : of the pairs (position, pair), one pitch apart, the one that entered first in front
+    slices : one is plane strain
+    coupled : whether slices hold each other through the teeth and bodies, and the end faces are free; else
+        each slice is in plane strain by itself
+    """
+    matrix = by_slices(pair_harmonics(flexible, geometry, slices, coupled), slices)
+    if coupled and slices > 1:
+        _add_free_ends(matrix, flexible, geometry)
+    return matrix
+
+
+def end_modes(ends: FreeEnds, width: float, slices: int) -> Float[Array, "2 slice wave"]:
+    """What loads on slices count for in `FreeEnds`' waves, and what slices see of them: (2, S, K), 1/m.
+
+    For even and odd numbers of half waves; of loads in N that are even in a slice, and the mean over a slice
+    of what is seen. Over the last octave of the wave numbers that were solved they fade away.
+    """
+    largest = ends.wave_number[-1]
+    number = np.arange(int(largest * width / np.pi) + 1)
+    wave_number = number * np.pi / width
+    from_end = face_positions(width, slices)[:, None] + width / 2.0
+    # sinc: the mean of the cosine over a slice
+    wave = np.cos(wave_number * from_end) * np.sinc(number / (2.0 * slices))
+    wave = wave * np.where(number > 0, 2.0, 1.0) / width
+    # cut off at once they would ripple along the face
+    wave = wave * np.cos(np.pi / 2.0 * np.clip(2.0 * wave_number / largest - 1.0, 0.0, 1.0)) ** 2
+    weights = spline_weights(ends.wave_number, wave_number)
+    return np.stack([wave[:, parity::2] @ weights[parity::2] for parity in (0, 1)])
+
+
+def _add_free_ends(
+    matrix: Float[Array, "position pair slice pair slice"],
+    flexible: PairFlexibility,
+    geometry: PairGeometry,
+) -> None:
+    pairs, slices = matrix.shape[1:3]
+    reaches = geometry.pinion_radius, geometry.gear_radius
+    # On the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other.
+    for gear, material, reach, sign in zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True):
+        ends = gear.ends
+        if ends is None:
+            continue
+        along = end_modes(ends, flexible.width, slices)
+        place = at_radii(ends.radius, reach)
+        for later in range(pairs):
+            own = np.einsum("pklm,tm->tpkl", ends.own, place[:, later])
+            matrix[:, later, :, later] += _spread(along, own) / material.youngs_modulus
+            for earlier in range(max(0, later - NEIGHBOURS), later):
+                rows = ends.between[:, :, :, NEIGHBOURS + sign * (later - earlier)]
+                opened = np.einsum(
+                    "pklmn,tm,tn->tpkl", rows, place[:, earlier], place[:, later], optimize=True
+                )
+                value = _spread(along, opened) / material.youngs_modulus
+                matrix[:, earlier, :, later] += value
+                matrix[:, later, :, earlier] += value.swapaxes(1, 2)
+
+
+def _spread(
+    along: Float[Array, "2 slice wave"], amplitudes: Float[Array, "position 2 wave wave"]
+) -> Float[Array, "position slice slice"]:
+    """Matrices (position, slice, slice) of those over the wave numbers (position, parity, K, K)."""
+    return np.sum(along @ amplitudes @ along.swapaxes(1, 2), axis=1)

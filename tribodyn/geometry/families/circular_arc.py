@@ -13,8 +13,8 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, reference_radius
-from tribodyn.geometry.family import Family, unshifted
-from tribodyn.geometry.limits.reach import refuse_shift, require_reach
+from tribodyn.geometry.families import Family, unshifted
+from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact
 from tribodyn.numerics.elementary import cos, log, namespace, sin, sqrt, where
 from tribodyn.numerics.iteration import newton

@@ -17,8 +17,8 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, reference_radius, tip_radius
-from tribodyn.geometry.family import Family, unshifted
-from tribodyn.geometry.limits.reach import refuse_shift
+from tribodyn.geometry.families import Family, unshifted
+from tribodyn.geometry.limits.sizes import refuse_shift
 from tribodyn.geometry.path import Path, PerContact, integrated_rotation, inverted_rotation
 from tribodyn.numerics.elementary import namespace, sin, sqrt
 from tribodyn.numerics.iteration import newton

@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, reference_radius
+from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.families.circular_arc import ArcPath, arc_ends
-from tribodyn.geometry.family import Family, unshifted
-from tribodyn.geometry.limits.reach import refuse_shift, require_reach
+from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.numerics.parameter import Parameter
 
 

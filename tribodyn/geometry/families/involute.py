@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius
-from tribodyn.geometry.family import Family
+from tribodyn.geometry.families import Family
 from tribodyn.geometry.path import Path, PerContact
 from tribodyn.numerics.elementary import arctan2, cos, maximum, namespace, sin, sqrt, tan
 from tribodyn.numerics.iteration import newton

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius
-from tribodyn.geometry.family import Family, unshifted
-from tribodyn.geometry.limits.reach import refuse_shift, require_reach
+from tribodyn.geometry.families import Family, unshifted
+from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact
 from tribodyn.numerics.elementary import namespace, sqrt, where
 from tribodyn.numerics.parameter import Parameter

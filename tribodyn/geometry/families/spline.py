@@ -12,9 +12,9 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radius
+from tribodyn.geometry.families import Family
 from tribodyn.geometry.families.points import PointsPath, spline_slopes, turned_from
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.limits.reach import require_reach
+from tribodyn.geometry.limits.sizes import require_reach
 from tribodyn.geometry.path import Path, seen_from
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.parameter import Parameter

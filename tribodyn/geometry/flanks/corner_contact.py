@@ -14,7 +14,7 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Side
 from tribodyn.geometry.path import Kinematics, PerContact, distance_at_radius, kinematics, radius
-from tribodyn.geometry.tooth.tooth import thickness_half_angle
+from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.shapes import Array, Bool
 
 

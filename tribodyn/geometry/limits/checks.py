@@ -17,9 +17,9 @@ from tribodyn.geometry.assembly import (
     tip_corner_gap,
 )
 from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, tip_circle_radius
-from tribodyn.geometry.family import Family
+from tribodyn.geometry.families import Family
 from tribodyn.geometry.limits.sizes import advice, boundary, check_sizes, millimetres, replaced, require
-from tribodyn.geometry.tooth.tooth import Tooth, flank_point, thickness_half_angle
+from tribodyn.geometry.tooth import Tooth, flank_point, thickness_half_angle
 
 # An overlap below this share of the module is the chord error of the fillet's points.
 _OVERLAP_TOLERANCE = 1e-5

@@ -11,7 +11,7 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance, tip_corner_gap
 from tribodyn.geometry.drive import SIDES, Drive, Side
 from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.tooth.tooth import flank_point
+from tribodyn.geometry.tooth import flank_point
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.shapes import Array, Float
 

@@ -7,8 +7,7 @@ from typing import Any, cast
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, normal_backlash
-from tribodyn.geometry.drive import SIDES, Drive, body_of
-from tribodyn.geometry.material import BodyMass, MaterialData
+from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of
 from tribodyn.scenario.tables import model_files
 from tribodyn.scenario.tables.centre_distance import RoundedDistance, rounded_distance
 from tribodyn.scenario.tables.tooth_data import gear_body, gives_thickness, pressure_angle_of, shape_of

@@ -8,9 +8,8 @@ import numpy as np
 
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.geometry.drive import PROFILES, GearBody
-from tribodyn.geometry.families import FAMILIES
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.sheet.measures import (
+from tribodyn.geometry.families import FAMILIES, Family
+from tribodyn.geometry.sheet import (
     Gauge,
     Involute,
     allowance_of_pins,

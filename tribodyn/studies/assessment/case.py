@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from tribodyn.geometry.sheet.outlines import GEOMETRY
+from tribodyn.geometry.body import GEOMETRY
 from tribodyn.numerics.variable import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.gears.by_standard import Quality

@@ -8,7 +8,7 @@ import numpy as np
 
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.quantities.quantity import Quantity
-from tribodyn.standards import flash_temperature, integral_temperature
+from tribodyn.standards import scuffing
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.local import LocalValues
 from tribodyn.studies.assessment.standard import ZERO_CELSIUS, Standard, Strength
@@ -96,8 +96,8 @@ def _by_standard(case: AssessmentCase, found: Standard, strength: Strength) -> d
         margins |= {
             "theta_S": strength.scuffing - ZERO_CELSIUS,
             "theta_intS": strength.scuffing_integral - ZERO_CELSIUS,
-            "S_B": flash_temperature.safety(strength.scuffing, found.flash_contact, case.oil_temperature),
-            "S_intS": integral_temperature.safety(strength.scuffing_integral, found.integral),
+            "S_B": scuffing.flash_safety(strength.scuffing, found.flash_contact, case.oil_temperature),
+            "S_intS": scuffing.integral_safety(strength.scuffing_integral, found.integral),
         }
     if strength.specific_film is not None:
         worst = float(np.min(found.films.specific_film))
@@ -110,7 +110,7 @@ def _by_simulation(case: AssessmentCase, strength: Strength, local: LocalValues)
     contact = films.bulk_temperature + float(np.nanmax(films.flash_rise))
     margins = {"theta_B": contact - ZERO_CELSIUS}
     if strength.scuffing is not None:
-        margins["S_B"] = flash_temperature.safety(strength.scuffing, contact, case.oil_temperature)
+        margins["S_B"] = scuffing.flash_safety(strength.scuffing, contact, case.oil_temperature)
     if strength.specific_film is not None:
         margins["S_lambda"] = float(np.nanmin(films.specific_film)) / strength.specific_film
     return margins

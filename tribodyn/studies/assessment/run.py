@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.geometry.sheet.outlines import geometry_arrays
-from tribodyn.geometry.sheet.sheet import geometry_sheet
+from tribodyn.geometry.body import geometry_arrays
+from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.post.report import EXCEEDED
 from tribodyn.quantities.catalogue import QUANTITIES, SPREAD, scatter
 from tribodyn.record.reader import open_record

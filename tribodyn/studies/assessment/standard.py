@@ -6,10 +6,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import reference_radius, tip_radius
-from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.tooth.body import body_masses
-from tribodyn.standards import flash_temperature, fzg, integral_temperature, micropitting
+from tribodyn.geometry.body import body_masses
+from tribodyn.geometry.drive import MaterialData, reference_radius, tip_radius
+from tribodyn.standards import fzg, micropitting, scuffing
 from tribodyn.standards.contact_path import (
     POINTS,
     ContactPath,
@@ -19,8 +18,7 @@ from tribodyn.standards.contact_path import (
     point_distances,
     rolling_speeds,
 )
-from tribodyn.standards.dynamic_factor import DynamicFactor
-from tribodyn.standards.load_factors import transverse_factor_b
+from tribodyn.standards.load_factors import DynamicFactor, transverse_factor_b
 from tribodyn.standards.micropitting import Films, Flanks, Load, Oil
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.gears.by_standard import rated
@@ -81,10 +79,10 @@ def strength_of(case: AssessmentCase) -> Strength:
     stages, sheet = case.lubricant.fzg, case.lubricant.sheet
     assert sheet is not None
     settings, factor = case.settings, case.lubricant.lubricant_factor
-    scuffing = integral = film = None
+    flash = integral = film = None
     if stages.scuffing is not None:
-        of_flash = flash_temperature.lubricant_factor(factor, float(sheet.viscosity(case.oil_temperature)))
-        scuffing = fzg.scuffing_temperature(stages.scuffing, of_flash, settings.structure_factor)
+        of_flash = scuffing.lubricant_factor(factor, float(sheet.viscosity(case.oil_temperature)))
+        flash = fzg.scuffing_temperature(stages.scuffing, of_flash, settings.structure_factor)
         integral = fzg.scuffing_integral_temperature(
             stages.scuffing, factor, float(sheet.viscosity_40), settings.structure_factor
         )
@@ -92,7 +90,7 @@ def strength_of(case: AssessmentCase) -> Strength:
         film = fzg.permissible_specific_film(
             stages.micropitting, oil_of(case), oil_temperature=stages.micropitting_temperature
         )
-    return Strength(scuffing, integral, film)
+    return Strength(flash, integral, film)
 
 
 def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standard:
@@ -129,9 +127,9 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
     flanks, oil = flanks_of(case), oil_of(case)
     films = micropitting.method_b(path, flanks, duty, oil)
     bulk, contact = _flash(case, path, duty, flanks, oil)
-    integral = integral_temperature.integral_temperature(
+    integral = scuffing.integral_temperature(
         path,
-        integral_temperature.ScuffingMesh(
+        scuffing.ScuffingMesh(
             load * transverse,
             case.operating.pinion_speed * float(reference_radius(drive, "pinion")),
             float(oil.viscosity(case.oil_temperature)),
@@ -169,18 +167,18 @@ def _flash(
     radius, speeds = equivalent_radius(path, distance), rolling_speeds(path, distance, load.pinion_speed)
     line_load = load.factor * load.pinion_torque / path.base_radius[0] / load.face_width
     at_pitch = path.base_radius[0] * math.tan(path.pressure_angle)
-    friction = flash_temperature.mean_friction(
+    friction = scuffing.flash_friction(
         load.factor * load.pinion_torque / float(reference_radius(case.drive, "pinion")) / load.face_width,
         2.0 * load.pinion_speed * at_pitch,
         float(equivalent_radius(path, point_distances(path)[POINTS.index("C")])),
-        flash_temperature.lubricant_factor(oil.lubricant_factor, float(oil.viscosity(load.oil_temperature))),
+        scuffing.lubricant_factor(oil.lubricant_factor, float(oil.viscosity(load.oil_temperature))),
         flanks.mean_roughness,
     )
     normal = line_load * load_share(path, distance, flanks.quality)
     width = np.sqrt(8.0 * normal * radius / (np.pi * flanks.reduced_modulus))
-    rise = flash_temperature.flash_rise(friction, normal, width, speeds, flanks.thermal_contact)
+    rise = scuffing.flash_rise(friction, normal, width, speeds, flanks.thermal_contact)
     supply = micropitting.LUBRICATION_FACTORS[load.lubrication]
-    bulk = flash_temperature.bulk_temperature(load.oil_temperature, float(np.mean(rise)), supply)
+    bulk = scuffing.bulk_temperature(load.oil_temperature, float(np.mean(rise)), supply)
     return bulk, bulk + float(np.max(rise))
 
 

@@ -9,7 +9,7 @@ import math
 from itertools import pairwise
 
 from tribodyn.geometry.drive import Drive, tip_radius
-from tribodyn.geometry.family import Family
+from tribodyn.geometry.families import Family
 from tribodyn.geometry.path import contact_limits
 
 

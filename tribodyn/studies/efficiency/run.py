@@ -12,11 +12,11 @@ import numpy as np
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, effective_contact_ratio
 from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import InputError
+from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
-from tribodyn.geometry.sheet.outlines import geometry_arrays
-from tribodyn.geometry.sheet.sheet import specific_sliding_max
+from tribodyn.geometry.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.power_flow import driving_gear, power_put_in

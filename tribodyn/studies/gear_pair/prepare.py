@@ -147,7 +147,7 @@ def _quasi_static_loss(made: Tabulated) -> Callable[[Case], float]:
 
 def tables(case: Case) -> Tabulated:
     """Check the geometry and tabulate the mesh cycle; raises as `prepare` does."""
-    from tribodyn.geometry.tooth.body import body_masses
+    from tribodyn.geometry.body import body_masses
     from tribodyn.mesh.by_compliance import mesh_cycle_of
 
     assembly = assembled(case)

@@ -10,7 +10,7 @@ from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.recorded import UNRECORDED, scales_of
 from tribodyn.errors import SimulationError
-from tribodyn.geometry.sheet.outlines import geometry_arrays
+from tribodyn.geometry.body import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.quasi_static import single_pair

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.table import MeshData
 from tribodyn.scenario import units
 from tribodyn.scenario.common import (
     Angle,

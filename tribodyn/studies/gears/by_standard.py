@@ -6,10 +6,9 @@ from typing import NamedTuple
 
 from tribodyn.compliance.iso6336 import ReferenceStiffness, pair_of, reference_stiffness
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import reference_radius
-from tribodyn.geometry.material import MaterialData
-from tribodyn.standards.dynamic_factor import DynamicFactor, DynamicMesh, dynamic_factor, reduced_mass
+from tribodyn.geometry.drive import MaterialData, reference_radius
 from tribodyn.standards.flank_tolerances import FlankTolerances
+from tribodyn.standards.load_factors import DynamicFactor, DynamicMesh, dynamic_factor, reduced_mass
 
 
 class Quality(NamedTuple):

@@ -7,11 +7,10 @@ from dataclasses import dataclass, field
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.dynamics.recorded import DOF_SCALE, PAIR, SAMPLES
-from tribodyn.geometry.drive import Drive
-from tribodyn.geometry.material import BodyMass, MaterialData
-from tribodyn.geometry.sheet.outlines import GEOMETRY
+from tribodyn.geometry.body import GEOMETRY
+from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
 from tribodyn.mesh.cycle import MESH_CYCLE
-from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.table import MeshData
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.protocol.study import CaseHead

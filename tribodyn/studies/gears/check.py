@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import MaterialData
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
@@ -105,7 +105,7 @@ def sheet_and_stiffness(
         Of pinion and gear, where they are to stand in the sheet.
     remark : what is to be said of the stiffness
     """
-    from tribodyn.geometry.sheet.sheet import geometry_sheet
+    from tribodyn.geometry.sheet import geometry_sheet
 
     normal_load, stiffness = pair
     width = float(assembly.common_width)
@@ -164,7 +164,7 @@ def _reference(
 
 
 def sheet_tables(sheet: dict[str, Any]) -> Sequence[TextTable]:
-    """Lay out the sheet of `tribodyn.geometry.sheet.sheet`: a table of the pair, one of the gears."""
+    """Lay out the sheet of `tribodyn.geometry.sheet`: a table of the pair, one of the gears."""
     bodies = {name: sheet[name] for name in ("pinion", "gear")}
     pair = {name: value for name, value in sheet.items() if name not in bodies}
     names = list(dict.fromkeys(name for body in bodies.values() for name in body))

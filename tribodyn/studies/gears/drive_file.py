@@ -9,11 +9,9 @@ from pydantic import ValidationError
 
 from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, Drive
-from tribodyn.geometry.material import BodyMass, MaterialData
-from tribodyn.geometry.sheet.measures import Gauge
-from tribodyn.geometry.sheet.sheet import geometry_sheet
-from tribodyn.geometry.tooth.body import body_masses
+from tribodyn.geometry.body import body_masses
+from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData
+from tribodyn.geometry.sheet import Gauge, geometry_sheet
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.quantity import Table
 from tribodyn.scenario.resolve import resolve_table, unresolved_keys

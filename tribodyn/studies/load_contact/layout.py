@@ -1,6 +1,6 @@
 """Datasets of a load contact study: over phase of the mesh, pairs of teeth and slices of the face."""
 
-from tribodyn.geometry.sheet.outlines import GEOMETRY
+from tribodyn.geometry.body import GEOMETRY
 from tribodyn.mesh.cycle import MESH_CYCLE
 from tribodyn.numerics.variable import Variable
 from tribodyn.record.schema import Layout

@@ -12,11 +12,10 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility, 
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, loaded_error, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.errors import SimulationError
-from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.body import geometry_arrays
+from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.sheet.outlines import geometry_arrays
 from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology

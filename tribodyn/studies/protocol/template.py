@@ -3,8 +3,7 @@
 import json
 from importlib import resources
 
-from tribodyn.geometry.families import FAMILIES
-from tribodyn.geometry.family import Family
+from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.scenario.own_keys import example_of
 from tribodyn.studies import STUDIES
 

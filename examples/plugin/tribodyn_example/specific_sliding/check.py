@@ -1,6 +1,6 @@
 """What `tribodyn check` says of a case."""
 
-from tribodyn.geometry.sheet.sheet import geometry_sheet
+from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.studies.gears.check import sheet_tables
 from tribodyn.studies.protocol.study import CheckResult
 from tribodyn_example.specific_sliding.scenario import SlidingCase

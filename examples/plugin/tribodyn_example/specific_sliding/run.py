@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from tribodyn.geometry.sheet.outlines import GEOMETRY, geometry_arrays
+from tribodyn.geometry.body import GEOMETRY, geometry_arrays
 from tribodyn.numerics.variable import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.protocol.recording import target, writer

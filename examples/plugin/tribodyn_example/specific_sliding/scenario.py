@@ -5,8 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from tribodyn.geometry.drive import Drive
-from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Name
 from tribodyn.scenario.quantity import InUnit, Table, Text, model_file, written

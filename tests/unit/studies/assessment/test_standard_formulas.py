@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from tests.support.short_studies import written_template
-from tribodyn.standards import integral_temperature
+from tribodyn.standards import scuffing
 from tribodyn.studies.assessment.standard import Standard, iso_part, standard_of
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.protocol.load import load_scenario
@@ -223,7 +223,7 @@ def test_integral_temperature_is_of_drawing_and_data_sheet(harder: Standard):
     """What ISO/TR 13989-2 asks for, in SI; the line load is that of the reference circle."""
     factor = APPLICATION * harder.dynamic.factor * harder.transverse * FACE
     radius = MODULE * TEETH[0] / 2.0 * 1e-3
-    mesh = integral_temperature.ScuffingMesh(
+    mesh = scuffing.ScuffingMesh(
         line_load=factor * TORQUE / radius / (WIDTH * 1e-3),
         pitch_speed=SPEED * radius,
         viscosity=viscosity(OIL),
@@ -234,7 +234,7 @@ def test_integral_temperature_is_of_drawing_and_data_sheet(harder: Standard):
         pressure_angle=ANGLE,
         lubrication=SPRAYED,
     )
-    expected = integral_temperature.integral_temperature(harder.path, mesh).integral
+    expected = scuffing.integral_temperature(harder.path, mesh).integral
     assert harder.integral == pytest.approx(expected, rel=1e-7)
     assert harder.path.tip_contact_ratios == pytest.approx(PARTS, rel=1e-9)
     assert harder.path.pressure_angle == pytest.approx(WORKING, rel=1e-9)

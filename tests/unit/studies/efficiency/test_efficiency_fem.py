@@ -12,7 +12,7 @@ from tribodyn.studies.efficiency.places import places
 from tribodyn.studies.efficiency.run import efficiencies, prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.validation.load_contact import load_contact
+from tribodyn.validation.diez_ibarbia_study import load_contact
 
 INVOLUTE = "efficiency-involute-18-36"
 FEM = {"mesh.compliance": "fem"}

@@ -12,8 +12,7 @@ from tribodyn.geometry.flanks.modification import (
     Modifications,
     Relief,
 )
-from tribodyn.validation.diez_ibarbia_study import drive, elastic
-from tribodyn.validation.load_contact import load_contact
+from tribodyn.validation.diez_ibarbia_study import drive, elastic, load_contact
 
 
 @pytest.fixture(scope="module")

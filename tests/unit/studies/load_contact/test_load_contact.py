@@ -12,10 +12,9 @@ from tribodyn.compliance.sharing.load_sharing import (
 )
 from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.flanks.corner_contact import pair_geometry, roll_at_gap
-from tribodyn.geometry.material import MaterialData
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
 WIDTH, PITCH_RADIUS, ANGLE = 26.7e-3, 27e-3, np.radians(20.0)

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.geometry.drive import Drive, Side, body_of, tip_radius
-from tribodyn.geometry.family import Family
+from tribodyn.geometry.families import Family
 from tribodyn.geometry.path import (
     Path,
     PerContact,

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.post.style import mark_panel, new_figure
-from tribodyn.validation.jia_study import CROWNED, FaceState, Name, face_load, passage
+from tribodyn.validation.jia import CROWNED, FaceState, Name, face_load, passage
 
 RELIEFS = (0.0, 4.0, 8.0, 12.0)
 MINUTES = (0.0, 1.0, 2.0, 3.0)

@@ -1,1 +1,0 @@
-"""A tooth as its rack cuts it, and the gear that such teeth make."""
