@@ -3,166 +3,112 @@
 from tribodyn.quantities.quantity import Quantity
 
 LOAD_CONTACT = (
-    Quantity(
-        "gear_torque",
-        "Torque on the gear",
-        "N m",
-        definition="Torque at which everything but the Harris map is computed.",
+    Quantity("gear_torque", "Torque on the gear", "N m").defined_as(
+        "Torque at which everything but the Harris map is computed."
+    ),
+    Quantity("loaded_transmission_error_mean", "Loaded transmission error, mean", "µm").defined_as(
+        "Mean over the mesh cycle of r_p θ_p − r_g θ_g in slow rotation under load."
     ),
     Quantity(
-        "loaded_transmission_error_mean",
-        "Loaded transmission error, mean",
-        "µm",
-        definition="Mean over the mesh cycle of r_p θ_p − r_g θ_g in slow rotation under load.",
-    ),
-    Quantity(
-        "loaded_transmission_error_peak_to_peak",
-        "Loaded transmission error, peak to peak",
-        "µm",
-        definition="Maximum less minimum of r_p θ_p − r_g θ_g in slow rotation under load.",
-    ),
+        "loaded_transmission_error_peak_to_peak", "Loaded transmission error, peak to peak", "µm"
+    ).defined_as("Maximum less minimum of r_p θ_p − r_g θ_g in slow rotation under load."),
     Quantity(
         "unloaded_transmission_error_peak_to_peak",
         "Unloaded transmission error, peak to peak",
         "µm",
         ".3g",
-        "Maximum less minimum of r_p θ_p − r_g θ_g without load: that of modified or erroneous flanks.",
         below="Unloaded, peak to peak",
+    ).defined_as(
+        "Maximum less minimum of r_p θ_p − r_g θ_g without load: that of modified or erroneous flanks."
     ),
-    Quantity(
-        "least_peak_to_peak",
-        "Minimum peak to peak of all torques",
-        "µm",
-        definition="Minimum over the torques of the Harris map.",
+    Quantity("least_peak_to_peak", "Minimum peak to peak of all torques", "µm").defined_as(
+        "Minimum over the torques of the Harris map."
     ),
     Quantity(
         "least_peak_to_peak_torque",
         "Torque of the minimum peak to peak",
         "N m",
-        definition="Torque on the gear at that minimum.",
         below="at a torque on the gear of",
+    ).defined_as("Torque on the gear at that minimum."),
+    Quantity("line_load_max", "Maximum line load", "N/mm").defined_as(
+        "Maximum normal load per face width, over pairs, face and mesh cycle."
     ),
-    Quantity(
-        "line_load_max",
-        "Maximum line load",
-        "N/mm",
-        definition="Maximum normal load per face width, over pairs, face and mesh cycle.",
+    Quantity("face_load_factor", "Face load factor", digits=".3f", symbol="K_Hβ").defined_as(
+        "Maximum over mean line load along the face, where the line load is at its maximum; ISO 6336-1 "
+        "estimates the same ratio."
     ),
-    Quantity(
-        "face_load_factor",
-        "Face load factor",
-        digits=".3f",
-        definition="Maximum over mean line load along the face, where the line load is at its maximum; "
-        "ISO 6336-1 estimates the same ratio.",
-        symbol="K_Hβ",
+    Quantity("face_load_factor_pitch_point", "Face load factor at the pitch point", digits=".3f").defined_as(
+        "The same where a pair is at the pitch point."
     ),
-    Quantity(
-        "face_load_factor_pitch_point",
-        "Face load factor at the pitch point",
-        digits=".3f",
-        definition="The same where a pair is at the pitch point.",
+    Quantity("pinion_root_tension_max", "Maximum root tension, pinion", "MPa").defined_as(
+        "Maximum surface stress in the pinion's fillet on the loaded side, over face and mesh cycle in slow "
+        "rotation."
     ),
-    Quantity(
-        "pinion_root_tension_max",
-        "Maximum root tension, pinion",
-        "MPa",
-        definition="Maximum surface stress in the pinion's fillet on the loaded side, over face and mesh "
-        "cycle in slow rotation.",
+    Quantity("gear_root_tension_max", "Maximum root tension, gear", "MPa").defined_as(
+        "The same of the gear."
     ),
-    Quantity(
-        "gear_root_tension_max",
-        "Maximum root tension, gear",
-        "MPa",
-        definition="The same of the gear.",
+    Quantity("pinion_root_compression_max", "Maximum root compression, pinion", "MPa").defined_as(
+        "Minimum surface stress in the pinion's fillet on the other side; negative: compression."
     ),
-    Quantity(
-        "pinion_root_compression_max",
-        "Maximum root compression, pinion",
-        "MPa",
-        definition="Minimum surface stress in the pinion's fillet on the other side; negative: compression.",
+    Quantity("gear_root_compression_max", "Maximum root compression, gear", "MPa").defined_as(
+        "The same of the gear."
     ),
-    Quantity(
-        "gear_root_compression_max",
-        "Maximum root compression, gear",
-        "MPa",
-        definition="The same of the gear.",
-    ),
-    Quantity(
-        "torque_residual",
-        "Residual of the torque",
-        digits=".1e",
-        definition="Torque of the loads over the gear's torque, less 1; its largest magnitude.",
+    Quantity("torque_residual", "Residual of the torque", digits=".1e").defined_as(
+        "Torque of the loads over the gear's torque, less 1; its largest magnitude."
     ),
 )
 ASSESSMENT = (
-    Quantity(
-        "transverse_load_factor",
-        "Transverse load factor",
-        digits=".3f",
-        definition="Maximum load of a tooth while two pairs or more are on their path, with a base pitch "
-        "deviation f_pb − y_α of one tooth, over the same of accurate teeth.",
-        symbol="K_Hα",
+    Quantity("transverse_load_factor", "Transverse load factor", digits=".3f", symbol="K_Hα").defined_as(
+        "Maximum load of a tooth while two pairs or more are on their path, with a base pitch deviation f_pb "
+        "− y_α of one tooth, over the same of accurate teeth."
     ),
     Quantity(
         "transverse_load_factor_method_b",
         "Transverse load factor by ISO 6336-1, method B,",
         digits=".3f",
-        definition="By the formulas of the standard, with the same deviation.",
         symbol="K_Hα",
         below="by ISO 6336-1, method B",
-    ),
+    ).defined_as("By the formulas of the standard, with the same deviation."),
     Quantity(
         "dynamic_factor_max",
         "Maximum dynamic factor over the speeds",
         digits=".3f",
-        definition="Maximum of the same over all speeds of the assessment.",
         below="Maximum over the speeds",
-    ),
+    ).defined_as("Maximum of the same over all speeds of the assessment."),
     Quantity(
         "dynamic_factor_max_speed",
         "Pinion speed of the maximum dynamic factor",
         "rpm",
         ".0f",
-        "Speed of the pinion at that maximum.",
         below="at a pinion speed of",
+    ).defined_as("Speed of the pinion at that maximum."),
+    Quantity("contact_loss_speed_from", "Contact is lost from", "rpm", ".0f").defined_as(
+        "Lowest speed of the pinion at which no pair carries load for part of the time."
     ),
-    Quantity(
-        "contact_loss_speed_from",
-        "Contact is lost from",
-        "rpm",
-        ".0f",
-        "Lowest speed of the pinion at which no pair carries load for part of the time.",
+    Quantity("contact_loss_speed_to", "Contact is lost up to", "rpm", ".0f").defined_as(
+        "The highest of these speeds."
     ),
-    Quantity("contact_loss_speed_to", "Contact is lost up to", "rpm", ".0f", "The highest of these speeds."),
-    Quantity(
-        "specific_film_min",
-        "Minimum specific film",
-        digits=".3g",
-        definition="Film over Ra by ISO/TS 6336-22, method A, with the simulation's pressures.",
-        symbol="λ_GF",
+    Quantity("specific_film_min", "Minimum specific film", digits=".3g", symbol="λ_GF").defined_as(
+        "Film over Ra by ISO/TS 6336-22, method A, with the simulation's pressures."
     ),
     Quantity(
         "efficiency_lowest",
         "Lowest efficiency of all friction laws",
         "%",
         ".3f",
-        "Lowest of all friction laws of the assessment.",
         below="by the other friction laws, from",
-    ),
+    ).defined_as("Lowest of all friction laws of the assessment."),
     Quantity(
-        "efficiency_highest",
-        "Highest efficiency of all friction laws",
-        "%",
-        ".3f",
-        "Highest of all of them.",
-        below="to",
+        "efficiency_highest", "Highest efficiency of all friction laws", "%", ".3f", below="to"
+    ).defined_as("Highest of all of them."),
+    Quantity("loss", "Loss to friction", "W", ".1f").defined_as("Mean power of tooth friction."),
+    Quantity("loss_by_law", "Loss by friction law", "W", ".4g").defined_as(
+        "Of every friction law of the assessment."
     ),
-    Quantity("loss", "Loss to friction", "W", ".1f", "Mean power of tooth friction."),
-    Quantity("loss_by_law", "Loss by friction law", "W", ".4g", "Of every friction law of the assessment."),
-    Quantity("loss_lowest", "Lowest loss of all friction laws", "W", ".4g", "Minimum of them."),
-    Quantity("loss_highest", "Highest loss of all friction laws", "W", ".4g", "Maximum of them."),
-    Quantity("pinion_speed", "Speed of the pinion", "rpm", ".5g", "Of the duty."),
-    Quantity("point_angles", "Roll angles of the points A to E", "°", definition="From the pitch point."),
+    Quantity("loss_lowest", "Lowest loss of all friction laws", "W", ".4g").defined_as("Minimum of them."),
+    Quantity("loss_highest", "Highest loss of all friction laws", "W", ".4g").defined_as("Maximum of them."),
+    Quantity("pinion_speed", "Speed of the pinion", "rpm", ".5g").defined_as("Of the duty."),
+    Quantity("point_angles", "Roll angles of the points A to E", "°").defined_as("From the pitch point."),
 )
 #: By the names of the standards; temperatures are in °C there.
 STANDARDS = (

@@ -1,4 +1,4 @@
-"""What one reported number is: its name, unit and meaning, and how it is shown."""
+"""What one reported number is: its name, unit and meaning, and how it is shown; units of parameters."""
 
 import math
 from collections.abc import Mapping
@@ -28,28 +28,22 @@ SHOWN: dict[str, tuple[str, float, float]] = {
 
 
 class Quantity(NamedTuple):
-    """A number that studies report, in SI units wherever it is kept.
+    """A number that studies report, in SI units wherever it is kept."""
 
-    Attributes
-    ----------
-    name : in summaries, sweeps, searches and JSON
-    label : what a person calls it
-    unit : in which it is shown: one of `SHOWN`, or any SI unit
-    digits : format of the number shown
-    definition : what it is, over which part of the run, of which pairs, by what formula
-    symbol : beside the label
-    below : its label in a table directly below the quantity to which it belongs: "at the frequency"
-    listed : whether an array is a list to be shown in its order; else its entries belong to pairs
-    """
+    name: str  # in summaries, sweeps, searches and JSON
+    label: str  # what a person calls it
+    unit: str = ""  # in which it is shown: one of `SHOWN`, or any SI unit
+    digits: str = ".4g"  # format of the number shown
+    definition: str = ""  # what it is, over which part of the run, of which pairs, by what formula
+    symbol: str = ""  # beside the label
+    below: str = (
+        ""  # its label in a table directly below the quantity to which it belongs: "at the frequency"
+    )
+    listed: bool = False  # whether an array is a list to be shown in its order; else its entries are of pairs
 
-    name: str
-    label: str
-    unit: str = ""
-    digits: str = ".4g"
-    definition: str = ""
-    symbol: str = ""
-    below: str = ""
-    listed: bool = False
+    def defined_as(self, definition: str) -> "Quantity":
+        """The same with a definition, which a table of quantities has in a line of its own."""
+        return self._replace(definition=definition)
 
     @property
     def si(self) -> str:

@@ -3,290 +3,162 @@
 from tribodyn.quantities.quantity import Quantity
 
 SOLVED_CONTACT = (
-    Quantity(
-        "central_film_min",
-        "Central film, minimum",
-        "µm",
-        ".3g",
-        "Minimum along the way of the solved mean gap on the line of centres.",
+    Quantity("central_film_min", "Central film, minimum", "µm", ".3g").defined_as(
+        "Minimum along the way of the solved mean gap on the line of centres."
+    ),
+    Quantity("minimum_film_min", "Minimum film, minimum", "µm", ".3g").defined_as(
+        "Minimum along the way of the solved minimum gap."
+    ),
+    Quantity("asperity_load_ratio_max", "Load share of the asperities, maximum", "%", ".3g").defined_as(
+        "Maximum along the way."
+    ),
+    Quantity("temperature_rise_max", "Temperature rise of the oil, maximum", "K", ".3g").defined_as(
+        "Mean over the film, maximum over the contact and the way."
+    ),
+    Quantity("pressure_max", "Pressure, maximum", "GPa", ".3g").defined_as(
+        "Of the solved contact, at the places recorded."
+    ),
+    Quantity("positions_solved", "Positions solved", digits="d").defined_as(
+        "Positions at which the contact was solved."
     ),
     Quantity(
-        "minimum_film_min",
-        "Minimum film, minimum",
-        "µm",
-        ".3g",
-        "Minimum along the way of the solved minimum gap.",
+        "central_film_departure_max", "Departure of transient from steady film, maximum", "%", ".3g"
+    ).defined_as(
+        "Amount of the central film with squeeze over the steady one, less one; maximum along the way."
     ),
     Quantity(
-        "asperity_load_ratio_max",
-        "Load share of the asperities, maximum",
-        "%",
-        ".3g",
-        "Maximum along the way.",
+        "central_film_departure_mean", "Departure of transient from steady film, mean", "%", ".3g"
+    ).defined_as("Mean of the same."),
+    Quantity(
+        "minimum_film_departure_max", "Departure of transient from steady minimum film, maximum", "%", ".3g"
+    ).defined_as("The same of the minimum film."),
+    Quantity("transient_minimum_film_min", "Minimum film with squeeze, minimum", "µm", ".3g").defined_as(
+        "Minimum along the way of the minimum gap with squeeze."
     ),
     Quantity(
-        "temperature_rise_max",
-        "Temperature rise of the oil, maximum",
-        "K",
-        ".3g",
-        "Mean over the film, maximum over the contact and the way.",
-    ),
-    Quantity(
-        "pressure_max", "Pressure, maximum", "GPa", ".3g", "Of the solved contact, at the places recorded."
-    ),
-    Quantity(
-        "positions_solved",
-        "Positions solved",
-        digits="d",
-        definition="Positions at which the contact was solved.",
-    ),
-    Quantity(
-        "central_film_departure_max",
-        "Departure of transient from steady film, maximum",
-        "%",
-        ".3g",
-        "Amount of the central film with squeeze over the steady one, less one; maximum along the way.",
-    ),
-    Quantity(
-        "central_film_departure_mean",
-        "Departure of transient from steady film, mean",
-        "%",
-        ".3g",
-        "Mean of the same.",
-    ),
-    Quantity(
-        "minimum_film_departure_max",
-        "Departure of transient from steady minimum film, maximum",
-        "%",
-        ".3g",
-        "The same of the minimum film.",
-    ),
-    Quantity(
-        "transient_minimum_film_min",
-        "Minimum film with squeeze, minimum",
-        "µm",
-        ".3g",
-        "Minimum along the way of the minimum gap with squeeze.",
-    ),
-    Quantity(
-        "transient_friction_coefficient_mean",
-        "Friction coefficient with squeeze, mean",
-        digits=".4f",
-        definition="Mean along the way, weighted by load and sliding speed.",
-    ),
-    Quantity(
-        "transient_positions_solved",
-        "Positions solved with squeeze",
-        digits="d",
-        definition="Positions that the film was carried through.",
+        "transient_friction_coefficient_mean", "Friction coefficient with squeeze, mean", digits=".4f"
+    ).defined_as("Mean along the way, weighted by load and sliding speed."),
+    Quantity("transient_positions_solved", "Positions solved with squeeze", digits="d").defined_as(
+        "Positions that the film was carried through."
     ),
 )
 
 
 ROLLING = (
-    Quantity(
-        "ratio",
-        "Ratio of input to cam, which turns the other way",
-        definition="Speed of the input over that of the cam.",
+    Quantity("ratio", "Ratio of input to cam, which turns the other way").defined_as(
+        "Speed of the input over that of the cam."
+    ),
+    Quantity("eccentricity", "Eccentricity", "mm").defined_as(
+        "Distance of the cage's axis from that of the shaft."
+    ),
+    Quantity("elements_loaded_min", "Loaded elements, at least", digits="d").defined_as(
+        "Minimum over the run of the number of elements under load."
+    ),
+    Quantity("elements_loaded_max", "Loaded elements, at most", digits="d").defined_as(
+        "Maximum over the run of the number of elements under load."
+    ),
+    Quantity("output_torque_mean", "Torque on the load, mean", "N m").defined_as(
+        "Mean torque that the cam gives to the load."
+    ),
+    Quantity("output_torque_peak_to_peak", "Torque on the load, peak to peak", "N m", ".3g").defined_as(
+        "Maximum less minimum of the same."
+    ),
+    Quantity("slip_speed_max", "Maximum slip over the cam", "mm/s").defined_as(
+        "Maximum speed of an element's surface over that of the cam."
+    ),
+    Quantity("spin_speed_max", "Maximum rotation of an element in the cage", "rad/s").defined_as(
+        "Maximum rotation of an element relative to the cage."
+    ),
+    Quantity("power_cam_mean", "Loss at the cam, mean", "W", ".3g", below="of it at the cam").defined_as(
+        "Part of the loss that slip between elements and cam takes."
     ),
     Quantity(
-        "eccentricity",
-        "Eccentricity",
-        "mm",
-        definition="Distance of the cage's axis from that of the shaft.",
-    ),
-    Quantity(
-        "elements_loaded_min",
-        "Loaded elements, at least",
-        digits="d",
-        definition="Minimum over the run of the number of elements under load.",
-    ),
-    Quantity(
-        "elements_loaded_max",
-        "Loaded elements, at most",
-        digits="d",
-        definition="Maximum over the run of the number of elements under load.",
-    ),
-    Quantity(
-        "output_torque_mean",
-        "Torque on the load, mean",
-        "N m",
-        definition="Mean torque that the cam gives to the load.",
-    ),
-    Quantity(
-        "output_torque_peak_to_peak",
-        "Torque on the load, peak to peak",
-        "N m",
-        ".3g",
-        "Maximum less minimum of the same.",
-    ),
-    Quantity(
-        "slip_speed_max",
-        "Maximum slip over the cam",
-        "mm/s",
-        definition="Maximum speed of an element's surface over that of the cam.",
-    ),
-    Quantity(
-        "spin_speed_max",
-        "Maximum rotation of an element in the cage",
-        "rad/s",
-        definition="Maximum rotation of an element relative to the cage.",
-    ),
-    Quantity(
-        "power_cam_mean",
-        "Loss at the cam, mean",
-        "W",
-        ".3g",
-        "Part of the loss that slip between elements and cam takes.",
-        below="of it at the cam",
-    ),
-    Quantity(
-        "power_crown_mean",
-        "Loss at the crown, mean",
-        "W",
-        ".3g",
-        "Part of the loss that rolling on the crown takes.",
-        below="of it at the crown",
-    ),
-    Quantity(
-        "efficiency_by_energy",
-        "Efficiency by energy",
-        "%",
-        ".3f",
+        "power_crown_mean", "Loss at the crown, mean", "W", ".3g", below="of it at the crown"
+    ).defined_as("Part of the loss that rolling on the crown takes."),
+    Quantity("efficiency_by_energy", "Efficiency by energy", "%", ".3f").defined_as(
         "Power out over power in; in the mode as_published the efficiency itself is the product (23) of the "
-        "paper.",
+        "paper."
     ),
 )
 
 
 OSCILLATOR = (
-    Quantity(
-        "points",
-        "Points, up and down",
-        digits="d",
-        definition="Motions that were sought: every frequency on the way up and on the way down.",
+    Quantity("points", "Points, up and down", digits="d").defined_as(
+        "Motions that were sought: every frequency on the way up and on the way down."
     ),
     Quantity(
         "points_of_longer_period",
         "Points with a longer period than the excitation's",
         digits="d",
-        definition="Points whose motion repeats after several periods of the excitation.",
         below="with a longer period than the excitation's",
+    ).defined_as("Points whose motion repeats after several periods of the excitation."),
+    Quantity(
+        "points_not_periodic", "Points that are not periodic", digits="d", below="not periodic"
+    ).defined_as("Points without a stable periodic motion of up to the longest period that is sought."),
+    Quantity(
+        "points_quasi_periodic", "Quasi-periodic points", digits="d", below="of these quasi-periodic"
+    ).defined_as(
+        "Points with a second frequency that no multiple of the excitation's meets; Lyapunov exponent zero."
+    ),
+    Quantity("points_chaotic", "Chaotic points", digits="d", below="of these chaotic").defined_as(
+        "Points with a positive Lyapunov exponent."
     ),
     Quantity(
-        "points_not_periodic",
-        "Points that are not periodic",
-        digits="d",
-        definition="Points without a stable periodic motion of up to the longest period that is sought.",
-        below="not periodic",
+        "points_failed", "Points grown without bound", digits="d", below="grown without bound"
+    ).defined_as("Points whose motion grew without bound."),
+    Quantity("rms_max", "Maximum RMS about the mean, in half backlashes").defined_as(
+        "Maximum over all points of the root mean square of the displacement about its mean."
     ),
-    Quantity(
-        "points_quasi_periodic",
-        "Quasi-periodic points",
-        digits="d",
-        definition="Points with a second frequency that no multiple of the excitation's meets; Lyapunov "
-        "exponent zero.",
-        below="of these quasi-periodic",
+    Quantity("rms_max_frequency", "Frequency of the maximum RMS", below="at the frequency").defined_as(
+        "Frequency of that point over the natural frequency of the oscillator in contact."
     ),
-    Quantity(
-        "points_chaotic",
-        "Chaotic points",
-        digits="d",
-        definition="Points with a positive Lyapunov exponent.",
-        below="of these chaotic",
+    Quantity("contact_loss_from", "Contact is lost from the frequency").defined_as(
+        "Lowest frequency at which contact is lost for part of the period."
     ),
-    Quantity(
-        "points_failed",
-        "Points grown without bound",
-        digits="d",
-        definition="Points whose motion grew without bound.",
-        below="grown without bound",
-    ),
-    Quantity(
-        "rms_max",
-        "Maximum RMS about the mean, in half backlashes",
-        definition="Maximum over all points of the root mean square of the displacement about its mean.",
-    ),
-    Quantity(
-        "rms_max_frequency",
-        "Frequency of the maximum RMS",
-        definition="Frequency of that point over the natural frequency of the oscillator in contact.",
-        below="at the frequency",
-    ),
-    Quantity(
-        "contact_loss_from",
-        "Contact is lost from the frequency",
-        definition="Lowest frequency at which contact is lost for part of the period.",
-    ),
-    Quantity(
-        "contact_loss_to",
-        "Contact is lost to the frequency",
-        definition="Highest frequency at which contact is lost for part of the period.",
-        below="to the frequency",
+    Quantity("contact_loss_to", "Contact is lost to the frequency", below="to the frequency").defined_as(
+        "Highest frequency at which contact is lost for part of the period."
     ),
     Quantity(
         "contact_loss_fraction_max",
         "Maximum share of the time without contact",
         "%",
         ".3g",
-        "Maximum over all points of the share of the period without contact.",
         below="for at most this share of the time",
+    ).defined_as("Maximum over all points of the share of the period without contact."),
+    Quantity("back_contact_fraction_max", "Contact on the back side, at most", "%", ".3g").defined_as(
+        "Maximum over all points of the share of the period in contact on the back side."
     ),
-    Quantity(
-        "back_contact_fraction_max",
-        "Contact on the back side, at most",
-        "%",
-        ".3g",
-        "Maximum over all points of the share of the period in contact on the back side.",
+    Quantity("bistable_from", "Up and down differ from the frequency").defined_as(
+        "Lowest frequency at which the ways up and down end in different motions."
     ),
-    Quantity(
-        "bistable_from",
-        "Up and down differ from the frequency",
-        definition="Lowest frequency at which the ways up and down end in different motions.",
-    ),
-    Quantity(
-        "bistable_to",
-        "Up and down differ to the frequency",
-        definition="Highest frequency at which the ways up and down end in different motions.",
-        below="to the frequency",
+    Quantity("bistable_to", "Up and down differ to the frequency", below="to the frequency").defined_as(
+        "Highest frequency at which the ways up and down end in different motions."
     ),
 )
 
 
 COMPUTATION = (
-    Quantity("solver", "Method", definition="Method of integration, chosen or by solver.method."),
-    Quantity("steps", "Steps", digits=",d", definition="Steps of the integration."),
-    Quantity(
-        "rhs_evaluations",
-        "Right-hand sides",
-        digits=",d",
-        definition="Evaluations of the equations of motion.",
+    Quantity("solver", "Method").defined_as("Method of integration, chosen or by solver.method."),
+    Quantity("steps", "Steps", digits=",d").defined_as("Steps of the integration."),
+    Quantity("rhs_evaluations", "Right-hand sides", digits=",d").defined_as(
+        "Evaluations of the equations of motion."
     ),
-    Quantity(
-        "wall_time",
-        "Wall time",
-        "s",
-        ".3g",
-        "Time that the computation took, without start and drawing.",
+    Quantity("wall_time", "Wall time", "s", ".3g").defined_as(
+        "Time that the computation took, without start and drawing."
     ),
-    Quantity("objective_name", "Objective", definition="Quantity, or sum of quantities, that was sought."),
-    Quantity("objective", "Objective at the best", definition="In SI units of its own."),
-    Quantity("objective_start", "Objective at the start", definition="In SI units of its own."),
-    Quantity("method", "Method", definition="Method of the search, see method_reason in the summary."),
-    Quantity("evaluations", "Evaluations", digits=",d", definition="Candidates that were evaluated."),
+    Quantity("objective_name", "Objective").defined_as("Quantity, or sum of quantities, that was sought."),
+    Quantity("objective", "Objective at the best").defined_as("In SI units of its own."),
+    Quantity("objective_start", "Objective at the start").defined_as("In SI units of its own."),
+    Quantity("method", "Method").defined_as("Method of the search, see method_reason in the summary."),
+    Quantity("evaluations", "Evaluations", digits=",d").defined_as("Candidates that were evaluated."),
     Quantity(
-        "evaluations_feasible",
-        "Feasible evaluations",
-        digits=",d",
-        definition="Candidates that satisfy all constraints.",
-        below="of these feasible",
-    ),
+        "evaluations_feasible", "Feasible evaluations", digits=",d", below="of these feasible"
+    ).defined_as("Candidates that satisfy all constraints."),
     Quantity(
         "evaluations_without_figures",
         "Evaluations without quantities",
         digits=",d",
-        definition="Candidates that cannot be made, or for which no state was found; `message` says why.",
         below="of these without quantities",
-    ),
+    ).defined_as("Candidates that cannot be made, or for which no state was found; `message` says why."),
 )
 QUANTITIES = (*SOLVED_CONTACT, *ROLLING, *OSCILLATOR, *COMPUTATION)
