@@ -1,8 +1,8 @@
 """Whether a result lies within what its model assumes; if not, what is outside, how far, where, how long.
 
-One table of rules for all studies (`trust_rules.RULES`). A study hands over those of the quantities that it
-has, as they are sampled, to a `Judge`, and puts what that says into its summary. Writers copy it to the root
-of a record, and reports take it from there. A result outside the model is complete, but not to be trusted.
+One table of rules for all studies (`RULES`). A study hands over those of the quantities that it has, as they
+are sampled, to a `Judge`, and puts what that says into its summary. Writers copy it to the root of a record,
+and reports take it from there. A result outside the model is complete, but not to be trusted.
 """
 
 import math
@@ -11,8 +11,87 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.record.trust_rules import RULES, Rule
 
+class Rule(NamedTuple):
+    """What a model assumes of a quantity."""
+
+    label: str  # the quantity in words
+    most: float  # above it a result lies outside the model; SI
+    units: str
+    least: float = -math.inf  # below it likewise
+    #: factor, unit, offset: from SI to what is shown, value · factor + offset, and the unit of that
+    factor: float = 1.0
+    unit: str = ""
+    offset: float = 0.0
+    extrapolates: bool = (
+        False  # whether a result beyond the limit is extrapolated only, not outside the model
+    )
+
+    def outside(self, values: np.ndarray) -> np.ndarray:
+        """Where values are outside; NaN is not."""
+        return (values > self.most) | (values < self.least)
+
+    def beyond(self, values: np.ndarray) -> np.ndarray:
+        """How far values are beyond the limit that they come nearest to, below 0 inside."""
+        return np.maximum(values - self.most, self.least - values)
+
+    def limit(self, value: float) -> float:
+        """The limit that a value is beyond."""
+        return self.least if value < self.least else self.most
+
+    def shown(self, value: float) -> str:
+        """A value as it is read."""
+        return f"{value * self.factor + self.offset:.4g}{' ' if self.unit else ''}{self.unit}"
+
+    def short(self, value: float) -> str:
+        """The quantity and the limit that a value is beyond."""
+        side = "below" if value < self.least else "above"
+        return f"{self.label} {side} {self.shown(self.limit(value))}"
+
+
+RULES: dict[str, Rule] = {
+    # Stiffness and path of contact are those of teeth that keep their form; a tenth of the module is ten
+    # times what gears are designed for, and bends them beyond any yield strength.
+    "deflection": Rule("deflection of a pair of teeth over the module", 0.1, "1", factor=100.0, unit="%"),
+    # No lubricated contact has more; regressions extrapolated give it.
+    "friction_coefficient": Rule("friction coefficient", 1.0, "1"),
+    # Case-hardened steel yields under its surface at about 3 GPa and shakes down to no more than 4; the
+    # elastic half space says nothing of it.
+    "hertz_pressure": Rule("Hertz pressure", 4e9, "Pa", factor=1e-9, unit="GPa"),
+    # Scuffing temperature of case-hardened steel with an oil of the highest failure load stage S = 14:
+    # 80 + 2.25 S² °C (ISO/TS 6336-20, (99)); no oil is known to separate flanks beyond it.
+    "contact_temperature": Rule(
+        "contact temperature", 80.0 + 2.25 * 14**2 + 273.15, "K", unit="°C", offset=-273.15
+    ),
+    # The same where the temperature of the oil is not known: teeth are warmer than 20 °C.
+    "flash_temperature": Rule("flash temperature rise", 500.0, "K", unit="K"),
+    # Films of gears are 0.01 to 3 µm thick, and heat of the inlet and want of oil thin those of cold oil; a
+    # thickness ten times that, at the thinnest place, is a regression extrapolated.
+    "film_thickness": Rule("minimum film thickness", 20e-6, "m", factor=1e6, unit="µm"),
+    # Above 3 a film separates the flanks; 100 takes polished teeth of 0.03 µm under the thickest film.
+    "film_parameter": Rule("minimum film parameter", 100.0, "1"),
+    # A share of a power; outside, a force makes power that no source gives.
+    "efficiency": Rule("efficiency", 1.0 + 1e-12, "1", least=-1e-12, factor=100.0, unit="%"),
+    # Works are integrated with the motion and close within some ten times the tolerance.
+    "energy_residual": Rule("residual of the energy balance over solver.rtol", 100.0, "1"),
+    # Tips would touch the roots of the mate; the path of contact is that of fixed centres.
+    "bearing_displacement": Rule(
+        "displacement of a gear in its bearings over the tip clearance", 1.0, "1", factor=100.0, unit="%"
+    ),
+    # A law that is nowhere used where it was fitted is a guess; one that leaves its range in a part of the
+    # contact is a remark.
+    **{
+        f"{law}_law_range": Rule(
+            f"share of the contact in which the {law} law is outside its range",
+            0.99,
+            "1",
+            factor=100.0,
+            unit="%",
+            extrapolates=True,
+        )
+        for law in ("film", "friction")
+    },
+}
 #: Names in a summary, and of attributes of a record: the verdict, and the reasons by name of the rule.
 TRUST, REASONS = "trust", "trust_reasons"
 #: The verdicts. Without one nothing was judged: a study without such quantities, or a record of 0.1.0.
@@ -21,17 +100,6 @@ INSIDE, OUTSIDE, EXTRAPOLATED = "inside the model", "outside the model", "laws e
 #: The same as numbers, for the cases of a sweep.
 VERDICTS = {OUTSIDE: 0, INSIDE: 1, EXTRAPOLATED: 2}
 NOT_JUDGED = -1
-
-
-class Excess(NamedTuple):
-    """How a result breaks a rule."""
-
-    #: value, limit: the value that is furthest outside, and the limit; SI
-    value: float
-    limit: float
-    units: str
-    share: float | None  # share of the samples in which the rule is broken; None of a single number
-    places: dict[str, float]  # where the value is: time (s), mesh_cycle, pair, …
 
 
 class Judge:
@@ -79,35 +147,29 @@ class Judge:
                 if known is None or not math.isnan(value):
                     self._worst[name] = value, found
 
-    def excesses(self) -> dict[str, Excess]:
-        """What is outside, by name of the rule, in their order."""
-        found = {}
+    def summary(self) -> dict[str, Any]:
+        """What a summary says: the verdict, and the reasons; nothing where nothing was judged.
+
+        A reason has the value that is furthest outside and the limit, SI, the share of the samples in which
+        the rule is broken (None of a single number), and where the value is: time (s), mesh_cycle, pair, …
+        """
+        if not self._worst:
+            return {}
+        reasons = {}
         for name, rule in RULES.items():
             value, places = self._worst.get(name, (math.nan, {}))
             if rule.outside(np.array(value)):
-                samples = self._samples.get(name)
-                share = self._outside[name] / samples if samples else None
-                found[name] = Excess(value, rule.limit(value), rule.units, share, places)
-        return found
-
-    def figures(self) -> dict[str, Any]:
-        """What a summary says: the verdict, and the reasons; nothing where nothing was judged."""
-        if not self._worst:
-            return {}
-        found = self.excesses()
-        if not found:
+                share = self._outside[name] / self._samples[name] if name in self._samples else None
+                limit = {"value": value, "limit": rule.limit(value), "units": rule.units, "share": share}
+                reasons[name] = limit | places
+        if not reasons:
             return {TRUST: INSIDE}
-        reasons = {
-            name: {key: part for key, part in excess._asdict().items() if key != "places"} | excess.places
-            for name, excess in found.items()
-        }
-        return {TRUST: EXTRAPOLATED if all(RULES[name].extrapolates for name in found) else OUTSIDE} | {
-            REASONS: reasons
-        }
+        extrapolated = all(RULES[name].extrapolates for name in reasons)
+        return {TRUST: EXTRAPOLATED if extrapolated else OUTSIDE, REASONS: reasons}
 
 
 def judge_tribology(judge: Judge, figures: Mapping[str, Any]) -> None:
-    """Judge films by their minimum, and ranges of laws, of a summary's figures.
+    """Judge films by their minimum, and ranges of laws, of a summary.
 
     Not by their maximum: where the load vanishes, laws give a film without bound.
     """
@@ -173,33 +235,27 @@ def _broken(summary: Mapping[str, Any]) -> Iterator[tuple[Rule, Mapping[str, Any
             yield rule, known
 
 
-def _sentence(rule: Rule, known: Mapping[str, Any]) -> str:
-    value, limit = float(known["value"]), float(known["limit"])
-    side = "at least" if value < limit else "at most"
-    sentence = f"{rule.label} {rule.shown(value)}, {side} {rule.shown(limit)}"
-    if known.get("share") is not None:
-        sentence += f", outside {_share(float(known['share']))}"
-    places = [
-        text.format(float(known[name])) if name != "pair" else text.format(int(known[name]))
-        for name, text in _PLACES.items()
-        if known.get(name) is not None
-    ]
-    return f"{sentence}, worst {', '.join(places)}" if places else sentence
-
-
 #: How places are written.
 _PLACES = {
     "time": "at t = {:.4g} s",
     "mesh_cycle": "mesh cycle {:.4g}",
     "phase": "at phase {:.4g}",
-    "pair": "pair {:d}",
+    "pair": "pair {:.0f}",
 }
 
 
-def _share(share: float) -> str:
-    """A share of the samples; none of them where an extreme lies between two."""
-    if share <= 0.0:
-        return "between samples only"
-    return (
-        "in all samples" if share >= 1.0 else f"in {min(max(100.0 * share, 0.01), 99.9):.3g} % of the samples"
-    )
+def _sentence(rule: Rule, known: Mapping[str, Any]) -> str:
+    value, limit = float(known["value"]), float(known["limit"])
+    side = "at least" if value < limit else "at most"
+    sentence = f"{rule.label} {rule.shown(value)}, {side} {rule.shown(limit)}"
+    share = known.get("share")
+    if share is not None and float(share) <= 0.0:  # an extreme that lies between two samples
+        sentence += ", outside between samples only"
+    elif share is not None and float(share) >= 1.0:
+        sentence += ", outside in all samples"
+    elif share is not None:
+        sentence += f", outside in {min(max(100.0 * float(share), 0.01), 99.9):.3g} % of the samples"
+    places = [
+        text.format(float(known[name])) for name, text in _PLACES.items() if known.get(name) is not None
+    ]
+    return f"{sentence}, worst {', '.join(places)}" if places else sentence

@@ -52,7 +52,7 @@ def printed(table) -> str:
 def judged(**quantities):
     judge = Judge()
     judge.take(quantities)
-    return judge.figures()
+    return judge.summary()
 
 
 @pytest.mark.parametrize("name", RULES)
@@ -89,12 +89,12 @@ def test_share_and_place_of_the_worst_value():
     cycles = np.linspace(0.0, 0.9, 10)
     judge.take({"hertz_pressure": pressure}, {"mesh_cycle": cycles, "time": 2 * cycles}, [0, 1])
     judge.take({"hertz_pressure": pressure * 0.5}, {"mesh_cycle": 1 + cycles, "time": 2 + 2 * cycles}, [0, 1])
-    reason = judge.figures()["trust_reasons"]["hertz_pressure"]
+    reason = judge.summary()["trust_reasons"]["hertz_pressure"]
     assert reason["share"] == pytest.approx(2 / 20)
     assert (reason["value"], reason["pair"]) == (5e9, 1)
     assert (reason["mesh_cycle"], reason["time"]) == pytest.approx((0.3, 0.6))
     judge.take({"hertz_pressure": [[6e9, 0.0]]}, {"mesh_cycle": [5.25]}, [0, 1], between_samples=True)
-    figures = judge.figures()
+    figures = judge.summary()
     again = figures["trust_reasons"]["hertz_pressure"]
     assert again["share"] == reason["share"]
     assert (again["value"], again["pair"], again["mesh_cycle"]) == (6e9, 0, 5.25)
@@ -105,7 +105,7 @@ def test_share_and_place_of_the_worst_value():
     alone = Judge()
     alone.take({"hertz_pressure": pressure * 0.5})
     alone.take({"hertz_pressure": [[6e9, 0.0]]}, between_samples=True)
-    assert reasons(alone.figures()) == ["Hertz pressure 6 GPa, at most 4 GPa, outside between samples only"]
+    assert reasons(alone.summary()) == ["Hertz pressure 6 GPa, at most 4 GPa, outside between samples only"]
 
 
 def test_nothing_is_outside_where_nothing_is_known():
@@ -217,13 +217,13 @@ def test_films_are_judged_by_their_minimum_and_ranges_where_laws_have_one():
     }
     judge = Judge()
     judge_tribology(judge, figures)
-    assert set(judge.figures()["trust_reasons"]) == {"film_thickness", "film_parameter", "film_law_range"}
+    assert set(judge.summary()["trust_reasons"]) == {"film_thickness", "film_parameter", "film_law_range"}
     judge = Judge()
     judge_tribology(judge, {"film_min": 1e-6, "friction_in_range_fraction": 0.02})
-    assert judge.figures() == {"trust": INSIDE}
+    assert judge.summary() == {"trust": INSIDE}
     judge = Judge()
     judge_tribology(judge, {})
-    assert judge.figures() == {}
+    assert judge.summary() == {}
 
 
 def test_heat_is_judged_above_the_temperature_that_is_known():

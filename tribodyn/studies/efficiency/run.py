@@ -299,4 +299,4 @@ def _judged(
     judge.take({"efficiency": figures["efficiency"]})
     judge.take(heat_of(figures["flash_temperature_max"], study.case.lubricant.temperature))
     judge_tribology(judge, figures)
-    return judge.figures()
+    return judge.summary()

@@ -198,7 +198,7 @@ def _judged(case: EhlCase, arrays: dict[str, Array], solved: Array) -> dict[str,
     )
     film = np.min(found["minimum_film_thickness"]), np.min(found["film_parameter"])
     judge_tribology(judge, dict(zip(("film_min", "film_parameter_min"), film, strict=True)))
-    return judge.figures()
+    return judge.summary()
 
 
 def _mean_by_loss(arrays: dict[str, Array], values: Array, solved: Array) -> float:

@@ -135,7 +135,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         }
         judge_balance(statistics.judge, summary, case.solver.rtol)
         if stop.reason:
-            summary |= statistics.judge.figures()
+            summary |= statistics.judge.summary()
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
         last = statistics.window()
@@ -154,7 +154,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
         statistics.judge.take({"efficiency": summary["efficiency"]})
         judge_tribology(statistics.judge, summary)
-        summary |= statistics.judge.figures()
+        summary |= statistics.judge.summary()
         return RunResult(record.finish(summary), "complete", "", summary)
 
 

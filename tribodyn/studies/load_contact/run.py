@@ -217,7 +217,7 @@ def _judged(study: PreparedTeeth, loaded: LoadedContact, film: Mapping[str, Any]
     bent = np.abs(loaded.deflection - loaded.unloaded) / study.case.drive.module
     judge.take({"deflection": bent, "hertz_pressure": loaded.pressure}, places, pairs)
     judge_tribology(judge, film)
-    return judge.figures()
+    return judge.summary()
 
 
 def _shared(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, float]:

@@ -182,7 +182,7 @@ class RevolutionStatistics:
         judge = Judge()
         judge.take({"efficiency": efficiency})
         return {
-            **judge.figures(),
+            **judge.summary(),
             "mode": case.mode,
             "ratio": case.drive.ratio,
             "eccentricity": case.drive.eccentricity,

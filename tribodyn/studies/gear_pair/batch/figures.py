@@ -48,7 +48,7 @@ def window_figures(
     judge.take({"efficiency": figures["efficiency"]})
     judge_tribology(judge, figures)
     values = ((quantity.name, figures.get(quantity.name)) for quantity in SWEPT)
-    return {name: float("nan") if value is None else value for name, value in values}, judge.figures()
+    return {name: float("nan") if value is None else value for name, value in values}, judge.summary()
 
 
 def fill_unstable(
