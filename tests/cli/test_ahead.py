@@ -9,14 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.cli import ahead
+from tribodyn.cli import pictures
 
 RUN = """
 import json, sys
-import tribodyn.cli.ahead as ahead
+import tribodyn.cli.pictures as pictures
 from tribodyn.cli import main
 if "broken" in sys.argv:
-    ahead.TARGET = ("builtins:exec", sys.argv.pop())
+    pictures.TARGET = ("builtins:exec", sys.argv.pop())
     sys.argv.pop()
 sys.argv = ["tribodyn", "run", "irefc", "--set", "output.samples_per_cycle=8", "--json", *sys.argv[1:]]
 try:
@@ -48,7 +48,7 @@ def test_the_overview_is_drawn_by_another_process_as_by_its_own(tmp_path):
 def test_it_ends_with_the_process_that_began_it(monkeypatch):
     """A command that fails before it has anything to draw leaves nothing behind."""
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
-    ahead.begin(("run", "no-such-scenario"))
-    process = ahead._begun.pop()._process
+    pictures.begin(("run", "no-such-scenario"))
+    process = pictures._begun.pop()._process
     said, _ = process.communicate(timeout=300)  # closes its input, as the end of this process would
     assert (said, process.returncode) == (b"", -signal.SIGKILL)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.cli import completion
+from tribodyn.cli import options
 from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies import STUDIES
 
@@ -63,11 +63,11 @@ def files(tmp_path, monkeypatch):
 
 
 def test_every_sort_of_word_has_its_own_names(files):
-    assert completion.kinds("") == list(STUDIES)
-    assert all(find_scenario(name).exists() for name in completion.scenarios(""))
-    assert {"liu-ni-crc-23-47", "crc-23-47", "a.toml"} <= set(completion.drives(""))
-    assert completion.papers("jia") == ["jia-2022"]
-    assert {"a.h5", "a.toml"} <= set(completion.scenarios_and_records("a"))
-    assert completion.records_and_plots("a") == ["a.h5", "all"]
-    assert completion.records_and_plots("sub/") == ["sub/b.h5"]
-    assert completion.records_and_plots("wat") == ["waterfall"]
+    assert options.kinds("") == list(STUDIES)
+    assert all(find_scenario(name).exists() for name in options.scenarios(""))
+    assert {"liu-ni-crc-23-47", "crc-23-47", "a.toml"} <= set(options.drives(""))
+    assert options.papers("jia") == ["jia-2022"]
+    assert {"a.h5", "a.toml"} <= set(options.scenarios_and_records("a"))
+    assert options.records_and_plots("a") == ["a.h5", "all"]
+    assert options.records_and_plots("sub/") == ["sub/b.h5"]
+    assert options.records_and_plots("wat") == ["waterfall"]

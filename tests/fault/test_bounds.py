@@ -8,9 +8,17 @@ import pytest
 
 from tests.support.work import at_most
 from tribodyn.errors import InputError
-from tribodyn.scenario import bounds
-from tribodyn.scenario.bounds import DEEPEST, MOST_CSV, MOST_POINTS, MOST_TOML, TooMuch, parsed
-from tribodyn.scenario.sources import read_curve, read_toml
+from tribodyn.scenario import sources
+from tribodyn.scenario.sources import (
+    DEEPEST,
+    MOST_CSV,
+    MOST_POINTS,
+    MOST_TOML,
+    TooMuch,
+    parsed,
+    read_curve,
+    read_toml,
+)
 from tribodyn.scenario.unit_grammar import is_unit
 from tribodyn.scenario.units import ANGULAR_SPEED, LENGTH, TIME, NotAQuantity, factor_to_si, to_si
 from tribodyn.studies.protocol.load import load_scenario
@@ -102,7 +110,7 @@ def test_files_that_are_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     path.write_text("time [s]\n" + "1\n" * 4, encoding="utf-8")
     with pytest.raises(InputError, match="line 5: more than 3 points"):
         read_curve(path, "key", ["time"])
-    assert MOST_POINTS == bounds.MOST_POINTS > 10_000
+    assert MOST_POINTS == sources.MOST_POINTS > 10_000
 
 
 CURVES = {

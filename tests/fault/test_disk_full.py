@@ -13,7 +13,7 @@ import pytest
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.errors import OutputError
 from tribodyn.numerics import cache
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.record import disk
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord

@@ -104,7 +104,7 @@ def test_a_scenario_a_sweep_and_a_search(tmp_path: Path, forked: ForkedVerbs):
     processes = started.read_text(encoding="utf-8")
     assert "tribodyn.record.lookout:serve" in processes
     if usable_cores() > 1:
-        assert "tribodyn.cli.ahead:serve" in processes
+        assert "tribodyn.cli.pictures:serve" in processes
         assert "tribodyn.studies.design.candidates.evaluation:serve" in processes
         assert (there / "run-overview.png").exists()
     for words in VERBS[:3]:

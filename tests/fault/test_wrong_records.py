@@ -21,7 +21,7 @@ from tests.support.short_studies import ShortRuns
 from tests.support.wrong_records import changed, changes, drawn
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.post.report import as_json
 from tribodyn.post.style import house_style
 from tribodyn.post.sweep_report import sweep_as_json

@@ -5,7 +5,7 @@ def main() -> None:
     """Run the command line; the entry point of the `tribodyn` command."""
     import sys
 
-    from tribodyn.cli.signals import end_when_asked, message_of, status_of
+    from tribodyn.cli.outcome import end_when_asked, message_of, status_of
 
     end_when_asked()
     try:
@@ -35,7 +35,7 @@ def _main() -> None:
     # pydantic would look through all that is installed for plugins of its own
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     if sys.argv[1:2] == ["run"]:
-        from tribodyn.cli.ahead import begin
+        from tribodyn.cli.pictures import begin
 
         begin(sys.argv[1:])
     import tribodyn

@@ -7,20 +7,7 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from tribodyn.cli import (
-    assess,
-    check,
-    compare,
-    gear,
-    init,
-    plot,
-    report,
-    run,
-    schema,
-    show,
-    sweep,
-    validate,
-)
+from tribodyn.cli import assess, check, compare, gear, init, plot, report, run, show, sweep, validate
 from tribodyn.cli import list as list_
 from tribodyn.cli.outcome import verb
 
@@ -68,23 +55,22 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for module in (
-    run,
-    assess,
-    sweep,
-    check,
-    gear,
-    show,
-    plot,
-    report,
-    compare,
-    list_,
-    init,
-    schema,
-    validate,
+for function, examples in (
+    (run.run, run.EXAMPLES),
+    (assess.assess, assess.EXAMPLES),
+    (sweep.sweep, sweep.EXAMPLES),
+    (check.check, check.EXAMPLES),
+    (gear.gear, gear.EXAMPLES),
+    (show.show, show.EXAMPLES),
+    (plot.plot, plot.EXAMPLES),
+    (report.report, report.EXAMPLES),
+    (compare.compare, compare.EXAMPLES),
+    (list_.list, list_.EXAMPLES),
+    (init.init, init.EXAMPLES),
+    (init.schema, init.SCHEMA_EXAMPLE),
+    (validate.validate, validate.EXAMPLES),
 ):
-    function = getattr(module, module.__name__.rpartition(".")[2])
-    app.command(epilog=module.EXAMPLES)(verb(function))
+    app.command(epilog=examples)(verb(function))
 
 
 def _print_version(wanted: bool) -> None:

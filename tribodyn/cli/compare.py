@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from tribodyn.cli import completion
-from tribodyn.cli.options import JsonOption, LargeOption, SetOption, overrides
+from tribodyn.cli.options import JsonOption, LargeOption, SetOption, overrides, scenarios_and_records
 from tribodyn.cli.plot import Format
 from tribodyn.numerics.output_files import make_folder
 
@@ -31,7 +30,7 @@ def compare(
         typer.Argument(
             metavar="A B...",
             help="Records, scenario files, names of scenarios.",
-            autocompletion=completion.scenarios_and_records,
+            autocompletion=scenarios_and_records,
         ),
     ],
     output: Annotated[

@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tribodyn.cli import completion
-from tribodyn.cli.options import JsonOption, ReplaceOption, SetOption, overrides
+from tribodyn.cli.options import JsonOption, ReplaceOption, SetOption, drives, overrides
 from tribodyn.numerics.output_files import make_folder
 
 if TYPE_CHECKING:
@@ -29,7 +28,7 @@ def gear(
         str,
         typer.Argument(
             help="A drive or a scenario: the name of a shipped one, or a file.",
-            autocompletion=completion.drives,
+            autocompletion=drives,
         ),
     ],
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Folder of the drawings.")] = None,

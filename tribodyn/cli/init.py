@@ -1,11 +1,11 @@
-"""`tribodyn init`: a commented scenario to begin with."""
+"""`tribodyn init` and `tribodyn schema`: a commented scenario to begin with, and what may stand in one."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from tribodyn.cli import completion
+from tribodyn.cli.options import kinds
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -13,15 +13,14 @@ EXAMPLES = (
     "  tribodyn run my-drive.toml\n"
     "  tribodyn init my-study --kind efficiency"
 )
+SCHEMA_EXAMPLE = "\b\nExample:\n  tribodyn schema > scenario.schema.json"
 
 
 def init(
     name: Annotated[str, typer.Argument(help="Name of the scenario; NAME.toml is written in this folder.")],
     kind: Annotated[
         str,
-        typer.Option(
-            help="Kind of study; all of them: tribodyn list kinds.", autocompletion=completion.kinds
-        ),
+        typer.Option(help="Kind of study; all of them: tribodyn list kinds.", autocompletion=kinds),
     ] = "",
     force: Annotated[bool, typer.Option("--force", help="Replace a file of that name.")] = False,
 ) -> None:
@@ -38,3 +37,11 @@ def init(
         raise InputError("name", f'"{path}"', "the folder does not exist", f"create {path.parent} first")
     write_output(path, template, force=force)
     typer.echo(f"{path}\nrun it with: {command_name()} {STUDIES[kind or DEFAULT].verb} {quoted_path(path)}")
+
+
+def schema() -> None:
+    """Print the JSON schema of a scenario file."""
+    from tribodyn.cli.printing import print_json
+    from tribodyn.studies.protocol.load import json_schema
+
+    print_json(json_schema())

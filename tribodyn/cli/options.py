@@ -1,17 +1,94 @@
-"""Arguments and options that several commands take alike."""
+"""Arguments and options that several commands take alike, and what the shell completes in them."""
 
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from tribodyn.cli import completion
 from tribodyn.errors import InputError, quoted
+
+RECORDS = ("*.h5", "*.hdf5")
+
+
+def scenarios(incomplete: str) -> list[str]:
+    """Scenario files here, names of shipped scenarios."""
+    from tribodyn.scenario.sources import names, shipped
+
+    return _beginning([*_files(incomplete, "*.toml"), *names(shipped("scenarios"))], incomplete)
+
+
+def drives(incomplete: str) -> list[str]:
+    """Files here, names of shipped drives and scenarios."""
+    from tribodyn.scenario.sources import names, shipped
+
+    return _beginning([*names(shipped("models") / "drives"), *scenarios(incomplete)], incomplete)
+
+
+def scenarios_and_records(incomplete: str) -> list[str]:
+    """Records and scenario files here, names of shipped scenarios."""
+    return _beginning([*_files(incomplete, *RECORDS), *scenarios(incomplete)], incomplete)
+
+
+def kinds(incomplete: str) -> list[str]:
+    """Kinds of study."""
+    from tribodyn.studies import STUDIES
+
+    return _beginning(STUDIES, incomplete)
+
+
+def keys(context: typer.Context, incomplete: str) -> list[str]:
+    """Keys of the scenario that is on the line already, or of a gear pair; a table's after its dot."""
+    import tomllib
+
+    from tribodyn.scenario.messages import keys_in
+    from tribodyn.scenario.sources import find_scenario
+    from tribodyn.studies.protocol.load import table_of
+
+    data = {}
+    # words that click could not sort while an option waits for its value
+    words = [context.params.get("scenario"), *(word for word in context.args if not word.startswith("-"))]
+    if scenario := next(filter(None, words), None):
+        try:
+            data = tomllib.loads(find_scenario(scenario).read_text(encoding="utf-8"))
+        except (InputError, OSError, ValueError):  # there is no such file yet
+            data = {}
+    above = incomplete.split(".")[:-1]
+    found = keys_in(table_of(data), above)
+    return _beginning([key if key.endswith(".") else f"{key}=" for key in found], incomplete)
+
+
+def papers(incomplete: str) -> list[str]:
+    """Papers that there is a validation for."""
+    from tribodyn.validation import PAPERS
+
+    return _beginning(PAPERS, incomplete)
+
+
+def records_and_plots(incomplete: str) -> list[str]:
+    """Records here, figures of all kinds of study and of sweeps."""
+    from tribodyn.studies import STUDIES
+
+    plots = [name for _, drawn in STUDIES.each(lambda study: study.drawings()) for name in drawn]
+    swept = STUDIES.each(lambda study: study.sweep_drawings() if study.swept() else {})
+    of_sweeps = [name for _, drawn in swept for name in drawn]
+    return _beginning([*_files(incomplete, *RECORDS), "all", *plots, *of_sweeps], incomplete)
+
+
+def _files(incomplete: str, *patterns: str) -> list[str]:
+    """Files in the folder that is written so far, or here."""
+    folder = Path(incomplete[: incomplete.rfind("/") + 1])
+    return sorted(str(path) for pattern in patterns for path in folder.glob(pattern))
+
+
+def _beginning(known: Iterable[str], incomplete: str) -> list[str]:
+    """Names that begin with what is written, each once; where there are none the shell offers any file."""
+    return [name for name in dict.fromkeys(known) if name.startswith(incomplete)]
+
 
 ScenarioArgument = Annotated[
     str,
-    typer.Argument(
-        help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
-    ),
+    typer.Argument(help="A scenario file, or the name of a shipped scenario.", autocompletion=scenarios),
 ]
 
 SetOption = Annotated[
@@ -20,7 +97,7 @@ SetOption = Annotated[
         "--set",
         metavar="KEY=VALUE",
         help='Set a key of the scenario, also inside what it refers to: operating.gear_torque="600 N*m".',
-        autocompletion=completion.keys,
+        autocompletion=keys,
     ),
 ]
 

@@ -1,10 +1,22 @@
-"""Pictures of records as files, for every verb that draws; imports no part of the command line's grammar."""
+"""Pictures of records as files, and a second process that gets ready to draw while the first one computes.
 
-from collections.abc import Callable, Iterable, Sequence
+It imports matplotlib, finds fonts and reads formulas, 0.65 s: as long as a warm run of `crc-23-47` computes,
+so that with a second core the whole command takes half the time. Where it cannot be had, or ends without an
+answer, the first process draws. No part of the command line's grammar is imported here.
+"""
+
+import json
+import os
+import sys
+import threading
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
+from tribodyn.numerics import child
 from tribodyn.numerics.output_files import make_folder
+from tribodyn.numerics.work import usable_cores
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -68,3 +80,104 @@ def save_all(
 
 def _named(beside: Path, name: str) -> Path:
     return beside.with_name(f"{beside.stem}-{name}{beside.suffix}")
+
+
+#: What the process calls.
+TARGET = ("tribodyn.cli.pictures:serve",)
+#: How long it waits for a record, s: of a longer run the drawing takes a small share.
+PATIENCE = 60.0
+#: How long the first process waits for the pictures, s.
+LONGEST_DRAWING = 120.0
+
+
+class Drawer:
+    """A process that draws the overview of a record, which is not there yet."""
+
+    def __init__(self) -> None:
+        self._process = child.start(*TARGET)
+
+    def draw(self, record: Path, force: bool) -> None:
+        """Begin to draw the overview of a record; `force` as of `write_output`."""
+        with suppress(OSError):
+            child.tell(self._process, json.dumps([str(record), force]).encode() + b"\n")
+
+    def pictures(self) -> list[Path] | None:
+        """Return the pictures as soon as they are drawn; None where the process gives no answer."""
+        with suppress(OSError, ValueError):
+            return [Path(file) for file in json.loads(child.answer(self._process, LONGEST_DRAWING))]
+        return None
+
+    def close(self) -> None:
+        """End the process, which has nothing left to do."""
+        child.end(self._process)
+
+
+_begun: list[Drawer] = []
+
+
+def begin(words: Sequence[str]) -> None:
+    """Start the process before anything else of a command that will draw an overview, if a core is free.
+
+    Parameters
+    ----------
+    words : of the command line, without the program
+    """
+    drawn_otherwise = {"--plot", "--no-plot", "-h", "--help"}
+    if list(words[:1]) == ["run"] and not drawn_otherwise.intersection(words) and usable_cores() > 1:
+        with suppress(OSError):
+            _begun.append(Drawer())
+
+
+@contextmanager
+def drawer(wanted: bool) -> Iterator[Drawer | None]:
+    """Give a process that gets ready to draw, where this is the command line's own and a core is free."""
+    import tribodyn
+
+    made = _begun.pop() if _begun else None
+    if made is None and wanted and tribodyn.OWN_PROCESS and usable_cores() > 1:
+        with suppress(OSError):
+            made = Drawer()
+    try:
+        yield made if wanted else None
+    finally:
+        if made is not None:
+            made.close()
+
+
+def serve() -> None:
+    """Get ready, wait for the name of a record, draw it, write the names of the pictures."""
+    import gc
+
+    gc.disable()
+    timer = threading.Timer(PATIENCE, lambda: os._exit(0))
+    timer.daemon = True
+    timer.start()
+    _get_ready()
+    line = sys.stdin.readline()
+    timer.cancel()
+    from tribodyn.record.soundness import remember_own
+
+    name, force = json.loads(line)
+    record = Path(name)
+    remember_own(record)  # the first process has just written it
+    pictures = draw_pictures(record, everything=False, force=force)
+    sys.stdout.write(json.dumps([str(path) for path in pictures]))
+    sys.stdout.flush()
+    os._exit(0)  # to take matplotlib apart in order would let the first process wait
+
+
+def _get_ready() -> None:
+    """Import what draws, and do what an overview has that needs no record."""
+    from matplotlib import artist
+
+    # matplotlib composes help texts of its classes as it is imported: 0.1 s of 0.75 s
+    artist.kwdoc = lambda _: ""
+    cast(Any, artist.Artist)._update_set_signature_and_docstring = classmethod(lambda _: None)
+
+    import tribodyn.cli.pictures
+    import tribodyn.cli.progress
+    import tribodyn.record.soundness
+    import tribodyn.studies.pages.pictures  # noqa: F401
+    from tribodyn.post.figures.over_mesh import prepare_overview
+
+    prepare_overview()

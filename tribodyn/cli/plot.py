@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tribodyn.cli import completion
-from tribodyn.cli.options import ReplaceOption
+from tribodyn.cli.options import ReplaceOption, records_and_plots
 
 if TYPE_CHECKING:
     from tribodyn.record.sweep_reader import SweepRecord
@@ -44,7 +43,7 @@ def plot(
         typer.Argument(
             metavar="RECORD... [NAME...]",
             help="Records, then figures: all, or names from `tribodyn list plots RECORD`.",
-            autocompletion=completion.records_and_plots,
+            autocompletion=records_and_plots,
         ),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder of the pictures.")] = Path(),

@@ -71,9 +71,8 @@ def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | Non
     **how
         Further arguments of `protocol.run.run`.
     """
-    from tribodyn.cli.ahead import drawer
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
-    from tribodyn.cli.pictures import draw_pictures, overview_path
+    from tribodyn.cli.pictures import draw_pictures, drawer, overview_path
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import OutputError

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tribodyn.cli import completion
 from tribodyn.cli.options import (
     ForceOption,
     LargeOption,
     ScenarioArgument,
     SetOption,
+    keys,
     overrides,
     require_one_way,
 )
@@ -59,7 +59,7 @@ def sweep(
             "--vary",
             metavar="KEY=VALUES",
             help="A key of the scenario and its values, see below; several span a grid.",
-            autocompletion=completion.keys,
+            autocompletion=keys,
         ),
     ] = None,
     steady: Annotated[

@@ -5,8 +5,7 @@ from typing import Annotated
 
 import typer
 
-from tribodyn.cli import completion
-from tribodyn.cli.options import JsonOption, ReplaceOption
+from tribodyn.cli.options import JsonOption, ReplaceOption, papers
 from tribodyn.numerics.output_files import make_folder
 
 EXAMPLES = (
@@ -22,7 +21,7 @@ def validate(
         str,
         typer.Argument(
             help="The paper: tribodyn list papers.",
-            autocompletion=completion.papers,
+            autocompletion=papers,
         ),
     ],
     output: Annotated[

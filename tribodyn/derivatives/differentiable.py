@@ -113,7 +113,7 @@ class Differentiable:
     def _run(self, how: str, values: Any, *more: Any) -> Any:
         import jax
 
-        from tribodyn.numerics.xla_cache import use_compilation_cache
+        from tribodyn.numerics.cache import use_compilation_cache
 
         use_compilation_cache()
         meshes = any("mesh" in quantity.needs for quantity in self._quantities)

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.numerics.variable import Variable, flag
+from tribodyn.numerics.parameter import Variable, flag
 
 DOF = ("x_p", "y_p", "x_g", "y_g", "theta_p", "theta_g")
 

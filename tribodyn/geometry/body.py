@@ -20,8 +20,8 @@ from tribodyn.geometry.tooth import (
     thickness_half_angle,
 )
 from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt
+from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.variable import Variable
 
 
 class ToothOutline(NamedTuple):

@@ -15,8 +15,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.limits.limits import plain_distances
 from tribodyn.interface import shown
-from tribodyn.interface.scenario import in_toml
-from tribodyn.interface.words import in_python
+from tribodyn.interface.scenario import in_python, in_toml
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate

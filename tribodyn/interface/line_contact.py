@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.interface.words import in_python
+from tribodyn.interface.scenario import in_python
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid.fluid import Fluid

@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.interface.run import Run, recorded, run_class
-from tribodyn.interface.scenario import Source, in_toml, scenario
-from tribodyn.interface.words import in_python
+from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.study import Progress
 

@@ -9,9 +9,8 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from tribodyn.interface import datasets, shown
-from tribodyn.interface.scenario import Source, scenario
-from tribodyn.interface.words import in_python
+from tribodyn.interface import shown
+from tribodyn.interface.scenario import Source, in_python, scenario
 from tribodyn.record import trust
 from tribodyn.record.reader import Record, open_record
 from tribodyn.studies import STUDIES
@@ -70,7 +69,7 @@ class Run:
     def data(self) -> "xarray.Dataset":
         """Everything that was sampled, with dimensions and units; SI."""
         with open_record(self.path) as record:
-            return datasets.of_run(record)
+            return shown.of_run(record)
 
     @cached_property
     def mesh_cycle(self) -> dict[str, Any]:

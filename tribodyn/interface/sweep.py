@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.interface import datasets, shown
+from tribodyn.interface import shown
 from tribodyn.interface.run import Run, open_run
-from tribodyn.interface.scenario import Source, in_toml, scenario
-from tribodyn.interface.words import in_python
+from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.numerics.output_files import write_output
 from tribodyn.record import trust
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
@@ -52,7 +51,7 @@ class Sweep:
             self.status, self.message = record.status, record.message
             self.summary: dict[str, Any] = record.summary
             self.scenario: dict[str, Any] = record.scenario
-            self.data: xarray.Dataset = datasets.of_sweep(record)
+            self.data: xarray.Dataset = shown.of_sweep(record)
 
     @property
     def plots(self) -> tuple[str, ...]:
@@ -181,7 +180,7 @@ def sweep(
                 allow_large=allow_large,
             )
         with SweepRecord(done.path) as written:
-            return datasets.of_sweep(written).load()
+            return shown.of_sweep(written).load()
 
 
 @in_python()

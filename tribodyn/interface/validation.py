@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tribodyn import validation
-from tribodyn.interface.words import in_python
+from tribodyn.interface.scenario import in_python
 from tribodyn.validation.rows import SHOWN, Row, counted
 
 

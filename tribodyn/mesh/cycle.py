@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.elementary import namespace
+from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.variable import Variable
 
 
 class MeshCycle(NamedTuple):

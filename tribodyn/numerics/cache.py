@@ -1,4 +1,4 @@
-"""Where results that cost time are kept between processes, and how a file appears: whole or not at all.
+"""Where results that cost time are kept between processes.
 
 Compiled kernels, finite elements and solved contacts are kept alike. A file begins with a line that has the
 digest of its folder, name and content: what is damaged, changed or under another's name counts as not there
@@ -15,7 +15,6 @@ import json
 import math
 import os
 import stat
-import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -24,6 +23,8 @@ from functools import cache
 from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
+
+from tribodyn.numerics.output_files import CAREFUL, open_new, replacing
 
 if TYPE_CHECKING:
     import numpy as np
@@ -184,11 +185,9 @@ def read_kept(folder: str, name: str) -> bytes | None:
     trusted = trusted_folder(folder)
     if trusted is None:
         return None
-    # no link is followed and no pipe waited for
-    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
-    flags |= getattr(os, "O_BINARY", 0)
     try:
-        number = os.open(trusted / name, flags)
+        # no link is followed and no pipe waited for
+        number = os.open(trusted / name, os.O_RDONLY | CAREFUL | getattr(os, "O_NONBLOCK", 0))
     except OSError:
         return None
     try:
@@ -215,12 +214,7 @@ def keep(folder: str, name: str, content: bytes) -> None:
     if trusted is None:
         return
     with suppress(OSError), replacing(trusted / name) as scratch:
-        with suppress(FileNotFoundError):
-            scratch.unlink()  # of a dead process that had the same number
-        flags = (
-            os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
-        )
-        with open(os.open(scratch, flags, 0o600), "wb") as stream:
+        with open_new(scratch, 0o600) as stream:
             stream.write(_head(folder, name, content))
             stream.write(content)
             stream.flush()
@@ -271,25 +265,11 @@ def _lock_file(path: Path) -> int | None:
         return None
 
 
-@contextmanager
-def replacing(file: Path, scratch: Path | None = None) -> Iterator[Path]:
-    """Write a file under another name and give it its own by renaming, so that no reader sees half of it.
+@cache
+def use_compilation_cache() -> None:
+    """Let JAX keep the programs that XLA compiles, unless no folder can be trusted."""
+    import jax
 
-    Yields the path to write to. If that ends with an error, nothing is left behind and `file` is as before.
-
-    Parameters
-    ----------
-    file : its folder is made if it is not there
-    scratch : in the same folder; by default a name that no other thread or process uses
-    """
-    if scratch is None:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        scratch = file.with_name(f"{file.name}.{os.getpid()}-{threading.get_ident()}.tmp")
-    try:
-        yield scratch
-        os.replace(scratch, file)
-    except BaseException:
-        # a folder that is none has no scratch file either
-        if os.path.exists(scratch):
-            scratch.unlink()
-        raise
+    if folder := trusted_folder("xla"):
+        jax.config.update("jax_compilation_cache_dir", str(folder))
+        jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.2)

@@ -1,18 +1,18 @@
-"""Files that users asked for beside records: pictures, pages, tables, drawings, scenarios.
+"""How a file appears: whole or not at all; and files that users asked for beside records.
 
-Each is written whole or not at all, through no link, and replaces only what this program wrote: every kind of
-file says near its beginning or its end by whom it was made.
+Pictures, pages, tables, drawings and scenarios are written through no link, and replace only what this
+program wrote: every kind of file says near its beginning or its end by whom it was made.
 """
 
 import os
 import stat
-from contextlib import suppress
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from threading import get_ident
 from typing import BinaryIO
 
 from tribodyn.errors import NO_ROOM, InputError, OutputError
-from tribodyn.numerics.cache import replacing
 
 #: Ending of a file -> what it holds if this program made it. Scenarios and drives that are written to be
 #: edited hold nothing of the kind: only the best scenario of a search is replaced by the next search.
@@ -31,6 +31,30 @@ MARKS = {
 _NEAR = 1000
 #: Flags of files that are not to be reached through a link.
 CAREFUL = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
+
+
+@contextmanager
+def replacing(file: Path, scratch: Path | None = None) -> Iterator[Path]:
+    """Write a file under another name and give it its own by renaming, so that no reader sees half of it.
+
+    Yields the path to write to. If that ends with an error, nothing is left behind and `file` is as before.
+
+    Parameters
+    ----------
+    file : its folder is made if it is not there
+    scratch : in the same folder; by default a name that no other thread or process uses
+    """
+    if scratch is None:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        scratch = file.with_name(f"{file.name}.{os.getpid()}-{threading.get_ident()}.tmp")
+    try:
+        yield scratch
+        os.replace(scratch, file)
+    except BaseException:
+        # a folder that is none has no scratch file either
+        if os.path.exists(scratch):
+            scratch.unlink()
+        raise
 
 
 def write_output(path: str | Path, content: bytes | str, *, force: bool = False) -> Path:
@@ -53,7 +77,8 @@ def write_output(path: str | Path, content: bytes | str, *, force: bool = False)
     check_output(path, force)
     data = content.encode("utf-8", "backslashreplace") if isinstance(content, str) else content
     try:
-        with replacing(path, path.with_name(f".tribodyn-{os.getpid()}-{get_ident()}.tmp")) as scratch:
+        scratch = path.with_name(f".tribodyn-{os.getpid()}-{threading.get_ident()}.tmp")
+        with replacing(path, scratch):
             with open_new(scratch) as stream:
                 stream.write(data)
                 stream.flush()
@@ -110,11 +135,11 @@ def make_folder(folder: Path) -> None:
         raise unwritable(folder, error) from None
 
 
-def open_new(path: Path) -> BinaryIO:
+def open_new(path: Path, mode: int = 0o666) -> BinaryIO:
     """Open a file that was not there; what a dead process left under that name goes, no link is followed."""
     with suppress(FileNotFoundError):
         path.unlink()
-    return os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | CAREFUL, 0o666), "wb")
+    return os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | CAREFUL, mode), "wb")
 
 
 def _made_here(path: Path) -> bool:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 
 #: Unit in which a number is shown: the SI unit of it, what to multiply with, and what to add before that.
 SHOWN: dict[str, tuple[str, float, float]] = {

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from tribodyn import __version__
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.record import disk, schema
 from tribodyn.record.disk import LIBVER, Blank, Layered
 from tribodyn.record.schema import Layout

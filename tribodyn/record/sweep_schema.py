@@ -5,7 +5,7 @@ from enum import IntEnum
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from tribodyn.numerics.variable import Variable, flag
+from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.trust import NOT_JUDGED, TRUST
 
 SWEEP = "sweep"

@@ -14,10 +14,9 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.numerics.cache import replacing
-from tribodyn.numerics.output_files import unwritable
+from tribodyn.numerics.output_files import replacing, unwritable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.sources import computing_digest
-from tribodyn.numerics.variable import Variable
 from tribodyn.record import disk, layout, sweep_schema
 from tribodyn.record.schema import (
     COMPLETE,

@@ -19,8 +19,7 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError, OutputError
-from tribodyn.numerics.cache import replacing
-from tribodyn.numerics.output_files import unwritable
+from tribodyn.numerics.output_files import replacing, unwritable
 from tribodyn.record import disk, trust
 from tribodyn.record import layout as file_layout
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, Layout, partial_path

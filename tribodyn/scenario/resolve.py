@@ -12,10 +12,19 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, printable_path, quoted
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.bounds import TooMuch, broken_bounds, parsed
 from tribodyn.scenario.messages import Key, Origins
 from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out, references
-from tribodyn.scenario.sources import DRIVES, SCENARIOS, find_model, is_file, read_curve, read_toml
+from tribodyn.scenario.sources import (
+    DRIVES,
+    SCENARIOS,
+    TooMuch,
+    broken_bounds,
+    find_model,
+    is_file,
+    parsed,
+    read_curve,
+    read_toml,
+)
 
 #: In the table of a model: the name of a file that says everything which the table does not.
 LIKE = "like"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import tribodyn as td
-from tribodyn.interface.words import in_python, python_words
+from tribodyn.interface.scenario import in_python, python_words
 
 ROOT = Path(inspect.getfile(td)).parent
 #: Options of the command line.

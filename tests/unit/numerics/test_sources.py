@@ -15,7 +15,7 @@ import tribodyn
 from tribodyn.compliance.fem import cache as fem_cache
 from tribodyn.kernels.native import store
 from tribodyn.numerics import sources
-from tribodyn.numerics.cache import replacing
+from tribodyn.numerics.output_files import replacing
 from tribodyn.tribology.ehl.table import table
 
 FILES = {

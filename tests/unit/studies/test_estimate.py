@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.short_studies import short_case
 from tribodyn.errors import InputError
-from tribodyn.numerics.variable import Variable, flag
+from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.schema import Layout
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol import estimate

@@ -30,7 +30,7 @@ from typing import Literal
 
 from matplotlib.figure import Figure
 
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.schema import TIME, Layout

@@ -1,19 +1,76 @@
-"""From the validated tables of a scenario to the plain data that the physics takes."""
+"""From the validated tables of a scenario to the plain data that the physics takes.
+
+Papers and drawings print the distance of a pair without backlash to a few digits, and its profile shifts too.
+Put together, such numbers leave an overlap of less than a micrometre. Where the distance without backlash is
+larger than the one written, by no more than the rounding of these digits explains, it is the one meant. A
+distance that is larger than that without backlash is taken as it is written, however near: it has a backlash.
+"""
 
 import math
 from collections.abc import Mapping
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, normal_backlash
 from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of
-from tribodyn.scenario.tables import model_files
-from tribodyn.scenario.tables.centre_distance import RoundedDistance, rounded_distance
+from tribodyn.geometry.families import FAMILIES
+from tribodyn.geometry.families.involute import overlap, shift_sensitivity, tight_centre_distance
+from tribodyn.scenario.quantity import shift_rounding
+from tribodyn.scenario.tables.model_files import DriveTable, Gear, Material
 from tribodyn.scenario.tables.tooth_data import gear_body, gives_thickness, pressure_angle_of, shape_of
 
+#: Rounding that is believed, at most, modules: about the backlash that gears are given. A larger overlap is a
+#: mistake, whatever the digits ("0.1 m").
+MOST = 0.05
 
-def mean_roughness(drive: model_files.DriveTable) -> float:
+
+class RoundedDistance(NamedTuple):
+    """A printed centre distance, the rounding of the digits, and that without backlash which is meant; m."""
+
+    printed: float
+    rounding: float
+    meant: float
+
+    def remark(self) -> str:
+        """What is to be said of it."""
+        return (
+            f"The centre distance {1e3 * self.printed:.9g} mm is that of the mesh without backlash, "
+            f"{1e3 * self.meant:.8g} mm, within the rounding of its digits and of the profile shifts' "
+            f"({1e3 * self.rounding:.2g} mm), and is taken as that."
+        )
+
+    def lines(self) -> dict[str, tuple[float, str]]:
+        """Lines of the gear sheet."""
+        return {
+            "centre distance as printed": (1e3 * self.printed, "mm"),
+            "rounding of the printed digits": (1e3 * self.rounding, "mm"),
+        }
+
+
+def rounded_distance(table: DriveTable, drive: Drive) -> RoundedDistance | None:
+    """How the centre distance is rounded; None where none is written, and where it is meant as written.
+
+    Parameters
+    ----------
+    drive : its numbers, whatever their centre distance
+    """
+    if table.centre_distance is None or not FAMILIES[table.family].involute:
+        return None
+    printed, rounding = table.centre_distance
+    with np.errstate(all="ignore"):  # where there is no such mesh: refused where the pair is put together
+        if not overlap(drive._replace(centre_distance=printed)):
+            return None
+        meant, slope = float(tight_centre_distance(drive)), float(shift_sensitivity(drive))
+    for side in SIDES:
+        gear = getattr(table, side)
+        if gear.span is None and gear.over_pins is None:  # measured teeth have their thickness at any shift
+            rounding += slope * shift_rounding(gear.profile_shift)
+    rounding = min(rounding, MOST * drive.module)
+    return RoundedDistance(printed, rounding, meant) if meant <= printed + rounding else None
+
+
+def mean_roughness(drive: DriveTable) -> float:
     """Ra of the flanks, m: the mean of both gears' where they say it.
 
     σ/√π where only that is given, of two equal flanks with normally distributed heights.
@@ -22,7 +79,7 @@ def mean_roughness(drive: model_files.DriveTable) -> float:
     return cast(float, drive.roughness) / math.sqrt(math.pi) if None in own else sum(cast(Any, own)) / 2.0
 
 
-def roughness_of(drive: model_files.DriveTable) -> float:
+def roughness_of(drive: DriveTable) -> float:
     """Composite rms roughness σ of the flanks, m: given, or √(R_q1² + R_q2²).
 
     R_q = √(π/2) Ra, of normally distributed heights.
@@ -32,12 +89,12 @@ def roughness_of(drive: model_files.DriveTable) -> float:
     return math.sqrt(math.pi / 2.0) * math.hypot(*cast(Any, _mean_roughnesses(drive)))
 
 
-def _mean_roughnesses(drive: model_files.DriveTable) -> list[float | None]:
+def _mean_roughnesses(drive: DriveTable) -> list[float | None]:
     gears = drive.pinion, drive.gear
     return [drive.mean_roughness if one.mean_roughness is None else one.mean_roughness for one in gears]
 
 
-def teeth_of(drive: model_files.DriveTable) -> dict[str, Any]:
+def teeth_of(drive: DriveTable) -> dict[str, Any]:
     """Return the fields of a case for the teeth of a drive file: their family, shape, material and flanks."""
     return {
         "family": drive.family,
@@ -48,7 +105,7 @@ def teeth_of(drive: model_files.DriveTable) -> dict[str, Any]:
     }
 
 
-def drive_of(drive: model_files.DriveTable) -> Drive:
+def drive_of(drive: DriveTable) -> Drive:
     """Return the geometry of a drive file."""
     from tribodyn.geometry.assembly import tip_break
     from tribodyn.geometry.families import family
@@ -78,7 +135,7 @@ def rounded_distance_of(drive: Mapping[str, Any]) -> RoundedDistance | None:
     """How the centre distance of a drive file's data is rounded, see `rounded_distance`."""
     if "family" not in drive or "centre_distance" not in drive:  # of another kind; most have none
         return None
-    table = model_files.DriveTable.model_validate(drive)
+    table = DriveTable.model_validate(drive)
     return rounded_distance(table, drive_of(table))
 
 
@@ -86,17 +143,17 @@ def with_axes_held(drive: dict[str, Any]) -> dict[str, Any]:
     """A drive file's data with the centre distance to the last digit, so that nothing of it is rounding."""
     if "family" not in drive or "centre_distance" not in drive:
         return drive
-    distance = drive_of(model_files.DriveTable.model_validate(drive)).centre_distance
+    distance = drive_of(DriveTable.model_validate(drive)).centre_distance
     return drive | {"centre_distance": f"{1e3 * distance:.12f} mm"}
 
 
-def gives_backlash(drive: model_files.DriveTable) -> bool:
+def gives_backlash(drive: DriveTable) -> bool:
     """Whether a drive says more of its backlash than that its teeth are nominal."""
     gears = drive.pinion, drive.gear
     return drive.centre_distance is not None or any(gives_thickness(gear) for gear in gears)
 
 
-def backlash_of(drive: model_files.DriveTable, given: float | None) -> float | None:
+def backlash_of(drive: DriveTable, given: float | None) -> float | None:
     """Return the normal backlash (m): as `given`, else of the drive; None where that says nothing."""
     if given is not None or not gives_backlash(drive):
         return given
@@ -108,21 +165,21 @@ def backlash_of(drive: model_files.DriveTable, given: float | None) -> float | N
     return max(backlash, 0.0)
 
 
-def materials_of(drive: model_files.DriveTable) -> tuple[MaterialData, MaterialData]:
+def materials_of(drive: DriveTable) -> tuple[MaterialData, MaterialData]:
     """Return what pinion and gear are made of."""
     return _material(drive, drive.pinion), _material(drive, drive.gear)
 
 
-def masses_of(drive: model_files.DriveTable) -> tuple[BodyMass, BodyMass]:
+def masses_of(drive: DriveTable) -> tuple[BodyMass, BodyMass]:
     """Return the masses that a drive file gives."""
     return _mass(drive.pinion), _mass(drive.gear)
 
 
-def _material(drive: model_files.DriveTable, gear: model_files.Gear) -> MaterialData:
-    material = cast(model_files.Material, gear.material or drive.material)
+def _material(drive: DriveTable, gear: Gear) -> MaterialData:
+    material = cast(Material, gear.material or drive.material)
     numbers = material.model_dump(exclude={"title", "source", "assumptions"})
     return MaterialData(name=material.title, **numbers)
 
 
-def _mass(gear: model_files.Gear) -> BodyMass:
+def _mass(gear: Gear) -> BodyMass:
     return BodyMass(gear.mass, gear.inertia)

@@ -1,13 +1,135 @@
-"""Rules that tie several keys of a scenario together: what contradicts, what needs what."""
+"""Rules that tie several keys of a drive together: what contradicts, what needs what, which run knows it."""
 
 from collections.abc import Iterator
+from math import degrees
+from typing import NamedTuple
 
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.tables.face import broken_modification_rules
-from tribodyn.scenario.tables.model_files import DriveTable
-from tribodyn.scenario.tables.quality import broken_quality_rules
+from tribodyn.geometry.flanks.modification import (
+    Modifications,
+    broken_flank_rules,
+    shown_count,
+    shown_length,
+    too_few_slices,
+    uneven_teeth,
+    vary_along_lead,
+)
+from tribodyn.scenario.tables.model_files import (
+    DriveTable,
+    MisalignmentTable,
+    Modification,
+    flank_of,
+    misalignment_of,
+)
+from tribodyn.scenario.tables.quality import broken_quality_rules, helix_allowance
 from tribodyn.scenario.tables.tooth_data import broken_tooth_rules, shape_errors
+
+#: Slices along the face where nothing is said and anything varies along it.
+SLICES = 21
+
+
+def modifications_of(drive: DriveTable, misalignment: MisalignmentTable) -> Modifications:
+    """Return what is taken off the flanks of a drive, and how its axes stand."""
+    stand = misalignment_of(misalignment)
+    if misalignment.from_quality:
+        opened = misalignment.from_quality * helix_allowance(drive)
+        stand = stand._replace(in_plane=stand.in_plane + opened)
+    pinion, gear = (flank_of(gear.modification, drive.module) for gear in (drive.pinion, drive.gear))
+    return Modifications(pinion, gear, stand)
+
+
+def slices_of(given: int | None, modifications: Modifications) -> int:
+    """Return the number of slices along the face."""
+    return given or (SLICES if vary_along_lead(modifications) else 1)
+
+
+class Face(NamedTuple):
+    """What a scenario says of the flanks along and across the face."""
+
+    drive: DriveTable
+    misalignment: MisalignmentTable
+    slices: int | None
+    slice_coupling: bool
+
+
+def broken_modification_rules(drive: DriveTable) -> Iterator[InputError]:
+    """Go through what contradicts in the modifications of both gears."""
+    for name in ("pinion", "gear"):
+        gear = getattr(drive, name)
+        table = gear.modification
+        yield from broken_flank_rules(name, flank_of(table, drive.module), gear.teeth, gear.face_width)
+        if table.crowning is not None:
+            yield from _contradicted_by_crowning(f"drive.{name}.modification", table)
+
+
+def _contradicted_by_crowning(key: str, table: Modification) -> Iterator[InputError]:
+    for name in ("lead_relief_start", "lead_relief_end", "lead_unmodified"):
+        if value := getattr(table, name):
+            yield InputError(
+                f"{key}.{name}",
+                shown_length(value),
+                "contradicts crowning, which gives the whole shape of the lead",
+                "give the one or the other",
+            )
+
+
+def broken_slice_rules(face: Face) -> Iterator[InputError]:
+    """Go through the rules of a run that knows modifications: slices enough for what varies."""
+    varies = vary_along_lead(modifications_of(face.drive, face.misalignment))
+    if face.slices is not None and (broken := too_few_slices(face.slices, varies)):
+        yield broken
+
+
+def broken_face_rules(face: Face, compliance: str) -> Iterator[InputError]:
+    """Go through the rules of a run that repeats one mesh cycle, by finite elements or without them."""
+    if compliance == "fem":
+        yield from broken_slice_rules(face)
+        yield from uneven_teeth(modifications_of(face.drive, face.misalignment))
+    else:
+        remedy = 'leave it out, or write compliance = "fem"'
+        yield from _contradicted_modifications(face, f'compliance = "{compliance}"', remedy)
+
+
+def _contradicted_modifications(face: Face, contradiction: str, remedy: str) -> Iterator[InputError]:
+    """Refuse everything of the sort in a run that does not know it.
+
+    Parameters
+    ----------
+    contradiction : what it contradicts: ``compliance = "energy"``
+    remedy : what to write instead
+    """
+    for key, value in (*_all_reliefs(face.drive), *_pitch_errors(face.drive), *_deviations(face)):
+        yield InputError(key, value, f"contradicts {contradiction}", remedy)
+
+
+def _all_reliefs(drive: DriveTable) -> Iterator[tuple[str, str | None]]:
+    for name in ("pinion", "gear"):
+        table = getattr(drive, name).modification
+        key = f"drive.{name}.modification"
+        for relief in ("tip_relief", "root_relief", "lead_relief_start", "lead_relief_end", "crowning"):
+            if amount := getattr(table, relief):
+                yield f"{key}.{relief}", shown_length(amount)
+        if table.profile_error is not None:
+            yield f"{key}.profile_error", None
+
+
+def _pitch_errors(drive: DriveTable) -> Iterator[tuple[str, str | None]]:
+    for name in ("pinion", "gear"):
+        if errors := getattr(drive, name).modification.pitch_errors:
+            yield f"drive.{name}.modification.pitch_errors", shown_count(len(errors))
+
+
+def _deviations(face: Face) -> Iterator[tuple[str, str | None]]:
+    if share := face.misalignment.from_quality:
+        yield "mesh.misalignment.from_quality", f"{share:g}"
+    for name, angle in face.misalignment.model_dump(exclude={"from_quality"}).items():
+        if angle:
+            yield f"mesh.misalignment.{name}", f"{degrees(angle) * 60:g} arcmin"
+    if face.slices is not None:
+        yield "mesh.slices", str(face.slices)
+    if not face.slice_coupling:
+        yield "mesh.slice_coupling", "false"
 
 
 def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:

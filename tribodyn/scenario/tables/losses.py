@@ -1,4 +1,4 @@
-"""The table ``[losses]``: losses that do not depend on the load, by named formulas, off unless asked for."""
+"""The tables ``[losses]``, load-independent ones, and ``[temperature]``, of the teeth, from all losses."""
 
 from collections.abc import Iterator
 from typing import Annotated, Literal
@@ -8,6 +8,8 @@ from pydantic import Field
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Count, InUnit, Positive, Table, written
+from tribodyn.scenario.tables.model_files import Lubricant
+from tribodyn.tribology.bulk_temperature import Lubrication, TemperatureData
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, LossData
 
 Depth = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
@@ -105,3 +107,80 @@ def _unread(name: str, formula: str, choice: str) -> InputError:
         rule=f"has no effect: losses.{formula} does not ask for it",
         remedy=f'leave {name} out, or write {formula} = "{choice}"',
     )
+
+
+Conductance = Annotated[float, InUnit(units.not_negative(units.CONDUCTANCE))]
+_NETWORK = ("pinion_oil", "gear_oil", "oil_flow", "oil_housing", "housing_ambient", "ambient_temperature")
+_ESTIMATE = {"lubrication": "dip", "tip_relief_factor": 1.0}
+
+
+class TemperatureTable(Table):
+    """Where the bulk temperature of the teeth comes from."""
+
+    model: Literal["oil", "iso", "network"] = Field(
+        "oil", description="the oil's; estimate of ISO/TR 15144-1; a lumped network of gears, oil and housing"
+    )
+    lubrication: Lubrication = Field("dip", description='how the oil reaches the mesh, of model = "iso"')
+    tip_relief_factor: Positive = Field(1.0, description='X_Ca, of model = "iso"')
+    pinion_oil: Conductance | None = Field(None, description="from the pinion's teeth to the oil")
+    gear_oil: Conductance | None = Field(None, description="from the gear's teeth to the oil")
+    oil_flow: Annotated[float, InUnit(units.positive(units.VOLUME_FLOW))] | None = Field(
+        None, description="of oil that enters at operating.oil_temperature and leaves"
+    )
+    oil_housing: Conductance | None = Field(None, description="from the oil to the housing")
+    housing_ambient: Conductance | None = Field(None, description="from the housing to ambient")
+    ambient_temperature: Annotated[float, InUnit(units.TEMPERATURE_KIND, "25 degC")] = written("20 degC")
+
+
+def temperature_of(table: TemperatureTable | None) -> TemperatureData | None:
+    """Return what a table asks for; None: teeth as warm as the oil."""
+    if table is None or table.model == "oil":
+        return None
+    values = table.model_dump(exclude={"model"})
+    given = {name: value for name, value in values.items() if value is not None}
+    return TemperatureData(table.model, **given)
+
+
+def broken_temperature_rules(table: TemperatureTable | None, lubricant: Lubricant) -> Iterator[InputError]:
+    """Go through the rules that the table breaks by itself or with the lubricant."""
+    if table is None:
+        return
+    given = [name for name in _NETWORK[:-1] if getattr(table, name) is not None]
+    given += [name for name, default in _ESTIMATE.items() if getattr(table, name) != default]
+    allowed = {"oil": (), "iso": tuple(_ESTIMATE), "network": _NETWORK}[table.model]
+    for name in given:
+        if name not in allowed:
+            choice = "iso" if name in _ESTIMATE else "network"
+            yield InputError(
+                f"temperature.{name}",
+                rule=f'has no effect with model = "{table.model}"',
+                remedy=f'leave {name} out, or write model = "{choice}"',
+            )
+    if table.model == "oil":
+        return
+    if lubricant.viscosity_40 is None:
+        yield InputError(
+            "temperature.model",
+            quoted(table.model),
+            "needs the oil at other temperatures, and the lubricant is given at one",
+            "give its data sheet: type, viscosity_40, viscosity_100 and density_15",
+        )
+    if table.model == "network":
+        yield from _network(table)
+
+
+def _network(table: TemperatureTable) -> Iterator[InputError]:
+    for name in ("pinion_oil", "gear_oil"):
+        if not getattr(table, name):
+            yield InputError(
+                f"temperature.{name}",
+                rule="must be greater than zero" if getattr(table, name) == 0 else "missing",
+                remedy=f'a network needs it: {name} = "20 W/K"',
+            )
+    if bool(table.oil_housing) != bool(table.housing_ambient):
+        missing = "housing_ambient" if table.oil_housing else "oil_housing"
+        yield InputError(
+            f"temperature.{missing}",
+            rule="missing: heat must enter the housing and leave it",
+            remedy=f'add {missing} = "20 W/K", or leave both out',
+        )

@@ -15,8 +15,7 @@ from tribodyn.geometry.flanks.modification import Modifications
 from tribodyn.numerics.curve import Table
 from tribodyn.scenario.quantity import Draws
 from tribodyn.scenario.tables.drive_data import drive_of
-from tribodyn.scenario.tables.model_files import DriveTable, Gear
-from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.model_files import DriveTable, Gear, MisalignmentTable
 from tribodyn.standards.flank_tolerances import FlankTolerances, flank_tolerances, outside, rounded
 
 DeviationSample = Annotated[int, Field(strict=True, ge=0, le=2**31 - 1), Draws()]

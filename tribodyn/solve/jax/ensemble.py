@@ -15,8 +15,8 @@ import jax.numpy as jnp
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.numerics.cache import use_compilation_cache
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.numerics.xla_cache import use_compilation_cache
 from tribodyn.solve.integrator import Ensemble, March, Status, nothing_yet
 from tribodyn.solve.jax.integrator import (
     METHODS,

@@ -20,8 +20,8 @@ import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE, Model, Options
+from tribodyn.numerics.cache import use_compilation_cache
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.numerics.xla_cache import use_compilation_cache
 from tribodyn.solve.integrator import IntegratedCycles, Status, sample_phases
 from tribodyn.solve.jax.controllers import GROWN, LimitedSteps, TurningSteps
 from tribodyn.solve.march.reversal import SHARES, filled_up, stops_of_many

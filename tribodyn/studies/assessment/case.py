@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tribodyn.geometry.body import GEOMETRY
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.case import GearCase

@@ -21,11 +21,10 @@ from tribodyn.scenario.quantity import (
 )
 from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.duty import OperatingTable, broken_driving_rules
-from tribodyn.scenario.tables.losses import LossesTable
+from tribodyn.scenario.tables.losses import LossesTable, TemperatureTable
 from tribodyn.scenario.tables.lubricant import lubricant_of
-from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.quality import tolerances_of
-from tribodyn.scenario.tables.temperature import TemperatureTable
 from tribodyn.studies.assessment.case import AssessmentCase, AssessmentSettings
 from tribodyn.studies.gears.scenario import FaceSlices, GearScenario, Oil, broken_gear_rules, gear_fields
 from tribodyn.tribology.friction import FRICTION_LAWS

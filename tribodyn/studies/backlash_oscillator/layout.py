@@ -1,6 +1,6 @@
 """Datasets of a frequency sweep of the oscillator with backlash: everything over frequency and direction."""
 
-from tribodyn.numerics.variable import Variable, flag
+from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.schema import Layout
 from tribodyn.studies.sweeping import branches
 

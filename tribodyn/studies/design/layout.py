@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.numerics.variable import Variable, flag
+from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of

@@ -10,7 +10,7 @@ from tribodyn.errors import InputError
 from tribodyn.scenario.quantity import Table, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
 from tribodyn.scenario.tables.laws import FrictionTable
-from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.gears.scenario import (
     FaceSlices,

@@ -1,7 +1,7 @@
 """Datasets of a study of the solved contact: over the way of a pair, and over each contact."""
 
 from tribodyn.mesh.cycle import MESH_CYCLE
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 
 #: Places of a profile, and where they begin and end, in half widths of the Hertz contact.

@@ -37,7 +37,7 @@ from tribodyn.scenario.tables.bearings import Bearings, Stiffness, bearings_of
 from tribodyn.scenario.tables.drive_data import backlash_of
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
 from tribodyn.scenario.tables.laws import FrictionTable
-from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gear_pair.case import Case, OutputData
 from tribodyn.studies.gears.scenario import (

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.numerics.variable import Variable, flag
+from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.sweep_schema import OF_EVERY_SWEEP, WORD, SweepLayout
 from tribodyn.solve.orbit.motions import MAX_PERIOD

@@ -2,7 +2,7 @@
 
 import tomllib
 
-from tribodyn.scenario.tables.centre_distance import RoundedDistance
+from tribodyn.scenario.tables.drive_data import RoundedDistance
 from tribodyn.studies.protocol.results import CheckResult, TextTable
 
 #: The same for one of many cases: without values, so that equal remarks can be counted.

@@ -12,20 +12,27 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.scenario.common import Slices, head_of
 from tribodyn.scenario.quantity import Switch, model_file
 from tribodyn.scenario.tables.drive_data import masses_of, teeth_of
-from tribodyn.scenario.tables.drive_rules import broken_drive_rules, broken_part_rules
-from tribodyn.scenario.tables.duty import SpectrumScenario, duty_of, unnamed_duty
-from tribodyn.scenario.tables.face import (
+from tribodyn.scenario.tables.drive_rules import (
     Face,
+    broken_drive_rules,
     broken_face_rules,
+    broken_part_rules,
     broken_slice_rules,
     modifications_of,
     slices_of,
 )
+from tribodyn.scenario.tables.duty import SpectrumScenario, duty_of, unnamed_duty
 from tribodyn.scenario.tables.laws import FilmTable, film_of, friction_values
-from tribodyn.scenario.tables.losses import LossesTable, broken_loss_rules, losses_of
+from tribodyn.scenario.tables.losses import (
+    LossesTable,
+    TemperatureTable,
+    broken_loss_rules,
+    broken_temperature_rules,
+    losses_of,
+    temperature_of,
+)
 from tribodyn.scenario.tables.lubricant import broken_lubricant_rules, lubricant_of
-from tribodyn.scenario.tables.model_files import DriveTable, Lubricant
-from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.model_files import DriveTable, Lubricant, MisalignmentTable
 from tribodyn.scenario.tables.quality import (
     DeviationSample,
     broken_sample_rules,
@@ -34,7 +41,6 @@ from tribodyn.scenario.tables.quality import (
     tolerances_of,
     with_sample,
 )
-from tribodyn.scenario.tables.temperature import TemperatureTable, broken_temperature_rules, temperature_of
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.tribology.data import FrictionData
 

@@ -2,7 +2,7 @@
 
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.mesh.cycle import MESH_CYCLE
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 
 PHASE = Variable(("phase",), "1", "phase of the mesh in mesh cycles from the first position")

@@ -10,7 +10,7 @@ from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
-from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.scenario import (
     FaceSlices,

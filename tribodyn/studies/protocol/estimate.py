@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 
 GIB = 2.0**30

@@ -1,6 +1,6 @@
 """What a record of a gear with rolling elements holds."""
 
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import TIME, Layout
 
 ELEMENT = Variable(("element",), "1", "rolling element, in the order of their angles")

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tribodyn.numerics.variable import Variable, flag
+from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.sweep_schema import FIRST_PARAMETER
 from tribodyn.solve.branch.arclength import KINDS, BranchEnd
 

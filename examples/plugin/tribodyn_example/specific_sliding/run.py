@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from tribodyn.geometry.body import GEOMETRY, geometry_arrays
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
