@@ -8,6 +8,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.path import kinematics
+from tribodyn.numerics.shapes import Array
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import BEGIN, END, PLACES
 from tribodyn.studies.ehl.loads import given_loads, quasi_static_loads
@@ -23,8 +24,6 @@ from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import LawInput
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
-
-Array = Any
 
 #: Positions at which the friction is solved that enters the loads.
 FRICTION_POSITIONS = 8

@@ -8,10 +8,9 @@ import numpy as np
 from tribodyn.errors import InputError, quoted
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.numerics.shapes import Array
 from tribodyn.post.cycles import last_cycles
 from tribodyn.record.reader import open_record
-
-Array = Any
 
 KEY = "contact.loads"
 #: By how much of the whole way the ends of given loads may miss those of the contact.

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.mesh.cycle import as_arrays
+from tribodyn.numerics.shapes import Array
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.ehl.along_path import (
     PairWay,
@@ -27,8 +28,6 @@ from tribodyn.studies.ehl.squeezed import SteadyContact, squeezed, steady_of
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
-
-Array = Any
 
 #: Slide-to-roll ratios of the traction curve.
 TRACTION = np.array([0.001, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])

@@ -7,12 +7,13 @@ position. Where the pair loses its load, or no instant can be solved, it begins 
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.numerics.shapes import Array
 from tribodyn.studies.ehl.along_path import PairWay, pressure_and_film
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import PLACES
@@ -26,8 +27,6 @@ from tribodyn.tribology.ehl.rough import RoughReduced, with_films
 from tribodyn.tribology.ehl.steady import Solution, grid_of, reduced_problem, solve_steady
 from tribodyn.tribology.ehl.table.table import Contact
 from tribodyn.tribology.ehl.transient import Instant, march
-
-Array = Any
 
 #: Longest time step, over that in which the oil is drawn through half a contact: films within 0.1 %.
 WAY_OF_A_STEP = 0.1

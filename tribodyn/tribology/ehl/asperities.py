@@ -1,14 +1,13 @@
 """Rough surfaces: pressure of the asperities, mean gap and flow between them."""
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import ndtr
 
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.values import not_negative, positive
-
-Array = Any
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 #: Separations over σ below which the asperities count as pressed flat.

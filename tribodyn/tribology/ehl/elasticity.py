@@ -1,11 +1,10 @@
 """Deformation of a half space under a pressure that is linear between nodes."""
 
 import math
-from typing import Any
 
 import numpy as np
 
-Array = Any
+from tribodyn.numerics.shapes import Array
 
 #: Distance over cell size from which the kernel's expansion replaces the difference of its antiderivatives.
 FAR = 30.0

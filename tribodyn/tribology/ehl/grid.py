@@ -1,13 +1,12 @@
 """Nodes along the film: refined at the inlet and the outlet of the contact, wide where nothing happens."""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.elasticity import influence
-
-Array = Any
 
 #: Steps between nodes over the distance from inlet and end of the film: h_c within 0.01 %, h_min 0.2 %.
 STEP = 0.1

@@ -16,12 +16,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
 from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import FilmGrid, at_faces
 from tribodyn.tribology.ehl.squeeze import Squeeze, behind, cells, mesh_speed, stored
-
-Array = Any
 
 #: Share of a pressure and of the flow that a step of Newton's method leaves, and how far the end may move.
 KEPT_PRESSURE, KEPT_FLOW, LONGEST_WAY = 0.2, 0.3, 0.3

@@ -9,10 +9,11 @@ with P_a by Greenwood & Tripp, the mean gap H_T and the flow factor φ_x by Pati
 equally rough, so that the shear flow factor drops out.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.asperities import Roughness, asperity_pressure, mean_gap, pressure_flow_factor
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
 from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity, relative_density
@@ -27,8 +28,6 @@ from tribodyn.tribology.ehl.reynolds import (
     mean_fluidity,
 )
 from tribodyn.tribology.ehl.squeeze import Squeeze, cells, mesh_speed, stored
-
-Array = Any
 
 
 class RoughReduced(NamedTuple):

@@ -10,13 +10,12 @@ derivatives of masses and of places are the same differences, so that nodes that
 make no flow.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.grid import FilmGrid
-
-Array = Any
 
 
 class Squeeze(NamedTuple):

@@ -1,18 +1,16 @@
 """Where Newton starts: Hertz's pressure with an inlet by Reynolds' equation, and the film of Moes' survey."""
 
 import math
-from typing import Any
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD, hertz_gap
 from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity
 from tribodyn.tribology.ehl.grid import FilmGrid
 from tribodyn.tribology.ehl.reynolds import FilmState, film
 from tribodyn.tribology.ehl.rough import Reduced
 from tribodyn.tribology.film.moes import log_survey
-
-Array = Any
 
 #: Films (in b²/R) up to which the start is Hertz's pressure; thicker ones start rigid. Tried over the map of
 #: `docs/ehl.md`, as the lengths below.

@@ -7,6 +7,7 @@ import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.blas_threads import one_blas_thread
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
 from tribodyn.tribology.ehl.grid import STEP, FilmGrid, film_width, made, placed
 from tribodyn.tribology.ehl.problem import LineContact, check
@@ -30,8 +31,6 @@ from tribodyn.tribology.ehl.rough import (
 )
 from tribodyn.tribology.ehl.squeeze import Squeeze
 from tribodyn.tribology.ehl.start import first_state, survey_film
-
-Array = Any
 
 #: Mass and force balance: largest residual of a face over the flow, and of the load over the load.
 TOLERANCE = 1e-10

@@ -13,13 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.fluid.fluid import relative_density
 from tribodyn.tribology.ehl.problem import LineContact, check
 from tribodyn.tribology.ehl.reynolds import FilmState, FlowCorrection, film
 from tribodyn.tribology.ehl.squeeze import Snapshot, cells, faces, squeeze_of
 from tribodyn.tribology.ehl.steady import TOLERANCE, Solution, converged, reduced_problem
-
-Array = Any
 
 #: Newton's method needs 2 to 6 steps from one instant to the next.
 MOST_STEPS = 15

@@ -1,12 +1,13 @@
 """The contact of a fluid that thins with shear and heat: pressure, film, shear and temperature together."""
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.blas_threads import one_blas_thread
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.fluid import heat as heat_of
 from tribodyn.tribology.ehl.fluid import rheology as rheology_of
 from tribodyn.tribology.ehl.fluid.fluid import hot_log_viscosity, log_viscosity, relative_density
@@ -17,8 +18,6 @@ from tribodyn.tribology.ehl.grid import STEP
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.reynolds import FlowCorrection
 from tribodyn.tribology.ehl.steady import Solution, solve_steady
-
-Array = Any
 
 #: Change of film, friction and temperature, over each, at which all of them hold together.
 TOLERANCE = 1e-7

@@ -1,12 +1,11 @@
 """Viscosity and density of the fluid under pressure, with their derivatives; arrays in, arrays out."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.oil import ROELANDS_PRESSURE
-
-Array = Any
 
 #: Dowson & Higginson (1966): ρ/ρ0 = 1 + 0.6e-9 p/(1 + 1.7e-9 p), p in Pa.
 DENSITY_RISE, DENSITY_SATURATION = 0.6e-9, 1.7e-9

@@ -21,10 +21,9 @@ from scipy.sparse.linalg import LinearOperator, gmres
 from scipy.special import k0e, k1e
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.fluid.shear import LAYERS
 from tribodyn.tribology.ehl.values import not_negative, positive
-
-Array = Any
 
 _BAND_FACTORS, _BAND_SOLVES = get_lapack_funcs(("gbtrf", "gbtrs"), dtype=np.float64)
 #: Speed (over κ, 1/m) below which a surface counts as moving as slowly as this.

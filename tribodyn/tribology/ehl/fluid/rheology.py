@@ -1,13 +1,12 @@
 """How fast a sheared fluid flows: Newton, Eyring, limiting shear stress, Carreau; arrays in, arrays out."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.errors import InputError, unknown_name
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.values import positive
-
-Array = Any
 
 #: Of Newton's method for Carreau's rate, which begins within a factor of 2.
 _CARREAU_STEPS = 8

@@ -15,13 +15,12 @@ and takes nothing from τ_m, which so never exceeds the limit. Nor does that law
 slips: all layers have their mean viscosity.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.fluid.rheology import Rheology, newtonian_stress, stress_scale, thinned
-
-Array = Any
 
 LAYERS = 12
 #: Middle of each layer over the thickness, from −½ at surface 2 to ½ at surface 1.

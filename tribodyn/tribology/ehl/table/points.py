@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.numerics import child
+from tribodyn.numerics.shapes import Array
 from tribodyn.numerics.work import steps, usable_cores
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
@@ -21,8 +22,6 @@ from tribodyn.tribology.mesh_conditions import DutyRange
 
 if TYPE_CHECKING:
     import subprocess
-
-Array = Any
 
 #: Grid's step of the contacts: the film within 0.05 %, friction within 1.5 % where pressures are low.
 STEP = 0.12

@@ -15,6 +15,7 @@ import numpy as np
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.elementary import is_jax
+from tribodyn.numerics.shapes import Array
 from tribodyn.numerics.sources import digest_of
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.asperities import Roughness
@@ -25,8 +26,6 @@ from tribodyn.tribology.ehl.table.lookup import TERMS, mixed_friction, most_of_f
 from tribodyn.tribology.ehl.table.points import Contact, solve_all, spread
 from tribodyn.tribology.law import LawInput
 from tribodyn.tribology.mesh_conditions import DutyRange
-
-Array = Any
 
 #: Deviation of film and friction that a table aims at, of 95 % of the compared contacts.
 WANTED = 0.01
