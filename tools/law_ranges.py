@@ -21,10 +21,10 @@ from tribodyn.scenario.tables.lubricant import lubricant_of
 from tribodyn.scenario.tables.model_files import Lubricant
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import Surfaces, local_contact
-from tribodyn.tribology.ehl.fluid.coupled import CoupledSolution, solve_coupled
+from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
+from tribodyn.tribology.ehl.points import STEP
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.table.points import STEP
-from tribodyn.tribology.ehl.table.table import contact_of
+from tribodyn.tribology.ehl.table import contact_of
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw, LawInput

@@ -47,8 +47,8 @@ import sys, threading
 import numpy as np
 import tribodyn as td
 from tests.support.closures import LIU_NI
-from tribodyn.tribology.ehl.table import table
-from tribodyn.tribology.ehl.table import points as table_points
+from tribodyn.tribology.ehl import table
+from tribodyn.tribology.ehl import points as table_points
 
 def work():
     td.open("one.h5")

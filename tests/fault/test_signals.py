@@ -31,9 +31,8 @@ SOLVING = (
     "module.{name} = noted\n"
 )
 PATH = SOLVING.format(module="tribodyn.studies.ehl.run", name="solved_at")
-TABLE = SOLVING.format(module="tribodyn.tribology.ehl.table.points", name="solve_one") + (
-    "import tribodyn.tribology.ehl.table.table as table\n"
-    "table.arrays_kept_or_made = lambda *given: given[-1]()\n"
+TABLE = SOLVING.format(module="tribodyn.tribology.ehl.points", name="solve_one") + (
+    "import tribodyn.tribology.ehl.table as table\ntable.arrays_kept_or_made = lambda *given: given[-1]()\n"
 )
 SOLVED_LAWS = ("--set", "film.law=solved", "--set", "friction.law=solved")
 LONG = ("--set", "solver.cycles=20000", "--set", "output.samples_per_cycle=20")

@@ -2,7 +2,7 @@
 
 import math
 
-from tribodyn.tribology.ehl.fluid.fluid import Fluid
+from tribodyn.tribology.ehl.fluid import Fluid
 from tribodyn.tribology.ehl.problem import LineContact
 
 #: E' of steel on steel, 2/E' = Σ(1 − ν²)/E, Pa.

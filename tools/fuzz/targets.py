@@ -23,7 +23,7 @@ from tribodyn.studies import STUDIES
 from tribodyn.studies.pages.pictures import summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.sweep.grid import Grid
-from tribodyn.tribology.ehl.table.table import ContactTable
+from tribodyn.tribology.ehl.table import ContactTable
 
 TAKEN, REFUSED = "taken", "refused"
 #: Characters that a message has at most: whoever reads it sees what is wrong, and not a file.

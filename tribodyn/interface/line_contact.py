@@ -7,15 +7,12 @@ import numpy as np
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.interface.scenario import in_python
-from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
-from tribodyn.tribology.ehl.fluid.fluid import Fluid
-from tribodyn.tribology.ehl.fluid.heat import HeatProperties
-from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl.coupled import solve_coupled
+from tribodyn.tribology.ehl.fluid import Fluid, Rheology
 from tribodyn.tribology.ehl.grid import STEP
-from tribodyn.tribology.ehl.problem import LineContact, check
-from tribodyn.tribology.ehl.steady import Solution
-from tribodyn.tribology.ehl.values import positive
+from tribodyn.tribology.ehl.heat import HeatProperties
+from tribodyn.tribology.ehl.problem import LineContact, Solution, check, positive
+from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.oil import roelands_index
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from tribodyn.compliance.fem import cache as fem_cache
 from tribodyn.kernels.native import store
 from tribodyn.numerics import sources
 from tribodyn.numerics.output_files import replacing
-from tribodyn.tribology.ehl.table import table
+from tribodyn.tribology.ehl import table
 
 FILES = {
     "__init__.py": "",

@@ -11,7 +11,7 @@ import pytest
 from tests.support.closures import LIU_NI, VECIANA, under
 from tribodyn.tribology.closure import closure
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.ehl.table.lookup import LIMITS, in_table
+from tribodyn.tribology.ehl.lookup import LIMITS, in_table
 from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, film_law, masjedi_khonsari, moes
 from tribodyn.tribology.friction import FRICTION_LAWS, benedict_kelley, coulomb, friction_law, xu
 from tribodyn.tribology.friction import masjedi_khonsari as mixed

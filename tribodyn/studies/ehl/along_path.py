@@ -16,10 +16,9 @@ from tribodyn.studies.gears.prepare import PreparedGears, assembled
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.data import FilmData, FrictionData
-from tribodyn.tribology.ehl.fluid.coupled import CoupledSolution, solve_coupled
-from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact
-from tribodyn.tribology.ehl.steady import Solution
-from tribodyn.tribology.ehl.table.table import Contact, contact_of
+from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
+from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact, Solution
+from tribodyn.tribology.ehl.table import Contact, contact_of
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import LawInput

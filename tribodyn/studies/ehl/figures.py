@@ -12,7 +12,7 @@ from tribodyn.post.figures.drawing import Drawing, always
 from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.style import GRID, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.tribology.ehl.start import survey_film
+from tribodyn.tribology.ehl.steady import survey_film
 
 ROLL = "Roll angle from the pitch point (°)"
 _PLACE = "Place over half width of the Hertz contact"

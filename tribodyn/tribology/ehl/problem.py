@@ -1,19 +1,26 @@
-"""A line contact between two lubricated cylinders, its Hertz contact and its numbers; SI units."""
+"""A line contact of two lubricated cylinders, its numbers and their check, and its solution; SI units."""
 
 import math
-from typing import NamedTuple
+import numbers
+from typing import Any, NamedTuple
 
-from tribodyn.errors import InputError
+import numpy as np
+
+from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.contact import hertz_pressure as maximum_hertz_pressure
-from tribodyn.tribology.ehl import asperities
-from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.fluid import Fluid
-from tribodyn.tribology.ehl.values import not_negative, number, positive
+from tribodyn.tribology.ehl.fluid import LAWS, Fluid, Rheology
+from tribodyn.tribology.ehl.grid import FilmGrid
+from tribodyn.tribology.ehl.heat import HeatProperties
+from tribodyn.tribology.ehl.reynolds import FilmState, FlowCorrection
+from tribodyn.tribology.ehl.rough import Reduced, Roughness, RoughReduced, asperities, gap
 
 #: Moes' M and L between which contacts are tried; gears have M 5 … 2000 and L 2 … 25. Smooth ones converge up
 #: to M = 1e4, rough ones up to the dry contact.
 LEAST_LOAD, GREATEST_LOAD, GREATEST_MATERIAL = 0.01, 1e12, 1000.0
+#: Products of several numbers up to this size, and of their inverses, are still floats.
+LARGEST = 1e30
 
 
 class LineContact(NamedTuple):
@@ -70,6 +77,120 @@ class LineContact(NamedTuple):
         return drawn / (self.effective_modulus * self.radius)
 
 
+class Solution(NamedTuple):
+    """A solved contact."""
+
+    problem: LineContact
+    reduced: Reduced
+    grid: FilmGrid
+    state: FilmState  # State, in Hertz's units
+    film: Array  # H at the nodes
+    closure: FlowCorrection  # what shear and heat make of the flow
+    steps: int  # of Newton's method
+    imbalance: float  # largest residual: of mass flow over the flow, of force over the load
+
+    @property
+    def place(self) -> Array:
+        """Place x of the nodes, m; 0 on the line of centres, the film ends at the last."""
+        return (self.state.end + self.grid.node) * self.problem.half_width
+
+    @property
+    def pressure(self) -> Array:
+        """Of fluid and asperities together, Pa."""
+        return self.fluid_pressure + self.asperity_pressure
+
+    @property
+    def asperity_pressure(self) -> Array:
+        """Mean pressure of the asperities, Pa; 0 between smooth surfaces."""
+        if not isinstance(self.reduced, RoughReduced):
+            return np.zeros_like(self.film)
+        return asperities(self.film, self.reduced)[0] * self.problem.hertz_pressure
+
+    @property
+    def fluid_pressure(self) -> Array:
+        """Pa; 0 behind the film."""
+        return self.state.pressure * self.problem.hertz_pressure
+
+    @property
+    def mean_gap(self) -> Array:
+        """Mean distance of the surfaces, m: the film of smooth ones, never zero between rough ones."""
+        if not isinstance(self.reduced, RoughReduced):
+            return self.film_thickness
+        return gap(self.film, self.reduced)[0] * self.problem.film_unit
+
+    @property
+    def asperity_load_ratio(self) -> float:
+        """Share of the load that the asperities carry."""
+        carried = float(self.grid.weight @ self.asperity_pressure)
+        return carried / self.problem.line_load * self.problem.half_width
+
+    @property
+    def film_thickness(self) -> Array:
+        """Film thickness, m."""
+        return self.film * self.problem.film_unit
+
+    @property
+    def central_film_thickness(self) -> float:
+        """Film on the line of centres, x = 0, m."""
+        return _parabola(self.place, self.film_thickness, int(np.argmin(np.abs(self.place))))[0]
+
+    @property
+    def minimum_film_thickness(self) -> float:
+        """Minimum film thickness, m."""
+        return _parabola(self.place, self.film_thickness, int(np.argmin(self.film)))[1]
+
+    @property
+    def flow_film_thickness(self) -> float:
+        """Flow per width over u ρ0: film where the pressure is highest, times relative density there, m."""
+        return self.state.flow * self.problem.film_unit
+
+    @property
+    def rolling_drag(self) -> float:
+        """Drag of the pressure flow on each surface, ½ ∫ h dp/dx dx, N/m (Biboulet & Houpert 2010).
+
+        With τ = τ_m + (z − h/2) dp/dx in the film, ∫ τ_m dx holds back the faster surface, this one both.
+        """
+        pressure, thick = self.fluid_pressure, self.mean_gap
+        return 0.25 * float(np.sum((thick[1:] + thick[:-1]) * np.diff(pressure)))
+
+
+def _parabola(place: Array, value: Array, at: int) -> tuple[float, float]:
+    """Value at x = 0, and extreme value, of the parabola through a node and its neighbours."""
+    at = min(max(at, 1), len(place) - 2)
+    c2, c1, c0 = np.polyfit(place[at - 1 : at + 2] / place[-1], value[at - 1 : at + 2] / value[at], 2)
+    extreme = c0 - c1 * c1 / (4.0 * c2) if c2 > 0.0 else 1.0
+    return float(c0 * value[at]), float(min(extreme, 1.0) * value[at])
+
+
+def number(name: str, value: Any) -> float:
+    """Return a value as a float; raise InputError if it is none, or not finite."""
+    real = isinstance(value, numbers.Real) and not isinstance(value, bool)
+    known = float(value) if real else math.nan
+    if not math.isfinite(known):
+        raise InputError(name, quoted(value), "is not a finite number", "give a number in SI units")
+    if abs(known) > LARGEST:
+        raise InputError(name, f"{known:g}", f"is beyond {LARGEST:g}", "give a number in SI units")
+    return known
+
+
+def not_negative(name: str, value: Any, unit: str = "", remedy: str = "write 0 or more") -> float:
+    """Return a value as a float; raise InputError if it is none, or below zero."""
+    known = number(name, value)
+    if known < 0.0:
+        raise InputError(name, f"{known:g} {unit}".strip(), "must not be negative", remedy)
+    return known
+
+
+def positive(name: str, value: Any, unit: str = "", remedy: str = "give a number above 0") -> float:
+    """Return a value as a float; raise InputError if it is none, or not above zero."""
+    known = number(name, value)
+    if known <= 0.0:
+        raise InputError(name, f"{known:g} {unit}".strip(), "must be positive", remedy)
+    if known < 1.0 / LARGEST:
+        raise InputError(name, f"{known:g} {unit}".strip(), f"is below {1.0 / LARGEST:g}", remedy)
+    return known
+
+
 #: Argument that must be positive -> unit, remedy.
 _POSITIVE = {
     "line_load": ("N/m", "a contact without load has no film to solve; load it"),
@@ -95,7 +216,7 @@ def check(problem: LineContact) -> None:
         index = problem.fluid.viscosity_pressure_index
         raise InputError("viscosity_pressure_index", index, "is above 1, which is Barus' law", "give z ≤ 1")
     if problem.roughness is not None:
-        asperities.check(problem.roughness)
+        check_roughness(problem.roughness)
     _check_size(problem)
 
 
@@ -123,3 +244,34 @@ def _check_size(problem: LineContact) -> None:
             f"Moes' material parameter L is {material:.3g}, solved is up to {GREATEST_MATERIAL:g}",
             "check its unit: 1e-8 … 4e-8 1/Pa of oils",
         )
+
+
+def check_roughness(roughness: Roughness) -> None:
+    """Raise InputError at the first value that is not positive."""
+    names = {"height": "roughness", "density": "asperity_density", "slope": "asperity_slope"}
+    for name, key in names.items():
+        positive(key, getattr(roughness, name), remedy="leave the roughness out for smooth surfaces")
+    not_negative("asperity_friction", roughness.friction, remedy="0.08 … 0.15 of steel")
+
+
+def check_heat(thermal: HeatProperties) -> None:
+    """Raise InputError at the first value that is no number, or not positive."""
+    not_negative("temperature_viscosity", thermal.temperature_viscosity, "1/K")
+    for name in ("conductivity", "heat_capacity"):
+        positive(f"oil_{name}", getattr(thermal, name))
+    for name in ("solid_conductivity", "solid_heat_capacity"):
+        value = getattr(thermal, name)
+        if not isinstance(value, tuple) or len(value) != 2:
+            raise InputError(name, value, "must be two numbers", "give those of surface 1 and surface 2")
+        for part in value:
+            positive(name, part)
+
+
+def check_rheology(rheology: Rheology) -> None:
+    """Raise InputError at an unknown law or a constant that is not positive."""
+    if not isinstance(rheology.law, str) or rheology.law not in LAWS:
+        raise unknown_name("rheology", str(rheology.law), LAWS, "law of shear")
+    for name in LAWS[rheology.law]:
+        positive(name, getattr(rheology, name), remedy=f'law "{rheology.law}" reads it')
+    if rheology.law == "carreau" and rheology.carreau_index > 1.0:
+        raise InputError("carreau_index", rheology.carreau_index, "thickens with shear", "give n ≤ 1")

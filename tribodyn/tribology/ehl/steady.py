@@ -1,20 +1,24 @@
-"""The steady line contact, by Newton's method on pressures, films, end of the film and load at once."""
+"""The steady line contact, by Newton's method on pressures, films, end of the film and load at once.
+
+It starts from Hertz's pressure with an inlet by Reynolds' equation, and the film of Moes' survey.
+"""
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array
-from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
-from tribodyn.tribology.ehl.grid import STEP, FilmGrid, film_width, made, placed
-from tribodyn.tribology.ehl.problem import LineContact, check
+from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity
+from tribodyn.tribology.ehl.grid import HERTZ_LOAD, STEP, FilmGrid, film_width, hertz_gap, made, placed
+from tribodyn.tribology.ehl.problem import LineContact, Solution, check
 from tribodyn.tribology.ehl.reynolds import (
     FilmState,
     FlowCorrection,
     SmoothReduced,
+    Squeeze,
     film,
     moved,
     newtonian,
@@ -23,14 +27,11 @@ from tribodyn.tribology.ehl.reynolds import (
 from tribodyn.tribology.ehl.rough import (
     Reduced,
     RoughReduced,
-    asperities,
-    gap,
     rough_moved,
     rough_residual,
     with_films,
 )
-from tribodyn.tribology.ehl.squeeze import Squeeze
-from tribodyn.tribology.ehl.start import first_state, survey_film
+from tribodyn.tribology.film.moes import log_survey
 
 #: Mass and force balance: largest residual of a face over the flow, and of the load over the load.
 TOLERANCE = 1e-10
@@ -41,83 +42,11 @@ MOST_STEPS = 40
 SUCTION = 1e-4
 #: Shortest step of a continuation, over the whole pressure-viscosity coefficient.
 _SHORTEST_WAY = 1.0 / 64.0
-
-
-class Solution(NamedTuple):
-    """A solved contact."""
-
-    problem: LineContact
-    reduced: Reduced
-    grid: FilmGrid
-    state: FilmState  # State, in Hertz's units
-    film: Array  # H at the nodes
-    closure: FlowCorrection  # what shear and heat make of the flow
-    steps: int  # of Newton's method
-    imbalance: float  # largest residual: of mass flow over the flow, of force over the load
-
-    @property
-    def place(self) -> Array:
-        """Place x of the nodes, m; 0 on the line of centres, the film ends at the last."""
-        return (self.state.end + self.grid.node) * self.problem.half_width
-
-    @property
-    def pressure(self) -> Array:
-        """Of fluid and asperities together, Pa."""
-        return self.fluid_pressure + self.asperity_pressure
-
-    @property
-    def asperity_pressure(self) -> Array:
-        """Mean pressure of the asperities, Pa; 0 between smooth surfaces."""
-        if not isinstance(self.reduced, RoughReduced):
-            return np.zeros_like(self.film)
-        return asperities(self.film, self.reduced)[0] * self.problem.hertz_pressure
-
-    @property
-    def fluid_pressure(self) -> Array:
-        """Pa; 0 behind the film."""
-        return self.state.pressure * self.problem.hertz_pressure
-
-    @property
-    def mean_gap(self) -> Array:
-        """Mean distance of the surfaces, m: the film of smooth ones, never zero between rough ones."""
-        if not isinstance(self.reduced, RoughReduced):
-            return self.film_thickness
-        return gap(self.film, self.reduced)[0] * self.problem.film_unit
-
-    @property
-    def asperity_load_ratio(self) -> float:
-        """Share of the load that the asperities carry."""
-        carried = float(self.grid.weight @ self.asperity_pressure)
-        return carried / self.problem.line_load * self.problem.half_width
-
-    @property
-    def film_thickness(self) -> Array:
-        """Film thickness, m."""
-        return self.film * self.problem.film_unit
-
-    @property
-    def central_film_thickness(self) -> float:
-        """Film on the line of centres, x = 0, m."""
-        return _parabola(self.place, self.film_thickness, int(np.argmin(np.abs(self.place))))[0]
-
-    @property
-    def minimum_film_thickness(self) -> float:
-        """Minimum film thickness, m."""
-        return _parabola(self.place, self.film_thickness, int(np.argmin(self.film)))[1]
-
-    @property
-    def flow_film_thickness(self) -> float:
-        """Flow per width over u ρ0: film where the pressure is highest, times relative density there, m."""
-        return self.state.flow * self.problem.film_unit
-
-    @property
-    def rolling_drag(self) -> float:
-        """Drag of the pressure flow on each surface, ½ ∫ h dp/dx dx, N/m (Biboulet & Houpert 2010).
-
-        With τ = τ_m + (z − h/2) dp/dx in the film, ∫ τ_m dx holds back the faster surface, this one both.
-        """
-        pressure, thick = self.fluid_pressure, self.mean_gap
-        return 0.25 * float(np.sum((thick[1:] + thick[:-1]) * np.diff(pressure)))
+#: Films (in b²/R) up to which the start is Hertz's pressure; thicker ones start rigid. Tried over the map of
+#: `docs/ehl.md`, as the lengths below.
+THIN = 2.5
+#: Central film over the minimum of Martin's rigid contact, and its end in √(2 R h_min).
+MARTIN_CENTRAL, MARTIN_END = 1.226, 0.4754
 
 
 def reduced_problem(problem: LineContact) -> Reduced:
@@ -283,9 +212,59 @@ def _imbalance(values: Array, state: FilmState, grid: FilmGrid, squeeze: Squeeze
     return float(max(np.max(np.abs(values[:-2]) / flow), abs(values[-2]) / HERTZ_LOAD))
 
 
-def _parabola(place: Array, value: Array, at: int) -> tuple[float, float]:
-    """Value at x = 0, and extreme value, of the parabola through a node and its neighbours."""
-    at = min(max(at, 1), len(place) - 2)
-    c2, c1, c0 = np.polyfit(place[at - 1 : at + 2] / place[-1], value[at - 1 : at + 2] / value[at], 2)
-    extreme = c0 - c1 * c1 / (4.0 * c2) if c2 > 0.0 else 1.0
-    return float(c0 * value[at]), float(min(extreme, 1.0) * value[at])
+def survey_film(load: float, material: float) -> float:
+    """Central film in b²/R by Moes' survey formula, of Moes' M and L."""
+    return math.exp(log_survey(math.log(load), math.log(max(material, 1e-9)))) * math.pi / (8.0 * load)
+
+
+def first_state(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
+    """Return pressures, films and end of the film near the solution, for a central film from the survey."""
+    if central < THIN:
+        return _elastic(reduced, grid, central)
+    return _rigid(reduced, grid, central)
+
+
+def _elastic(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
+    width = (1.06 * central) ** (2.0 / 3.0)
+    end = 1.0 + 0.5 * width
+    place = end + grid.node
+    inlet = _drawn_in(reduced, grid, central, central + np.where(place < 0.0, hertz_gap(place), 0.0), 0.7)
+    inlet = np.minimum(inlet, math.sqrt(min(2.0 * width, 0.5)))
+    inlet = inlet * np.exp(-np.maximum(place + 1.0, 0.0) / (1.5 * width))
+    pressure = np.sqrt(np.maximum(1.0 - place**2, 0.0) + inlet**2)
+    return _loaded(reduced, grid, pressure, end, central, central)
+
+
+def _rigid(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
+    least = central / MARTIN_CENTRAL
+    end = MARTIN_END * math.sqrt(2.0 * least)
+    place = end + grid.node
+    pressure = _drawn_in(reduced, grid, central, least + 0.5 * place**2, 1.0)
+    return _loaded(reduced, grid, pressure, end, central, least)
+
+
+def _drawn_in(reduced: Reduced, grid: FilmGrid, central: float, thick: Array, most: float) -> Array:
+    """Pressures of an incompressible fluid drawn into a given gap, up to a share of the reduced pressure."""
+    thick = np.maximum(thick, 0.1 * central)
+    rise = reduced.speed * (thick - central) / thick**3
+    drawn = np.concatenate([[0.0], np.cumsum(0.5 * (rise[1:] + rise[:-1]) * grid.step)])
+    known, saturating = _reduced_pressure(reduced.hertz_pressure, reduced.fluid)
+    return np.interp(np.clip(drawn, 0.0, most * saturating[-1]), saturating, known)
+
+
+def _reduced_pressure(scale: float, fluid: Fluid) -> tuple[Array, Array]:
+    """∫ η0/η dP over P, as a table up to three times Hertz's pressure."""
+    known = np.concatenate([[0.0], np.geomspace(1e-12, 3.0, 600)])
+    fluidity = np.exp(-log_viscosity(scale * known, fluid)[0])
+    steps = 0.5 * np.diff(known) * (fluidity[1:] + fluidity[:-1])
+    return known, np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _loaded(
+    reduced: Reduced, grid: FilmGrid, pressure: Array, end: float, flow: float, middle: float
+) -> FilmState:
+    """Give pressures the contact's load, and the rigid film that leaves `middle` at X = 0."""
+    pressure[0] = pressure[-1] = 0.0
+    pressure = pressure * (HERTZ_LOAD / (grid.weight @ pressure))
+    thick = film(FilmState(pressure, 0.0, flow, end), reduced, grid)
+    return FilmState(pressure, middle - float(np.interp(0.0, end + grid.node, thick)), flow, end)

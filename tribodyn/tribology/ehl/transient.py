@@ -1,6 +1,6 @@
 """A line contact whose load, radius and speed change with time: steady contact and squeeze, step by step.
 
-The equations are those of the steady contact with the squeeze term on (`squeeze`): at each instant Newton's
+The equations are those of the steady contact with the squeeze term on (`reynolds`): at each instant Newton's
 method finds pressures, rigid displacement, flow, end of the film and load balance together. In time:
 backward differences of second order over steps that need not be equal, begun by one step of Euler's backward
 formula; both are L-stable. A step that does not converge is halved.
@@ -14,11 +14,18 @@ import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array
-from tribodyn.tribology.ehl.fluid.fluid import relative_density
-from tribodyn.tribology.ehl.problem import LineContact, check
-from tribodyn.tribology.ehl.reynolds import FilmState, FlowCorrection, film
-from tribodyn.tribology.ehl.squeeze import Snapshot, cells, faces, squeeze_of
-from tribodyn.tribology.ehl.steady import TOLERANCE, Solution, converged, reduced_problem
+from tribodyn.tribology.ehl.fluid import relative_density
+from tribodyn.tribology.ehl.problem import LineContact, Solution, check
+from tribodyn.tribology.ehl.reynolds import (
+    FilmState,
+    FlowCorrection,
+    Snapshot,
+    cells,
+    faces,
+    film,
+    squeeze_of,
+)
+from tribodyn.tribology.ehl.steady import TOLERANCE, converged, reduced_problem
 
 #: Newton's method needs 2 to 6 steps from one instant to the next.
 MOST_STEPS = 15

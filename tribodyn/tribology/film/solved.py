@@ -3,7 +3,7 @@
 from typing import Any
 
 from tribodyn.numerics.elementary import law
-from tribodyn.tribology.ehl.table.lookup import LIMITS, RANGE, asperity_share, in_table, polynomial, variables
+from tribodyn.tribology.ehl.lookup import LIMITS, RANGE, asperity_share, in_table, polynomial, variables
 from tribodyn.tribology.law import FilmLaw, LawInput
 
 
@@ -15,7 +15,7 @@ def solved_film(contact, surfaces, parameters):
 
 
 def _table(given: LawInput) -> Any:
-    from tribodyn.tribology.ehl.table.table import table_of
+    from tribodyn.tribology.ehl.table import table_of
 
     return table_of(given)
 

@@ -4,7 +4,7 @@ from typing import Any
 
 from tribodyn.numerics.elementary import law
 from tribodyn.tribology.contact import hertz_half_width
-from tribodyn.tribology.ehl.table.lookup import (
+from tribodyn.tribology.ehl.lookup import (
     LIMITS,
     RANGE,
     asperity_share,
@@ -34,7 +34,7 @@ def in_its_table(contact, film, surfaces, parameters):
 
 
 def _table(given: LawInput) -> Any:
-    from tribodyn.tribology.ehl.table.table import table_of
+    from tribodyn.tribology.ehl.table import table_of
 
     return table_of(given)
 

@@ -5,11 +5,10 @@ import pytest
 
 from tests.support.line_contacts import REFERENCES
 from tribodyn.errors import InputError
-from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.coupled import friction_of, shear_force, solve_coupled
-from tribodyn.tribology.ehl.fluid.fluid import log_viscosity
-from tribodyn.tribology.ehl.fluid.heat import HeatProperties
-from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl.coupled import friction_of, shear_force, solve_coupled
+from tribodyn.tribology.ehl.fluid import Rheology, log_viscosity
+from tribodyn.tribology.ehl.heat import HeatProperties
+from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.ehl.steady import solve_steady
 
 PROBLEM = REFERENCES[1][0]

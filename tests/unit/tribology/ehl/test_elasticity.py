@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD, hertz_gap, influence
+from tribodyn.tribology.ehl.grid import HERTZ_LOAD, hertz_gap, influence
 
 
 def test_influence_of_uneven_nodes_is_the_integral():

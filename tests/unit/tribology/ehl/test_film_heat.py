@@ -10,9 +10,9 @@ from scipy.integrate import quad
 from scipy.optimize import brentq as scipy_brentq
 from scipy.special import k0
 
-from tribodyn.tribology.ehl.fluid.heat import HeatProperties, heated, surfaces_under
-from tribodyn.tribology.ehl.fluid.rheology import Rheology
-from tribodyn.tribology.ehl.fluid.shear import LAYERS, sheared
+from tribodyn.tribology.ehl.fluid import Rheology
+from tribodyn.tribology.ehl.heat import HeatProperties, heated, surfaces_under
+from tribodyn.tribology.ehl.shear import LAYERS, sheared
 
 #: SciPy's says that it may return more than the root.
 brentq: Any = scipy_brentq

@@ -10,16 +10,16 @@ from scipy.linalg import lu_solve
 from scipy.special import k0
 
 from tribodyn.errors import InputError
-from tribodyn.tribology.ehl.fluid.heat import (
+from tribodyn.tribology.ehl.heat import (
     HeatProperties,
     _conductances,
     _coupling,
-    check,
     heated,
     moving_source,
     surfaces_under,
 )
-from tribodyn.tribology.ehl.fluid.shear import LAYERS
+from tribodyn.tribology.ehl.problem import check_heat
+from tribodyn.tribology.ehl.shear import LAYERS
 
 CONDUCTIVITY, CAPACITY = 46.0, 3.6e6
 
@@ -160,5 +160,5 @@ def test_a_surface_at_rest_is_warmed_as_by_a_source_that_creeps():
 )
 def test_bad_values(thermal, key):
     with pytest.raises(InputError) as caught:
-        check(thermal)
+        check_heat(thermal)
     assert caught.value.key == key

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.tribology.ehl.fluid.coupled import MEMORY, Mixing
+from tribodyn.tribology.ehl.coupled import MEMORY, Mixing
 
 
 def test_a_linear_map_is_solved_in_as_many_steps_as_it_has_dimensions(rng):

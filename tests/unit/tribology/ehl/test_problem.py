@@ -1,14 +1,16 @@
 """Which contacts are refused, at the edges of what the equations are made for."""
 
 import math
+from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from tests.support.line_contacts import MODULUS, by_moes
 from tribodyn.errors import InputError
-from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.fluid import Fluid
-from tribodyn.tribology.ehl.problem import LineContact, check
+from tribodyn.tribology.ehl.fluid import Fluid
+from tribodyn.tribology.ehl.problem import LineContact, check, not_negative, number, positive
+from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.oil import roelands_index
 
 FLUID = Fluid(0.04, 22e-9, 0.6)
@@ -81,3 +83,33 @@ def test_index_of_roelands():
     step = 1e3
     rise = (math.log(0.037) + 9.67) * ((1 + step / 1.962e8) ** z - 1)
     assert rise / step == pytest.approx(21e-9, rel=1e-5)
+
+
+TINY, HUGE = 1e-30, 1e30
+
+
+@pytest.mark.parametrize("value", [0, -3, 2.5, TINY / 2, HUGE, -HUGE, Fraction(1, 4), np.float64(7.0)])
+def test_numbers(value):
+    assert number("a", value) == float(value)
+    assert isinstance(number("a", value), float)
+
+
+@pytest.mark.parametrize("value", [True, "1", None, [1.0], math.nan, math.inf, 1.1 * HUGE, -1.1 * HUGE, 1j])
+def test_what_is_no_number(value):
+    for rule in (number, not_negative, positive):
+        with pytest.raises(InputError) as caught:
+            rule("a", value)
+        assert caught.value.key == "a"
+
+
+def test_signs():
+    assert not_negative("a", 0) == 0.0
+    assert not_negative("a", TINY / 2) == TINY / 2
+    assert positive("a", 1.01 * TINY) == 1.01 * TINY
+    assert positive("a", TINY) == TINY
+    with pytest.raises(InputError, match=r"a = -0\.5 mm.*must not be negative"):
+        not_negative("a", -0.5, "mm")
+    with pytest.raises(InputError, match=r"a = 0 mm.*must be positive"):
+        positive("a", 0.0, "mm")
+    with pytest.raises(InputError, match="is below 1e-30"):
+        positive("a", 0.9 * TINY)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from tribodyn.tribology.ehl import reynolds, rough
-from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.fluid import Fluid
+from tribodyn.tribology.ehl.fluid import Fluid
 from tribodyn.tribology.ehl.grid import made
-from tribodyn.tribology.ehl.squeeze import Squeeze
+from tribodyn.tribology.ehl.reynolds import Squeeze
+from tribodyn.tribology.ehl.rough import Roughness
 
 FLUID = Fluid(0.05, 2e-8, 0.6)
 SCALE = 2e8

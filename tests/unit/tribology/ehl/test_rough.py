@@ -8,14 +8,18 @@ from scipy.integrate import quad
 
 from tests.support.line_contacts import REFERENCES
 from tribodyn.errors import InputError
-from tribodyn.tribology.ehl.asperities import Roughness, asperity_pressure, mean_gap, pressure_flow_factor
-from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
-from tribodyn.tribology.ehl.fluid.fluid import Fluid
-from tribodyn.tribology.ehl.fluid.heat import HeatProperties
-from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl.coupled import solve_coupled
+from tribodyn.tribology.ehl.fluid import Fluid, Rheology
+from tribodyn.tribology.ehl.heat import HeatProperties
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.reynolds import FilmState, newtonian
-from tribodyn.tribology.ehl.rough import rough_residual
+from tribodyn.tribology.ehl.rough import (
+    Roughness,
+    asperity_pressure,
+    mean_gap,
+    pressure_flow_factor,
+    rough_residual,
+)
 from tribodyn.tribology.ehl.steady import reduced_problem, solve_steady
 
 PROBLEM = REFERENCES[1][0]

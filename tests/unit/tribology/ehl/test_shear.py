@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.tribology.ehl.fluid.rheology import Rheology, check, newtonian_stress, stress_scale, thinned
-from tribodyn.tribology.ehl.fluid.shear import LAYERS, sheared
+from tribodyn.tribology.ehl.fluid import Rheology, newtonian_stress, stress_scale, thinned
+from tribodyn.tribology.ehl.problem import check_rheology
+from tribodyn.tribology.ehl.shear import LAYERS, sheared
 
 LAWS = ("newtonian", "eyring", "limiting", "carreau")
 
@@ -46,7 +47,7 @@ def test_laws_in_closed_form():
         scale = stress_scale(pressure, rheology)
         np.testing.assert_allclose(thinned(equal, scale, rheology), stress, rtol=1e-12, atol=1e-300)
     assert Rheology() == ("newtonian", 5e6, 0.05, 2e6, 5e6, 0.5)
-    check(Rheology("carreau", carreau_index=1.0))
+    check_rheology(Rheology("carreau", carreau_index=1.0))
 
 
 @pytest.mark.parametrize("index", [0.3, 0.8, 1.0])
@@ -138,5 +139,5 @@ def test_heat_is_the_work_on_the_film(law):
 )
 def test_bad_laws(rheology, key):
     with pytest.raises(InputError) as caught:
-        check(rheology)
+        check_rheology(rheology)
     assert caught.value.key == key

@@ -10,17 +10,21 @@ import pytest
 from scipy.integrate import quad
 
 from tests.support.line_contacts import MODULUS, REFERENCES
-from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid import fluid as fluids
-from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
-from tribodyn.tribology.ehl.fluid.fluid import Fluid
-from tribodyn.tribology.ehl.fluid.heat import HeatProperties
-from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl import fluid as fluids
+from tribodyn.tribology.ehl.coupled import solve_coupled
+from tribodyn.tribology.ehl.fluid import Fluid, Rheology
 from tribodyn.tribology.ehl.grid import film_width, made, placed
+from tribodyn.tribology.ehl.heat import HeatProperties
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.squeeze import Snapshot, cells, faces, mesh_speed, squeeze_of, stored
-from tribodyn.tribology.ehl.start import _reduced_pressure, first_state, survey_film
-from tribodyn.tribology.ehl.steady import reduced_problem, solve_steady
+from tribodyn.tribology.ehl.reynolds import Snapshot, cells, faces, mesh_speed, squeeze_of, stored
+from tribodyn.tribology.ehl.rough import Roughness
+from tribodyn.tribology.ehl.steady import (
+    _reduced_pressure,
+    first_state,
+    reduced_problem,
+    solve_steady,
+    survey_film,
+)
 
 LENGTH, FORCE, TIME, KELVIN = 1.7, 0.6, 2.3, 1.9
 PRESSURE = FORCE / LENGTH**2

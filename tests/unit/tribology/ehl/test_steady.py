@@ -8,12 +8,18 @@ import pytest
 from tests.support.line_contacts import REFERENCES, by_moes
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.tribology.ehl import steady
-from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity, relative_density
+from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import film_width, made, placed
 from tribodyn.tribology.ehl.reynolds import FilmState, newtonian, residual
-from tribodyn.tribology.ehl.start import first_state
-from tribodyn.tribology.ehl.steady import converged, expected_film, grid_of, reduced_problem, solve_steady
+from tribodyn.tribology.ehl.rough import Roughness
+from tribodyn.tribology.ehl.steady import (
+    converged,
+    expected_film,
+    first_state,
+    grid_of,
+    reduced_problem,
+    solve_steady,
+)
 from tribodyn.tribology.film.moes import log_survey
 
 

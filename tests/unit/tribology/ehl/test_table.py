@@ -14,12 +14,12 @@ from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import closure, duty_range, with_laws
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
+from tribodyn.tribology.ehl import points
+from tribodyn.tribology.ehl import table as tables
+from tribodyn.tribology.ehl.coupled import solve_coupled
+from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, polynomial
+from tribodyn.tribology.ehl.lookup import clipped as clipped_at
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.table import points
-from tribodyn.tribology.ehl.table import table as tables
-from tribodyn.tribology.ehl.table.lookup import TERMS, mixed_friction, polynomial
-from tribodyn.tribology.ehl.table.lookup import clipped as clipped_at
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.film.solved import solved_film
 from tribodyn.tribology.friction import friction_law

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribodyn.tribology.ehl.fluid.coupled import shear_force
-from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl.coupled import shear_force
+from tribodyn.tribology.ehl.fluid import Rheology
 
 PLACE = np.array([-2e-4, -1.3e-4, -0.9e-4, 0.0, 0.2e-4, 1.1e-4])
 

@@ -10,11 +10,9 @@ from scipy.optimize import brentq
 from tests.support.line_contacts import REFERENCES, by_moes
 from tribodyn.errors import SimulationError
 from tribodyn.tribology.ehl import transient
-from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.fluid import log_viscosity, relative_density
-from tribodyn.tribology.ehl.reynolds import newtonian, residual
-from tribodyn.tribology.ehl.rough import rough_residual
-from tribodyn.tribology.ehl.squeeze import Snapshot, Squeeze
+from tribodyn.tribology.ehl.fluid import log_viscosity, relative_density
+from tribodyn.tribology.ehl.reynolds import Snapshot, Squeeze, newtonian, residual
+from tribodyn.tribology.ehl.rough import Roughness, rough_residual
 from tribodyn.tribology.ehl.steady import grid_of, solve_steady
 from tribodyn.tribology.ehl.transient import Instant, march
 

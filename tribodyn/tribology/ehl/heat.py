@@ -20,10 +20,9 @@ from scipy.linalg import get_lapack_funcs, lu_factor, lu_solve
 from scipy.sparse.linalg import LinearOperator, gmres
 from scipy.special import k0e, k1e
 
-from tribodyn.errors import InputError, SimulationError
+from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array
-from tribodyn.tribology.ehl.fluid.shear import LAYERS
-from tribodyn.tribology.ehl.values import not_negative, positive
+from tribodyn.tribology.ehl.shear import LAYERS
 
 _BAND_FACTORS, _BAND_SOLVES = get_lapack_funcs(("gbtrf", "gbtrs"), dtype=np.float64)
 #: Speed (over κ, 1/m) below which a surface counts as moving as slowly as this.
@@ -55,19 +54,6 @@ class FilmHeat(NamedTuple):
     into_1: float
     into_2: float
     carried: float  # by the oil out of the film
-
-
-def check(thermal: HeatProperties) -> None:
-    """Raise InputError at the first value that is no number, or not positive."""
-    not_negative("temperature_viscosity", thermal.temperature_viscosity, "1/K")
-    for name in ("conductivity", "heat_capacity"):
-        positive(f"oil_{name}", getattr(thermal, name))
-    for name in ("solid_conductivity", "solid_heat_capacity"):
-        value = getattr(thermal, name)
-        if not isinstance(value, tuple) or len(value) != 2:
-            raise InputError(name, value, "must be two numbers", "give those of surface 1 and surface 2")
-        for number in value:
-            positive(name, number)
 
 
 def moving_source(place: Array, edge: Array, speed: float, conductivity: float, capacity: float) -> Array:

@@ -18,12 +18,11 @@ from tribodyn.numerics.elementary import is_jax
 from tribodyn.numerics.shapes import Array
 from tribodyn.numerics.sources import digest_of
 from tribodyn.tribology.contact import hertz_half_width
-from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.fluid import Fluid
-from tribodyn.tribology.ehl.fluid.heat import HeatProperties
-from tribodyn.tribology.ehl.fluid.rheology import Rheology
-from tribodyn.tribology.ehl.table.lookup import TERMS, mixed_friction, most_of_film
-from tribodyn.tribology.ehl.table.points import Contact, solve_all, spread
+from tribodyn.tribology.ehl.fluid import Fluid, Rheology
+from tribodyn.tribology.ehl.heat import HeatProperties
+from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, most_of_film
+from tribodyn.tribology.ehl.points import Contact, solve_all, spread
+from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.law import LawInput
 from tribodyn.tribology.mesh_conditions import DutyRange
 

@@ -8,16 +8,20 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array
-from tribodyn.tribology.ehl.fluid import heat as heat_of
-from tribodyn.tribology.ehl.fluid import rheology as rheology_of
-from tribodyn.tribology.ehl.fluid.fluid import hot_log_viscosity, log_viscosity, relative_density
-from tribodyn.tribology.ehl.fluid.heat import FilmHeat, HeatProperties, WarmedSurfaces, heated, surfaces_under
-from tribodyn.tribology.ehl.fluid.rheology import Rheology, stress_scale, thinned
-from tribodyn.tribology.ehl.fluid.shear import LAYERS, Shear, sheared
+from tribodyn.tribology.ehl.fluid import (
+    Rheology,
+    hot_log_viscosity,
+    log_viscosity,
+    relative_density,
+    stress_scale,
+    thinned,
+)
 from tribodyn.tribology.ehl.grid import STEP
-from tribodyn.tribology.ehl.problem import LineContact
+from tribodyn.tribology.ehl.heat import FilmHeat, HeatProperties, WarmedSurfaces, heated, surfaces_under
+from tribodyn.tribology.ehl.problem import LineContact, Solution, check_heat, check_rheology
 from tribodyn.tribology.ehl.reynolds import FlowCorrection
-from tribodyn.tribology.ehl.steady import Solution, solve_steady
+from tribodyn.tribology.ehl.shear import LAYERS, Shear, sheared
+from tribodyn.tribology.ehl.steady import solve_steady
 
 #: Change of film, friction and temperature, over each, at which all of them hold together.
 TOLERANCE = 1e-7
@@ -91,9 +95,9 @@ def solve_coupled(
     SimulationError
         If pressures, or all together, do not converge.
     """
-    rheology_of.check(rheology)
+    check_rheology(rheology)
     if thermal is not None:
-        heat_of.check(thermal)
+        check_heat(thermal)
     solution = solve_steady(problem, start, step)
     surfaces = (
         surfaces_under(solution.place, problem.surface_speeds, thermal) if thermal is not None else None

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array
-from tribodyn.tribology.ehl.fluid.rheology import Rheology, newtonian_stress, stress_scale, thinned
+from tribodyn.tribology.ehl.fluid import Rheology, newtonian_stress, stress_scale, thinned
 
 LAYERS = 12
 #: Middle of each layer over the thickness, from −½ at surface 2 to ½ at surface 1.

@@ -1,1 +1,0 @@
-"""The fluid between the surfaces: viscosity, shear, heat and traction."""

@@ -1,1 +1,0 @@
-"""Solved contacts over the duty of a mesh, as laws read them."""
