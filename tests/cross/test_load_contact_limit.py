@@ -23,7 +23,7 @@ from tribodyn.geometry.flanks.modification import (
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.tribology.data import FrictionData
+from tribodyn.tribology.law import FrictionData
 
 SAMPLES = 100
 TIP = FlankModification(tip=Relief(12e-6, 3e-3))

@@ -7,10 +7,9 @@ from typing import Any
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.tribology.closure import closure, closure_of, without_nominal_conditions
 from tribodyn.tribology.contact import Surfaces, local_contact
-from tribodyn.tribology.data import FrictionData
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
-from tribodyn.tribology.law import Closure, LawInput
+from tribodyn.tribology.law import Closure, FrictionData, LawInput
 from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.surface_state import SurfaceState, surface_state
 

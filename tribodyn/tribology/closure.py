@@ -10,13 +10,20 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.elementary import as_float, is_jax, minimum
-from tribodyn.tribology.contact import Surfaces
-from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.contact import DutyRange, NominalConditions, Surfaces
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
-from tribodyn.tribology.law import ActiveFilm, ActiveFriction, Closure, FilmLaw, FrictionLaw, LawInput
+from tribodyn.tribology.law import (
+    ActiveFilm,
+    ActiveFriction,
+    Closure,
+    FilmData,
+    FilmLaw,
+    FrictionData,
+    FrictionLaw,
+    LawInput,
+)
 from tribodyn.tribology.lubricant import LubricantData, lubricant_around
-from tribodyn.tribology.mesh_conditions import DutyRange, NominalConditions
 from tribodyn.tribology.surface_state import exceeded
 from tribodyn.tribology.trial import try_laws
 

@@ -1,4 +1,4 @@
-"""What a film law and a friction law are, and both as a model uses them.
+"""What a film law and a friction law are, both as a model uses them, and what a case says of them.
 
 A law's functions are pure functions of scalars, marked `numerics.elementary.law`, so that the same lines
 run on floats, on arrays, under JAX and in the native kernels, which are compiled for the laws in use. A law
@@ -6,8 +6,8 @@ may call other functions only if they are marked in the same way.
 """
 
 from collections import namedtuple
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any, Literal, NamedTuple, Self
 
@@ -15,10 +15,46 @@ from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.numerics.elementary import LAWS, absolute, law
 from tribodyn.numerics.parameter import Parameter
-from tribodyn.tribology.contact import Surfaces, flash_temperature_rise, hertz_half_width
-from tribodyn.tribology.judged_range import JudgedRange
+from tribodyn.tribology.contact import (
+    DutyRange,
+    NominalConditions,
+    Surfaces,
+    flash_temperature_rise,
+    hertz_half_width,
+    without_duty,
+)
 from tribodyn.tribology.lubricant import LubricantData
-from tribodyn.tribology.mesh_conditions import DutyRange, NominalConditions, without_duty
+
+
+class JudgedRange(NamedTuple):
+    """What the solved contact says of a law, over oils, surfaces and duties of gears (docs/ehl.md, Ranges).
+
+    Attributes
+    ----------
+    right : lowest and highest ratio of the law's value to the solved one at which it is called right
+    ratio : that ratio at 5, 50 and 95 % of the sampled contacts inside the judged limits; where there are
+        none, inside the range of the law's authors
+    limits : how many of the law's limits follow from the comparison, the last ones: where these hold, nine of
+        ten contacts are right; 0: no such limits were found
+    """
+
+    right: tuple[float, float]
+    ratio: tuple[float, float, float]
+    limits: int = 0
+
+    def said(self, limits: tuple[str, ...]) -> str:
+        """Say it of a law with these limits."""
+        if self.limits:
+            low, high = self.right
+            where = ", ".join(limits[-self.limits :])
+            return f"by the solved contact: {where} ({low:g} to {high:g} times it)"
+        low, _, high = self.ratio
+        return f"no range by the solved contact: {low:.2g} to {high:.2g} times it"
+
+    def named(self, limits: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the limits of a law; those that follow from the comparison end with "(judged)"."""
+        own = len(limits) - self.limits
+        return (*limits[:own], *(f"{limit} (judged)" for limit in limits[own:]))
 
 
 class LawInput(NamedTuple):
@@ -249,3 +285,27 @@ class FrictionLaw(_Law):
     def table(self) -> str:
         """The scenario's table that names the law and holds its keys."""
         return "friction"
+
+
+@dataclass(frozen=True)
+class FilmData:
+    """Which film law holds between the flanks."""
+
+    #: its name in `tribodyn.tribology.film.FILM_LAWS`, or the law itself; None: the one that goes with the
+    #: friction law
+    law: str | FilmLaw | None = None
+    #: values of the law's own keys, by name, in SI units
+    values: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class FrictionData:
+    """Which friction law acts between the flanks."""
+
+    law: str | FrictionLaw  # its name in `tribodyn.tribology.friction.FRICTION_LAWS`, or the law itself
+    #: values of the law's own keys, by name, in SI units
+    values: Mapping[str, Any] = field(default_factory=dict)
+    #: sliding speed from the nominal rotation, or from the bodies as they move, vibration included
+    sliding: Literal["kinematic", "dynamic"] = "dynamic"
+    #: distance along the path of contact over which friction changes sign at the pitch point, m
+    reversal_width: float = 2e-5

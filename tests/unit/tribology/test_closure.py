@@ -19,9 +19,9 @@ from tribodyn.tribology.closure import (
     surfaces_of,
     with_laws,
 )
-from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.lubricant import lubricant_from
 from tribodyn.tribology.oil import OilSheet
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from tests.support.closures import POINT, VECIANA, known, under
+from tribodyn.tribology.contact import NominalConditions
 from tribodyn.tribology.friction.benedict_kelley import benedict_kelley
 from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
 from tribodyn.tribology.friction.niemann import niemann
 from tribodyn.tribology.friction.xu import xu
-from tribodyn.tribology.mesh_conditions import NominalConditions
 
 #: Coefficients of friction (EHL, mixed EHL) over the slide-to-roll ratio: a separate prototype of the two
 #: laws at Veciana's Table 2 (R 5 mm, V_e 5 m/s, p_H 2 GPa), with the literal reading of the mixed one.

@@ -8,8 +8,7 @@ from tests.support.closures import LIU_NI, POINT, under
 from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FilmLaw, FrictionLaw, heat_of_friction
+from tribodyn.tribology.law import FilmLaw, FrictionLaw, JudgedRange, heat_of_friction
 from tribodyn.tribology.surface_state import film_and_temperature, fraction_in_range, surface_state
 
 SURFACES = LIU_NI.surfaces._replace(gear_conductivity=37.0, gear_heat_capacity=2.9e6)

@@ -19,10 +19,9 @@ from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run as run_study
 from tribodyn.tribology.closure import closure, laws_of, with_laws
-from tribodyn.tribology.data import FilmData
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
-from tribodyn.tribology.law import FrictionLaw
+from tribodyn.tribology.law import FilmData, FrictionLaw
 
 
 @law

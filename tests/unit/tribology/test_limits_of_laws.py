@@ -10,7 +10,7 @@ import pytest
 
 from tests.support.closures import LIU_NI, VECIANA, under
 from tribodyn.tribology.closure import closure
-from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.contact import NominalConditions, local_contact
 from tribodyn.tribology.ehl.lookup import LIMITS, in_table
 from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, film_law, masjedi_khonsari, moes
 from tribodyn.tribology.friction import FRICTION_LAWS, benedict_kelley, coulomb, friction_law, xu
@@ -19,7 +19,6 @@ from tribodyn.tribology.friction import none as frictionless
 from tribodyn.tribology.friction.iso_14179_1 import LAW as ISO
 from tribodyn.tribology.friction.niemann import LAW as NIEMANN
 from tribodyn.tribology.friction.schlenk import LAW as SCHLENK
-from tribodyn.tribology.mesh_conditions import NominalConditions
 from tribodyn.tribology.surface_state import range_shares, surface_state
 
 PAGE = Path(__file__).parents[3] / "docs" / "ehl.md"

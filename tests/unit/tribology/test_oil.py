@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.tribology import oil
+from tribodyn.tribology.contact import NominalConditions
 from tribodyn.tribology.friction.niemann import niemann
 from tribodyn.tribology.friction.schlenk import schlenk
 from tribodyn.tribology.lubricant import (
@@ -18,7 +19,6 @@ from tribodyn.tribology.lubricant import (
     lubricant_from,
     oil_values,
 )
-from tribodyn.tribology.mesh_conditions import NominalConditions
 from tribodyn.tribology.oil import OIL_TYPES, T_40, ZERO_CELSIUS, OilSheet
 
 #: Of the KISSsoft report of 2017: ISO VG 220, mineral.

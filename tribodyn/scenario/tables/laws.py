@@ -9,9 +9,9 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.numerics.registry import Registry
 from tribodyn.scenario.own_keys import Owner, key_schema, own_key_errors, own_values
 from tribodyn.scenario.quantity import Table, Text, broken
-from tribodyn.tribology.data import FilmData
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
+from tribodyn.tribology.law import FilmData
 
 
 class LawTable(Table, extra="allow"):

@@ -1,8 +1,14 @@
-"""A case of the oscillator with backlash: everything one frequency sweep needs to know, dimensionless."""
+"""A case of the oscillator with backlash: what one frequency sweep needs to know, records and takes."""
 
+import math
 from dataclasses import dataclass
 
+from tribodyn.numerics.parameter import Variable, flag
+from tribodyn.record.schema import Layout
+from tribodyn.studies.protocol.cost import forced_periods, recorded, total
+from tribodyn.studies.protocol.estimate import Driver, Estimate
 from tribodyn.studies.protocol.study import CaseHead
+from tribodyn.studies.sweeping import branches
 
 
 @dataclass(frozen=True)
@@ -10,24 +16,127 @@ class BacklashOscillatorCase(CaseHead):
     """A sweep of x'' + 2ζ x' + (1 + ε cos Ωτ) f(x) = F_m + F_e Ω² cos Ωτ, up and down in Ω.
 
     Lengths are in units of half the backlash, times in those of the linear oscillator's 1/ω_n.
-
-    Parameters
-    ----------
-    title, name, kind, toml, sha256 : as in `tribodyn.studies.gear_pair.case.Case`; `kind` is
-        "backlash-oscillator"
-    damping : ζ
-    mean_force : F_m
-    error_amplitude : F_e, amplitude of the transmission error
-    stiffness_variation : ε, of which no more than 1 makes sense
-    frequencies : Ω, increasing
-    max_periods : periods of the excitation marched at each frequency before a motion is called not periodic
-    unstable : whether branches are continued beyond the ends of their stable parts
     """
 
-    damping: float
-    mean_force: float
-    error_amplitude: float
-    stiffness_variation: float
-    frequencies: tuple[float, ...]
+    damping: float  # ζ
+    mean_force: float  # F_m
+    error_amplitude: float  # F_e, amplitude of the transmission error
+    stiffness_variation: float  # ε, of which no more than 1 makes sense
+    frequencies: tuple[float, ...]  # Ω, increasing
+    #: periods of the excitation marched at each frequency before a motion is called not periodic
     max_periods: int = 600
-    unstable: bool = False
+    unstable: bool = False  # whether branches are continued beyond the ends of their stable parts
+
+
+_POINT = ("frequency", "direction")
+_MULTIPLIER = ("frequency", "direction", "multiplier")
+
+FREQUENCY = Variable(
+    ("frequency",), "1", "frequency of the excitation over the natural frequency of the oscillator in contact"
+)
+DIRECTION = Variable(("direction",), "1", "sense in which the frequency was followed")
+MULTIPLIER = Variable(("multiplier",), "1", "number of the Floquet multiplier, largest modulus first")
+UNSTABLE_MOTION = Variable(
+    ("unstable",), "1", "number of the unstable motion, those of a branch in its order"
+)
+
+SAMPLES: dict[str, Variable] = {
+    "rms_displacement": Variable(
+        _POINT, "1", "root mean square of the displacement about its mean, in half backlashes"
+    ),
+    "peak_to_peak_displacement": Variable(_POINT, "1", "peak to peak of displacement, in half backlashes"),
+    "mean_displacement": Variable(_POINT, "1", "mean displacement, in half backlashes"),
+    "contact_loss_fraction": Variable(_POINT, "1", "share of the time without contact"),
+    "back_contact_fraction": Variable(_POINT, "1", "share of the time in contact on the back side"),
+    "period": Variable(_POINT, "1", "periods of the excitation in one of the motion; 0: not periodic"),
+    "stable": Variable(
+        _POINT,
+        "1",
+        "1: the motion is periodic and stable; 0: it is not periodic, and its figures are over 100 periods "
+        "of the excitation; NaN: it grew without bound",
+    ),
+    "multiplier_modulus": Variable(
+        _MULTIPLIER,
+        "1",
+        "modulus of the Floquet multipliers over one period of the motion; NaN where it is not periodic",
+    ),
+    "multiplier_angle": Variable(_MULTIPLIER, "rad", "angle of the Floquet multipliers"),
+    "motion": flag(
+        _POINT,
+        "kind of motion: 0 grown without bound, 1 periodic, 2 not periodic, undecided which, "
+        "3 quasi-periodic, 4 chaotic, 5 of a longer period than is sought",
+        "unbounded periodic not_periodic quasi_periodic chaotic longer_period",
+        0,
+    ),
+    "residual": Variable(_POINT, "1", "maximum change of displacement and velocity over one period"),
+    "section_displacement": Variable(
+        _POINT, "1", "displacement at the maximum excitation, in half backlashes"
+    ),
+    "section_velocity": Variable(_POINT, "1", "velocity there, in half backlashes times natural frequency"),
+}
+
+_END = ("end",)
+ENDS: dict[str, Variable] = {
+    "end_kind": branches.kind_variable("how the branch ends that is left there"),
+    "end_frequency": Variable(_END, "1", "frequency at which a branch ends"),
+    "end_within": Variable(_END, "1", "distance between the frequencies that locate the end"),
+    "end_direction": flag(_END, "sense in which the frequency was followed: 0 up, 1 down", "up down", 0),
+    **branches.COMMON,
+}
+
+_MOTION = ("unstable",)
+UNSTABLE: dict[str, Variable] = {
+    "unstable_end": Variable(_MOTION, "1", "number of the end beyond which the branch goes on", "<i4", 0),
+    "unstable_frequency": Variable(_MOTION, "1", "frequency of the excitation of an unstable motion"),
+    "unstable_period": Variable(_MOTION, "1", "periods of the excitation in one of the motion", "<i4", 0),
+    "unstable_rms_displacement": Variable(
+        _MOTION, "1", "root mean square of its displacement about the mean, in half backlashes"
+    ),
+    "unstable_peak_to_peak_displacement": Variable(
+        _MOTION, "1", "peak to peak of its displacement, in half backlashes"
+    ),
+    "unstable_contact_loss_fraction": Variable(_MOTION, "1", "share of the time without contact"),
+    "unstable_multiplier_modulus": Variable(
+        _MOTION, "1", "maximum modulus of its Floquet multipliers, above 1"
+    ),
+    "unstable_multiplier_angle": Variable(_MOTION, "rad", "angle of that multiplier"),
+    "unstable_residual": Variable(_MOTION, "1", "change of displacement and velocity over one period"),
+    "unstable_section_displacement": Variable(
+        _MOTION, "1", "its displacement at the maximum excitation, in half backlashes"
+    ),
+    "unstable_section_velocity": Variable(_MOTION, "1", "velocity there"),
+    "end_unstable_finish": branches.kind_variable(
+        "how the branch beyond stops being unstable; none: it leaves the range, or is lost"
+    ),
+    "end_unstable_finish_frequency": Variable(_END, "1", "frequency at which it stops being unstable"),
+}
+
+LAYOUT = Layout(
+    FREQUENCY,
+    SAMPLES,
+    {"direction": DIRECTION, "multiplier": MULTIPLIER, "end": branches.END},
+    ENDS,
+    groups={"mesh_cycle": {}, "geometry": {}},
+)
+#: Of a case that asks for unstable motions.
+LAYOUT_WITH_UNSTABLE = LAYOUT._replace(
+    scales={**LAYOUT.scales, "unstable": UNSTABLE_MOTION}, others={**ENDS, **UNSTABLE}
+)
+
+
+#: Periods that a motion takes that settles; the least damping that is looked at.
+SETTLED, LEAST_DAMPING = 30.0, 1e-6
+
+
+def estimate(case: BacklashOscillatorCase) -> Estimate:
+    """What a run of a case takes."""
+    count = len(case.frequencies)
+    settling = min(float(case.max_periods), SETTLED / max(case.damping, LEAST_DAMPING))
+    longest = sum(2.0 * math.pi / frequency for frequency in case.frequencies)
+    drivers = (
+        Driver("frequency", count, 400),
+        Driver("solver.max_periods", case.max_periods, 600),
+        Driver("frequency", longest / count, 10.0, "leave out the lowest"),
+    )
+    record = recorded(LAYOUT, {"frequency": count, "direction": 2, "multiplier": 2}, copies=4.0)
+    return total(drivers, record, forced_periods(2.0 * settling * count, 2.0 * settling * longest))

@@ -9,19 +9,17 @@ import numpy as np
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.shapes import Array
-from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.ehl.layout import BEGIN, END, PLACES
+from tribodyn.studies.ehl.case import BEGIN, END, PLACES, EhlCase
 from tribodyn.studies.ehl.loads import given_loads, quasi_static_loads
 from tribodyn.studies.gears.prepare import PreparedGears, assembled
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_half_width
-from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
 from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact, Solution
 from tribodyn.tribology.ehl.table import Contact, contact_of
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import LawInput
+from tribodyn.tribology.law import FilmData, FrictionData, LawInput
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
 
 #: Positions at which the friction is solved that enters the loads.

@@ -1,15 +1,82 @@
-"""A case of the solved contact study: everything one run needs to know, in SI units."""
+"""A case of the solved contact study: what one run needs to know, records and takes; SI units."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.studies.ehl.layout import PLACES, layout_of
+from tribodyn.mesh.cycle import MESH_CYCLE
+from tribodyn.numerics.parameter import Variable
+from tribodyn.record.schema import Layout
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.protocol.cost import recorded, solved_contacts, total
 from tribodyn.studies.protocol.estimate import Driver, Estimate
 from tribodyn.tribology.ehl.grid import STEP
+
+#: Places of a profile, and where they begin and end, in half widths of the Hertz contact.
+PLACES, BEGIN, END = 161, -3.0, 1.5
+
+PHASE = Variable(("phase",), "1", "mesh cycles since the pair came into contact")
+_OVER = ("phase",)
+_PROFILE = ("phase", "place")
+
+SAMPLES: dict[str, Variable] = {
+    "roll_angle": Variable(
+        _OVER, "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
+    ),
+    "normal_load": Variable(_OVER, "N", "normal load of the pair"),
+    "line_load": Variable(_OVER, "N/m", "normal load per face width"),
+    "equivalent_radius": Variable(_OVER, "m", "equivalent radius"),
+    "entrainment_speed": Variable(_OVER, "m/s", "entrainment speed"),
+    "sliding_speed": Variable(_OVER, "m/s", "sliding speed, of the pinion's flank over the gear's"),
+    "hertz_pressure": Variable(_OVER, "Pa", "maximum Hertz pressure"),
+    "half_width": Variable(_OVER, "m", "half width of the Hertz contact"),
+    "central_film_thickness": Variable(_OVER, "m", "mean gap on the line of centres, solved"),
+    "minimum_film_thickness": Variable(_OVER, "m", "minimum mean gap, solved"),
+    "central_film_smooth": Variable(_OVER, "m", "film on the line of centres of smooth surfaces, solved"),
+    "minimum_film_smooth": Variable(_OVER, "m", "minimum film of smooth surfaces, solved"),
+    "film_parameter": Variable(_OVER, "1", "central film over the roughness of both surfaces"),
+    "friction_coefficient": Variable(_OVER, "1", "friction coefficient, solved"),
+    "asperity_load_ratio": Variable(_OVER, "1", "share of the load that asperities carry, solved"),
+    "temperature_rise_max": Variable(_OVER, "K", "maximum over the contact of the oil's temperature rise"),
+    "moes_load": Variable(_OVER, "1", "load parameter M of Moes"),
+    "moes_material": Variable(_OVER, "1", "material parameter L of Moes"),
+    "residual": Variable(_OVER, "1", "largest imbalance of flow over the flow and of force over the load"),
+    "pressure": Variable(_PROFILE, "Pa", "pressure of fluid and asperities, solved"),
+    "film_thickness": Variable(_PROFILE, "m", "mean gap, solved; NaN behind the film"),
+    "temperature_rise": Variable(_PROFILE, "K", "temperature over the inlet's, mean over the film, solved"),
+    "shear_stress": Variable(_PROFILE, "Pa", "shear stress, mean over the film, solved"),
+    "film_by_law": Variable(("phase", "film_law"), "m", "film thickness by the regression"),
+    "friction_by_law": Variable(("phase", "friction_law"), "1", "friction coefficient by the law"),
+}
+
+#: With squeeze, beside `SAMPLES`.
+SQUEEZED: dict[str, Variable] = {
+    "transient_central_film_thickness": Variable(_OVER, "m", "mean gap on the line of centres, with squeeze"),
+    "transient_minimum_film_thickness": Variable(_OVER, "m", "minimum mean gap, with squeeze"),
+    "transient_friction_coefficient": Variable(_OVER, "1", "friction coefficient, with squeeze"),
+    "transient_pressure": Variable(_PROFILE, "Pa", "pressure of fluid and asperities, with squeeze"),
+    "transient_film_thickness": Variable(_PROFILE, "m", "mean gap, with squeeze; NaN behind the film"),
+}
+
+TRACTION = {
+    "traction": Variable(
+        ("slide_to_roll",), "1", "friction coefficient where the load is highest, over slide-to-roll ratio"
+    )
+}
+
+SCALES = {
+    "place": Variable(("place",), "1", "place in the direction of entrainment over the Hertz half width"),
+    "film_law": Variable(("film_law",), "1", "film law"),
+    "friction_law": Variable(("friction_law",), "1", "friction law"),
+    "slide_to_roll": Variable(("slide_to_roll",), "1", "sliding speed over entrainment speed"),
+}
+
+
+def layout_of(transient: bool) -> Layout:
+    """Layout of the record of a way, with squeeze or without."""
+    samples = SAMPLES | SQUEEZED if transient else SAMPLES
+    return Layout(PHASE, samples, SCALES, TRACTION, {"mesh_cycle": MESH_CYCLE})
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,10 +19,9 @@ from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.protocol.results import TextTable
 from tribodyn.studies.protocol.study import CaseHead, Progress
 from tribodyn.tribology.closure import untried_closure_of
-from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import FilmLaw, FrictionLaw
+from tribodyn.tribology.law import FilmData, FilmLaw, FrictionData, FrictionLaw
 from tribodyn.tribology.surface_state import ContactFriction, range_shares
 
 if TYPE_CHECKING:
@@ -57,7 +56,7 @@ class LawRatio(NamedTuple):
     maximum: float
     in_range: float  # share of the way inside the range that the law states; NaN: it states none
     #: share of the way inside the limits by the solved contact of many oils and surfaces
-    #: (`judged_range.JudgedRange`); NaN: there are none
+    #: (`law.JudgedRange`); NaN: there are none
     in_judged_range: float
     right: float  # share of the way where the ratio is within `RIGHT` of 1
     map: tuple[tuple[float, ...], ...] = ()  # (loads, speeds), median ratio; empty without a map

@@ -22,8 +22,7 @@ from tribodyn.studies.ehl.along_path import (
     solved_at,
     way,
 )
-from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.ehl.layout import BEGIN, END, PLACES, SAMPLES, layout_of
+from tribodyn.studies.ehl.case import BEGIN, END, PLACES, SAMPLES, EhlCase, layout_of
 from tribodyn.studies.ehl.squeezed import SteadyContact, squeezed, steady_of
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.protocol.recording import target, writer

@@ -15,8 +15,7 @@ from scipy.interpolate import CubicSpline
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.shapes import Array
 from tribodyn.studies.ehl.along_path import PairWay, pressure_and_film
-from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.ehl.layout import PLACES
+from tribodyn.studies.ehl.case import PLACES, EhlCase
 from tribodyn.studies.protocol.study import Progress
 from tribodyn.tribology.ehl.coupled import CoupledSolution, friction_of
 from tribodyn.tribology.ehl.grid import FilmGrid

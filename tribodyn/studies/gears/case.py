@@ -15,7 +15,7 @@ from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
-from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.losses import LossData
 from tribodyn.tribology.lubricant import LubricantData
 

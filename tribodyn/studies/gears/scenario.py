@@ -42,7 +42,7 @@ from tribodyn.scenario.tables.quality import (
     with_sample,
 )
 from tribodyn.studies.gears.by_standard import quality_of
-from tribodyn.tribology.data import FrictionData
+from tribodyn.tribology.law import FrictionData
 
 Oil = Annotated[Lubricant, model_file("lubricants")]
 TemperatureKeys = Annotated[TemperatureTable | None, Field(description="bulk temperature of the teeth")]

@@ -8,7 +8,6 @@ import numpy as np
 from tribodyn.record.reader import open_record
 from tribodyn.standards.load_factors import transverse_load_factor
 from tribodyn.studies.load_contact import STUDY
-from tribodyn.studies.load_contact.rolled import over_roll
 from tribodyn.studies.protocol.part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
 
 _TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-contact-samples"
@@ -72,6 +71,8 @@ def _with_deviating_tooth(drive: Mapping[str, Any], deviation: float) -> dict[st
 
 def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     """Figures, loads and pressures of one pair over its roll angle, and the error over the torque."""
+    from tribodyn.studies.load_contact.maps import over_roll
+
     summary = done[_TASK].summary
     with open_record(done[_TASK].path) as record:
         roll, load = over_roll(record, record["normal_load"])

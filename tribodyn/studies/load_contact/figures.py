@@ -13,7 +13,7 @@ from tribodyn.post.figures.drawing import Drawing, always
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.load_contact.layout import BODIES
+from tribodyn.studies.load_contact.case import BODIES
 from tribodyn.studies.load_contact.maps import (
     FILM,
     LINE_LOAD,
@@ -21,8 +21,11 @@ from tribodyn.studies.load_contact.maps import (
     draw_map,
     face_map_figure,
     line_load_figure,
+    over_phase,
+    over_roll,
+    pair_over_phase,
+    require_positions,
 )
-from tribodyn.studies.load_contact.rolled import over_phase, over_roll, pair_over_phase, require_positions
 
 HARRIS, FILM_MAP = "harris", "film-map"
 MAP_CURVES = "Transmission error over the mesh cycle, less its mean, at every torque"

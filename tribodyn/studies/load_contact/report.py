@@ -7,8 +7,7 @@ from tribodyn.post.report import on_closures
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
-from tribodyn.studies.load_contact.maps import FILM, LINE_LOAD, PRESSURE
-from tribodyn.studies.load_contact.rolled import face_edges, face_map
+from tribodyn.studies.load_contact.maps import FILM, LINE_LOAD, PRESSURE, face_edges, face_map
 
 REPORTED: Reported = {
     "Geometry": quantities(

@@ -21,9 +21,8 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.gears.check import sheet_and_stiffness
-from tribodyn.studies.load_contact.case import LoadContactCase
+from tribodyn.studies.load_contact.case import BODIES, LAYOUT, OILED, LoadContactCase
 from tribodyn.studies.load_contact.film import FaceFilm, film_over_face
-from tribodyn.studies.load_contact.layout import BODIES, LAYOUT, OILED
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 

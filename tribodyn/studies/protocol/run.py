@@ -15,8 +15,7 @@ from tribodyn.scenario.own_keys import in_toml
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.study import CaseHead, Progress, RunResult
 from tribodyn.tribology.closure import with_laws
-from tribodyn.tribology.data import FilmData, FrictionData
-from tribodyn.tribology.law import FilmLaw, FrictionLaw
+from tribodyn.tribology.law import FilmData, FilmLaw, FrictionData, FrictionLaw
 
 
 def run(

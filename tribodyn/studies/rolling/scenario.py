@@ -1,6 +1,5 @@
-"""The tables of a scenario of ``kind = "irefc"``: a gear with rolling elements, and its case."""
+"""The tables of a scenario of ``kind = "irefc"``: a gear with rolling elements."""
 
-from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -9,8 +8,8 @@ from tribodyn.scenario import units
 from tribodyn.scenario.common import ScenarioHead, head_of
 from tribodyn.scenario.quantity import InUnit, NotNegative, Positive, Table, model_file, written
 from tribodyn.scenario.tables.model_files import Described
-from tribodyn.studies.protocol.study import CaseHead
-from tribodyn.studies.rolling.engagement import Mode, RollingFriction
+from tribodyn.studies.rolling.case import RollingCase
+from tribodyn.studies.rolling.engagement import RollingFriction
 from tribodyn.studies.rolling.geometry import RollingDrive
 
 
@@ -67,28 +66,6 @@ class RollingScenario(ScenarioHead):
 
 
 Scenario = RollingScenario
-
-
-@dataclass(frozen=True)
-class RollingCase(CaseHead):
-    """One run of a gear with rolling elements, complete.
-
-    Parameters
-    ----------
-    title, name, kind, toml, sha256 : as in `tribodyn.studies.gear_pair.case.Case`; `kind` is "irefc"
-    mode : motion in time with corrected speeds, or the paper's single position with its printed formulas
-    input_power : power of the shaft, W
-    input_speed : speed of the shaft, rad/s
-    samples_per_cycle : samples while an element takes its neighbour's place: a cycle, of which a revolution
-        has Z2 + 1
-    """
-
-    mode: Mode
-    drive: RollingDrive
-    input_power: float
-    input_speed: float
-    friction: RollingFriction
-    samples_per_cycle: int = 40
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> RollingCase:

@@ -12,12 +12,12 @@ from tribodyn.errors import SimulationError
 from tribodyn.numerics import child
 from tribodyn.numerics.shapes import Array
 from tribodyn.numerics.work import steps, usable_cores
+from tribodyn.tribology.contact import DutyRange
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid import Fluid, Rheology
 from tribodyn.tribology.ehl.heat import HeatProperties
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.rough import Roughness
-from tribodyn.tribology.mesh_conditions import DutyRange
 
 if TYPE_CHECKING:
     import subprocess

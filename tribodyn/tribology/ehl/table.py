@@ -17,14 +17,13 @@ from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.elementary import is_jax
 from tribodyn.numerics.shapes import Array
 from tribodyn.numerics.sources import digest_of
-from tribodyn.tribology.contact import hertz_half_width
+from tribodyn.tribology.contact import DutyRange, hertz_half_width
 from tribodyn.tribology.ehl.fluid import Fluid, Rheology
 from tribodyn.tribology.ehl.heat import HeatProperties
 from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, most_of_film
 from tribodyn.tribology.ehl.points import Contact, solve_all, spread
 from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.law import LawInput
-from tribodyn.tribology.mesh_conditions import DutyRange
 
 #: Deviation of film and friction that a table aims at, of 95 % of the compared contacts.
 WANTED = 0.01

@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import law, log
 from tribodyn.tribology.contact import hertz_pressure, inlet_heating, moes_numbers
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FilmLaw, LawInput
+from tribodyn.tribology.law import FilmLaw, JudgedRange, LawInput
 
 _LOG_FACTOR = math.log(2.65)
 _U_POWER, _G_POWER, _W_POWER = 0.7, 0.54, -0.13

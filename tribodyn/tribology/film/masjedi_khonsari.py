@@ -10,8 +10,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import exp, law, log, log1p, maximum, minimum, where
 from tribodyn.tribology.contact import inlet_heating, moes_numbers
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FilmLaw, LawInput
+from tribodyn.tribology.law import FilmLaw, JudgedRange, LawInput
 
 #: Ranges over which the regressions were fitted: load W, speed U, material G, roughness σ/ρ, hardness V.
 #: The bounds are given from memory of the literature and have not been checked against the paper; the flags

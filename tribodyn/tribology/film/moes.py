@@ -20,8 +20,7 @@ import math
 from tribodyn.numerics.elementary import absolute, exp, law, log, log1p, maximum, minimum
 from tribodyn.tribology.contact import hertz_pressure, inlet_heating, moes_numbers
 from tribodyn.tribology.film.dowson_higginson import smooth_film_of
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FilmLaw
+from tribodyn.tribology.law import FilmLaw, JudgedRange
 
 _LOG_RI, _LOG_RP = math.log(3.0), math.log(1.287)
 _LOG_EI, _LOG_EP = math.log(2.621), math.log(1.311)

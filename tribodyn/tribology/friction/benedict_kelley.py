@@ -2,8 +2,7 @@
 
 from tribodyn.numerics.elementary import absolute, exp, law, log, maximum
 from tribodyn.tribology.friction.none import NoParameters
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
 
 LN10 = 2.302585092994046
 

@@ -1,10 +1,9 @@
 """Mean friction coefficient of a mesh by ISO/TR 14179-1, from the conditions at its pitch point."""
 
 from tribodyn.numerics.elementary import as_float, exp, log, minimum
+from tribodyn.tribology.contact import NominalConditions
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput
-from tribodyn.tribology.mesh_conditions import NominalConditions
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
 
 #: Pitch line speed (m/s) and load intensity (Pa) for which the standard gives the formula.
 SPEED_RANGE = (2.0, 25.0)

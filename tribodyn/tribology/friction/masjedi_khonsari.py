@@ -10,8 +10,7 @@ from typing import Any, NamedTuple
 from tribodyn.numerics.elementary import absolute, exp, expm1, law, log, maximum, minimum, skippable
 from tribodyn.tribology.contact import flash_temperature_rise, hertz_half_width, moes_numbers
 from tribodyn.tribology.film.masjedi_khonsari import LIMITS, RANGE, in_fitted_range
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput, film_at
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput, film_at
 
 #: Where friction is within a factor of 2 of the solved contact: Moes' L, and the stress η |v_s|/h_c of a
 #: Newtonian film by the law over Λ_lim p. Below that the solved film shears more easily than the law's.

@@ -1,10 +1,9 @@
 """Mean friction coefficient of a mesh by Niemann, from the conditions at its pitch point."""
 
 from tribodyn.numerics.elementary import as_float, exp, log
+from tribodyn.tribology.contact import NominalConditions
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput
-from tribodyn.tribology.mesh_conditions import NominalConditions
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
 
 #: Pitch line speed up to which the FZG tests behind the formula went, m/s.
 MAXIMUM_SPEED = 50.0

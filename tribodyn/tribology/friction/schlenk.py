@@ -1,11 +1,10 @@
 """Mean friction coefficient of a mesh by Schlenk, from the conditions at its pitch point."""
 
 from tribodyn.numerics.elementary import as_float
+from tribodyn.tribology.contact import NominalConditions
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.friction.niemann import MAXIMUM_SPEED, mean_of_fzg_tests
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput
-from tribodyn.tribology.mesh_conditions import NominalConditions
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
 
 
 def schlenk(conditions: NominalConditions) -> float:

@@ -3,8 +3,7 @@
 from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.tribology.friction.none import NoParameters
-from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
 
 LN10 = 2.302585092994046
 

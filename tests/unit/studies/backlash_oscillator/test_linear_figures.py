@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
 from tests.support.linear_oscillator import linear_amplitude
-from tribodyn.studies.backlash_oscillator.check import linear_figures
+from tribodyn.studies.backlash_oscillator.run import linear_figures
 
 
 def case(damping=0.05, force=0.3, error=0.05, variation=0.3):

@@ -9,8 +9,7 @@ from tribodyn.solve.branch.arclength import FOLD, KINDS, BranchEnd
 from tribodyn.solve.branch.unstable import UnstableBranch
 from tribodyn.solve.orbit import motions as orbit
 from tribodyn.solve.orbit.motions import Orbit
-from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
-from tribodyn.studies.backlash_oscillator.estimate import estimate
+from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase, estimate
 from tribodyn.studies.backlash_oscillator.motion import OscillatorMap
 from tribodyn.studies.backlash_oscillator.response import (
     CHAOTIC,

@@ -8,7 +8,7 @@ import pytest
 from tests.support.short_studies import ShortRuns
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record, open_record
-from tribodyn.studies.load_contact.rolled import (
+from tribodyn.studies.load_contact.maps import (
     at_pitch_point,
     face_map,
     over_phase,

@@ -11,7 +11,7 @@ from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.rolling import run
-from tribodyn.studies.rolling.check import geometry_sheet
+from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.engagement import RollingFriction, element_angles, engage, normal_loads
 from tribodyn.studies.rolling.geometry import (
     RollingDrive,
@@ -19,7 +19,7 @@ from tribodyn.studies.rolling.geometry import (
     element_centres,
     normal_direction,
 )
-from tribodyn.studies.rolling.scenario import RollingCase
+from tribodyn.studies.rolling.run import geometry_sheet
 
 SAMPLES = 6
 

@@ -13,7 +13,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import closure, duty_range, with_laws
-from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.contact import DutyRange, local_contact
 from tribodyn.tribology.ehl import points
 from tribodyn.tribology.ehl import table as tables
 from tribodyn.tribology.ehl.coupled import solve_coupled
@@ -24,7 +24,6 @@ from tribodyn.tribology.film import film_law
 from tribodyn.tribology.film.solved import solved_film
 from tribodyn.tribology.friction import friction_law
 from tribodyn.tribology.friction.solved import solved_friction
-from tribodyn.tribology.mesh_conditions import DutyRange
 from tribodyn.tribology.surface_state import surface_state
 
 DUTY = DutyRange((1e5, 6e5), (0.1, 0.2), (100.0, 130.0), (0.02, 0.8))

@@ -1,7 +1,30 @@
-"""What a record of a gear with rolling elements holds."""
+"""A case of the gear with rolling elements: what one run needs to know, records and takes; SI units."""
+
+from dataclasses import dataclass
 
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import TIME, Layout
+from tribodyn.studies.protocol.cost import in_memory, recorded, rolling_elements, total
+from tribodyn.studies.protocol.estimate import Driver, Estimate, record_bytes
+from tribodyn.studies.protocol.study import CaseHead
+from tribodyn.studies.rolling.engagement import Mode, RollingFriction
+from tribodyn.studies.rolling.geometry import RollingDrive
+
+
+@dataclass(frozen=True)
+class RollingCase(CaseHead):
+    """One run of a gear with rolling elements, complete."""
+
+    mode: (
+        Mode  # motion in time with corrected speeds, or the paper's single position with its printed formulas
+    )
+    drive: RollingDrive
+    input_power: float  # of the shaft, W
+    input_speed: float  # of the shaft, rad/s
+    friction: RollingFriction
+    #: samples while an element takes its neighbour's place: a cycle, of which a revolution has Z2 + 1
+    samples_per_cycle: int = 40
+
 
 ELEMENT = Variable(("element",), "1", "rolling element, in the order of their angles")
 
@@ -51,3 +74,16 @@ GEOMETRY: dict[str, Variable] = {
 }
 
 LAYOUT = Layout(TIME, SAMPLES, {"element": ELEMENT}, groups={"mesh_cycle": {}, "geometry": GEOMETRY})
+
+
+def estimate(case: RollingCase) -> Estimate:
+    """What a run of a case takes."""
+    cycle, elements = case.samples_per_cycle, case.drive.elements
+    samples = 1 if case.mode == "as_published" else cycle * (elements + 1) + 1
+    return total(
+        (Driver("output.samples_per_cycle", cycle, 40), Driver("drive.elements", elements, 20)),
+        recorded(LAYOUT, {"time": samples, "element": elements}, copies=0.05),  # what a picture reads
+        in_memory(3.0, record_bytes(LAYOUT, {"time": cycle, "element": elements})),
+        in_memory(samples, 32.0),  # what the summary keeps of every sample
+        rolling_elements(float(samples) + cycle, elements),
+    )
