@@ -11,18 +11,13 @@ says, and of every case only the peak to peak transmission error is kept.
 import argparse
 import resource
 import sys
-from pathlib import Path
-from time import perf_counter, process_time
-from typing import NamedTuple
 
 import numpy as np
 
 from tools.bench_peers import problem
-from tools.machine import measured_on
-from tools.marked_block import put
+from tools.marked_block import generate, measured_on, parser_of, spent, table
+from tools.peers.batch import models_at, threads, together
 from tribodyn.dynamics.parameters import XI
-from tribodyn.solve import ensemble
-from tribodyn.solve.ensemble import march
 from tribodyn.solve.jax import ensemble as jax_ensemble
 
 SIZES = (64, 256, 1024, 10_000, 100_000, 1_000_000)
@@ -38,85 +33,56 @@ CYCLES = {
 }
 REPEATS = 5
 SAMPLES = 16
-#: Method and tolerance that bring the error to 2e-5 of the range, see the table of `bench_peers`.
-ENGINES = {"native": ("dopri5", 3e-5), "threads": ("dopri5", 3e-5), "jax": ("tsit5", 3e-6)}
+#: How it runs, and the tolerance that brings the error to 2e-5 of the range, see the table of `bench_peers`.
+ENGINES = {
+    "native": (together("dopri5"), 3e-5),
+    "threads": (threads("dopri5"), 3e-5),
+    "jax": (together("tsit5"), 3e-6),
+}
 
 
-class Measured(NamedTuple):
-    """Seconds on the clock and of the processor, evaluations of the right-hand side, cases that failed."""
-
-    wall: float
-    processor: float
-    evaluations: float
-    failed: int
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--into", type=Path, help="page whose marked block `sizes` receives the table")
-    parser.add_argument("--engine", choices=(*ENGINES, "all"), default="all")
-    parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
-    parser.add_argument("--width", type=int, help="cases that JAX takes side by side, see `jax_ensemble`")
-    chosen = parser.parse_args()
-    if chosen.width:
-        jax_ensemble.WIDTH = jax_ensemble.WIDTH_ON_CPU = chosen.width
-    text = table([one for one in ENGINES if chosen.engine in (one, "all")], sorted(chosen.sizes))
-    print(f"\n{text}\n")
-    if chosen.into:
-        put(chosen.into, "sizes", text)
-
-
-def table(engines: list[str], sizes: list[int]) -> str:
+def by_size(given: argparse.Namespace) -> str:
     """Table of the page."""
-    rows = [
-        "| engine | cases | cycles | cycles × cases per second | per second of one core "
-        "| ns per evaluation | peak memory |",
-        "|---|--:|--:|--:|--:|--:|--:|",
-    ]
+    if given.width:
+        jax_ensemble.WIDTH = jax_ensemble.WIDTH_ON_CPU = given.width
+    engines = [engine for engine in ENGINES if given.engine in (engine, "all")]
+    head = ["engine", "cases", "cycles", "cycles × cases per second", "per second of one core"]
+    head += ["ns per evaluation", "peak memory"]
+    rows = []
     for engine in engines:
-        for cases in sizes:
+        for cases in sorted(given.sizes):
             if engine != "native" and len(engines) > 1 and cases > FEW:
                 continue
             cycles = next(n for size, n in CYCLES[engine].items() if cases <= size)
-            one = measured(engine, cases, cycles, REPEATS if cases <= 1024 else 1)
-            each = 1e9 * one.processor / one.evaluations
+            repeats = REPEATS if cases <= 1024 else 1
+            wall, processor, evaluations, failed = measured(engine, cases, cycles, repeats)
             memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**10
-            rows.append(
-                f"| {_name(engine)} | {cases} | {cycles} | {cases * cycles / one.wall:.3g} "
-                f"| {cases * cycles / one.processor:.3g} | {each:.3g} "
-                f"| {memory:.0f} MiB |"
-            )
-            print(rows[-1], f"{one.failed} failed" if one.failed else "", file=sys.stderr, flush=True)
-    return "\n".join([*rows, "", f"{measured_on()}; up to 1024 cases medians of {REPEATS}."])
+            rates = (cases * cycles / wall, cases * cycles / processor, 1e9 * processor / evaluations)
+            row = [_name(engine), cases, cycles, *(f"{rate:.3g}" for rate in rates), f"{memory:.0f} MiB"]
+            print(*row, f"{failed:.0f} failed" if failed else "", file=sys.stderr, flush=True)
+            rows.append(row)
+    return f"{table(head, rows, 'lrrrrrr')}\n\n{measured_on()}; up to 1024 cases medians of {REPEATS}."
 
 
-def measured(engine: str, cases: int, cycles: int, repeats: int) -> Measured:
-    """The median march of so many cases."""
+def measured(engine: str, cases: int, cycles: int, repeats: int) -> np.ndarray:
+    """Seconds on the clock and of the processor, evaluations and failed cases of the median march."""
     posed = problem()
-    method, rtol = ENGINES[engine]
-    mechanics = posed.model.mechanics
+    run, rtol = ENGINES[engine]
     speeds = np.random.default_rng(1).uniform(100.0, 600.0, cases)
     swing = np.full(cases, np.nan)
 
-    def part(first: int) -> Measured:
-        models = [
-            posed.model._replace(mechanics=mechanics._replace(nominal_speed=float(speed)))
-            for speed in speeds[first : first + PART]
-        ]
-        states = np.tile(posed.state, (len(models), 1))
-        begun = perf_counter(), process_time()
-        if engine == "threads":
-            settings = ensemble.March(0, cycles, 1, SAMPLES, False, rtol, 10**6)
-            result = ensemble.one_by_one(models, states, method, settings, ensemble.usable_cores())
-        else:
-            result = march(models, states, cycles=cycles, window=1, samples=SAMPLES, rtol=rtol, method=method)
-        spent = perf_counter() - begun[0], process_time() - begun[1]
+    def part(first: int) -> list[float]:
+        models = models_at(posed, speeds[first : first + PART])
+        states, results = np.tile(posed.state, (len(models), 1)), []
+        given = {"cycles": cycles, "window": 1, "samples": SAMPLES, "rtol": rtol}
+        seconds = spent(lambda: results.append(run(models, states, **given)))
+        (result,) = results
         swing[first : first + PART] = np.ptp(result.samples[..., XI], axis=1)
-        return Measured(*spent, float(np.sum(result.evaluations)), int(np.sum(result.status != 0)))
+        return [*seconds, float(np.sum(result.evaluations)), float(np.sum(result.status != 0))]
 
     part(cases - 64)  # compiles
     runs = [np.sum([part(first) for first in range(0, cases, PART)], axis=0) for _ in range(repeats)]
-    return Measured(*np.median(runs, axis=0))
+    return np.median(runs, axis=0)
 
 
 def _name(engine: str) -> str:
@@ -128,4 +94,8 @@ def _name(engine: str) -> str:
 
 
 if __name__ == "__main__":
-    main()
+    parser = parser_of(__doc__)
+    parser.add_argument("--engine", choices=(*ENGINES, "all"), default="all")
+    parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
+    parser.add_argument("--width", type=int, help="cases that JAX takes side by side, see `jax_ensemble`")
+    generate(__doc__, parser=parser, sizes=by_size)

@@ -14,18 +14,17 @@ the speed, and LSODA marching to them.
 
 import argparse
 from collections.abc import Callable
-from pathlib import Path
-from time import perf_counter, process_time
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tools.machine import measured_on
-from tools.marked_block import put
+from tools.marked_block import generate, measured_on, parser_of, spent, table
 from tools.peers import steady
-from tools.peers.batch import BATCHES, Batch, speeds, threads
+from tools.peers.batch import BATCHES, WINDOW, Batch, models_at, threads
+from tools.peers.batch import SAMPLES as IN_BATCH
 from tools.peers.numpy_model import MOVING, difference
 from tools.peers.single import Problem, Program, octave, octave_timed, peers, tribodyn_engine
+from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair.prepare import prepare
@@ -44,7 +43,7 @@ OURS = "tribodyn dopri5"
 
 
 class Timed(NamedTuple):
-    """One program's figures: tolerance, error achieved, median seconds of the repeats."""
+    """Tolerance of a program, error achieved, median seconds of the repeats."""
 
     name: str
     rtol: float
@@ -53,32 +52,25 @@ class Timed(NamedTuple):
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--into", type=Path, help="page whose marked blocks receive the tables")
+    parser = parser_of(__doc__)
     parser.add_argument("--only", nargs="+", default=[""], help="programs whose names contain one of these")
     parser.add_argument("--repeats", type=int, default=5)
-    parser.add_argument("--part", nargs="+", choices=("single", "diffrax", "batch", "steady"))
-    chosen = parser.parse_args()
-    words = [word.lower() for word in chosen.only]
+    parser.add_argument("--part", nargs="+", choices=PARTS, default=[*PARTS])
+    generate(__doc__, parser=parser, **PARTS)
 
-    def wanted(name: str) -> bool:
-        return any(word in name.lower() for word in words)
 
-    made = {
-        "single": lambda: single(lambda name: wanted(name) and "diffrax" not in name, chosen.repeats),
-        "diffrax": lambda: single(
-            lambda name: "diffrax" in name or name in (OURS, "SciPy LSODA, numba"), chosen.repeats
-        ),
-        "batch": lambda: batch(wanted, chosen.repeats),
-        "steady": lambda: f"{steady.table(chosen.repeats, TARGET)} {measured_on()}.",
-    }
-    for name, make in made.items():
-        if chosen.part and name not in chosen.part:
-            continue
-        text = make()
-        print(f"\n{text}\n")
-        if chosen.into:
-            put(chosen.into, name, text)
+def wanted(name: str, given: argparse.Namespace) -> bool:
+    return any(word.lower() in name.lower() for word in given.only)
+
+
+PARTS = {
+    "single": lambda given: single(lambda name: wanted(name, given) and "diffrax" not in name, given.repeats),
+    "diffrax": lambda given: single(
+        lambda name: "diffrax" in name or name in (OURS, "SciPy LSODA, numba"), given.repeats
+    ),
+    "batch": lambda given: batch(lambda name: wanted(name, given), given.repeats),
+    "steady": lambda given: f"{steady.table(given.repeats, TARGET)} {measured_on()}.",
+}
 
 
 def problem(cycles: int = CYCLES) -> Problem:
@@ -96,32 +88,24 @@ def single(wanted: Callable[[str], bool], repeats: int) -> str:
     exact = tribodyn_engine("dopri5")(posed, 1e-12)
     timings = []
     for name, program in programs.items():
-        one = _timed(name, program, posed, exact, repeats)
-        print(
-            f"{one.name:24s} rtol {one.rtol:.0e}  error {one.error:.1e}  {1e3 * one.seconds:.2f} ms",
-            flush=True,
-        )
-        timings.append(one)
-    said = f"{measured_on()}; medians of up to {repeats}."
+        timings.append(_timed(name, program, posed, exact, repeats))
+        print(timings[-1], flush=True)
+    remarks = f"{measured_on()}; medians of up to {repeats}."
     if differs:
-        largest = max(differs.values())
-        said += (
-            f" Right-hand sides in {', '.join(differs)} differ from tribodyn's by {largest:.0e} of its range."
-        )
-    return f"{single_table(timings)}\n\n{said}"
+        most = f"{max(differs.values()):.0e} of its range"
+        remarks += f" Right-hand sides in {', '.join(differs)} differ from tribodyn's by {most}."
+    return f"{single_table(timings)}\n\n{remarks}"
 
 
 def single_table(timings: list[Timed]) -> str:
     """Rows by time; what misses the error has no ratio, as it does not solve the same problem."""
-    ours = next((one for one in timings if one.name == OURS and one.error <= TARGET), None)
-    rows = ["| program | rtol | error | ms | times ours |", "|---|--:|--:|--:|--:|"]
-    for one in sorted(timings, key=lambda one: (one.error > TARGET, one.seconds)):
-        ratio = f"{one.seconds / ours.seconds:.3g}" if ours else ""
-        rows.append(
-            f"| {one.name} | {one.rtol:.0e} | {one.error:.1e} | {1e3 * one.seconds:.3g} "
-            f"| {_unless_missed(one.error, ratio)} |"
-        )
-    return "\n".join(rows)
+    ours = next((timed for timed in timings if timed.name == OURS and timed.error <= TARGET), None)
+    rows = []
+    for name, rtol, error, seconds in sorted(timings, key=lambda x: (x.error > TARGET, x.seconds)):
+        ratio = f"{seconds / ours.seconds:.3g}" if ours else ""
+        cells = f"{rtol:.0e}", f"{error:.1e}", f"{1e3 * seconds:.3g}", _unless_missed(error, ratio)
+        rows.append([name, *cells])
+    return table(["program", "rtol", "error", "ms", "times ours"], rows, "lrrrr")
 
 
 def _unless_missed(error: float, ratio: str) -> str:
@@ -136,18 +120,20 @@ def require_same_equations(posed: Problem, programs: dict[str, Program]) -> dict
     integrator = make_integrator("dopri5", posed.model, SAMPLES, posed.tolerances(1e-9))
     visited = integrator.integrate(posed.state, 0, 2).samples[:-1, MOVING]
     phases = np.arange(len(visited)) % SAMPLES / SAMPLES
-    differs: dict[str, float] = {}
-    for name, program in programs.items():
-        if program.rates:
-            differs[name] = difference(posed.model, phases, visited, program.rates)
-    others = {name: by for name, by in differs.items() if not by <= SAME_EQUATIONS}
+    differs = {
+        name: difference(posed.model, phases, visited, program.rates)
+        for name, program in programs.items()
+        if program.rates
+    }
+    others = [
+        f"{name} (right-hand side differs by {by:.1e} of its range)"
+        for name, by in differs.items()
+        if not by <= SAME_EQUATIONS
+    ]
     if others:
         raise SystemExit(
-            "no comparison, these solve other equations than tribodyn: "
-            + ", ".join(
-                f"{name} (right-hand side differs by {by:.1e} of its range)" for name, by in others.items()
-            )
-            + f"; at most {SAME_EQUATIONS:.0e} is allowed: mend tools/peers"
+            f"no comparison, these solve other equations than tribodyn: {', '.join(others)}; "
+            f"at most {SAME_EQUATIONS:.0e} is allowed: mend tools/peers"
         )
     return differs
 
@@ -162,10 +148,8 @@ def _timed(name: str, program: Program, posed: Problem, exact: Array, repeats: i
         if run is octave:
             seconds.append(octave_timed(posed, rtol)[1])
             continue
-        begun = perf_counter(), process_time()
-        run(posed, rtol)
         # by the clock, or less where other work took the processor meanwhile
-        seconds.append(min(perf_counter() - begun[0], process_time() - begun[1]))
+        seconds.append(min(spent(lambda: run(posed, rtol))))
     return Timed(name, rtol, error, float(np.median(seconds or np.nan)))
 
 
@@ -189,46 +173,46 @@ def loosest(run: Callable[[float], Array], exact: Array) -> tuple[float, float]:
 
 
 def _marching(program: Batch, cases: tuple[list[Any], Array]) -> Callable[[float], Array]:
-    return lambda rtol: program.march(*cases, program.cycles, rtol)
+    """From a tolerance to samples of the transmission error of every case."""
+    given = {"cycles": program.cycles, "window": WINDOW, "samples": IN_BATCH}
+    return lambda rtol: program.run(*cases, rtol=rtol, **given).samples[..., XI]
+
+
+def _cases(posed: Problem, count: int) -> tuple[list[Any], Array]:
+    """Models at speeds from 100 to 600 rad/s, and their static equilibria."""
+    models = models_at(posed, np.linspace(100.0, 600.0, count))
+    return models, np.array([static_equilibrium(model) for model in models])
 
 
 def batch(wanted: Callable[[str], bool], repeats: int) -> str:
     """Table of batches: mesh cycles × cases per second; programs take turns, as the machine may be shared."""
     posed = problem()
-    few = speeds(posed, 8)
+    few = _cases(posed, 8)
     chosen = {name: program for name, program in BATCHES.items() if wanted(name)}
-    exact = {n: threads("dopri5")(*few, n, 1e-11) for n in {one.cycles for one in chosen.values()}}
-    cases = {n: speeds(posed, n) for n in {one.cases for one in chosen.values()}}
-    tolerances = {name: loosest(_marching(one, few), exact[one.cycles]) for name, one in chosen.items()}
+    tight = {p.cycles: Batch(threads("dopri5"), 8, p.cycles) for p in chosen.values()}
+    exact = {cycles: _marching(program, few)(1e-11) for cycles, program in tight.items()}
+    cases = {n: _cases(posed, n) for n in {program.cases for program in chosen.values()}}
+    tolerances = {name: loosest(_marching(p, few), exact[p.cycles]) for name, p in chosen.items()}
     taken: dict[str, list[tuple[float, float]]] = {name: [] for name in chosen}
     for turn in range(repeats + 1):
         for name, program in chosen.items():
             if sum(wall for wall, _ in taken[name]) > ENOUGH:
                 continue
-            begun = perf_counter(), process_time()
-            _marching(program, cases[program.cases])(tolerances[name][0])
+            march, (rtol, _) = _marching(program, cases[program.cases]), tolerances[name]
+            seconds = spent(lambda march=march, rtol=rtol: march(rtol))
             if turn:  # the first one compiles
-                taken[name].append((perf_counter() - begun[0], process_time() - begun[1]))
-    rows = [
-        "| program | rtol | error | cycles × cases per second | per second of one core | ours over it |",
-        "|---|--:|--:|--:|--:|--:|",
-    ]
-    ours = None
+                taken[name].append(seconds)
+    head = ["program", "rtol", "error", "cycles × cases per second", "per second of one core", "ours over it"]
+    rows, ours = [], None
     for name, program in chosen.items():
         wall, cpu = program.cases * program.cycles / np.median(taken[name], axis=0)
         ours = ours or cpu
         rtol, error = tolerances[name]
-        rows.append(
-            f"| {name} | {rtol:.0e} | {error:.1e} | {wall:.3g} | {cpu:.3g} "
-            f"| {_unless_missed(error, f'{ours / cpu:.3g}')} |"
-        )
-    return "\n".join(
-        [
-            *rows,
-            "",
-            f"{measured_on()}; speeds from 100 to 600 rad/s, error at eight of them; "
-            f"medians of up to {repeats}; ratios of processor time, since the machine may be shared.",
-        ]
+        cells = f"{rtol:.0e}", f"{error:.1e}", f"{wall:.3g}", f"{cpu:.3g}"
+        rows.append([name, *cells, _unless_missed(error, f"{ours / cpu:.3g}")])
+    return (
+        f"{table(head, rows, 'lrrrrr')}\n\n{measured_on()}; speeds from 100 to 600 rad/s, error at eight of "
+        f"them; medians of up to {repeats}; ratios of processor time, since the machine may be shared."
     )
 
 

@@ -7,15 +7,14 @@
 """
 
 import sys
-from pathlib import Path
 
 from typer.main import get_command
 from typer.testing import CliRunner
 
-from tools.marked_block import put
+from tools.marked_block import DOCS, put
 from tribodyn.cli.app import app
 
-PAGE, MARK = Path(__file__).parents[1] / "docs" / "command-line.md", "verbs"
+PAGE = DOCS / "command-line.md"
 
 
 def page() -> str:
@@ -31,6 +30,6 @@ def _help(verb: str) -> str:
 
 if __name__ == "__main__":
     if "--write" in sys.argv:
-        put(PAGE, MARK, page())
+        put(PAGE, "verbs", page())
     else:
         sys.stdout.write(page() + "\n")

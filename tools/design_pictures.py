@@ -1,16 +1,16 @@
 """Draw the pictures of docs/design.md: overviews of shipped searches, and maps of those with two free keys.
 
-python tools/design_pictures.py --into docs/pictures            # everything: minutes
-python tools/design_pictures.py --only shift-23-47 --records /tmp/searches   # keeps records, uses those there
+python -m tools.design_pictures --into docs/pictures            # everything: minutes
+python -m tools.design_pictures --only shift-23-47 --records /tmp/searches   # keeps records, uses those there
 """
 
-import argparse
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
 
 import numpy as np
 
+from tools.marked_block import PICTURES, parser_of
 from tribodyn.errors import InputError
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, house_style, new_figure, save
 from tribodyn.record.reader import open_record
@@ -42,9 +42,9 @@ def scan(case: Any, points: int) -> tuple[np.ndarray, np.ndarray]:
     with Pool(case.scenarios, 2) as pool:
         scoring = Scoring(case, pool.submit(cases_of(case, {})).result())
         waiting = [[pool.submit(cases_of(case, chosen(case, (x, y)))) for x in shares] for y in shares]
-        rows = [[scoring.score(one.result()) for one in row] for row in waiting]
-    values = np.array([[one.objectives[0] for one in row] for row in rows])
-    return values, np.array([[one.feasible for one in row] for row in rows])
+        rows = [[scoring.score(future.result()) for future in row] for row in waiting]
+    values = np.array([[score.objectives[0] for score in row] for row in rows])
+    return values, np.array([[score.feasible for score in row] for row in rows])
 
 
 def draw_map(name: str, path: Path, folder: Path) -> Any:
@@ -58,8 +58,8 @@ def draw_map(name: str, path: Path, folder: Path) -> Any:
     stored = np.load(kept)
     values, feasible = factor * stored["values"], stored["feasible"]
     numbers = [
-        [float(str(value_at(one, share)).split()[0]) for share in np.linspace(0, 1, points)]
-        for one in case.free
+        [float(str(value_at(key, share)).split()[0]) for share in np.linspace(0, 1, points)]
+        for key in case.free
     ]
     figure = new_figure(0.75 * WIDTH, 1.7 * PANEL_HEIGHT)
     axes = figure.subplots()
@@ -67,9 +67,9 @@ def draw_map(name: str, path: Path, folder: Path) -> Any:
     bar = figure.colorbar(drawn, ax=axes)
     axes.contourf(*numbers, (~feasible).astype(float), [0.5, 1.5], colors=["white"], alpha=0.55)
     with open_record(path) as record:
-        x, y = (record[f"free_{one.name}"] / one.si for one in case.free)
+        x, y = (record[f"free_{key.name}"] / key.si for key in case.free)
         axes.plot(x, y, ".", color=INK, markersize=2.5, label="evaluations")
-        best = [number_of(one, record.summary["best"][one.keys[0]]) / one.si for one in case.free]
+        best = [number_of(key, record.summary["best"][key.keys[0]]) / key.si for key in case.free]
         axes.plot(*best, "o", color=PALETTE[1], markersize=6, label="best of the search")
         found = record.summary["objective"] * factor
     row, column = np.unravel_index(np.nanargmin(np.where(feasible, values, np.nan)), values.shape)
@@ -78,8 +78,8 @@ def draw_map(name: str, path: Path, folder: Path) -> Any:
         numbers[0][column], numbers[1][row], "s", markersize=8, markerfacecolor="none", color=PALETTE[1]
     )
     axes.plot([], [], "s", markerfacecolor="none", color=PALETTE[1], label="best of the grid")
-    for set_label, one in zip((axes.set_xlabel, axes.set_ylabel), case.free, strict=True):
-        set_label(f"{one.name.replace('_', ' ')}" + (f" ({one.unit})" if one.unit else ""))
+    for set_label, key in zip((axes.set_xlabel, axes.set_ylabel), case.free, strict=True):
+        set_label(key.name.replace("_", " ") + (f" ({key.unit})" if key.unit else ""))
     label = case.objectives[0].name.replace("_", " ")
     bar.set_label(f"{label} ({unit})" if unit else label)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3)
@@ -88,8 +88,8 @@ def draw_map(name: str, path: Path, folder: Path) -> Any:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--into", type=Path, default=Path("docs/pictures"))
+    parser = parser_of(__doc__)
+    parser.add_argument("--into", type=Path, default=PICTURES)
     parser.add_argument("--records", type=Path, help="folder of records; default: a temporary one")
     parser.add_argument("--only", nargs="*", default=SEARCHES, choices=SEARCHES)
     given = parser.parse_args()

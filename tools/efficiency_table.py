@@ -1,14 +1,12 @@
 """Efficiencies of the shipped 23/47 drives under every friction law and load sharing, as a Markdown table.
 
-python tools/efficiency_table.py                             # prints the table
-python tools/efficiency_table.py --into docs/efficiency.md   # and puts it into the page
+python -m tools.efficiency_table                             # prints the table
+python -m tools.efficiency_table --into docs/efficiency.md   # and puts it into the page
 """
 
-import argparse
-from pathlib import Path
+from itertools import product
 
-from marked_block import put
-
+from tools.marked_block import generate, table
 from tribodyn.errors import InputError
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.run import efficiencies, prepare
@@ -36,38 +34,19 @@ CONDITIONS = {
 }
 
 
-def lines() -> list[str]:
-    table = [
-        f"| conditions | law | drive | {' | '.join(COLUMNS.values())} |",
-        f"|---|---|---|{'---|' * len(COLUMNS)}",
-    ]
-    for conditions, overrides in CONDITIONS.items():
-        for law in LAWS:
-            for drive, name in DRIVES.items():
-                case = load_scenario(
-                    "efficiency-crc-23-47", {"drive": drive, "friction.law": law, **overrides}
-                )
-                assert isinstance(case, EfficiencyCase)
-                try:
-                    values = efficiencies(prepare(case))
-                    cells = [f"{100 * values[key]:.3f}" if key in values else "–" for key in COLUMNS]
-                except InputError:  # a mean law where radius and speed vanish at the pitch point
-                    continue
-                table.append(f"| {conditions} | `{law}` | {name} | {' | '.join(cells)} |")
-    return table
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--into", type=Path, help="Markdown page with the marked block efficiencies")
-    page: Path | None = parser.parse_args().into
-    table = "\n".join(lines())
-    print(table)
-    if page is not None:
-        put(page, "efficiencies", table)
+def by_law_and_drive(_: object) -> str:
+    rows = []
+    for (conditions, overrides), law, (drive, name) in product(CONDITIONS.items(), LAWS, DRIVES.items()):
+        case = load_scenario("efficiency-crc-23-47", {"drive": drive, "friction.law": law, **overrides})
+        assert isinstance(case, EfficiencyCase)
+        try:
+            values = efficiencies(prepare(case))
+        except InputError:  # a mean law where radius and speed vanish at the pitch point
+            continue
+        cells = [f"{100 * values[key]:.3f}" if key in values else "–" for key in COLUMNS]
+        rows.append([conditions, f"`{law}`", name, *cells])
+    return table(["conditions", "law", "drive", *COLUMNS.values()], rows)
 
 
 if __name__ == "__main__":
-    main()
+    generate(__doc__, efficiencies=by_law_and_drive)

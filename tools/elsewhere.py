@@ -9,7 +9,6 @@ Each configuration runs all tests, one after the other, with a cache for what th
 A configuration that needs what this processor does not have is left out. Logs: .cache/elsewhere/NAME.txt.
 """
 
-import argparse
 import json
 import os
 import re
@@ -20,44 +19,23 @@ from datetime import date
 from pathlib import Path
 from typing import NamedTuple
 
-from tools.marked_block import put
+from tools.marked_block import DOCS, ROOT, parser_of, put
 
-ROOT = Path(__file__).parents[1]
-PAGE, MARK = ROOT / "docs" / "development.md", "elsewhere"
+PAGE = DOCS / "development.md"
 KEPT = ROOT / ".cache" / "elsewhere"
 
 
 class Configuration(NamedTuple):
-    """Settings under which all tests run; empty: as on this machine.
+    """Settings under which all tests run; empty: as on this machine."""
 
-    Attributes
-    ----------
-    blas : str
-        Processor whose kernels OpenBLAS takes.
-    target : str
-        Processor that numba compiles for.
-    numpy_without : str
-        Instruction sets that NumPy does without.
-    xla_up_to : str
-        The largest instruction set in XLA's programs.
-    glibc : str
-        Changes to what the functions of the C library use.
-    threads : int
-        Threads of the BLAS.
-    loops : int
-        Busy loops beside the tests.
-    needs : str
-        What the processor must have, as /proc/cpuinfo names it.
-    """
-
-    blas: str = ""
-    target: str = ""
-    numpy_without: str = ""
-    xla_up_to: str = ""
-    glibc: str = ""
-    threads: int = 1
-    loops: int = 0
-    needs: str = ""
+    blas: str = ""  # processor whose kernels OpenBLAS takes
+    target: str = ""  # processor that numba compiles for
+    numpy_without: str = ""  # instruction sets that NumPy does without
+    xla_up_to: str = ""  # largest instruction set in XLA's programs
+    glibc: str = ""  # changes to what the functions of the C library use
+    threads: int = 1  # of the BLAS
+    loops: int = 0  # busy loops beside the tests
+    needs: str = ""  # what the processor must have, as /proc/cpuinfo names it
 
     def environment(self) -> dict[str, str]:
         """Return the environment of the tests."""
@@ -124,9 +102,8 @@ def row(name: str, chosen: Configuration, tests: str) -> tuple[str, bool]:
             loop.kill()
     minutes = (time.monotonic() - begun) / 60
     lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
-    counts = {
-        what: int(many) for many, what in re.findall(r"(\d+) (passed|failed|error)", "\n".join(lines[-3:]))
-    }
+    ended_how = re.findall(r"(\d+) (passed|failed|error)", "\n".join(lines[-3:]))
+    counts = {how: int(many) for many, how in ended_how}
     sys.stdout.writelines(f"{line}\n" for line in lines if line.startswith(("FAILED", "ERROR")))
     version = subprocess.check_output(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, text=True).strip()
     cells = [*found[:3], chosen.xla_up_to, chosen.threads, chosen.loops, counts.get("passed", 0)]
@@ -144,9 +121,7 @@ def table(rows: dict[str, str]) -> str:
 
 def main() -> None:
     """Run what the command line names, and print or write the table."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = parser_of(__doc__)
     parser.add_argument("names", nargs="*", choices=[[], *CONFIGURATIONS], metavar="CONFIGURATION")
     parser.add_argument("--tests", default="", help="paths and options of pytest")
     parser.add_argument("--write", action="store_true", help=f"into {PAGE.relative_to(ROOT)}")
@@ -164,7 +139,7 @@ def main() -> None:
         sys.stdout.write(f"{rows[name]}\n")
         sys.stdout.flush()
         if given.write and not given.tests:
-            put(PAGE, MARK, table(rows))
+            put(PAGE, "elsewhere", table(rows))
     sys.exit(not green)
 
 

@@ -1,7 +1,7 @@
 """Free end faces, planes of symmetry, or slices apart: load along a misaligned tooth, by elements in 3D.
 
-python tools/end_faces.py            # minutes; 10 slices
-python tools/end_faces.py 6          # sooner
+python -m tools.end_faces            # minutes; 10 slices
+python -m tools.end_faces 6          # sooner
 
 One sector of the pinion of Jia et al., its edges and bore held, of twenty-node bricks, and the same sector by
 harmonics along the face and the openings of its ends; both gears are taken as alike. Loads stand on the flank

@@ -1,14 +1,13 @@
 """Pictures of the tooth families for the docs: teeth in mesh, path of contact, pressure angle and radius.
 
-python tools/family_pictures.py           # writes docs/pictures/family-*.png
+python -m tools.family_pictures           # writes docs/pictures/family-*.png
 """
 
-import argparse
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from tools.marked_block import PICTURES
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import gear_polygon
 from tribodyn.geometry.drive import SIDES
@@ -20,7 +19,6 @@ from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import averaged_radius
 
-FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 SCENARIOS = {
     "involute": "involute-23-47",
     "crc": "crc-23-47",
@@ -82,10 +80,6 @@ def contact(angle: Any, radius: Any, case: Case) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Draw the tooth families.")
-    parser.add_argument("--output", type=Path, default=FOLDER)
-    folder = parser.parse_args().output
-    folder.mkdir(parents=True, exist_ok=True)
     for name, scenario in SCENARIOS.items():
         case = load_scenario(scenario)
         assert isinstance(case, Case)
@@ -94,7 +88,7 @@ def main() -> None:
             grid = figure.add_gridspec(2, 2, width_ratios=(1.4, 1))
             teeth(figure.add_subplot(grid[:, 0]), case)
             contact(figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1]), case)
-            print(save(figure, folder / f"family-{name}.png", force=True))
+            print(save(figure, PICTURES / f"family-{name}.png", force=True))
 
 
 if __name__ == "__main__":

@@ -1,20 +1,19 @@
 """The picture of the free-form search for the docs: teeth, path, curvature and loss before and after.
 
 tribodyn run design-free-form-23-47               # writes design-free-form-23-47.h5 and …-best.toml
-python tools/free_form_picture.py design-free-form-23-47-best.toml
+python -m tools.free_form_picture design-free-form-23-47-best.toml
 """
 
-import argparse
-from pathlib import Path
+import sys
 from typing import Any
 
 import numpy as np
 
 import tribodyn as td
+from tools.marked_block import PICTURES
 from tribodyn.geometry.path import kinematics
 from tribodyn.post.style import INK, PALETTE, house_style, new_figure, save
 
-PICTURE = Path(__file__).parents[1] / "docs" / "pictures" / "design-free-form.png"
 START = "crc-23-47"
 
 
@@ -45,18 +44,15 @@ def along(panels: Any, pairs: dict[str, td.GearPair]) -> None:
 
 
 def main() -> None:
-    """Draw the picture."""
-    parser = argparse.ArgumentParser(description="Draw the picture of the free-form search.")
-    parser.add_argument("best", help="the best file of the search")
-    parser.add_argument("--output", type=Path, default=PICTURE)
-    given = parser.parse_args()
-    pairs = {"CRC": td.drive(START), "free form": td.drive(given.best)}
+    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
+        raise SystemExit(__doc__)
+    pairs = {"CRC": td.drive(START), "free form": td.drive(sys.argv[1])}
     with house_style():
         figure = new_figure(10.0, 5.2)
         grid = figure.add_gridspec(3, 2, width_ratios=(1.15, 1.0))
         teeth(figure.add_subplot(grid[:, 0]), pairs)
         along([figure.add_subplot(grid[row, 1]) for row in range(3)], pairs)
-        save(figure, given.output, force=True)
+        save(figure, PICTURES / "design-free-form.png", force=True)
 
 
 if __name__ == "__main__":

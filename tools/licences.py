@@ -10,15 +10,14 @@ import re
 import sys
 from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, metadata, requires
-from pathlib import Path
 from typing import NamedTuple
 
 from packaging.requirements import Requirement
 
-from tools.marked_block import put
+from tools.marked_block import DOCS, ROOT, put
+from tools.marked_block import table as table_of
 
-ROOT = Path(__file__).parents[1]
-PAGE, MARK = ROOT / "docs" / "licences.md", "licences"
+PAGE = DOCS / "licences.md"
 #: What is not installed with the tests, and what metadata say without naming the licence, read in its files.
 READ_BY_HAND = {
     "editables": "MIT",
@@ -74,12 +73,12 @@ def licence_of(name: str) -> str:
     """The licence of an installed package; ``READ_BY_HAND`` where its metadata do not name it."""
     if name in READ_BY_HAND:
         return READ_BY_HAND[name]
-    said = metadata(name)
-    written = [*(said.get_all("License-Expression") or []), *(said.get_all("License") or [])]
+    known = metadata(name)
+    written = [*(known.get_all("License-Expression") or []), *(known.get_all("License") or [])]
     classified = [
-        one.rpartition("::")[2].strip()
-        for one in said.get_all("Classifier") or []
-        if one.startswith("License")
+        classifier.rpartition("::")[2].strip()
+        for classifier in known.get_all("Classifier") or []
+        if classifier.startswith("License")
     ]
     return " ".join((next(iter(written), "") or "; ".join(classified) or "unknown").split())
 
@@ -103,10 +102,10 @@ def _required(name: str, extras: tuple[str, ...]) -> Iterator[tuple[str, tuple[s
     except PackageNotFoundError:
         return
     for line in lines:
-        one = Requirement(line)
-        marked = one.marker
-        if marked is None or any(marked.evaluate({"extra": extra}) for extra in ("", *extras)):
-            yield same_name(one.name), tuple(one.extras)
+        requirement = Requirement(line)
+        marker = requirement.marker
+        if marker is None or any(marker.evaluate({"extra": extra}) for extra in ("", *extras)):
+            yield same_name(requirement.name), tuple(requirement.extras)
 
 
 def is_known(name: str) -> bool:
@@ -120,32 +119,24 @@ def is_known(name: str) -> bool:
 def rows() -> list[Row]:
     """A row for every package of constraints.txt whose licence is known here, see `is_known`."""
     default, optional = needed(), needed(("xarray", "cluster", "design"))
-    return [
-        Row(
-            name,
-            version,
-            licence_of(name),
-            "runs"
-            if same_name(name) in default
-            else "extras"
-            if same_name(name) in optional
-            else "development",
-        )
-        for name, version in constraints().items()
-        if is_known(name)
-    ]
+    found = []
+    for name, version in constraints().items():
+        if is_known(name):
+            needed_for = "extras" if same_name(name) in optional else "development"
+            needed_for = "runs" if same_name(name) in default else needed_for
+            found.append(Row(name, version, licence_of(name), needed_for))
+    return found
 
 
 def table() -> str:
     """The rows as a table of a page."""
-    lines = [f"| {one.name} | {one.version} | {one.licence} | {one.needed_for} |" for one in rows()]
-    return "\n".join(["| package | version | licence | needed for |", "|---|---|---|---|", *lines])
+    return table_of(["package", "version", "licence", "needed for"], rows())
 
 
 if __name__ == "__main__":
     if "--write" in sys.argv:
         if unknown := [name for name in constraints() if not is_known(name)]:
             sys.exit(f"not installed: {', '.join(unknown)}; make test docs installs them")
-        put(PAGE, MARK, table())
+        put(PAGE, "licences", table())
     else:
         sys.stdout.write(table() + "\n")

@@ -1,21 +1,20 @@
 """Pictures of docs/load-contact.md: line loads of misaligned gears, and a Harris map.
 
-python tools/load_contact_pictures.py            # writes docs/pictures/load-contact-*.png
+python -m tools.load_contact_pictures            # writes docs/pictures/load-contact-*.png
 """
 
-import argparse
 from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from tools.marked_block import PICTURES as FOLDER
 from tribodyn.post.style import save
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import open_record
 from tribodyn.studies.pages.pictures import figure
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
-FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 UNRELIEVED = {
     "drive.pinion.modification.lead_relief_start": "0 um",
     "drive.pinion.modification.lead_relief_end": "0 um",
@@ -39,27 +38,14 @@ PICTURES: dict[str, tuple[str, list[tuple[str, str, dict[str, Any]]]]] = {
     "load-contact-harris": (
         "harris",
         [
-            (
-                "without relief",
-                "load-contact-18-36",
-                {"operating.gear_torques": TORQUES},
-            ),
+            ("without relief", "load-contact-18-36", {"operating.gear_torques": TORQUES}),
             ("12.4 µm of tip relief", "harris-18-36-tip-relief", {"operating.gear_torques": TORQUES}),
         ],
     ),
 }
 
 
-def figures(record: Record) -> dict[str, float]:
-    """What the page says of a run: face load factor, maximum values."""
-    return {key: value for key, value in record.summary.items() if key.endswith(("_max", "factor"))}
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Draw the pictures of docs/load-contact.md.")
-    parser.add_argument("--output", type=Path, default=FOLDER)
-    folder = parser.parse_args().output
-    folder.mkdir(parents=True, exist_ok=True)
     for picture, (name, runs) in PICTURES.items():
         with TemporaryDirectory(prefix="tribodyn-") as temporary, ExitStack() as stack:
             records = []
@@ -68,8 +54,10 @@ def main() -> None:
                 record = stack.enter_context(open_record(result.path))
                 record.label = label
                 records.append(record)
-                print(label, figures(record))
-            print(save(figure(name, records), folder / f"{picture}.png", force=True))
+                # what the page says of a run: face load factor, maximum values
+                summary = record.summary.items()
+                print(label, {key: value for key, value in summary if key.endswith(("_max", "factor"))})
+            print(save(figure(name, records), FOLDER / f"{picture}.png", force=True))
 
 
 if __name__ == "__main__":

@@ -1,17 +1,15 @@
 """The energy method compared with the load contact model, over the shipped drives.
 
-python tools/load_contact_table.py                               # prints the table
-python tools/load_contact_table.py --into docs/load-contact.md   # and puts it into the page
+python -m tools.load_contact_table                               # prints the table
+python -m tools.load_contact_table --into docs/load-contact.md   # and puts it into the page
 """
 
-import argparse
 from dataclasses import replace
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from marked_block import put
 
+from tools.marked_block import generate, table
 from tribodyn.compliance.sharing.load_sharing import flexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
@@ -40,7 +38,7 @@ LINE_LOAD = 200e3  # N/m on a single pair, at the pitch point
 MESH = MeshData("energy", 0.05)
 
 
-class Figures(NamedTuple):
+class Deflections(NamedTuple):
     """Mean and peak to peak of the deflection on the pitch circles, m, and the load's share over roll."""
 
     mean: float
@@ -49,7 +47,7 @@ class Figures(NamedTuple):
     share: np.ndarray
 
 
-def figures(cycle: MeshCycle, torque: float) -> Figures:
+def deflections(cycle: MeshCycle, torque: float) -> Deflections:
     state = quasi_static(cycle, torque)
     pairs = cycle.front_pairs
     position = cycle.phase[..., None] + np.arange(pairs - 1.0, -1.0, -1.0)
@@ -58,7 +56,7 @@ def figures(cycle: MeshCycle, torque: float) -> Figures:
     share = state.normal_load * cycle.gear_pitch_radius / torque
     order = np.argsort(roll.ravel()[inside], kind="stable")
     deflection = state.deflection
-    return Figures(
+    return Deflections(
         float(cycle_mean(cycle, deflection)),
         float(np.ptp(deflection)),
         roll.ravel()[inside][order],
@@ -66,14 +64,14 @@ def figures(cycle: MeshCycle, torque: float) -> Figures:
     )
 
 
-def row(name: str) -> str:
+def row(name: str) -> list[str]:
     case = load_scenario("involute-18-36", {"drive": name})
     assert isinstance(case, Case)
     teeth, drive = family(case.family), case.drive
     assembly = assemble(teeth, drive)
     arm = float(assembly.path.gear_pitch_radius * np.cos(assembly.path.pressure_angle(0.0)))
     torque = LINE_LOAD * min(drive.pinion.face_width, drive.gear.face_width) * arm
-    elements = figures(tabulate_loaded(assembly, case.materials, MESH, torque), torque)
+    elements = deflections(tabulate_loaded(assembly, case.materials, MESH, torque), torque)
     ratio = load_contact(flexibility(assembly, case.materials), torque, 0.0).contact_ratio
     cells = [
         name,
@@ -82,7 +80,7 @@ def row(name: str) -> str:
     ]
     for hertz in ("linear", "load-dependent"):
         mesh = replace(MESH, hertz=hertz)
-        energy = figures(tabulate(assembly, case.materials, mesh, pair_slots(assembly)), torque)
+        energy = deflections(tabulate(assembly, case.materials, mesh, pair_slots(assembly)), torque)
         at = np.linspace(elements.roll[0], elements.roll[-1], 2001)
         shares = [np.interp(at, x.roll, x.share, left=0.0, right=0.0) for x in (elements, energy)]
         inside = (at > energy.roll[0]) & (at < energy.roll[-1])
@@ -90,27 +88,15 @@ def row(name: str) -> str:
         cells.append(f"{100 * (elements.mean / energy.mean - 1):+.0f}")
         cells.append(f"{100 * (energy.swing / elements.swing - 1):+.0f}")
         cells.append(f"{100 * off:.0f}")
-    return "| " + " | ".join(cells) + " |"
+    return cells
 
 
-def table() -> str:
-    head = (
-        "| drive | contact ratio: path, effective | deflection: mean, peak to peak, µm "
-        "| linear contact: stiffness, % | swing, % | share, % "
-        "| load-dependent contact: stiffness, % | swing, % | share, % |"
-    )
-    return "\n".join([head, "|---|---|---|--:|--:|--:|--:|--:|--:|", *map(row, DRIVES)])
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description="The energy method compared with the load contact model.")
-    parser.add_argument("--into", type=Path, help="page with the marked block")
-    page = parser.parse_args().into
-    text = table()
-    print(text)
-    if page:
-        put(page, "energy", text)
+def differences(_: object) -> str:
+    head = ["drive", "contact ratio: path, effective", "deflection: mean, peak to peak, µm"]
+    for contact in ("linear", "load-dependent"):
+        head += [f"{contact} contact: stiffness, %", "swing, %", "share, %"]
+    return table(head, [row(drive) for drive in DRIVES], "lllrrrrrr")
 
 
 if __name__ == "__main__":
-    main()
+    generate(__doc__, energy=differences)

@@ -1,7 +1,7 @@
 """The shape of a package, read from its files: imports, circles, lengths, files that name a kind of study.
 
-python tools/package_shape.py            # of this checkout
-python tools/package_shape.py FOLDER     # of another one
+python -m tools.package_shape            # of this checkout
+python -m tools.package_shape FOLDER     # of another one
 
 Nothing is imported: files are parsed. An import inside a function counts like any other; one that only a type
 checker sees (under ``if TYPE_CHECKING``) is marked. What a registry looks up by a string is no import here.

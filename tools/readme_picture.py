@@ -1,13 +1,13 @@
-"""Pictures of the README and the docs, drawn from runs of the shipped scenarios.
+"""The picture of the README: two shipped drives compared.
 
-python tools/readme_picture.py            # writes docs/pictures/*.png
+python -m tools.readme_picture            # writes docs/pictures/*.png
 """
 
-import argparse
 from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from tools.marked_block import PICTURES
 from tribodyn.post.figures.over_mesh import TRACES
 from tribodyn.post.figures.panel import View, draw, legend
 from tribodyn.post.figures.path_of_contact import draw_path
@@ -16,7 +16,6 @@ from tribodyn.record.reader import Record, open_record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
-FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 
 
 def comparison(records: list[Record]):
@@ -35,10 +34,6 @@ def comparison(records: list[Record]):
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Draw the pictures of the README and the docs.")
-    parser.add_argument("--output", type=Path, default=FOLDER)
-    folder = parser.parse_args().output
-    folder.mkdir(parents=True, exist_ok=True)
     with TemporaryDirectory(prefix="tribodyn-") as temporary, ExitStack() as stack:
         records = []
         for name in ("crc-23-47", "involute-23-47"):
@@ -46,7 +41,7 @@ def main() -> None:
             case = load_scenario(name, {"solver.cycles": 4, "output.samples_per_cycle": 2000})
             result = run(case, Path(temporary) / f"{name}.h5")
             records.append(stack.enter_context(open_record(result.path)))
-        print(save(comparison(records), folder / "crc-and-involute.png", force=True))
+        print(save(comparison(records), PICTURES / "crc-and-involute.png", force=True))
 
 
 if __name__ == "__main__":

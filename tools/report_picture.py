@@ -7,9 +7,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import tribodyn as td
+from tools.marked_block import PICTURES
 from tribodyn.post.page.pdf import run_browser
-
-PICTURE = Path(__file__).parents[1] / "docs" / "pictures" / "report.png"
 
 
 def main() -> None:
@@ -17,7 +16,7 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         page = td.run("involute-18-36", {"solver.cycles": 6}).report(Path(folder) / "pair.html")
         size = ("--window-size=1180,1080", "--hide-scrollbars")
-        ended = run_browser(*size, f"--screenshot={PICTURE}", f"{page.as_uri()}#at=11.7")
+        ended = run_browser(*size, f"--screenshot={PICTURES / 'report.png'}", f"{page.as_uri()}#at=11.7")
     if ended.returncode:
         raise SystemExit(ended.stderr)
 

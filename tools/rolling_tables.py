@@ -1,6 +1,6 @@
 """Tables and picture of docs/rolling-elements.md, from runs of the shipped scenarios.
 
-python tools/rolling_tables.py            # writes them into the page
+python -m tools.rolling_tables            # writes them into the page
 """
 
 from pathlib import Path
@@ -8,16 +8,15 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
-from marked_block import put
 
+from tools.marked_block import DOCS, PICTURES, put, table
 from tribodyn.post.style import save
 from tribodyn.record.reader import open_record
 from tribodyn.studies.pages.pictures import overview
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
-PAGE = Path(__file__).parents[1] / "docs" / "rolling-elements.md"
-PICTURE = PAGE.parent / "pictures" / "irefc.png"
+PAGE = DOCS / "rolling-elements.md"
 RADII = (1.2, 1.6, 2.0, 2.4, 2.8)
 
 
@@ -36,23 +35,21 @@ def modes(folder: Path) -> str:
     fine = result(folder, "irefc")
     runs = (published, coarse, fine)
     head = "as published, μ 1 mm", "corrected, μ 1 mm", "corrected, μ 0.01 mm"
-    lines = [
-        "| element | φ, ° | R, N | v_s, mm/s: published | corrected | ω_b, rad/s: published | corrected | "
-        f"N_S, W: {' | '.join(head)} |",
-        "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|",
-    ]
+    columns = ["element", "φ, °", "R, N", "v_s, mm/s: published", "corrected"]
+    columns += ["ω_b, rad/s: published", "corrected", f"N_S, W: {head[0]}", *head[1:]]
+    rows = []
     for i in range(len(published[1]["normal_load"])):
         old, new = published[1], fine[1]
         cells = [
-            f"{i + 1}",
+            i + 1,
             f"{np.degrees(new['element_angle'][i]):.1f}",
             f"{new['normal_load'][i]:.1f}",
             *(f"{data['slip_speed'][i] * 1e3:.2f}" for data in (old, new)),
             *(f"{data['spin_speed'][i]:.1f}" for data in (old, new)),
             *(f"{data['power_cam'][i] + data['power_crown'][i]:.3f}" for _, data in runs),
         ]
-        lines.append(f"| {' | '.join(cells)} |")
-    lines += ["", f"| | {' | '.join(head)} |", "|---|--:|--:|--:|"]
+        rows.append(cells)
+    means = []
     for label, name, form in (
         ("loss, W", "power_friction_mean", ".1f"),
         ("of it at the cam, W", "power_cam_mean", ".1f"),
@@ -63,8 +60,9 @@ def modes(folder: Path) -> str:
     ):
         factor = 1e3 if name == "slip_speed_max" else 1.0
         cells = [format(factor * summary[name], form) for summary, _ in runs]
-        lines.append(f"| {label} | {' | '.join(cells)} |")
-    return "\n".join(lines) + "\n\nMeans are over the revolution in mode `corrected`."
+        means.append([label, *cells])
+    parts = table(columns, rows, "r" * 10), table(["", *head], means, "lrrr")
+    return "\n\n".join([*parts, "Means are over the revolution in mode `corrected`."])
 
 
 def conclusions(folder: Path) -> str:
@@ -73,13 +71,12 @@ def conclusions(folder: Path) -> str:
     def loss(scenario: str, **changes: str) -> str:
         return f"{result(folder, scenario, **changes)[0]['power_friction_mean']:.1f}"
 
-    lines = ["| | loss as published, W | corrected, μ 0.01 mm, W |", "|---|--:|--:|"]
+    head = "", "loss as published, W", "corrected, μ 0.01 mm, W"
     sizes = [(f"r_b {radius:g} mm", {"drive__element_radius": f"{radius} mm"}) for radius in RADII]
     sizes += [(f"r₂ {radius:g} mm", {"drive__pitch_radius": f"{radius} mm"}) for radius in (20, 30)]
-    for label, changes in sizes:
-        cells = [loss(scenario, **changes) for scenario in ("irefc-as-published", "irefc")]
-        lines.append(f"| {label} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+    modes = "irefc-as-published", "irefc"
+    rows = [[label, *(loss(scenario, **changes) for scenario in modes)] for label, changes in sizes]
+    return table(head, rows, "lrr")
 
 
 def main() -> None:
@@ -89,7 +86,7 @@ def main() -> None:
         put(PAGE, "rolling-conclusions", conclusions(folder))
         path = run(load_scenario("irefc"), folder / "irefc.h5").path
         with open_record(path) as record:
-            print(save(overview(record), PICTURE, force=True))
+            print(save(overview(record), PICTURES / "irefc.png", force=True))
 
 
 if __name__ == "__main__":

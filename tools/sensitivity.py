@@ -1,8 +1,8 @@
-"""What every published figure of Liu & Ni (2022) depends on: one change at a time, as a Markdown table.
+"""What every published number of Liu & Ni (2022) depends on: one change at a time, as a Markdown table.
 
-    python tools/sensitivity.py                                  # prints the table
-    python tools/sensitivity.py --into docs/validation.md        # and puts it into the page
-    python tools/sensitivity.py --only "friction law"            # one group
+python -m tools.sensitivity                                  # prints the table
+python -m tools.sensitivity --into docs/validation.md        # and puts it into the page
+python -m tools.sensitivity --only "friction law"            # one group
 
 Each row is three runs: both drives with friction, and the CRC drive without. Nothing is tuned here: the table
 shows what choices that the paper leaves open, or printed differently, would do to the comparison.
@@ -15,8 +15,8 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import numpy as np
-from marked_block import put
 
+from tools.marked_block import generate, parser_of, table
 from tribodyn.record.reader import Record, open_record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -24,7 +24,7 @@ from tribodyn.validation.rows import published
 
 CRC, INVOLUTE, DRY = "crc-23-47", "involute-23-47", "crc-23-47-frictionless"
 
-#: Enough: at 10 rad/s the start has died out within one mesh cycle; the figures are those of the last one.
+#: Enough: at 10 rad/s the start has died out within one mesh cycle; the values are those of the last one.
 CYCLES = 4
 #: At 10 rad/s the mesh vibrates some fifty times per mesh cycle: means need more than the 200 samples of
 #: the shipped scenarios, four per period.
@@ -32,21 +32,11 @@ SAMPLES = 2000
 
 
 class Variant(NamedTuple):
-    """One changed choice.
+    """One changed choice."""
 
-    Attributes
-    ----------
-    group, label : str
-    settings : dict
-        Overrides, for all three scenarios.
-    stiffness : float or None
-        Factor on the baseline's single-pair stiffness, given to the run as a table.
-    """
-
-    group: str
     label: str
-    settings: dict[str, Any]
-    stiffness: float | None = None
+    settings: dict[str, Any]  # overrides, for all three scenarios
+    stiffness: float | None = None  # factor on the baseline's single-pair stiffness, given as a table
 
 
 def bearings(stiffness: str) -> dict[str, Any]:
@@ -62,50 +52,59 @@ def bores(pinion: str, gear: str) -> dict[str, Any]:
 
 
 LAW = "friction.law"
-VARIANTS = (
-    Variant(
-        "friction law", "limiting shear from the whole mean pressure", {LAW: "masjedi-khonsari-mean-pressure"}
-    ),
-    Variant("friction law", "as printed: 447, Péclet without ρ c", {LAW: "masjedi-khonsari-as-printed"}),
-    Variant("friction law", "Coulomb, μ = 0.1", {LAW: "coulomb", "friction.coefficient": 0.1}),
-    Variant("lubricant and surfaces", "f_c = 0.13 instead of 0.11", {"lubricant.asperity_friction": 0.13}),
-    Variant("lubricant and surfaces", "f_c = 0.09", {"lubricant.asperity_friction": 0.09}),
-    Variant(
-        "lubricant and surfaces",
-        "Λ_lim = 0.1 instead of 0.091",
-        {"lubricant.limiting_shear_coefficient": 0.1},
-    ),
-    Variant("lubricant and surfaces", "σ = 0.42 µm: 0.3 µm on each flank", {"drive.roughness": "0.424 um"}),
-    Variant("lubricant and surfaces", "specific heat × 2", {"drive.material.specific_heat": "868 J/(kg*K)"}),
-    Variant("lubricant and surfaces", "no heating: K_T = 0", {"lubricant.temperature_viscosity": "0 1/K"}),
-    Variant("bearings", "1e8 N/m", bearings("1e8 N/m")),
-    Variant("bearings", "3e8 N/m", bearings("3e8 N/m")),
-    Variant("bearings", "1e10 N/m", bearings("1e10 N/m")),
-    Variant("tooth stiffness", "Hertz contact load-dependent", {"mesh.hertz": "load-dependent"}),
-    Variant("tooth stiffness", "pairs do not share the gear bodies", {"mesh.foundation_coupling": False}),
-    Variant("tooth stiffness", "not shared, all × 0.7", {}, 0.7),
-    Variant("tooth stiffness", "not shared, all × 1.3", {}, 1.3),
-    Variant(
-        "tooth stiffness", "constant, 3e8 N/m", {"mesh.compliance": "constant", "mesh.stiffness": "3e8 N/m"}
-    ),
-    Variant("tooth stiffness", "bores 10/15 mm instead of 15/25", bores("10 mm", "15 mm")),
-    Variant("tooth stiffness", "bores 20/40 mm", bores("20 mm", "40 mm")),
-    Variant("tooth stiffness", "fillet radius 0.1 m instead of 0.25", both("fillet_radius", 0.1)),
-    Variant("tooth stiffness", "fillet radius 0.3 m", both("fillet_radius", 0.3)),
-    Variant("damping", "mesh damping ratio 0.01 instead of 0.05", {"mesh.damping_ratio": 0.01}),
-    Variant("damping", "mesh damping ratio 0.1", {"mesh.damping_ratio": 0.1}),
-    Variant("speed", "5 rad/s", {"operating.pinion_speed": "5 rad/s"}),
-    Variant("speed", "20 rad/s", {"operating.pinion_speed": "20 rad/s"}),
-    Variant("speed", "100 rad/s", {"operating.pinion_speed": "100 rad/s"}),
-    Variant("formulation", "sliding of the vibrating bodies", {"friction.sliding": "dynamic"}),
-    Variant("formulation", "energy-consistent", {"mesh.formulation": "energy-consistent"}),
-    Variant("numerics", "reversal width 5 µm instead of 20", {"friction.reversal_width": "5 um"}),
-    Variant("numerics", "reversal width 80 µm", {"friction.reversal_width": "80 um"}),
-    Variant("numerics", "contact width 0.02 µm instead of 0.1", {"mesh.contact_width": "0.02 um"}),
-    Variant("numerics", "contact width 0.5 µm", {"mesh.contact_width": "0.5 um"}),
-    Variant("numerics", "rtol = 1e-8 instead of 1e-6", {"solver.rtol": 1e-8}),
-    Variant("numerics", "200 samples per cycle instead of 2000", {"output.samples_per_cycle": 200}),
-)
+#: Group -> what is changed.
+VARIANTS: dict[str, list[Variant]] = {
+    "friction law": [
+        Variant("limiting shear from the whole mean pressure", {LAW: "masjedi-khonsari-mean-pressure"}),
+        Variant("as printed: 447, Péclet without ρ c", {LAW: "masjedi-khonsari-as-printed"}),
+        Variant("Coulomb, μ = 0.1", {LAW: "coulomb", "friction.coefficient": 0.1}),
+    ],
+    "lubricant and surfaces": [
+        Variant("f_c = 0.13 instead of 0.11", {"lubricant.asperity_friction": 0.13}),
+        Variant("f_c = 0.09", {"lubricant.asperity_friction": 0.09}),
+        Variant("Λ_lim = 0.1 instead of 0.091", {"lubricant.limiting_shear_coefficient": 0.1}),
+        Variant("σ = 0.42 µm: 0.3 µm on each flank", {"drive.roughness": "0.424 um"}),
+        Variant("specific heat × 2", {"drive.material.specific_heat": "868 J/(kg*K)"}),
+        Variant("no heating: K_T = 0", {"lubricant.temperature_viscosity": "0 1/K"}),
+    ],
+    "bearings": [
+        Variant("1e8 N/m", bearings("1e8 N/m")),
+        Variant("3e8 N/m", bearings("3e8 N/m")),
+        Variant("1e10 N/m", bearings("1e10 N/m")),
+    ],
+    "tooth stiffness": [
+        Variant("Hertz contact load-dependent", {"mesh.hertz": "load-dependent"}),
+        Variant("pairs do not share the gear bodies", {"mesh.foundation_coupling": False}),
+        Variant("not shared, all × 0.7", {}, 0.7),
+        Variant("not shared, all × 1.3", {}, 1.3),
+        Variant("constant, 3e8 N/m", {"mesh.compliance": "constant", "mesh.stiffness": "3e8 N/m"}),
+        Variant("bores 10/15 mm instead of 15/25", bores("10 mm", "15 mm")),
+        Variant("bores 20/40 mm", bores("20 mm", "40 mm")),
+        Variant("fillet radius 0.1 m instead of 0.25", both("fillet_radius", 0.1)),
+        Variant("fillet radius 0.3 m", both("fillet_radius", 0.3)),
+    ],
+    "damping": [
+        Variant("mesh damping ratio 0.01 instead of 0.05", {"mesh.damping_ratio": 0.01}),
+        Variant("mesh damping ratio 0.1", {"mesh.damping_ratio": 0.1}),
+    ],
+    "speed": [
+        Variant("5 rad/s", {"operating.pinion_speed": "5 rad/s"}),
+        Variant("20 rad/s", {"operating.pinion_speed": "20 rad/s"}),
+        Variant("100 rad/s", {"operating.pinion_speed": "100 rad/s"}),
+    ],
+    "formulation": [
+        Variant("sliding of the vibrating bodies", {"friction.sliding": "dynamic"}),
+        Variant("energy-consistent", {"mesh.formulation": "energy-consistent"}),
+    ],
+    "numerics": [
+        Variant("reversal width 5 µm instead of 20", {"friction.reversal_width": "5 um"}),
+        Variant("reversal width 80 µm", {"friction.reversal_width": "80 um"}),
+        Variant("contact width 0.02 µm instead of 0.1", {"mesh.contact_width": "0.02 um"}),
+        Variant("contact width 0.5 µm", {"mesh.contact_width": "0.5 um"}),
+        Variant("rtol = 1e-8 instead of 1e-6", {"solver.rtol": 1e-8}),
+        Variant("200 samples per cycle instead of 2000", {"output.samples_per_cycle": 200}),
+    ],
+}
 
 #: Heading of a column, the row of the paper that it belongs to (if any), and how it is written.
 COLUMNS = (
@@ -149,7 +148,7 @@ def load_in_single_contact(record: Record) -> float:
     return float(np.mean(np.sum(load, axis=1)[np.sum(load > 0, axis=1) == 1]))
 
 
-def figures(folder: Path, settings: dict[str, dict[str, Any]]) -> list[float]:
+def results(folder: Path, settings: dict[str, dict[str, Any]]) -> list[float]:
     """Run the three scenarios, each with its settings, and return the columns' values."""
     friction, efficiency, ratio, error = {}, {}, {}, {}
     load = np.nan
@@ -182,10 +181,6 @@ def figures(folder: Path, settings: dict[str, dict[str, Any]]) -> list[float]:
     ]
 
 
-def row(cells: list[str]) -> str:
-    return f"| {' | '.join(cells)} |"
-
-
 def written(values: list[float]) -> list[str]:
     return [format(value, code) for value, (_, _, code) in zip(values, COLUMNS, strict=True)]
 
@@ -214,42 +209,26 @@ def settings_of(variant: Variant, tables: dict[str, dict[str, Any]]) -> dict[str
     return settings
 
 
-def table(only: str | None) -> str:
-    """Run everything and write the table."""
-    lines = [row(["what is changed", *(heading for heading, _, _ in COLUMNS)])]
-    lines.append("|---|" + "--:|" * len(COLUMNS))
-    lines.append(row(["**published**", *published_row()]))
+def sensitivity(given: argparse.Namespace) -> str:
+    """Run everything and return the table."""
+    rows = [["**published**", *published_row()]]
     with TemporaryDirectory(prefix="tribodyn-") as name:
         folder = Path(name)
-        lines.append(
-            row(["**ours**", *written(figures(folder, {name: {} for name in (CRC, INVOLUTE, DRY)}))])
-        )
+        rows.append(["**ours**", *written(results(folder, {name: {} for name in (CRC, INVOLUTE, DRY)}))])
         tables = {}
         for scenario in (CRC, INVOLUTE, DRY):
             with open_record(folder / f"{scenario}.h5") as record:
                 tables[scenario] = stiffness_table(record, 1.0)
-        group = ""
-        for variant in VARIANTS:
-            if only and variant.group != only:
-                continue
-            sys.stderr.write(f"{variant.group}: {variant.label}\n")
-            if variant.group != group:
-                group = variant.group
-                lines.append(row([f"*{group}*", *[""] * len(COLUMNS)]))
-            lines.append(row([variant.label, *written(figures(folder, settings_of(variant, tables)))]))
-    return "\n".join(lines)
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description="Sensitivity of Liu & Ni's published figures.")
-    parser.add_argument("--only", choices=sorted({variant.group for variant in VARIANTS}))
-    parser.add_argument("--into", type=Path, help="page to put the table into")
-    options = parser.parse_args()
-    text = table(options.only)
-    print(text)
-    if options.into:
-        put(options.into, "sensitivity", text)
+        for group in [given.only] if given.only else VARIANTS:
+            rows.append([f"*{group}*", *[""] * len(COLUMNS)])
+            for variant in VARIANTS[group]:
+                print(f"{group}: {variant.label}", file=sys.stderr)
+                rows.append([variant.label, *written(results(folder, settings_of(variant, tables)))])
+    head = ["what is changed", *(heading for heading, _, _ in COLUMNS)]
+    return table(head, rows, "l" + "r" * len(COLUMNS))
 
 
 if __name__ == "__main__":
-    main()
+    parser = parser_of(__doc__)
+    parser.add_argument("--only", choices=sorted(VARIANTS))
+    generate(__doc__, parser=parser, sensitivity=sensitivity)

@@ -1,15 +1,12 @@
 """Slices that hold each other compared with slices that do not, on the pair 18/36 at 318.3 N m.
 
-python tools/slice_table.py                               # prints the table
-python tools/slice_table.py --into docs/load-contact.md   # and puts it into the page
+python -m tools.slice_table                               # prints the table
+python -m tools.slice_table --into docs/load-contact.md   # and puts it into the page
 """
 
-import argparse
-from pathlib import Path
-
 import numpy as np
-from marked_block import put
 
+from tools.marked_block import generate, table
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
@@ -20,6 +17,14 @@ from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 
 SLICES, POSITIONS = 21, 60
+HEAD = (
+    "",
+    "K_Hβ at the pitch point",
+    "maximum pressure there, GPa",
+    "pinion's root, maximum tension, MPa",
+    "mean mesh stiffness, N/(mm µm)",
+    "loaded error, peak to peak, µm",
+)
 CASES = {
     "unmodified": Modifications(),
     **{
@@ -52,31 +57,16 @@ def figures(
     ]
 
 
-def table() -> str:
+def coupled_and_free(_: object) -> str:
     case = load_scenario("involute-18-36-fem")
     assert isinstance(case, Case)
     flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
-    head = (
-        "| | K_Hβ at the pitch point | maximum pressure there, GPa | pinion's root, maximum tension, MPa "
-        "| mean mesh stiffness, N/(mm µm) | loaded error, peak to peak, µm |"
-    )
-    rows = [head, "|---|---|---|---|---|---|"]
+    rows = []
     for name, modifications in CASES.items():
         both = (figures(flexible, modifications, case.operating.gear_torque, way) for way in (True, False))
-        cells = [f"{held}, {free}" for held, free in zip(*both, strict=True)]
-        rows.append("| " + " | ".join([name, *cells]) + " |")
-    return "\n".join(rows)
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description="Coupled slices compared with independent ones.")
-    parser.add_argument("--into", type=Path, help="page with the marked block")
-    page = parser.parse_args().into
-    text = table()
-    print(text)
-    if page:
-        put(page, "slices", text)
+        rows.append([name, *map(", ".join, zip(*both, strict=True))])
+    return table(HEAD, rows)
 
 
 if __name__ == "__main__":
-    main()
+    generate(__doc__, slices=coupled_and_free)

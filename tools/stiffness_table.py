@@ -1,18 +1,17 @@
 """Stiffness of the 18/36 pair at its pitch point, part by part, compared with ISO 6336 and the FE reference.
 
-    python tools/stiffness_table.py                              # prints the tables
-    python tools/stiffness_table.py --into docs/mesh-stiffness.md
+python -m tools.stiffness_table                              # prints the tables
+python -m tools.stiffness_table --into docs/mesh-stiffness.md
 
 Nothing here is tuned to the references; the last column shows what each choice is worth.
 """
 
-import argparse
 import math
-from pathlib import Path
+from itertools import product
 
 import numpy as np
-from marked_block import put
 
+from tools.marked_block import generate, table
 from tribodyn.compliance.energy import (
     LoadedTooth,
     hertz_coefficient,
@@ -37,6 +36,11 @@ WIDTH, LINE_LOAD = 0.0267, 235e3  # m, N/m
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 FE_REFERENCE = 13.8  # plane strain, full rings, generated fillets, Weber-Banaschek contact, at 235 N/mm
 PICO = 1e12
+#: Compliance of the contact, m/N, load-dependent as the secant at LINE_LOAD.
+CONTACTS = {
+    "linear": hertz_linear(STEEL, STEEL, WIDTH),
+    "load-dependent": hertz_coefficient(STEEL, STEEL, WIDTH) * (LINE_LOAD * WIDTH) ** -0.1,
+}
 
 
 def drive(pressure_angle: float, teeth: tuple[int, int], bores: tuple[float, float], width: float) -> Drive:
@@ -58,7 +62,7 @@ def weber_banaschek(tooth: LoadedTooth, relative_curvature: float) -> float:
     return 2 * flexibility / math.pi * near
 
 
-def breakdown() -> str:
+def breakdown(_: object) -> str:
     pair = drive(20.0, (18, 36), (0.012, 0.025), WIDTH)
     assembly = assemble(involute.FAMILY, pair)
     path = assembly.path
@@ -67,20 +71,19 @@ def breakdown() -> str:
         [tooth_compliance(tooth, STEEL, WIDTH, np.zeros(1), body) for tooth in teeth]
         for body in ("sainsot-velex", "ring")
     )
-    rows = ["| part, nm per N/mm | pinion | gear | both |", "|---|---|---|---|"]
+    rows = []
     for name in ("bending", "shear", "axial", "foundation"):
         both = [getattr(part, name)[0] * WIDTH * PICO for part in parts]
-        rows.append(f"| {name} | {both[0]:.1f} | {both[1]:.1f} | {sum(both):.1f} |")
+        rows.append([name, *(f"{value:.1f}" for value in (*both, sum(both)))])
     exact = [float(part.foundation[0]) * WIDTH * PICO for part in on_ring]
-    rows.append(f"| *foundation by the exact ring* | {exact[0]:.1f} | {exact[1]:.1f} | {sum(exact):.1f} |")
-    linear = hertz_linear(STEEL, STEEL, WIDTH) * WIDTH * PICO
-    palmgren = hertz_coefficient(STEEL, STEEL, WIDTH) * (LINE_LOAD * WIDTH) ** -0.1 * WIDTH * PICO
+    rows.append(["*foundation by the exact ring*", *(f"{value:.1f}" for value in (*exact, sum(exact)))])
+    linear, palmgren = (compliance * WIDTH * PICO for compliance in CONTACTS.values())
     curvature = float(kinematics(path, np.zeros(1)).relative_curvature[0])
     weber = sum(weber_banaschek(tooth, curvature) for tooth in teeth) * PICO
     rows += [
-        f"| Hertz contact, linear | | | {linear:.1f} |",
-        f"| *Hertz contact, load-dependent, secant at 235 N/mm* | | | {palmgren:.1f} |",
-        f"| *Weber & Banaschek's contact, secant at 235 N/mm* | | | {weber:.1f} |",
+        ["Hertz contact, linear", "", "", f"{linear:.1f}"],
+        ["*Hertz contact, load-dependent, secant at 235 N/mm*", "", "", f"{palmgren:.1f}"],
+        ["*Weber & Banaschek's contact, secant at 235 N/mm*", "", "", f"{weber:.1f}"],
     ]
     beam = sum(float((p.bending + p.shear + p.axial)[0]) for p in parts) * WIDTH * PICO
     body = sum(float(p.foundation[0]) for p in parts) * WIDTH * PICO
@@ -102,9 +105,9 @@ def breakdown() -> str:
         ("ISO 6336-1 c'_th, theory", iso / 1e9),
         ("ISO 6336-1 c'_th times 0.8, the correction from measurements", MEASURED_CORRECTION * iso / 1e9),
     ]
-    rows += ["", "| single-pair stiffness at the pitch point | N/(mm µm) |", "|---|---|"]
-    rows += [f"| {name} | {value:.1f} |" for name, value in stiffness]
-    return "\n".join(rows)
+    parts_of_both = table(["part, nm per N/mm", "pinion", "gear", "both"], rows)
+    head = "single-pair stiffness at the pitch point", "N/(mm µm)"
+    return f"{parts_of_both}\n\n{table(head, [(name, f'{value:.1f}') for name, value in stiffness])}"
 
 
 def equal_pair(teeth: int, ratio: float) -> Drive:
@@ -113,53 +116,38 @@ def equal_pair(teeth: int, ratio: float) -> Drive:
     return drive(20.0, (teeth, teeth), (bore, bore), WIDTH)
 
 
-def rims() -> str:
-    contacts = ("linear", "load-dependent")
+def rims(_: object) -> str:
     bodies: tuple[Foundation, ...] = ("sainsot-velex", "ring")
-    rows = [
-        "| teeth | root over bore radius | rim, modules | body, polynomials over ring "
-        "| finite elements, N/(mm µm) | "
-        + " | ".join(f"`{body}`, `{contact}`" for contact in contacts for body in bodies)
-        + " |",
-        "|---|" + "---|" * 8,
-    ]
-    for teeth in (20, 30, 50, 90):
-        for ratio in (1.06, 1.15, 1.4, 2.1, 5.0):
-            assembly = assemble(involute.FAMILY, equal_pair(teeth, ratio))
-            tooth = loaded_tooth(assembly, "pinion")
-            cosine = math.cos(float(assembly.path.pressure_angle(0.0)))
-            torque = LINE_LOAD * WIDTH * cosine * float(assembly.path.gear_pitch_radius)
-            loaded = share_load(flexibility(assembly, (STEEL, STEEL)), np.zeros((1, 1)), torque)
-            elements = LINE_LOAD / (float(loaded.deflection[0]) * cosine)
-            contact = {
-                "linear": hertz_linear(STEEL, STEEL, WIDTH),
-                "load-dependent": hertz_coefficient(STEEL, STEEL, WIDTH) * (LINE_LOAD * WIDTH) ** -0.1,
-            }
-            off = [
-                1
-                / (
-                    (2 * tooth_compliance(tooth, STEEL, WIDTH, np.zeros(1), body).total[0] + contact[name])
-                    * WIDTH
-                )
-                for name in contacts
-                for body in bodies
-            ]
-            rim = teeth / 2 - 1.25 - float(tooth.body.bore_radius) / 0.003
-            rows.append(
-                f"| {teeth} | {ratio} | {rim:.1f} | {polynomials_over_ring(tooth, STEEL):.2f} "
-                f"| {elements / 1e9:.1f} | "
-                + " | ".join(f"{100 * (value / elements - 1):+.0f} %" for value in off)
-                + " |"
-            )
-    return "\n".join(rows)
+    columns = list(product(CONTACTS, bodies))
+    head = ["teeth", "root over bore radius", "rim, modules", "body, polynomials over ring"]
+    head += ["finite elements, N/(mm µm)", *(f"`{body}`, `{contact}`" for contact, body in columns)]
+    rows = []
+    for teeth, ratio in product((20, 30, 50, 90), (1.06, 1.15, 1.4, 2.1, 5.0)):
+        assembly = assemble(involute.FAMILY, equal_pair(teeth, ratio))
+        tooth = loaded_tooth(assembly, "pinion")
+        cosine = math.cos(float(assembly.path.pressure_angle(0.0)))
+        torque = LINE_LOAD * WIDTH * cosine * float(assembly.path.gear_pitch_radius)
+        loaded = share_load(flexibility(assembly, (STEEL, STEEL)), np.zeros((1, 1)), torque)
+        elements = LINE_LOAD / (float(loaded.deflection[0]) * cosine)
+        rim = teeth / 2 - 1.25 - float(tooth.body.bore_radius) / 0.003
+        row = [teeth, ratio, f"{rim:.1f}", f"{polynomials_over_ring(tooth, STEEL):.2f}"]
+        row.append(f"{elements / 1e9:.1f}")
+        for contact, body in columns:
+            compliance = 2 * tooth_compliance(tooth, STEEL, WIDTH, np.zeros(1), body).total[0]
+            stiffness = 1 / ((compliance + CONTACTS[contact]) * WIDTH)
+            row.append(f"{100 * (stiffness / elements - 1):+.0f} %")
+        rows.append(row)
+    return table(head, rows)
 
 
-def coupling() -> str:
-    rows = [
-        "| drive at 500 N·m | single pair at its stiffest, N/(mm µm) | C01/√(C00 C11) in double contact | "
-        "mean deflection without, with coupling, µm |",
-        "|---|---|---|---|",
-    ]
+def coupling(_: object) -> str:
+    head = (
+        "drive at 500 N·m",
+        "single pair at its stiffest, N/(mm µm)",
+        "C01/√(C00 C11) in double contact",
+        "mean deflection without, with coupling, µm",
+    )
+    rows = []
     cases: list[tuple[str, Family, float]] = [
         ("CRC 23/47", crc.FAMILY, 22.81),
         ("involute 23/47", involute.FAMILY, 20.0),
@@ -177,19 +165,9 @@ def coupling() -> str:
         means = [float(cycle_mean(x, quasi_static(x, 500.0).deflection)) * 1e6 for x in cycles]
         peak = 1 / c.compliance.min() / 0.02 / 1e9
         span = f"{ratio.min():.2f} … {ratio.max():.2f}"
-        rows.append(f"| {name} | {peak:.1f} | {span} | {means[0]:.1f}, {means[1]:.1f} |")
-    return "\n".join(rows)
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description="Mesh stiffness compared with its references.")
-    parser.add_argument("--into", type=Path, help="page with the marked blocks")
-    page = parser.parse_args().into
-    for name, text in (("breakdown", breakdown()), ("rims", rims()), ("coupling", coupling())):
-        print(text, end="\n\n")
-        if page:
-            put(page, name, text)
+        rows.append([name, f"{peak:.1f}", span, f"{means[0]:.1f}, {means[1]:.1f}"])
+    return table(head, rows)
 
 
 if __name__ == "__main__":
-    main()
+    generate(__doc__, breakdown=breakdown, rims=rims, coupling=coupling)

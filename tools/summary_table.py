@@ -3,12 +3,8 @@
 python -m tools.summary_table            # writes them into the page
 """
 
-from pathlib import Path
-
-from tools.marked_block import put
+from tools.marked_block import DOCS, put, table
 from tribodyn.studies import STUDIES
-
-PAGE = Path(__file__).parents[1] / "docs" / "summary.md"
 
 
 def tables() -> str:
@@ -18,16 +14,15 @@ def tables() -> str:
         study = STUDIES[kind]
         if not study.package.startswith("tribodyn."):
             continue
-        parts += [f"### `{kind}`", "", f"{study.about[:1].upper()}{study.about[1:]}.", ""]
-        parts += ["| line | name in the record | unit | definition |", "|---|---|---|---|"]
-        for heading, quantities in study.reported().items():
-            for quantity in quantities:
-                name = f"{heading}: {quantity.in_table} | `{quantity.name}`"
-                definition = quantity.definition.replace("|", "\\|")
-                parts.append(f"| {name} | {quantity.unit or '–'} | {definition} |")
-        parts.append("")
-    return "\n".join(parts)
+        parts += [f"### `{kind}`", f"{study.about[:1].upper()}{study.about[1:]}."]
+        rows = [
+            [f"{heading}: {q.in_table}", f"`{q.name}`", q.unit or "–", q.definition.replace("|", "\\|")]
+            for heading, quantities in study.reported().items()
+            for q in quantities
+        ]
+        parts.append(table(["line", "name in the record", "unit", "definition"], rows))
+    return "\n\n".join(parts)
 
 
 if __name__ == "__main__":
-    put(PAGE, "summary lines", tables())
+    put(DOCS / "summary.md", "summary lines", tables())

@@ -12,10 +12,8 @@ import subprocess
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter
 
-from tools.machine import measured_on
-from tools.marked_block import put
+from tools.marked_block import generate, measured_on, parser_of, spent, table
 
 PICTURE = [sys.executable, "-m", "tribodyn", "run", "crc-23-47", "--force"]
 RUN = [*PICTURE, "--no-plot"]
@@ -27,11 +25,12 @@ COMMANDS = {"run": RUN, "picture": PICTURE, "libraries": LIBRARIES, "loop": LOOP
 def times_of(command: list[str], folder: Path, **variables: str) -> tuple[float, float]:
     """Seconds of processor time and by the clock of a command, with Python's bytecode kept as usual."""
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    before, begun = os.times(), perf_counter()
-    subprocess.run(command, cwd=folder, env=environment | variables, check=True, stdout=subprocess.DEVNULL)
-    after, ended = os.times(), perf_counter()
+    given = {"cwd": folder, "env": environment | variables, "stdout": subprocess.DEVNULL}
+    before = os.times()
+    clock, _ = spent(lambda: subprocess.run(command, check=True, **given))
+    after = os.times()
     processor = after.children_user + after.children_system - before.children_user - before.children_system
-    return processor, ended - begun
+    return processor, clock
 
 
 def least(folder: Path, repeats: int) -> dict[str, tuple[float, float]]:
@@ -40,40 +39,29 @@ def least(folder: Path, repeats: int) -> dict[str, tuple[float, float]]:
     for _ in range(repeats):
         for name, command in COMMANDS.items():
             times[name].append(times_of(command, folder))
-    return {name: (min(one[0] for one in of), min(one[1] for one in of)) for name, of in times.items()}
+    return {name: (min(p for p, _ in of), min(clock for _, clock in of)) for name, of in times.items()}
 
 
-def table(repeats: int) -> str:
+def start(given: argparse.Namespace) -> str:
     """Table of the page."""
     with TemporaryDirectory() as name:
         folder = Path(name)
         times_of(PICTURE, folder)  # compiles, and fills the caches
-        found = least(folder, repeats)
+        found = least(folder, given.repeats)
         empty = folder / "cache"
         first = times_of(RUN, folder, TRIBODYN_CACHE=str(empty))
     libraries, loop = found["libraries"][0], found["loop"][0]
-    rows = [
-        "| | s of processor time | s by the clock | over `import numpy, h5py, pydantic` "
-        "| over 10^7 additions in pure Python |",
-        "|---|--:|--:|--:|--:|",
-    ]
+    head = ["", "s of processor time", "s by the clock", "over `import numpy, h5py, pydantic`"]
+    head += ["over 10^7 additions in pure Python"]
     runs = {"kernel compiled before": found["run"], "with its picture": found["picture"], "first run": first}
-    for said, (processor, clock) in runs.items():
-        ratios = f"{processor / libraries:.2g} | {processor / loop:.2g}"
-        rows.append(f"| {said} | {processor:.2f} | {clock:.2f} | {ratios} |")
-    return "\n".join([*rows, "", f"{measured_on()}; minima of {repeats}."])
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--into", type=Path, help="page whose marked block `start` receives the table")
-    parser.add_argument("--repeats", type=int, default=5)
-    chosen = parser.parse_args()
-    text = table(chosen.repeats)
-    print(f"\n{text}\n")
-    if chosen.into:
-        put(chosen.into, "start", text)
+    rows = [
+        [name, f"{p:.2f}", f"{clock:.2f}", f"{p / libraries:.2g}", f"{p / loop:.2g}"]
+        for name, (p, clock) in runs.items()
+    ]
+    return f"{table(head, rows, 'lrrrr')}\n\n{measured_on()}; minima of {given.repeats}."
 
 
 if __name__ == "__main__":
-    main()
+    parser = parser_of(__doc__)
+    parser.add_argument("--repeats", type=int, default=5)
+    generate(__doc__, parser=parser, start=start)

@@ -1,4 +1,4 @@
-"""Our figures compared with the published ones, as Markdown tables, and their counts.
+"""Our values compared with the published ones, as Markdown tables, and their counts.
 
 python -m tools.validation_table liu-ni-2022                # prints the table
 python -m tools.validation_table liu-ni-2022 jia-2022 --write  # and puts it into the page that has its place
@@ -7,18 +7,16 @@ python -m tools.validation_table --write                    # all papers: some m
 Written with them is how many rows of each kind hold, into docs/validation.md and the README.
 """
 
-import argparse
 import re
-from pathlib import Path
 
-from tools.marked_block import put
+from tools.marked_block import DOCS, ROOT, parser_of, put
+from tools.marked_block import table as table_of
 from tribodyn.validation import ABOUT, CHOICES, PAPERS, validate
 from tribodyn.validation.rows import Otherwise, Row, counted, of_part, per_cent
 
-ROOT = Path(__file__).parents[1]
-VALIDATION = ROOT / "docs" / "validation.md"
+VALIDATION = DOCS / "validation.md"
 #: Pages of the papers that do not stand on the page of validation.
-PAGES = {"efremenkov-2024": ROOT / "docs" / "rolling-elements.md"}
+PAGES = {"efremenkov-2024": DOCS / "rolling-elements.md"}
 #: A bar that ends no cell.
 BAR = "\\|"
 #: Pages with the counts of all papers.
@@ -44,8 +42,10 @@ def share(row: Row, value: float | list[float] | None) -> str:
 
 
 def difference(row: Row) -> str:
-    said = share(row, row.difference)
-    return said if row.part_difference is None else f"{said}<br>{of_part(row.part_difference, row.part, '+')}"
+    written = share(row, row.difference)
+    if row.part_difference is None:
+        return written
+    return f"{written}<br>{of_part(row.part_difference, row.part, '+')}"
 
 
 def tolerance(row: Row) -> str:
@@ -53,21 +53,17 @@ def tolerance(row: Row) -> str:
     return row.written("tolerance") if row.tolerance_reason else share(row, row.tolerance).removeprefix("+")
 
 
-def other(row: Row, one: Otherwise | None) -> str:
-    if one is None:
+def other(row: Row, otherwise: Otherwise | None) -> str:
+    if otherwise is None:
         return ""
-    parts = (cell(one.computed), share(row, one.difference), one.verdict)
-    return f"{one.choice}: {', '.join(part for part in parts if part)}"
+    parts = (cell(otherwise.computed), share(row, otherwise.difference), otherwise.verdict)
+    return f"{otherwise.choice}: {', '.join(part for part in parts if part)}"
 
 
 def table(paper: str, rows: list[Row]) -> str:
     """Rows of a paper under the choices that they are computed with, and their counts."""
-    lines = [
-        f"Computed {CHOICES[paper]}.",
-        "",
-        "| row | published | ours | difference | tolerance | verdict | under another choice |",
-        "|---|--:|--:|--:|---|---|---|",
-    ]
+    head = ["row", "published", "ours", "difference", "tolerance", "verdict", "under another choice"]
+    lines = []
     for row in rows:
         unit = "" if row.unit in ("1", "claim") else f", {row.unit}"
         cells = [
@@ -79,23 +75,24 @@ def table(paper: str, rows: list[Row]) -> str:
             row.written("verdict"),
             other(row, row.otherwise),
         ]
-        lines.append(f"| {' | '.join(cells)} |")
-    return "\n".join([*lines, "", f"In all: {counted(rows)}."])
+        lines.append(cells)
+    parts = f"Computed {CHOICES[paper]}.", table_of(head, lines, "lrrrlll"), f"In all: {counted(rows)}."
+    return "\n\n".join(parts)
 
 
 def counts() -> str:
     """Counts of all papers, as their tables on the pages have them."""
-    lines = ["| paper | rows |", "|---|---|"]
+    lines = []
     for paper in PAPERS:
         page = PAGES.get(paper, VALIDATION).read_text(encoding="utf-8")
         block = page.partition(f"<!-- begin {paper} -->")[2].partition(f"<!-- end {paper} -->")[0]
         found = re.search(r"^In all: (.*)\.$", block, re.MULTILINE)
-        lines.append(f"| {ABOUT[paper].partition(': ')[0]} | {found[1] if found else ''} |")
-    return "\n".join(lines)
+        lines.append([ABOUT[paper].partition(": ")[0], found[1] if found else ""])
+    return table_of(["paper", "rows"], lines)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("papers", nargs="*", choices=[[], *PAPERS], help="default: all")
     parser.add_argument("--write", action="store_true", help="put tables and counts into the pages")
     options = parser.parse_args()

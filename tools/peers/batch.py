@@ -1,14 +1,11 @@
-"""Programs that integrate many cases: the transmission error over the last WINDOW mesh cycles of each."""
+"""Programs that integrate many cases: the transmission error over the last mesh cycles of each."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tools.peers.single import Problem
-from tribodyn.dynamics.parameters import XI, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.solve import ensemble
-from tribodyn.solve.initial import static_equilibrium
 
 Array = Any
 
@@ -16,62 +13,44 @@ SAMPLES, WINDOW = 200, 2
 
 
 class Batch(NamedTuple):
-    """A way to run many cases.
+    """A way to run many cases, and how many for how long: fewer for slow ones, whose cost is in proportion.
 
-    Attributes
-    ----------
-    march : callable
-        (models, states, cycles, rtol) to samples (case, WINDOW · SAMPLES), m.
-    cases, cycles : int
-        Of the measurement: fewer for the slow ones, whose cost is in proportion.
+    `run` takes models, states and what `ensemble.march` takes by name.
     """
 
-    march: Callable[[Sequence[Model], Array, int, float], Array]
+    run: Callable[..., Any]
     cases: int
     cycles: int
 
 
-def speeds(posed: Problem, count: int) -> tuple[list[Model], Array]:
-    """Models at so many pinion speeds from 100 to 600 rad/s, and their static equilibria."""
+def models_at(posed: Problem, speeds: Array) -> list[Model]:
+    """The problem's model at pinion speeds, rad/s."""
     mechanics = posed.model.mechanics
-    models = [
-        posed.model._replace(mechanics=mechanics._replace(nominal_speed=float(speed)))
-        for speed in np.linspace(100.0, 600.0, count)
+    return [
+        posed.model._replace(mechanics=mechanics._replace(nominal_speed=float(speed))) for speed in speeds
     ]
-    return models, np.array([static_equilibrium(model) for model in models])
 
 
-def lanes(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
-    """Vectors of cases on all cores."""
-    return _together("dopri5", models, states, cycles, rtol)
+def together(method: str) -> Callable[..., Any]:
+    """Vectors of cases on all cores, or, through JAX, vmapped over similar speeds."""
+    return lambda models, states, **given: ensemble.march(models, states, method=method, **given)
 
 
-def _together(method: str, models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
-    result = ensemble.march(
-        models, states, cycles=cycles, window=WINDOW, samples=SAMPLES, rtol=rtol, method=method
-    )
-    return result.samples[..., XI]
-
-
-def threads(method: str) -> Callable[[Sequence[Model], Array, int, float], Array]:
+def threads(method: str) -> Callable[..., Any]:
     """One case per thread, each with its own engine."""
 
-    def march(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
-        settings = ensemble.March(0, cycles, WINDOW, SAMPLES, False, rtol, 10**6)
-        result = ensemble.one_by_one(models, states, method, settings, ensemble.usable_cores())
-        return result.samples[..., XI]
+    def run(
+        models: Sequence[Model], states: Array, *, cycles: int, window: int, samples: int, rtol: float
+    ) -> Any:
+        settings = ensemble.March(0, cycles, window, samples, False, rtol, 10**6)
+        return ensemble.one_by_one(models, states, method, settings, ensemble.usable_cores())
 
-    return march
-
-
-def diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
-    """Vmapped over 64 similar speeds at a time, one core each; steps end where friction reverses."""
-    return _together("tsit5", models, states, cycles, rtol)
+    return run
 
 
 BATCHES = {
-    "tribodyn, lanes": Batch(lanes, 256, 40),
+    "tribodyn, lanes": Batch(together("dopri5"), 256, 40),
     "tribodyn, one case per thread": Batch(threads("dopri5"), 256, 40),
     "SciPy LSODA, numba, one by one": Batch(threads("lsoda"), 8, 20),
-    "diffrax Tsit5, vmapped": Batch(diffrax, 128, 20),
+    "diffrax Tsit5, vmapped": Batch(together("tsit5"), 128, 20),
 }

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tools.marked_block import table as table_of
 from tribodyn.dynamics.parameters import XI, Model
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.solve.initial import static_equilibrium
@@ -42,46 +43,22 @@ PERIODS = (1, 2, 3, 4)
 
 
 class Ours(NamedTuple):
-    """Results of the sweep.
+    """Results of the sweep."""
 
-    Attributes
-    ----------
-    seconds : float
-        Processor time of all threads, from the grid to the file.
-    residual : float
-        Maximum over the periodic states.
-    solutions : dict
-        Sort of motion to number of speeds.
-    windows : (speeds, samples)
-        Transmission error over the window, m.
-    cycles : (speeds,)
-        Mesh cycles marched.
-    """
-
-    seconds: float
-    residual: float
-    solutions: dict[str, int]
-    windows: Array
-    cycles: Array
+    seconds: float  # of the processor, all threads, from the grid to the file
+    residual: float  # maximum over the periodic states
+    solutions: dict[str, int]  # sort of motion -> number of speeds
+    windows: Array  # (speeds, samples): transmission error over the window, m
+    cycles: Array  # (speeds,): mesh cycles marched
 
 
 class Theirs(NamedTuple):
-    """Results of LSODA at some of the speeds.
+    """Results of LSODA at some of the speeds."""
 
-    Attributes
-    ----------
-    seconds : (speeds,)
-        Processor time.
-    cycles : (speeds,)
-        Mesh cycles marched.
-    error, sweep_error : float
-        Maximum error of LSODA's transmission error and of the sweep's, over its range.
-    """
-
-    seconds: Array
-    cycles: Array
-    error: float
-    sweep_error: float
+    seconds: Array  # (speeds,), of the processor
+    cycles: Array  # (speeds,): mesh cycles marched
+    error: float  # maximum error of the transmission error over its range
+    sweep_error: float  # that of the sweep
 
 
 def grid(damping: float, count: int) -> Grid:
@@ -155,33 +132,27 @@ def table(repeats: int, target: float) -> str:
     """Table of both at each damping; the sweep's medians, LSODA once at every sixteenth speed."""
     sweep(grid(DAMPING[0], EVERY))  # compiles
     lsoda(grid(DAMPING[0], 2), [0], sweep(grid(DAMPING[0], 2)), target)
-    rows = [
-        "| damping ratio | program | mesh cycles per speed, median (maximum) | error "
-        "| s of one core | share |",
-        "|--:|---|--:|--:|--:|--:|",
-    ]
-    said = []
+    head = ["damping ratio", "program", "mesh cycles per speed, median (maximum)", "error"]
+    head += ["s of one core", "share"]
+    rows, remarks = [], []
     for damping in DAMPING:
         speeds = grid(damping, COUNT)
-        runs = sorted((sweep(speeds) for _ in range(repeats)), key=lambda one: one.seconds)
+        runs = sorted((sweep(speeds) for _ in range(repeats)), key=lambda run: run.seconds)
         ours = runs[len(runs) // 2]
         theirs = lsoda(speeds, list(range(EVERY // 2, COUNT, EVERY)), ours, target)
         missed = max(theirs.error, theirs.sweep_error) > target
         ratio = f"misses {target:.0e}" if missed else f"{100 * share(ours, theirs):.2g} %"
-        rows += [
-            f"| {damping:g} | tribodyn sweep --steady | {_spread(ours.cycles)} | {theirs.sweep_error:.1e} "
-            f"| {ours.seconds:.3g} | {ratio} |",
-            f"| {damping:g} | SciPy LSODA, numba, marching | {_spread(theirs.cycles)} | {theirs.error:.1e} "
-            f"| {np.mean(theirs.seconds) * COUNT:.3g} | 100 % |",
-        ]
+        for name, result, error, seconds, share_of in (
+            ("tribodyn sweep --steady", ours, theirs.sweep_error, ours.seconds, ratio),
+            ("SciPy LSODA, numba, marching", theirs, theirs.error, np.mean(theirs.seconds) * COUNT, "100 %"),
+        ):
+            cycles = f"{np.median(result.cycles):.0f} ({np.max(result.cycles):.0f})"
+            rows.append([f"{damping:g}", name, cycles, f"{error:.1e}", f"{seconds:.3g}", share_of])
         kinds = ", ".join(f"{number} {kind}" for kind, number in ours.solutions.items())
-        said.append(f"at {damping:g}: {kinds}; residual of the periodic ones at most {ours.residual:.0e}")
-        print("\n".join(rows[-2:]), said[-1], sep="\n", flush=True)
-    return "\n".join([*rows, "", f"{COUNT} speeds from 100 to 600 rad/s; {'; '.join(said)};"])
-
-
-def _spread(cycles: Array) -> str:
-    return f"{np.median(cycles):.0f} ({np.max(cycles):.0f})"
+        remarks.append(f"at {damping:g}: {kinds}; residual of the periodic ones at most {ours.residual:.0e}")
+        print(*rows[-2:], remarks[-1], sep="\n", flush=True)
+    lines = table_of(head, rows, "rlrrrr")
+    return f"{lines}\n\n{COUNT} speeds from 100 to 600 rad/s; {'; '.join(remarks)};"
 
 
 def cycles_needed(models: list[Model], starts: Array) -> Array:
