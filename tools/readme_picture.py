@@ -17,7 +17,6 @@ from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
 
-
 def comparison(records: list[Record]):
     """Draw both drives in six panels: the first one's path of contact, then quantities of both over phase."""
     view = View(cycles=1)
