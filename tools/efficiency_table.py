@@ -8,8 +8,8 @@ from itertools import product
 
 from tools.marked_block import generate, table
 from tribodyn.errors import InputError
-from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.run import efficiencies, prepare
+from tribodyn.studies.efficiency.scenario import EfficiencyCase
 from tribodyn.studies.protocol.load import load_scenario
 
 DRIVES = {

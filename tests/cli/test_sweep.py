@@ -15,8 +15,8 @@ from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
-from tribodyn.studies.gear_pair.sweep_layout import SWEPT
-from tribodyn.studies.gears.reported import TEMPERATURE_SWEPT
+from tribodyn.studies.gear_pair.report import SWEPT
+from tribodyn.studies.gears.case import TEMPERATURE_SWEPT
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SHORT = ("--transient", "4", "--set", "output.samples_per_cycle=40")

@@ -10,8 +10,8 @@ from tribodyn.cli.app import app
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.plan import estimate_of
 from tribodyn.sweep.run import run, settings_of
-from tribodyn.sweep.size import estimate_of
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 TORQUES = "operating.gear_torque=1:1000/1000 N*m"
@@ -43,7 +43,7 @@ def test_the_record_of_a_sweep_is_what_was_said(
     grid = Grid("crc-23-47", [SPEEDS], {"output.samples_per_cycle": samples})
     settings = settings_of(grid, transient=8)
     said = estimate_of(grid, settings, 0)
-    monkeypatch.setattr(import_module("tribodyn.sweep.size"), "MOST_CASES", 2)
+    monkeypatch.setattr(import_module("tribodyn.sweep.plan"), "MOST_CASES", 2)
     result = run(grid, settings, LocalEngine(), tmp_path / "s.h5", allow_large=True)
     with SweepRecord(result.path) as record:
         assert record.summary["cases"] == 3

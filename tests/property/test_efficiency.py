@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from tests.support.closures import LOCAL_LAWS, VECIANA, coulomb, under
 from tribodyn.geometry.families.involute import InvolutePath
-from tribodyn.studies.efficiency.loss_factor import exact, hoehn
-from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
+from tribodyn.studies.efficiency.published import exact, hoehn, path_contact, torque_ratio
 from tribodyn.tribology.contact import NominalConditions
 from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
 from tribodyn.tribology.friction.niemann import niemann

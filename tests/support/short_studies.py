@@ -6,10 +6,9 @@ import pickle
 from pathlib import Path
 from typing import Any
 
-from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.protocol.results import RunResult
+from tribodyn.studies.protocol.load import filled, load_scenario
+from tribodyn.studies.protocol.recording import RunResult
 from tribodyn.studies.protocol.run import run
-from tribodyn.studies.protocol.template import filled
 
 #: Kinds whose runs take long even when they are short.
 FINITE_ELEMENTS = ("load-contact", "design", "assessment")

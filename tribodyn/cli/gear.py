@@ -85,10 +85,9 @@ def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tup
     import tomli_w
 
     from tribodyn.numerics.output_files import write_output
-    from tribodyn.studies.gears import spline_drive
-    from tribodyn.studies.gears.drive_file import load_drive
+    from tribodyn.studies.gears.drive_file import as_spline, load_drive
 
-    fitted = spline_drive.as_spline(model, values, "--as-spline")
+    fitted = as_spline(model, values, "--as-spline")
     if folder != Path():
         make_folder(folder)
     file = folder / f"{model.name}-spline.toml"

@@ -29,7 +29,7 @@ def init(
     from tribodyn.errors import InputError
     from tribodyn.numerics.output_files import write_output
     from tribodyn.studies import DEFAULT, STUDIES
-    from tribodyn.studies.protocol.template import filled
+    from tribodyn.studies.protocol.load import filled
 
     path = Path(name if name.endswith(".toml") else f"{name}.toml")
     template = filled(kind or DEFAULT, path.stem)

@@ -21,8 +21,7 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh
 from tribodyn.studies.gears.check import sheet_tables
-from tribodyn.studies.gears.drive_file import load_drive
-from tribodyn.studies.gears.spline_drive import as_spline
+from tribodyn.studies.gears.drive_file import as_spline, load_drive
 
 if TYPE_CHECKING:
     import xarray

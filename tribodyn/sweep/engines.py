@@ -8,9 +8,9 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies import STUDIES
+from tribodyn.studies.protocol.evaluated import ByFigures
 from tribodyn.studies.sweeping.batch import Chunk
 from tribodyn.studies.sweeping.cluster import client_of, workers_of
-from tribodyn.sweep.by_figures import ByFigures
 
 Block = dict[str, np.ndarray]
 JAX, DASK = "jax", "dask"

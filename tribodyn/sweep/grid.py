@@ -13,9 +13,9 @@ from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.scenario.sources import find_scenario, read_toml
 from tribodyn.scenario.vary import VARY, Axis, axes_of
 from tribodyn.studies import study_of
+from tribodyn.studies.protocol.evaluated import ByFigures
 from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.sweeping.batch import Batch
-from tribodyn.sweep.by_figures import ByFigures
 
 
 class Grid:

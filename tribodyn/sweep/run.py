@@ -16,8 +16,7 @@ from tribodyn.record.writer import check_target
 from tribodyn.scenario.vary import Axis
 from tribodyn.sweep.engines import Engine
 from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.plan import chained_steps, single_steps
-from tribodyn.sweep.size import estimate_of, refuse_large
+from tribodyn.sweep.plan import chained_steps, estimate_of, refuse_large, single_steps
 
 Follow = Callable[[int, int], None]
 """Called with the cases done and to do."""
@@ -59,7 +58,7 @@ def run(
     directions : senses in which to follow the first parameter; none: every case begins by itself
     unstable : continue branches beyond the ends of their stable parts
     force, resume : replace a record, or go on with what an unfinished sweep left
-    allow_large : allow grids above the limits (`sweep.size`)
+    allow_large : allow grids above the limits (`sweep.plan`)
 
     Raises
     ------

@@ -10,7 +10,7 @@ import numpy as np
 from tribodyn.compliance.sharing.load_sharing import share_load
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.studies.efficiency.loss_factor import tip_contact_ratios
+from tribodyn.studies.efficiency.published import tip_contact_ratios
 from tribodyn.validation.diez_ibarbia_study import (
     CONDITIONS,
     SCENARIOS,

@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.post.style import PALETTE, QUIET, mark_panel, new_figure
-from tribodyn.studies.efficiency.torque_ratio import UnitContact
+from tribodyn.studies.efficiency.published import UnitContact
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.surface_state import surface_state
 from tribodyn.validation.veciana_study import (

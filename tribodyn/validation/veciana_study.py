@@ -7,8 +7,8 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.studies.efficiency.quadrature import Array
-from tribodyn.studies.efficiency.torque_ratio import TorqueRatio, UnitContact, rotations, torque_ratio
+from tribodyn.studies.efficiency.places import Array
+from tribodyn.studies.efficiency.published import TorqueRatio, UnitContact, rotations, torque_ratio
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import Surfaces
 from tribodyn.tribology.film import film_law

@@ -12,8 +12,8 @@ import tribodyn
 from tribodyn.errors import InputError
 from tribodyn.geometry.families.involute import shift_sensitivity, tight_centre_distance
 from tribodyn.scenario.quantity import shift_rounding
+from tribodyn.studies.gears.check import BRIEF
 from tribodyn.studies.gears.drive_file import load_drive
-from tribodyn.studies.gears.rounded import BRIEF
 from tribodyn.studies.protocol.load import load_scenario
 
 

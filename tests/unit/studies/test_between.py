@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.sweeping.between import NothingBetween, case_between
+from tribodyn.studies.sweeping.batch import NothingBetween, case_between
 
 
 def case(speed, **others):

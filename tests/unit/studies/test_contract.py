@@ -26,10 +26,9 @@ from tribodyn.record.reader import open_record
 from tribodyn.scenario.quantity import Table
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.pages.pictures import compare, figure, names, summary_table
-from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.load import filled, load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.studies.protocol.study import CaseHead, CheckResult, RunResult, Study
-from tribodyn.studies.protocol.template import filled
 
 KINDS = tuple(STUDIES)
 RUNS = [pytest.param(kind, marks=pytest.mark.slow) if kind in FINITE_ELEMENTS else kind for kind in KINDS]

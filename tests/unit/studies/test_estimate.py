@@ -12,8 +12,8 @@ from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.schema import Layout
 from tribodyn.studies import STUDIES
-from tribodyn.studies.protocol import estimate
-from tribodyn.studies.protocol.estimate import (
+from tribodyn.studies.protocol import cost
+from tribodyn.studies.protocol.cost import (
     HEAD,
     LIMITS,
     PROGRAM,
@@ -142,7 +142,7 @@ def test_every_kind_refuses_what_is_too_large_before_any_work(kind: str, tmp_pat
     "kind", [pytest.param(kind, marks=pytest.mark.soak if kind in LONG else ()) for kind in LARGE]
 )
 def test_lifted_it_goes_on_to_the_work(kind: str, tmp_path: Path, monkeypatch):
-    monkeypatch.setattr(estimate, "LIMITS", Estimate(1.0, 1.0, 1.0))
+    monkeypatch.setattr(cost, "LIMITS", Estimate(1.0, 1.0, 1.0))
     case = short_case(kind, tmp_path)
     with pytest.raises(InputError, match="allow-large"):
         run(case, tmp_path / "small.h5")

@@ -11,7 +11,7 @@ from tribodyn.errors import InputError
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.efficiency.run import figures, prepare
 from tribodyn.studies.gear_pair.prepare import prepare as prepare_motion
-from tribodyn.studies.gears.temperature import at_own_temperature
+from tribodyn.studies.gears.prepare import at_own_temperature
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
 
 SCENARIO = tomllib.loads(

@@ -7,8 +7,7 @@ import pytest
 
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.sources import shipped
-from tribodyn.studies.protocol.load import load
-from tribodyn.studies.protocol.template import filled
+from tribodyn.studies.protocol.load import filled, load
 
 
 @pytest.mark.parametrize("name", list(FAMILIES))

@@ -9,8 +9,15 @@ from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.case import GearCase
-from tribodyn.studies.protocol.cost import FINITE_ELEMENTS, load_sharing, recorded, steady_states, total
-from tribodyn.studies.protocol.estimate import Driver, Estimate
+from tribodyn.studies.protocol.cost import (
+    FINITE_ELEMENTS,
+    Driver,
+    Estimate,
+    load_sharing,
+    recorded,
+    steady_states,
+    total,
+)
 from tribodyn.tribology.lubricant import LubricantData
 
 _ALONG = ("roll_angle",)

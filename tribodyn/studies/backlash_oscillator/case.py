@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.schema import Layout
-from tribodyn.studies.protocol.cost import forced_periods, recorded, total
-from tribodyn.studies.protocol.estimate import Driver, Estimate
+from tribodyn.studies.protocol.cost import Driver, Estimate, forced_periods, recorded, total
 from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.studies.sweeping import branches
 

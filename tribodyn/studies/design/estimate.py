@@ -7,7 +7,7 @@ from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.layout import FACTORS, layout_of, names_of, scales_of
 from tribodyn.studies.design.methods import method_of
-from tribodyn.studies.protocol.estimate import Driver, Estimate, record_bytes
+from tribodyn.studies.protocol.cost import Driver, Estimate, record_bytes
 
 #: Evaluations that are usual.
 USUAL = 300

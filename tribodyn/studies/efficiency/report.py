@@ -4,7 +4,7 @@ from tribodyn.post.report import on_closures, on_energy, on_methods
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears.reported import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
+from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
 
 REPORTED: Reported = {
     "Geometry": quantities("contact_ratio", "contact_ratio_effective", "specific_sliding_max"),

@@ -25,19 +25,30 @@ from tribodyn.studies.efficiency.along_path import (
     CycleEfficiency,
     MeshDuty,
     PathState,
+    Samples,
     cycle_efficiency,
     engage,
+    record_arrays,
+    samples,
 )
-from tribodyn.studies.efficiency.arrays import Samples, record_arrays, samples
-from tribodyn.studies.efficiency.case import EfficiencyCase
-from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
-from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
+from tribodyn.studies.efficiency.published import (
+    exact,
+    hoehn,
+    path_contact,
+    tip_contact_ratios,
+    torque_ratio,
+)
+from tribodyn.studies.efficiency.scenario import EfficiencyCase
 from tribodyn.studies.gears.case import LAYOUT
-from tribodyn.studies.gears.check import check_gears
-from tribodyn.studies.gears.oil import oil_data
-from tribodyn.studies.gears.prepare import PreparedGears, assembled, at_tooth_temperature
-from tribodyn.studies.gears.temperature import contact_figures, thermal_figures
+from tribodyn.studies.gears.check import check_gears, oil_data
+from tribodyn.studies.gears.prepare import (
+    PreparedGears,
+    assembled,
+    at_tooth_temperature,
+    contact_figures,
+    thermal_figures,
+)
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures

@@ -1,7 +1,8 @@
-"""The tables of a scenario of ``kind = "efficiency"``: loads, friction and losses without dynamics."""
+"""The scenario of ``kind = "efficiency"``, loads, friction and losses without dynamics, and its case."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
@@ -11,7 +12,7 @@ from tribodyn.scenario.quantity import Table, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
 from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
-from tribodyn.studies.efficiency.case import EfficiencyCase
+from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FilmKeys,
@@ -26,6 +27,45 @@ from tribodyn.studies.gears.scenario import (
     gear_fields,
     oil_fields,
 )
+from tribodyn.studies.protocol.cost import (
+    FINITE_ELEMENTS,
+    PAIRS,
+    Driver,
+    Estimate,
+    load_sharing,
+    quasi_static_cycle,
+    recorded,
+    total,
+)
+
+if TYPE_CHECKING:
+    from tribodyn.studies.efficiency.places import Sharing
+
+
+@dataclass(frozen=True, kw_only=True)
+class EfficiencyCase(LubricatedCase):
+    """One efficiency study, complete; its mesh compliance is that of the elastic load sharing."""
+
+    #: {"elastic", "uniform", "single-pair"} That of the samples recorded; the summary has all three.
+    load_sharing: "Sharing" = "elastic"
+    samples_per_cycle: int = 200  # samples over the one mesh cycle recorded
+    #: (float, EfficiencyCase); share of time and case of every duty of a load spectrum; empty: there is none
+    spectrum: tuple[tuple[float, "EfficiencyCase"], ...] = ()
+
+
+#: Positions at which the cycle means share the load.
+_POSITIONS = 3000.0
+
+
+def estimate(case: EfficiencyCase) -> Estimate:
+    """What a run of a case takes."""
+    samples, slices = float(case.samples_per_cycle), case.mesh.slices
+    sizes = {"time": case.samples_per_cycle + 1, "pair": PAIRS, "dof": 6}
+    parts = [recorded(LAYOUT, sizes, outlines=True), quasi_static_cycle(samples)]
+    if case.mesh.at_load:
+        parts += [FINITE_ELEMENTS, load_sharing(samples + _POSITIONS, slices, samples)]
+    drivers = Driver("output.samples_per_cycle", samples, 200), Driver("mesh.slices", slices, 21)
+    return total(drivers, *parts)
 
 
 class EfficiencyMesh(Table):

@@ -9,8 +9,7 @@ from tribodyn.mesh.cycle import MESH_CYCLE
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.protocol.cost import recorded, solved_contacts, total
-from tribodyn.studies.protocol.estimate import Driver, Estimate
+from tribodyn.studies.protocol.cost import Driver, Estimate, recorded, solved_contacts, total
 from tribodyn.tribology.ehl.grid import STEP
 
 #: Places of a profile, and where they begin and end, in half widths of the Hertz contact.

@@ -16,7 +16,7 @@ from tribodyn.studies.ehl.along_path import PreparedEhl, by_laws, meant_by, prep
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import solve
 from tribodyn.studies.protocol.load import loaded_from, table_of
-from tribodyn.studies.protocol.results import TextTable
+from tribodyn.studies.protocol.recording import TextTable
 from tribodyn.studies.protocol.study import CaseHead, Progress
 from tribodyn.tribology.closure import untried_closure_of
 from tribodyn.tribology.film import FILM_LAWS

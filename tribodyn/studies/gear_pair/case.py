@@ -12,13 +12,14 @@ from tribodyn.studies.protocol.cost import (
     MARCHED_SAMPLE,
     PAIRS,
     SAMPLE_BYTES,
+    Driver,
+    Estimate,
     in_memory,
     marching,
     mesh_table,
     recorded,
     total,
 )
-from tribodyn.studies.protocol.estimate import Driver, Estimate
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
 #: and an attribute of a record holds no longer spectrum.

@@ -1,7 +1,11 @@
-"""Figures of the dynamics of a gear pair."""
+"""Figures of the dynamics of a gear pair, and of its sweeps."""
 
 from tribodyn.post.figures import over_mesh, spectrum
-from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.drawing import Drawing, SweepDrawing
+from tribodyn.post.figures.sweep.response import Panel, response_figure
+from tribodyn.post.figures.sweep.section import bifurcation_figure, poincare_figure
+from tribodyn.post.figures.sweep.spectra import campbell_figure, waterfall_figure
+from tribodyn.quantities.catalogue import QUANTITIES
 
 DRAWINGS: dict[str, Drawing] = {
     **over_mesh.DRAWINGS,
@@ -10,4 +14,34 @@ DRAWINGS: dict[str, Drawing] = {
         spectrum.orders_figure,
         spectrum.worth_tracking,
     ),
+}
+
+
+PANELS = (
+    Panel(QUANTITIES["transmission_error_rms"], from_zero=True),
+    Panel(QUANTITIES["transmission_error_peak_to_peak"], from_zero=True),
+    Panel(QUANTITIES["dynamic_factor"]),
+    Panel(QUANTITIES["contact_loss_fraction"], from_zero=True),
+    Panel(QUANTITIES["film_min"], from_zero=True),
+    Panel(QUANTITIES["efficiency"]),
+)
+
+SWEEP_DRAWINGS: dict[str, SweepDrawing] = {
+    "response": SweepDrawing(
+        "transmission error, dynamic factor, film and efficiency over the first varied key",
+        lambda records, _: response_figure(records, PANELS),
+    ),
+    "waterfall": SweepDrawing(
+        "amplitude spectra of the transmission error over the first varied key",
+        waterfall_figure,
+    ),
+    "campbell": SweepDrawing(
+        "natural frequencies and orders of the mesh, with the amplitudes at the crossings",
+        campbell_figure,
+    ),
+    "bifurcation": SweepDrawing(
+        "transmission error once per mesh cycle over the first varied key",
+        lambda records, _: bifurcation_figure(records),
+    ),
+    "poincare": SweepDrawing("Poincaré section of one case, chosen by --at", poincare_figure),
 }

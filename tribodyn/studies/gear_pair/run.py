@@ -18,15 +18,20 @@ from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
-from tribodyn.studies.gear_pair.assumptions import judge_balance, judge_block
 from tribodyn.studies.gear_pair.case import Case, window_of
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
-from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures, warning_of
+from tribodyn.studies.gear_pair.summary import (
+    RunningExtremes,
+    energy_residual,
+    judge_balance,
+    judge_block,
+    steady_figures,
+    warning_of,
+)
 from tribodyn.studies.gears.by_standard import rated
 from tribodyn.studies.gears.case import LAYOUT
-from tribodyn.studies.gears.check import check_gears
-from tribodyn.studies.gears.oil import oil_data
-from tribodyn.studies.gears.temperature import (
+from tribodyn.studies.gears.check import check_gears, oil_data
+from tribodyn.studies.gears.prepare import (
     MOST_MOTIONS,
     at_own_temperature,
     contact_figures,

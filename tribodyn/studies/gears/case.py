@@ -1,4 +1,4 @@
-"""The case of gears that every study of a gear pair begins with, in SI units.
+"""The case of gears that every study of a gear pair begins with, in SI units; its record and its quantities.
 
 Plain frozen dataclasses, so that the physics never meets pydantic or pint. Pairs are ordered (pinion, gear).
 """
@@ -11,13 +11,45 @@ from tribodyn.geometry.body import GEOMETRY
 from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
 from tribodyn.mesh.cycle import MESH_CYCLE
 from tribodyn.mesh.table import MeshData
+from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
-from tribodyn.studies.protocol.study import CaseHead
+from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.losses import LossData
 from tribodyn.tribology.lubricant import LubricantData
+
+TRIBOLOGY = quantities(
+    "film_min",
+    "film_parameter_min",
+    "film_parameter_min_roll_angle",
+    "hertz_pressure_max",
+    "flash_temperature_max",
+    "friction_coefficient_mean",
+    "friction_force_mean",
+)
+ENERGY = quantities(
+    "driving_gear",
+    "power_in_mean",
+    "power_friction_mean",
+    "power_damping_mean",
+    "friction_work_on_vibration",
+    "efficiency",
+)
+TEMPERATURE = quantities(
+    "bulk_temperature",
+    "contact_temperature_max",
+    "oil_temperature",
+    "power_churning",
+    "power_windage",
+    "power_bearings",
+    "power_load_independent",
+    "efficiency_with_losses",
+)
+#: What sweeps keep of a case that asks for temperatures or losses.
+TEMPERATURE_SWEPT = quantities("bulk_temperature", "power_load_independent", "efficiency_with_losses")
+
 
 #: Of records over time.
 LAYOUT = Layout(

@@ -1,5 +1,6 @@
-"""What `check` prints of a case of gears: the geometry sheet, stiffness, oil and laws."""
+"""What is said of a case of gears: the geometry sheet, stiffness, oil, laws and a rounded centre distance."""
 
+import tomllib
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,9 +11,9 @@ from tribodyn.geometry.drive import MaterialData
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
-from tribodyn.studies.gears.oil import oil_data, oil_remarks, oil_table
+from tribodyn.scenario.tables.drive_data import RoundedDistance
 from tribodyn.studies.gears.prepare import PreparedGears
-from tribodyn.studies.protocol.results import CheckResult, TextTable
+from tribodyn.studies.protocol.recording import CheckResult, TextTable
 from tribodyn.tribology.closure import (
     Lubricated,
     duty_range,
@@ -23,8 +24,95 @@ from tribodyn.tribology.closure import (
 )
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.law import Closure
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.lubricant import LubricantData, oil_values
+from tribodyn.tribology.oil import GIVEN, T_40, T_100, ZERO_CELSIUS, kinematic_viscosity
 from tribodyn.tribology.surface_state import range_shares
+
+#: The same for one of many cases: without values, so that equal remarks can be counted.
+BRIEF = "the centre distance is taken as that without backlash, within the rounding of the printed digits"
+
+
+def rounded_in(toml: str) -> RoundedDistance | None:
+    """How the centre distance in the text of a scenario is rounded; None: it is meant as written."""
+    if "centre_distance" not in toml:  # most have none, and need not be read
+        return None
+    from tribodyn.scenario.tables.drive_data import rounded_distance_of
+
+    return rounded_distance_of(tomllib.loads(toml).get("drive", {}))
+
+
+def with_rounding(checked: CheckResult, toml: str) -> CheckResult:
+    """What `check` says, with how the centre distance of the scenario is rounded."""
+    rounded = rounded_in(toml)
+    if rounded is None:
+        return checked
+    lines = rounded.lines()
+    rows = [(name, f"{value:.6g} {unit}") for name, (value, unit) in lines.items()]
+    data = checked.data | {"geometry": checked.data["geometry"] | lines}
+    table = TextTable("Printed digits", ("quantity", "value"), rows)
+    return CheckResult(data, (*checked.tables, table), (*checked.remarks, rounded.remark()))
+
+
+def remarks_in_brief(toml: str) -> list[str]:
+    """What is said of it of a case of a sweep."""
+    return [BRIEF] if rounded_in(toml) else []
+
+
+#: Factor to the unit that is shown, and that unit, by SI unit.
+_SHOWN = {"Pa s": (1e3, "mPa s"), "1/Pa": (1e9, "1/GPa"), "1": (1.0, "")}
+
+
+def oil_data(lubricant: LubricantData) -> dict[str, Any]:
+    """Return every number of a lubricant by name: `value` (SI), `unit`, `origin` and, where known, `spread`.
+
+    With a data sheet also `type`, `oil_temperature`, `temperature`, at which the numbers hold, K, and
+    `kinematic_viscosity`.
+    """
+    found: dict[str, Any] = {}
+    if (sheet := lubricant.sheet) is not None:
+        kinematic = kinematic_viscosity(sheet.viscosity_40, sheet.viscosity_100, lubricant.temperature)
+        found["type"] = sheet.type
+        warmer = lubricant.supply is not None
+        around = lubricant.supply if warmer else lubricant.temperature
+        origin = "operating.oil_temperature, or the network of [temperature]" if warmer else GIVEN
+        found["oil_temperature"] = {"value": around, "unit": "K", "origin": origin}
+        origin = "bulk temperature of the teeth" if warmer else "that of the oil"
+        found["temperature"] = {"value": lubricant.temperature, "unit": "K", "origin": origin}
+        found["kinematic_viscosity"] = {"value": kinematic, "unit": "m2/s", "origin": "ASTM D341"}
+    for name, one in oil_values(lubricant).items():
+        found[name] = {"value": float(one.value), "unit": one.unit, "origin": one.origin}
+        if one.spread is not None:
+            found[name]["spread"] = list(one.spread)
+    return found
+
+
+def oil_table(lubricant: LubricantData) -> TextTable:
+    """Return the same as a table."""
+    rows = []
+    for name, one in oil_data(lubricant).items():
+        if name in ("type", "oil_temperature", "temperature"):
+            continue
+        factor, unit = (
+            (1e6, "mm2/s") if one["unit"] == "m2/s" else _SHOWN.get(one["unit"], (1.0, one["unit"]))
+        )
+        spread = " to ".join(f"{factor * end:.4g}" for end in one.get("spread", ()))
+        rows.append((name, f"{factor * one['value']:.4g}", unit, one["origin"], spread))
+    title = "Lubricant"
+    if (sheet := lubricant.sheet) is not None:
+        where = ", bulk temperature of the teeth" if lubricant.supply is not None else ""
+        title += f" ({sheet.type}) at {lubricant.temperature - ZERO_CELSIUS:.4g} °C{where}"
+    return TextTable(title, ("quantity", "value", "unit", "from", "spread"), rows)
+
+
+def oil_remarks(lubricant: LubricantData) -> list[str]:
+    """Say what is extrapolated beyond the data sheet's two temperatures."""
+    if lubricant.sheet is None or T_40 <= lubricant.temperature <= T_100:
+        return []
+    return [
+        f"The oil at {lubricant.temperature - ZERO_CELSIUS:.4g} °C: viscosity extrapolated beyond the data "
+        "sheet's 40 to 100 °C by ASTM D341."
+    ]
+
 
 #: Name of a law in messages, by what it is a law of.
 _NAMES = {"closure_exceeded": "film law", "friction_exceeded": "friction law"}

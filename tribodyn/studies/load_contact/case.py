@@ -7,8 +7,15 @@ from tribodyn.mesh.cycle import MESH_CYCLE
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.gears.case import GearCase, LubricatedCase
-from tribodyn.studies.protocol.cost import FINITE_ELEMENTS, TOUCHING, load_sharing, recorded, total
-from tribodyn.studies.protocol.estimate import Driver, Estimate
+from tribodyn.studies.protocol.cost import (
+    FINITE_ELEMENTS,
+    TOUCHING,
+    Driver,
+    Estimate,
+    load_sharing,
+    recorded,
+    total,
+)
 
 PHASE = Variable(("phase",), "1", "phase of the mesh in mesh cycles from the first position")
 PAIR = Variable(

@@ -1,9 +1,11 @@
-"""From a scenario's name or path to a case."""
+"""Scenarios of any kind: a commented one to begin with, the case of a file, and the JSON schema."""
 
 import hashlib
+import json
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple, Union
 
@@ -11,12 +13,65 @@ import tomli_w
 from pydantic import Field, TypeAdapter, ValidationError
 
 from tribodyn.errors import InputError, InputErrors, unknown_name
+from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.scenario.messages import Origins, explain
+from tribodyn.scenario.own_keys import example_of
 from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
 from tribodyn.scenario.sources import find_scenario
 from tribodyn.scenario.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
 from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.protocol.study import CaseHead, Study
+
+#: Column of the comments.
+_COMMENT = 38
+_CHOSEN = "involute"
+
+
+def filled(kind: str, title: str) -> str:
+    """Return the template of a kind of study with everything put in.
+
+    Parameters
+    ----------
+    kind : as scenarios name it
+    title : of the scenario
+
+    Raises
+    ------
+    InputError
+        For an unknown kind.
+    """
+    text = STUDIES[kind].template()
+    if "\nDRIVE\n" in text:
+        drive = resources.files("tribodyn.studies").joinpath("drive_template.toml")
+        text = text.replace("DRIVE\n", drive.read_text(encoding="utf-8"), 1)
+    text = text.replace("FAMILIES", _families()).replace("KINDS", _kinds(kind))
+    return text.replace('"TITLE"', json.dumps(title, ensure_ascii=False))
+
+
+def _kinds(kind: str) -> str:
+    others = [f"#   {name:22}{study.about}" for name, study in STUDIES.items() if name != kind]
+    return "\n".join(
+        [f'kind = "{kind}"', "# other kinds, with other tables: tribodyn init NAME --kind", *others]
+    )
+
+
+def _families() -> str:
+    chosen = FAMILIES[_CHOSEN]
+    lines = [f'family = "{chosen.name}"'.ljust(_COMMENT) + f"# {chosen.about}", "# or one of:"]
+    for name, family in FAMILIES.items():
+        if name != _CHOSEN:
+            lines += [f'# family = "{name}"', f"#   {family.about}", *_own_keys(family)]
+    return "\n".join(lines)
+
+
+def _own_keys(family: Family) -> list[str]:
+    """What else changes in [drive] where this family is chosen."""
+    lines = [] if family.pressure_angle else ["#   it has no pressure_angle"]
+    if family.parameters:
+        offered = [one for one in family.parameters if not one.optional or one.example]
+        values = ", ".join(f"{one.name} = {example_of(one)}" for one in offered)
+        lines.append(f"#   shape = {{ {values} }}")
+    return lines
 
 
 class Loaded(NamedTuple):

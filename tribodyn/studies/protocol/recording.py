@@ -1,13 +1,66 @@
-"""The record of a case, from its name to its writer."""
+"""A case's head, its record, and what its run and its check end in."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from tribodyn.record.schema import Layout
-from tribodyn.record.writer import RecordWriter, check_target
-from tribodyn.studies.protocol.study import CaseHead
+if TYPE_CHECKING:  # `tribodyn --help` imports this file
+    from tribodyn.record.schema import Layout
+    from tribodyn.record.writer import RecordWriter
+
+
+@dataclass(frozen=True)
+class CaseHead:
+    """What every case begins with."""
+
+    title: str  # what it shows
+    name: str  # stem of the scenario's file; names the record
+    kind: str  # kind of the study
+    #: the scenario as TOML with everything written out (references replaced by their content, units kept,
+    #: overrides applied); loading it gives this case again
+    toml: str
+    sha256: str  # digest of `toml`
+
+
+class RunResult(NamedTuple):
+    """How a run ended: the record's path, "complete" or "failed", why, and its figures."""
+
+    path: Path
+    status: str
+    message: str
+    summary: dict[str, Any]
+
+    @property
+    def trust(self) -> str:
+        """Whether the result lies within its model: "inside the model", "outside the model", or ""."""
+        from tribodyn.record import trust
+
+        return trust.verdict(self.summary)
+
+    @property
+    def reasons(self) -> list[str]:
+        """What lies outside the model, in words; the numbers are in ``summary["trust_reasons"]``."""
+        from tribodyn.record import trust
+
+        return trust.reasons(self.summary)
+
+
+class TextTable(NamedTuple):
+    """A table as `check` prints it."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: Sequence[Sequence[str]]
+
+
+class CheckResult(NamedTuple):
+    """What `check` says of a sound case: data for programs, tables and remarks for people."""
+
+    data: dict[str, Any]
+    tables: Sequence[TextTable]
+    remarks: Sequence[str] = ()
 
 
 def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
@@ -18,6 +71,8 @@ def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
     InputError
         If it cannot be written there, see `record.writer.check_target`; so it is checked before any work.
     """
+    from tribodyn.record.writer import check_target
+
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
     check_target(path, force)
     return path
@@ -26,15 +81,17 @@ def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
 def writer(
     case: CaseHead,
     path: Path,
-    layout: Layout,
+    layout: "Layout",
     samples: int,
     *,
     groups: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
     scales: Mapping[str, Any] = MappingProxyType({}),
     force: bool = False,
     code: str = "",
-) -> RecordWriter:
+) -> "RecordWriter":
     """The writer of a case's record; arguments as those of `RecordWriter`."""
+    from tribodyn.record.writer import RecordWriter
+
     return RecordWriter(
         path,
         layout=layout,

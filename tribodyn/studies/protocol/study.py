@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.numerics.registry import cannot_be_loaded
-from tribodyn.studies.protocol.estimate import (
+from tribodyn.studies.protocol.cost import (
     WORTH_SAYING,
     Estimate,
     as_data,
@@ -18,9 +18,10 @@ from tribodyn.studies.protocol.estimate import (
     refuse_large,
     share_of_limits,
 )
-from tribodyn.studies.protocol.results import CheckResult as CheckResult
-from tribodyn.studies.protocol.results import RunResult as RunResult
-from tribodyn.studies.protocol.results import TextTable as TextTable
+from tribodyn.studies.protocol.recording import CaseHead as CaseHead
+from tribodyn.studies.protocol.recording import CheckResult as CheckResult
+from tribodyn.studies.protocol.recording import RunResult as RunResult
+from tribodyn.studies.protocol.recording import TextTable as TextTable
 
 if TYPE_CHECKING:
     from tribodyn.errors import InputError
@@ -37,21 +38,13 @@ Progress = Callable[[float], None]
 """Called with the share done, 0 … 1."""
 
 
-#: Part -> the module in which what it holds may stand, too.
-_ALSO_IN = {"rules": "scenario", "check": "run", "estimate": "case"}
-
-
-@dataclass(frozen=True)
-class CaseHead:
-    """What every case begins with."""
-
-    title: str  # what it shows
-    name: str  # stem of the scenario's file; names the record
-    kind: str  # kind of the study
-    #: the scenario as TOML with everything written out (references replaced by their content, units kept,
-    #: overrides applied); loading it gives this case again
-    toml: str
-    sha256: str  # digest of `toml`
+#: Part -> the modules in which what it holds may stand, too.
+_ALSO_IN = {
+    "rules": ("scenario",),
+    "check": ("run",),
+    "estimate": ("case", "scenario"),
+    "sweep_figures": ("figures",),
+}
 
 
 @dataclass(frozen=True)
@@ -77,16 +70,16 @@ class Study:
                   is printed as JSON (optional);
                   ``maps(record)``, its maps over the face (optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
-    sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
+    sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
-    estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case)
+    estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case or scenario)
     assess        ``ROLE``, the part that it plays in an assessment of a drive (optional), see `protocol.part`
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
     verbs         ``VERBS``, verbs and Python functions that it offers (optional), see `protocol.verb`;
                   ``RUN_PROPERTIES``, a class of properties that its runs have in Python beside those of a
                   `Run` (optional): ``tribodyn`` has that class by its name
     template      ``template.toml``, a commented scenario in which TITLE stands for its title, see
-                  `protocol.template.filled`; of a study in a single module its attribute ``TEMPLATE``
+                  `protocol.load.filled`; of a study in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
 
     Parameters
@@ -149,7 +142,7 @@ class Study:
         refuse_large(estimate, allow_large)
         checked = self._part("check", "check")(case)
         if self.has_gears:
-            from tribodyn.studies.gears.rounded import with_rounding
+            from tribodyn.studies.gears.check import with_rounding
 
             checked = with_rounding(checked, case.toml)
         data, remarks = checked.data | {"estimate": as_data(estimate)}, checked.remarks
@@ -294,7 +287,7 @@ class Study:
         own = getattr(package, name, None)
         if own is not None and not ismodule(own):  # a part may have the name of what it holds
             return own
-        places = [f"{self.package}.{place}" for place in (part, _ALSO_IN.get(part)) if place]
+        places = [f"{self.package}.{place}" for place in (part, *_ALSO_IN.get(part, ()))]
         for module in places:
             needed = not optional and module == places[-1]
             try:

@@ -4,8 +4,15 @@ from dataclasses import dataclass
 
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import TIME, Layout
-from tribodyn.studies.protocol.cost import in_memory, recorded, rolling_elements, total
-from tribodyn.studies.protocol.estimate import Driver, Estimate, record_bytes
+from tribodyn.studies.protocol.cost import (
+    Driver,
+    Estimate,
+    in_memory,
+    record_bytes,
+    recorded,
+    rolling_elements,
+    total,
+)
 from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.studies.rolling.engagement import Mode, RollingFriction
 from tribodyn.studies.rolling.geometry import RollingDrive

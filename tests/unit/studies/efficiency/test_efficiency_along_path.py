@@ -13,11 +13,10 @@ from tribodyn.mesh.equilibrium import contacts
 from tribodyn.mesh.power_flow import mean_efficiency
 from tribodyn.record.reader import open_record
 from tribodyn.studies.efficiency.along_path import MeshDuty, cycle_efficiency, engage
-from tribodyn.studies.efficiency.loss_factor import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, places
+from tribodyn.studies.efficiency.published import exact, path_contact, tip_contact_ratios, torque_ratio
 from tribodyn.studies.efficiency.run import PreparedEfficiency, efficiencies
 from tribodyn.studies.efficiency.run import prepare as prepare_study
-from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.validation.veciana_study import cycloid_contact

@@ -9,8 +9,8 @@ from tribodyn.record.reader import open_record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import SHARINGS, places
+from tribodyn.studies.efficiency.published import torque_ratio
 from tribodyn.studies.efficiency.run import efficiencies, figures, prepare
-from tribodyn.studies.efficiency.torque_ratio import torque_ratio
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.validation.veciana_study import involute_contact

@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.geometry.drive import tip_radius
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
+from tribodyn.studies.efficiency.published import exact, hoehn, tip_contact_ratios
 from tribodyn.validation.diez_ibarbia_study import SCENARIOS, drive, shifted
 
 

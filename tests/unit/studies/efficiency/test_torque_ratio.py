@@ -7,8 +7,8 @@ import pytest
 
 from tests.support.closures import LOCAL_LAWS, MIXED, VECIANA, coulomb, under
 from tribodyn.geometry.families.involute import InvolutePath
-from tribodyn.studies.efficiency.quadrature import piecewise
-from tribodyn.studies.efficiency.torque_ratio import path_contact, rotations, torque_ratio
+from tribodyn.studies.efficiency.places import piecewise
+from tribodyn.studies.efficiency.published import path_contact, rotations, torque_ratio
 from tribodyn.validation.veciana_study import cycloid_contact, involute_contact
 
 TEETH, RADIUS, RATIO, ANGLE = 27.0, 27e-3, 2.0, math.radians(20)

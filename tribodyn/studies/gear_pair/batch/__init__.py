@@ -11,8 +11,8 @@ from tribodyn.solve.orbit.periodic import refuse_time_dependent
 from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate, tabulated
 from tribodyn.studies.gear_pair.case import STEADY_CYCLES, Case, estimate_in_sweep
 from tribodyn.studies.gear_pair.prepare import prepare, table_key
-from tribodyn.studies.gear_pair.sweep_layout import layout_of, row_bytes
-from tribodyn.studies.protocol.estimate import Estimate
+from tribodyn.studies.gear_pair.report import layout_of, row_bytes
+from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Batch
 
 #: Mesh cycles that the search for a steady state may take, that its window has (whole periods), and points of

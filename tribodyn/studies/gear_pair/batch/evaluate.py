@@ -8,29 +8,97 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Sequence
 from functools import partial
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.dynamics.modes import natural_frequencies
+from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.parameters import XI, XI_RATE, frictionless
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED
-from tribodyn.record.trust import TRUST, number
+from tribodyn.record.trust import TRUST, Judge, judge_tribology, number
 from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.solve.branch.gear_pairs import UnstableRange
 from tribodyn.solve.initial import initial_state, static_equilibrium
-from tribodyn.studies.gear_pair.batch.figures import fill_unstable, window_figures
-from tribodyn.studies.gear_pair.batch.marched import Outcome, marched
-from tribodyn.studies.gear_pair.batch.steady import PreparedAt, legs_of, prepared_between, steady
+from tribodyn.solve.right_hand_side import engage_next
+from tribodyn.studies.gear_pair.batch.steady import (
+    CaseWindow,
+    Outcome,
+    PreparedAt,
+    legs_of,
+    marched,
+    prepared_between,
+    steady,
+)
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import PreparedPair, Tabulated, prepare, table_key, tables
-from tribodyn.studies.gear_pair.summary import warning_of
-from tribodyn.studies.gear_pair.sweep_layout import layout_of
-from tribodyn.studies.gears.rounded import remarks_in_brief
-from tribodyn.studies.gears.temperature import MOST_MOTIONS, at_own_temperature
+from tribodyn.studies.gear_pair.report import SWEPT, UNSTABLE_QUANTITIES, layout_of
+from tribodyn.studies.gear_pair.summary import RunningExtremes, judge_block, steady_figures, warning_of
+from tribodyn.studies.gears.check import remarks_in_brief
+from tribodyn.studies.gears.prepare import MOST_MOTIONS, at_own_temperature, thermal_figures
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
-from tribodyn.studies.sweeping.branches import MOTIONS, fill_ends
+from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
+
+if TYPE_CHECKING:
+    from tribodyn.solve.branch.gear_pairs import ContinuedBranch
+
+
+def window_figures(
+    prepared: PreparedPair, window: CaseWindow, samples: int
+) -> tuple[dict[str, float], dict[str, Any]]:
+    """Return the figures of `report.SWEPT` over a window, SI units, and what is said of their trust.
+
+    `samples` are those in a mesh cycle of the window.
+    """
+    count, last = len(window.states), window.end.copy()
+    engage_next(last, prepared.model)
+    cycles = window.first_cycle + np.arange(count + 1) / samples
+    states = np.concatenate([window.states, last[None]])
+    block, extreme, at = outputs_with_extremes(cycles, states, window.extremes, prepared.model)
+    extremes = RunningExtremes(prepared.cycle)
+    extremes.add(cycles, block)
+    extremes.add(at, extreme)
+    speed = prepared.case.operating.pinion_speed
+    work = window.end - window.start
+    inside = {name: values[:count] for name, values in block.items()}
+    figures = steady_figures(inside, work, prepared.cycle, samples, speed, extremes)
+    figures |= extremes.values()
+    figures |= thermal_figures(prepared.thermal, figures["power_in_mean"], figures["efficiency"])
+    judge = Judge()
+    judge_block(judge, cycles, block, prepared)
+    judge_block(judge, at, extreme, prepared, between_samples=True)
+    judge.take({"efficiency": figures["efficiency"]})
+    judge_tribology(judge, figures)
+    values = ((quantity.name, figures.get(quantity.name)) for quantity in SWEPT)
+    return {name: float("nan") if value is None else value for name, value in values}, judge.summary()
+
+
+def fill_unstable(
+    rows: dict[str, np.ndarray],
+    i: int,
+    branches: "Sequence[ContinuedBranch]",
+    prepared_at: Callable[[float], PreparedPair],
+    samples: int,
+) -> None:
+    """Put branches into the row of a case, with the figures of their motions over one period each.
+
+    `prepared_at` gives the prepared case at a value of the first parameter.
+    """
+    for end, branch, steadies in branches:
+        if end >= rows["unstable_period"].shape[1]:
+            break
+        fill_branch(rows, i, end, branch)
+        for m, (value, motion) in enumerate(zip(branch.values.tolist(), steadies, strict=True)):
+            if not len(motion.samples):  # it cannot be integrated over its period once more
+                continue
+            window = CaseWindow(0, motion.samples, motion.state, motion.end, motion.extremes)
+            figures, _ = window_figures(prepared_at(value), window, samples)
+            for name in UNSTABLE_QUANTITIES:
+                rows[PREFIX + name][i, end, m] = figures[name]
+            section = motion.samples[::samples, XI]
+            rows["unstable_poincare_error"][i, end, m, : len(section)] = section
+
 
 #: Tables kept in a process; a table is about 100 kB.
 TABLES_KEPT = 32
