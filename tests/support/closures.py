@@ -7,8 +7,8 @@ from typing import Any
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.tribology.closure import closure, closure_of, without_nominal_conditions
 from tribodyn.tribology.contact import Surfaces, local_contact
-from tribodyn.tribology.film import film_law
-from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import Closure, FrictionData, LawInput
 from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.surface_state import SurfaceState, surface_state
@@ -61,8 +61,8 @@ POINT = dict(
 
 def under(friction: str, given: LawInput = LIU_NI, film: str | None = None, **values: float) -> Closure:
     """Surfaces and laws by name; the values are those of the friction law's own keys, SI."""
-    law = friction_law(friction)
-    return closure(given, film_law(film or law.film), law, {}, values)
+    law = FRICTION_LAWS[friction]
+    return closure(given, FILM_LAWS[film or law.film], law, {}, values)
 
 
 def coulomb(coefficient: float, given: LawInput = VECIANA) -> Closure:

@@ -11,8 +11,8 @@ from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.elementary import as_float, is_jax, minimum
 from tribodyn.tribology.contact import DutyRange, NominalConditions, Surfaces
-from tribodyn.tribology.film import film_law
-from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import (
     ActiveFilm,
     ActiveFriction,
@@ -118,9 +118,9 @@ def laws_of(case: Lubricated) -> tuple[FilmLaw, FrictionLaw]:
     """Return the film and the friction law of a case; the film law that goes with it where none is chosen."""
     friction = case.friction.law
     if isinstance(friction, str):
-        friction = friction_law(friction)
+        friction = FRICTION_LAWS[friction]
     film = case.film.law or friction.film
-    return film_law(film) if isinstance(film, str) else film, friction
+    return FILM_LAWS[film] if isinstance(film, str) else film, friction
 
 
 def with_laws(

@@ -9,7 +9,7 @@ from collections import namedtuple
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Any, Literal, NamedTuple, Self
+from typing import Any, ClassVar, Literal, NamedTuple, Self
 
 from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.drive import MaterialData
@@ -27,23 +27,19 @@ from tribodyn.tribology.lubricant import LubricantData
 
 
 class JudgedRange(NamedTuple):
-    """What the solved contact says of a law, over oils, surfaces and duties of gears (docs/ehl.md, Ranges).
+    """What the solved contact says of a law, over oils, surfaces, duties of gears (docs/ehl.md, Ranges)."""
 
-    Attributes
-    ----------
-    right : lowest and highest ratio of the law's value to the solved one at which it is called right
-    ratio : that ratio at 5, 50 and 95 % of the sampled contacts inside the judged limits; where there are
-        none, inside the range of the law's authors
-    limits : how many of the law's limits follow from the comparison, the last ones: where these hold, nine of
-        ten contacts are right; 0: no such limits were found
-    """
-
+    #: lowest and highest ratio of the law's value to the solved one at which it is called right
     right: tuple[float, float]
+    #: that ratio at 5, 50 and 95 % of the sampled contacts inside the judged limits; where there are none,
+    #: inside the range of the law's authors
     ratio: tuple[float, float, float]
+    #: how many of the law's limits follow from the comparison, the last ones: where these hold, nine of ten
+    #: contacts are right; 0: no such limits were found
     limits: int = 0
 
-    def said(self, limits: tuple[str, ...]) -> str:
-        """Say it of a law with these limits."""
+    def in_words(self, limits: tuple[str, ...]) -> str:
+        """The range of a law with these limits."""
         if self.limits:
             low, high = self.right
             where = ", ".join(limits[-self.limits :])
@@ -62,7 +58,7 @@ class LawInput(NamedTuple):
 
     surfaces: Surfaces
     lubricant: LubricantData
-    materials: tuple[MaterialData, MaterialData]  # (MaterialData, MaterialData); of pinion and gear
+    materials: tuple[MaterialData, MaterialData]  # of pinion and gear
     #: () -> NominalConditions at the pitch point; raises InputError where they have no meaning
     nominal: Callable[[], NominalConditions]
     #: () -> DutyRange of the mesh; raises InputError where there is no mesh
@@ -146,11 +142,12 @@ def _values_type(names: tuple[str, ...]) -> Any:
 class _Law:
     """What film and friction laws have in common."""
 
+    table: ClassVar[str]  # the scenario's table that names the law and holds its keys
     name: str  # as scenarios give it
     about: str  # what it is, in a line
     function: Callable[..., Any]  # the law itself; see the kind of law
-    #: callable, optional (given: LawInput, **values of the keys in SI units) -> NamedTuple of the floats that
-    #: the functions read. Default: the values of the keys, by name.
+    #: (given: LawInput, **values of the keys in SI units) -> NamedTuple of floats that the functions read;
+    #: default: the values of the keys, by name
     parameters: Callable[..., Any] | None = None
     keys: tuple[Parameter, ...] = ()  # keys of its own in the scenario's table
     #: gives for each of `limits` the share allowed over actual, or actual over the least that is allowed: at
@@ -162,17 +159,17 @@ class _Law:
     #: the limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`: those of the law's
     #: authors, then those by the solved contact
     limits: tuple[str, ...] = ()
-    #: callable, optional (parameters) -> share by which 95 % of the values of its table deviate at most from
-    #: what they stand for; of a law that is tabulated before a run.
+    #: of a law that is tabulated before a run: (parameters) -> share by which 95 % of the values of its table
+    #: deviate at most from what they stand for
     table_error: Callable[[Any], float] | None = None
-    #: JudgedRange, optional What the solved contact says of the law; None: it was not compared.
+    #: what the solved contact says of the law; None: it was not compared
     judged: JudgedRange | None = None
 
     @property
     def stated(self) -> str:
         """The range in words, of the authors, then by the solved contact; "" where none is stated."""
-        judged = self.judged.said(self.limits) if self.judged is not None else ""
-        return "; ".join(one for one in (self.range, judged) if one)
+        judged = self.judged.in_words(self.limits) if self.judged is not None else ""
+        return "; ".join(text for text in (self.range, judged) if text)
 
     @property
     def named_limits(self) -> tuple[str, ...]:
@@ -214,11 +211,6 @@ class _Law:
             return self.parameters(given, **full)
         return _values_type(tuple(full))(**full)
 
-    @property
-    def table(self) -> str:
-        """The scenario's table that names the law and holds its keys."""
-        raise NotImplementedError
-
     def with_values(self, **values: float) -> Self:
         """Return the law with other values of its keys, in SI units, where none are given."""
         known = [key.name for key in self.keys]
@@ -244,6 +236,7 @@ class FilmLaw(_Law):
         Which thickness of the film it gives.
     """
 
+    table: ClassVar[str] = "film"
     in_range: Callable[..., Any] = film_range_not_stated
     thickness: Literal["central", "minimum"] = "central"
 
@@ -251,11 +244,6 @@ class FilmLaw(_Law):
     def functions(self) -> FilmFunctions:
         """The functions that kernels and models hold."""
         return FilmFunctions(self.function, self.in_range)
-
-    @property
-    def table(self) -> str:
-        """The scenario's table that names the law and holds its keys."""
-        return "film"
 
 
 @dataclass(frozen=True, eq=False)
@@ -273,6 +261,7 @@ class FrictionLaw(_Law):
     film : name of the film law that goes with it where the scenario names none
     """
 
+    table: ClassVar[str] = "friction"
     flash_temperature: Callable[..., Any] = heat_of_friction
     film: str = "masjedi-khonsari"
 
@@ -280,11 +269,6 @@ class FrictionLaw(_Law):
     def functions(self) -> FrictionFunctions:
         """The functions that kernels and models hold."""
         return FrictionFunctions(self.function, self.flash_temperature, self.in_range)
-
-    @property
-    def table(self) -> str:
-        """The scenario's table that names the law and holds its keys."""
-        return "friction"
 
 
 @dataclass(frozen=True)

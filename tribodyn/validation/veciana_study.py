@@ -11,8 +11,8 @@ from tribodyn.studies.efficiency.places import Array
 from tribodyn.studies.efficiency.published import TorqueRatio, UnitContact, rotations, torque_ratio
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import Surfaces
-from tribodyn.tribology.film import film_law
-from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import Closure, LawInput
 from tribodyn.tribology.lubricant import LubricantData
 
@@ -64,9 +64,9 @@ _NAMES: dict[Law, str] = {
 @cache
 def closure_of(name: Law) -> Closure:
     """Return the surfaces and laws of a reading."""
-    friction = friction_law(_NAMES[name])
+    friction = FRICTION_LAWS[_NAMES[name]]
     given = LawInput(SURFACES, LUBRICANT, (STEEL, STEEL), without_nominal_conditions)
-    return closure(given, film_law(friction.film), friction)
+    return closure(given, FILM_LAWS[friction.film], friction)
 
 
 class DriveUnderLaw(NamedTuple):

@@ -19,8 +19,8 @@ from tribodyn.tribology.closure import (
     surfaces_of,
     with_laws,
 )
-from tribodyn.tribology.film import film_law
-from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.lubricant import lubricant_from
 from tribodyn.tribology.oil import OilSheet
@@ -95,7 +95,7 @@ def test_nominal_conditions_of_involute_gears(case):
     assert found.load_intensity == pytest.approx(TORQUE / R2 * (ratio + 1) / (WIDTH * 2 * R1 * ratio))
     assert (found.viscosity, found.density) == (0.35, 880.0)
     idle = replace(case, operating=replace(case.operating, gear_torque=0.0))
-    for law in ("niemann", friction_law("niemann")):
+    for law in ("niemann", FRICTION_LAWS["niemann"]):
         with pytest.raises(InputError, match=r'"niemann".*which vanish here'):
             nominal_conditions(replace(idle, friction=FrictionData(law)))
     with pytest.raises(InputError, match="which vanish here"):
@@ -134,9 +134,9 @@ def test_friction_changes_sign_over_20_micrometres_unless_told_otherwise():
 
 def test_laws_of_a_case(case):
     """By name or as objects; the film that goes with the friction law where none is chosen."""
-    assert laws_of(with_laws(case, friction="solved")) == (film_law("solved"), friction_law("solved"))
-    changed = with_laws(case, film_law("moes"), friction_law("xu"))
-    assert laws_of(changed) == (film_law("moes"), friction_law("xu"))
+    assert laws_of(with_laws(case, friction="solved")) == (FILM_LAWS["solved"], FRICTION_LAWS["solved"])
+    changed = with_laws(case, FILM_LAWS["moes"], FRICTION_LAWS["xu"])
+    assert laws_of(changed) == (FILM_LAWS["moes"], FRICTION_LAWS["xu"])
     assert changed.friction.reversal_width == case.friction.reversal_width
     assert with_laws(case) == case
     kept = with_laws(replace(case, film=FilmData("moes")), friction="xu")

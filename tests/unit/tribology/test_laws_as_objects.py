@@ -19,8 +19,8 @@ from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run as run_study
 from tribodyn.tribology.closure import closure, laws_of, with_laws
-from tribodyn.tribology.film import film_law
-from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmData, FrictionLaw
 
 
@@ -42,17 +42,17 @@ STRIBECK = FrictionLaw(
 
 
 def test_a_law_has_the_values_of_its_keys_as_parameters():
-    laws = closure(LIU_NI, film_law("moes"), STRIBECK, {}, {"static": 0.2})
+    laws = closure(LIU_NI, FILM_LAWS["moes"], STRIBECK, {}, {"static": 0.2})
     state = known(laws, **{**POINT, "sliding": -0.5})
     assert state.friction_coefficient == pytest.approx(0.1)
-    slower = closure(LIU_NI, film_law("moes"), STRIBECK.with_values(static=0.2, speed=1.5))
+    slower = closure(LIU_NI, FILM_LAWS["moes"], STRIBECK.with_values(static=0.2, speed=1.5))
     assert known(slower, **{**POINT, "sliding": -0.5}).friction_coefficient == pytest.approx(0.15)
     with pytest.raises(InputError, match=r"friction\.static: missing"):
-        closure(LIU_NI, film_law("moes"), STRIBECK)
+        closure(LIU_NI, FILM_LAWS["moes"], STRIBECK)
     with pytest.raises(
         InputError, match=r'friction\.sped = 1\.0: no key of law "stribeck"; did you mean "speed"'
     ):
-        closure(LIU_NI, film_law("moes"), STRIBECK, {}, {"static": 0.2, "sped": 1.0})
+        closure(LIU_NI, FILM_LAWS["moes"], STRIBECK, {}, {"static": 0.2, "sped": 1.0})
     with pytest.raises(TypeError, match=r"has no key sped"):
         STRIBECK.with_values(sped=1.0)
 
@@ -94,7 +94,7 @@ def test_variants_share_their_machine_code():
 
 def test_without_friction_a_model_has_none(prepared):
     model = frictionless(prepared("crc-23-47").model)
-    assert model.options.friction == friction_law("none").functions
+    assert model.options.friction == FRICTION_LAWS["none"].functions
     assert known(model.closure, **POINT).friction_coefficient == 0.0
 
 

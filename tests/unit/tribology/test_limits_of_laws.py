@@ -12,8 +12,8 @@ from tests.support.closures import LIU_NI, VECIANA, under
 from tribodyn.tribology.closure import closure
 from tribodyn.tribology.contact import NominalConditions, local_contact
 from tribodyn.tribology.ehl.lookup import LIMITS, in_table
-from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, film_law, masjedi_khonsari, moes
-from tribodyn.tribology.friction import FRICTION_LAWS, benedict_kelley, coulomb, friction_law, xu
+from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, masjedi_khonsari, moes
+from tribodyn.tribology.friction import FRICTION_LAWS, benedict_kelley, coulomb, xu
 from tribodyn.tribology.friction import masjedi_khonsari as mixed
 from tribodyn.tribology.friction import none as frictionless
 from tribodyn.tribology.friction.iso_14179_1 import LAW as ISO
@@ -102,7 +102,7 @@ FRICTIONS = [
 @pytest.mark.parametrize("given", [UNLIKE, VECIANA], ids=["liu-ni", "veciana"])
 def test_limits_are_those_that_the_law_names(law, given):
     is_film = law.table == "film"
-    film, friction = (law, friction_law("none")) if is_film else (film_law("masjedi-khonsari"), law)
+    film, friction = (law, FRICTION_LAWS["none"]) if is_film else (FILM_LAWS["masjedi-khonsari"], law)
     laws = closure(given, film, friction)
     for contact in CONTACTS:
         load, curvature, u, v = contact
@@ -139,7 +139,7 @@ def test_limits_of_mean_coefficients(law, speed, torque):
         wanted = 50 / speed
     assert found == pytest.approx(wanted)
     # the whole mesh has it, whatever the contact
-    laws = closure(given, film_law("moes"), law)
+    laws = closure(given, FILM_LAWS["moes"], law)
     one, other = (range_shares(local_contact(4e5, 90.0, 1.0, v, 1.2, 0.8), laws)[1] for v in (0.0, 0.7))
     assert one == other == pytest.approx(wanted)
 

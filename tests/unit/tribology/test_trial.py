@@ -9,8 +9,8 @@ from tests.support.closures import LIU_NI
 from tribodyn.errors import InputError
 from tribodyn.numerics.elementary import absolute, exp, law
 from tribodyn.tribology.closure import closure
-from tribodyn.tribology.film import film_law
-from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw
 from tribodyn.tribology.trial import try_laws
 
@@ -18,9 +18,9 @@ from tribodyn.tribology.trial import try_laws
 def tried(film: Any = None, friction: Any = None, **functions: Any) -> None:
     """Try one law of a function, the other one of the package."""
     if film is not None:
-        one, other = FilmLaw("mine", "", film, **functions), friction_law("none")
+        one, other = FilmLaw("mine", "", film, **functions), FRICTION_LAWS["none"]
     else:
-        one, other = film_law("moes"), FrictionLaw("mine", "", friction, **functions)
+        one, other = FILM_LAWS["moes"], FrictionLaw("mine", "", friction, **functions)
     try_laws(one, other, closure(LIU_NI, one, other))
 
 
@@ -42,9 +42,9 @@ def test_laws_that_work():
 
 
 def test_laws_of_the_package_are_not_tried():
-    made = closure(LIU_NI, film_law("moes"), friction_law("none"))
+    made = closure(LIU_NI, FILM_LAWS["moes"], FRICTION_LAWS["none"])
     broken: Any = made._replace(surfaces=None)
-    try_laws(film_law("moes"), friction_law("none"), broken)
+    try_laws(FILM_LAWS["moes"], FRICTION_LAWS["none"], broken)
 
 
 def test_they_may_only_call_what_is_marked():

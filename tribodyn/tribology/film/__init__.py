@@ -16,8 +16,3 @@ FILM_LAWS: Registry[FilmLaw] = Registry(
     "tribodyn.film_laws",
     FilmLaw,
 )
-
-
-def film_law(name: str) -> FilmLaw:
-    """Return the film law of that name; InputError where there is none."""
-    return FILM_LAWS[name]

@@ -5,6 +5,7 @@ lubrication with provision for surface roughness", J. Tribol. 134 (2012) 011503;
 """
 
 import math
+from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -111,25 +112,13 @@ def in_fitted_range(contact, surfaces, parameters):
 
 
 @law
-def roughness_factor(contact, surfaces):
-    """Factor by which the formula raises the film of smooth surfaces for their roughness."""
-    modulus = surfaces.effective_modulus
-    log_curvature = log(contact.curvature)
-    log_W = log(contact.line_load) + log_curvature - log(modulus)
-    log_U = log(surfaces.inlet_viscosity) + log(contact.entrainment) + log_curvature - log(modulus)
-    log_G, log_V = log(surfaces.pressure_viscosity) + log(modulus), log(surfaces.hardness) - log(modulus)
-    log_S = log(surfaces.roughness) + log_curvature
-    _, factor = central_film_thickness(log_W, log_U, log_G, log_S, log_V, log_curvature)
-    return factor
-
-
-@law
 def in_ranges(contact, surfaces, parameters):
     """Shares allowed by `FITTED_RANGE`, then by `JUDGED_RANGE`, in the order of the law's limits."""
     load, material = moes_numbers(contact, surfaces)
     fitted = in_fitted_range(contact, surfaces, parameters)
+    _, roughened, _ = rough_film(contact, surfaces, parameters)
     low = load / _M_LOW, material / _L_LOW
-    high = _M_HIGH / load, _L_HIGH / material, _FACTOR_HIGH / roughness_factor(contact, surfaces)
+    high = _M_HIGH / load, _L_HIGH / material, _FACTOR_HIGH / roughened
     return (*fitted, *low, *high, _HEAT_HIGH / inlet_heating(contact, surfaces))
 
 
@@ -147,11 +136,7 @@ def rough_film_of(given: LawInput, asperity_log_factor: float = 4470.0) -> Rough
     )
 
 
-JUDGED_LIMITS = (
-    *("M ≥ 2", "L ≥ 2", "M ≤ 1000", "L ≤ 20", "roughness factor of the film ≤ 2", "η0 u² ≤ 3 W/m"),
-)
-#: Of the film, which is the same with the misprint.
-JUDGED = JudgedRange((0.75, 1.25), (0.942, 1.0, 1.15), len(JUDGED_LIMITS))
+JUDGED_LIMITS = "M ≥ 2", "L ≥ 2", "M ≤ 1000", "L ≤ 20", "roughness factor of the film ≤ 2", "η0 u² ≤ 3 W/m"
 
 LAW = FilmLaw(
     "masjedi-khonsari",
@@ -161,15 +146,12 @@ LAW = FilmLaw(
     in_range=in_ranges,
     range=RANGE,
     limits=(*LIMITS, *JUDGED_LIMITS),
-    judged=JUDGED,
+    # of the film, which is the same with the misprint
+    judged=JudgedRange((0.75, 1.25), (0.942, 1.0, 1.15), len(JUDGED_LIMITS)),
 )
-AS_PRINTED = FilmLaw(
-    "masjedi-khonsari-as-printed",
-    "the same with Liu & Ni's misprint in the asperity load, 447 for 4470",
-    rough_film,
-    partial(rough_film_of, asperity_log_factor=447.0),
-    in_range=in_ranges,
-    range=RANGE,
-    limits=(*LIMITS, *JUDGED_LIMITS),
-    judged=JUDGED,
+AS_PRINTED = replace(
+    LAW,
+    name="masjedi-khonsari-as-printed",
+    about="the same with Liu & Ni's misprint in the asperity load, 447 for 4470",
+    parameters=partial(rough_film_of, asperity_log_factor=447.0),
 )

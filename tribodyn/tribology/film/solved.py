@@ -14,7 +14,8 @@ def solved_film(contact, surfaces, parameters):
     return polynomial(parameters.film, x, y, z, s), 1.0, asperity_share(parameters, x, y, z, s)
 
 
-def _table(given: LawInput) -> Any:
+def solved_table(given: LawInput) -> Any:
+    """Return the table of a case; it is solved where it is not kept."""
     from tribodyn.tribology.ehl.table import table_of
 
     return table_of(given)
@@ -24,7 +25,7 @@ LAW = FilmLaw(
     "solved",
     "mixed thermal contact solved before the run over the duty of the mesh: mean gap on the line of centres",
     solved_film,
-    _table,
+    solved_table,
     range=RANGE,
     limits=LIMITS,
     in_range=in_table,

@@ -26,8 +26,3 @@ FRICTION_LAWS: Registry[FrictionLaw] = Registry(
     "tribodyn.friction_laws",
     FrictionLaw,
 )
-
-
-def friction_law(name: str) -> FrictionLaw:
-    """Return the friction law of that name; InputError where there is none."""
-    return FRICTION_LAWS[name]

@@ -1,8 +1,7 @@
 """Friction coefficient of gear teeth by Benedict & Kelley's disc tests."""
 
 from tribodyn.numerics.elementary import absolute, exp, law, log, maximum
-from tribodyn.tribology.friction.none import NoParameters
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
+from tribodyn.tribology.law import FrictionLaw, JudgedRange
 
 LN10 = 2.302585092994046
 
@@ -67,15 +66,10 @@ def not_held(contact, film, surfaces, parameters):
     return slides, smooth, exp(LN10 * logarithm)
 
 
-def _none(given: LawInput) -> NoParameters:
-    return NoParameters()
-
-
 LAW = FrictionLaw(
     "benedict-kelley",
     "disc tests in mixed lubrication, Benedict & Kelley (1961)",
     benedict_kelley_at,
-    _none,
     in_range=not_held,
     range="where it is not held: sliding ≥ 1 % of the rolling speed, Ra ≤ 0.75 µm, coefficient above zero",
     limits=(

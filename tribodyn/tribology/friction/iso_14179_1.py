@@ -1,9 +1,8 @@
 """Mean friction coefficient of a mesh by ISO/TR 14179-1, from the conditions at its pitch point."""
 
-from tribodyn.numerics.elementary import as_float, exp, log, minimum
+from tribodyn.numerics.elementary import exp, log, minimum
 from tribodyn.tribology.contact import NominalConditions
-from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
+from tribodyn.tribology.friction.coulomb import mean_law
 
 #: Pitch line speed (m/s) and load intensity (Pa) for which the standard gives the formula.
 SPEED_RANGE = (2.0, 25.0)
@@ -24,24 +23,20 @@ def iso_14179_1(conditions: NominalConditions) -> float:
     )
 
 
-def _mean(given: LawInput) -> Constant:
-    conditions = given.nominal()
+def _within(conditions: NominalConditions) -> float:
     speed, intensity = conditions.pitch_line_speed, conditions.load_intensity
-    shares = (
-        *(speed / SPEED_RANGE[0], SPEED_RANGE[1] / speed),
-        *(intensity / INTENSITY_RANGE[0], INTENSITY_RANGE[1] / intensity),
+    return minimum(
+        minimum(speed / SPEED_RANGE[0], SPEED_RANGE[1] / speed),
+        minimum(intensity / INTENSITY_RANGE[0], INTENSITY_RANGE[1] / intensity),
     )
-    least = minimum(minimum(*shares[:2]), minimum(*shares[2:]))
-    return Constant(as_float(iso_14179_1(conditions)), as_float(least))
 
 
-LAW = FrictionLaw(
+LAW = mean_law(
     "iso-14179-1",
     "mean coefficient of the mesh by ISO/TR 14179-1",
-    constant,
-    _mean,
-    in_range=range_of_constant,
-    range="2 < V ≤ 25 m/s, 1.4 < K ≤ 14 N/mm² (the standard)",
-    limits=("2 m/s ≤ V ≤ 25 m/s and 1.4 N/mm² ≤ K ≤ 14 N/mm²",),
-    judged=JudgedRange((0.5, 2.0), (0.276, 0.79, 3.35)),
+    iso_14179_1,
+    _within,
+    "2 < V ≤ 25 m/s, 1.4 < K ≤ 14 N/mm² (the standard)",
+    "2 m/s ≤ V ≤ 25 m/s and 1.4 N/mm² ≤ K ≤ 14 N/mm²",
+    (0.276, 0.79, 3.35),
 )

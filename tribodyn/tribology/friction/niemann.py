@@ -1,9 +1,8 @@
 """Mean friction coefficient of a mesh by Niemann, from the conditions at its pitch point."""
 
-from tribodyn.numerics.elementary import as_float, exp, log
+from tribodyn.numerics.elementary import exp, log
 from tribodyn.tribology.contact import NominalConditions
-from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
+from tribodyn.tribology.friction.coulomb import mean_law
 
 #: Pitch line speed up to which the FZG tests behind the formula went, m/s.
 MAXIMUM_SPEED = 50.0
@@ -28,18 +27,19 @@ def mean_of_fzg_tests(conditions: NominalConditions) -> float:
     return 0.048 * exp(0.2 * log(group) - 0.05 * log(viscosity) + 0.25 * log(roughness))
 
 
-def _mean(given: LawInput) -> Constant:
-    conditions = given.nominal()
-    return Constant(as_float(niemann(conditions)), as_float(MAXIMUM_SPEED / conditions.pitch_line_speed))
+def within_speed(conditions: NominalConditions) -> float:
+    """`MAXIMUM_SPEED` over the pitch line speed."""
+    return MAXIMUM_SPEED / conditions.pitch_line_speed
 
 
-LAW = FrictionLaw(
+RANGE = "pitch line speed up to about 50 m/s (FZG tests of case-hardened gears)"
+LIMIT = "pitch line speed ≤ 50 m/s"
+LAW = mean_law(
     "niemann",
     "mean coefficient of the mesh by Niemann, as in ISO/TR 14179-2",
-    constant,
-    _mean,
-    in_range=range_of_constant,
-    range="pitch line speed up to about 50 m/s (FZG tests of case-hardened gears)",
-    limits=("pitch line speed ≤ 50 m/s",),
-    judged=JudgedRange((0.5, 2.0), (0.46, 2.01, 5.62)),
+    niemann,
+    within_speed,
+    RANGE,
+    LIMIT,
+    (0.46, 2.01, 5.62),
 )

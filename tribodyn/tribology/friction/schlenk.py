@@ -1,10 +1,8 @@
 """Mean friction coefficient of a mesh by Schlenk, from the conditions at its pitch point."""
 
-from tribodyn.numerics.elementary import as_float
 from tribodyn.tribology.contact import NominalConditions
-from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
-from tribodyn.tribology.friction.niemann import MAXIMUM_SPEED, mean_of_fzg_tests
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
+from tribodyn.tribology.friction.coulomb import mean_law
+from tribodyn.tribology.friction.niemann import LIMIT, RANGE, mean_of_fzg_tests, within_speed
 
 
 def schlenk(conditions: NominalConditions) -> float:
@@ -16,18 +14,12 @@ def schlenk(conditions: NominalConditions) -> float:
     return conditions.schlenk_factor * mean_of_fzg_tests(conditions)
 
 
-def _mean(given: LawInput) -> Constant:
-    conditions = given.nominal()
-    return Constant(as_float(schlenk(conditions)), as_float(MAXIMUM_SPEED / conditions.pitch_line_speed))
-
-
-LAW = FrictionLaw(
+LAW = mean_law(
     "schlenk",
     "mean coefficient of the mesh by Schlenk, with the lubricant factor of the oil's type",
-    constant,
-    _mean,
-    in_range=range_of_constant,
-    range="pitch line speed up to about 50 m/s (FZG tests of case-hardened gears)",
-    limits=("pitch line speed ≤ 50 m/s",),
-    judged=JudgedRange((0.5, 2.0), (0.575, 1.69, 4.57)),
+    schlenk,
+    within_speed,
+    RANGE,
+    LIMIT,
+    (0.575, 1.69, 4.57),
 )

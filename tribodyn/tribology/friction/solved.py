@@ -1,7 +1,5 @@
 """Friction of the solved contact, from a table made before the run over the duty of the mesh."""
 
-from typing import Any
-
 from tribodyn.numerics.elementary import law
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.lookup import (
@@ -14,7 +12,8 @@ from tribodyn.tribology.ehl.lookup import (
     polynomial,
     variables,
 )
-from tribodyn.tribology.law import FrictionLaw, LawInput
+from tribodyn.tribology.film.solved import solved_table
+from tribodyn.tribology.law import FrictionLaw
 
 
 @law
@@ -33,17 +32,11 @@ def in_its_table(contact, film, surfaces, parameters):
     return in_table(contact, surfaces, parameters)
 
 
-def _table(given: LawInput) -> Any:
-    from tribodyn.tribology.ehl.table import table_of
-
-    return table_of(given)
-
-
 LAW = FrictionLaw(
     "solved",
     "mixed thermal contact at the limiting shear stress, solved before the run over the duty of the mesh",
     solved_friction,
-    _table,
+    solved_table,
     range=RANGE,
     limits=LIMITS,
     in_range=in_its_table,

@@ -2,8 +2,7 @@
 
 from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum
 from tribodyn.tribology.contact import hertz_pressure
-from tribodyn.tribology.friction.none import NoParameters
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
+from tribodyn.tribology.law import FrictionLaw, JudgedRange
 
 LN10 = 2.302585092994046
 
@@ -78,15 +77,10 @@ def in_fitted_range(contact, film, surfaces, parameters):
     return pressure / _P_LOW, _P_HIGH / pressure, _SR_HIGH / ratio, rough
 
 
-def _none(given: LawInput) -> NoParameters:
-    return NoParameters()
-
-
 LAW = FrictionLaw(
     "xu",
     "regression over thermal EHL solutions for oil 75W90, Xu (2005)",
     xu_at,
-    _none,
     in_range=in_fitted_range,
     range="Hertz pressure 0.5 … 2.5 GPa, slide-to-roll ratio ≤ 1, roughness ≤ 1 µm "
     "(from memory of the dissertation)",

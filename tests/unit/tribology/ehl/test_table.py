@@ -20,9 +20,9 @@ from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, polynomial
 from tribodyn.tribology.ehl.lookup import clipped as clipped_at
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.film import film_law
+from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.film.solved import solved_film
-from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.friction.solved import solved_friction
 from tribodyn.tribology.surface_state import surface_state
 
@@ -58,7 +58,7 @@ def test_polynomial_is_the_sum_of_its_terms(rng):
 
 def test_laws_read_what_the_table_was_made_of(by_powers):
     given = LIU_NI._replace(duty=lambda: DUTY)
-    laws = closure(given, film_law("solved"), friction_law("solved"))
+    laws = closure(given, FILM_LAWS["solved"], FRICTION_LAWS["solved"])
     assert laws.film.parameters.film_error < 1e-3
     assert laws.friction.parameters.friction_error < 1e-3
     state = surface_state(local_contact(3e5, 110.0, 0.15, -0.06, 0.12, 0.18), laws)
@@ -166,7 +166,7 @@ def test_error_of_a_table_of_solved_contacts():
     assert found.friction_error < 0.01
     contact = tables.contact_of(LIU_NI)
     state = points.solve_one(contact, np.log([3e5, 0.15, 112.0, 0.3]))
-    laws = closure(LIU_NI._replace(duty=lambda: DUTY), film_law("solved"), friction_law("solved"))
+    laws = closure(LIU_NI._replace(duty=lambda: DUTY), FILM_LAWS["solved"], FRICTION_LAWS["solved"])
     known = surface_state(local_contact(3e5, 112.0, 0.15, 0.045, 0.1725, 0.1275), laws)
     assert math.log(known.central_film_thickness) == pytest.approx(state[0], abs=0.01)
     assert math.log(known.friction_coefficient) == pytest.approx(state[1], abs=0.01)
