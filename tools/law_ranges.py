@@ -22,13 +22,12 @@ from tribodyn.scenario.tables.model_files import Lubricant
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import NominalConditions, Surfaces, local_contact
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
-from tribodyn.tribology.ehl.points import STEP
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.table import contact_of
+from tribodyn.tribology.ehl.table import STEP, contact_of
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw, LawInput
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.oil import LubricantData
 from tribodyn.tribology.surface_state import range_shares, surface_state
 
 Array = Any

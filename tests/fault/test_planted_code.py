@@ -48,16 +48,15 @@ import numpy as np
 import tribodyn as td
 from tests.support.closures import LIU_NI
 from tribodyn.tribology.ehl import table
-from tribodyn.tribology.ehl import points as table_points
 
 def work():
     td.open("one.h5")
     td.design("search.toml")
     td.run("irefc", {"output.samples_per_cycle": 8})
-    table_points._WORTH, table_points.usable_cores = 1, lambda: 2
+    table._WORTH, table.usable_cores = 1, lambda: 2
     contact = table.contact_of(LIU_NI)
     duty = np.log([2e5, 2.0, 100.0, 0.3])
-    assert np.isfinite(table_points.solve_all(contact, np.stack([duty, duty]))).all()
+    assert np.isfinite(table.solve_all(contact, np.stack([duty, duty]))).all()
     done.append(True)
 
 done = []

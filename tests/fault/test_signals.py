@@ -31,7 +31,7 @@ SOLVING = (
     "module.{name} = noted\n"
 )
 PATH = SOLVING.format(module="tribodyn.studies.ehl.run", name="solved_at")
-TABLE = SOLVING.format(module="tribodyn.tribology.ehl.points", name="solve_one") + (
+TABLE = SOLVING.format(module="tribodyn.tribology.ehl.table", name="solve_one") + (
     "import tribodyn.tribology.ehl.table as table\ntable.arrays_kept_or_made = lambda *given: given[-1]()\n"
 )
 SOLVED_LAWS = ("--set", "film.law=solved", "--set", "friction.law=solved")

@@ -10,7 +10,7 @@ from tribodyn.tribology.contact import Surfaces, local_contact
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import Closure, FrictionData, LawInput
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.oil import LubricantData
 from tribodyn.tribology.surface_state import SurfaceState, surface_state
 
 #: Laws of the local contact.

@@ -16,8 +16,7 @@ from tribodyn.scenario.own_keys import si_unit
 from tribodyn.scenario.units import Kind
 from tribodyn.scenario.vary import kind_at
 from tribodyn.tribology.closure import laws_of
-from tribodyn.tribology.lubricant import lubricant_at, lubricant_from
-from tribodyn.tribology.oil import UNITS
+from tribodyn.tribology.oil import UNITS, lubricant_at, lubricant_from
 
 _OF_BODY = ("profile_shift", "addendum", "dedendum", "fillet_radius", "face_width", "bore_radius")
 _OF_MATERIAL = (

@@ -23,7 +23,7 @@ from tribodyn.tribology.law import (
     FrictionLaw,
     LawInput,
 )
-from tribodyn.tribology.lubricant import LubricantData, lubricant_around
+from tribodyn.tribology.oil import LubricantData, lubricant_around
 from tribodyn.tribology.surface_state import exceeded
 from tribodyn.tribology.trial import try_laws
 

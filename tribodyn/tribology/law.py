@@ -23,7 +23,7 @@ from tribodyn.tribology.contact import (
     hertz_half_width,
     without_duty,
 )
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.oil import LubricantData
 
 
 class JudgedRange(NamedTuple):

@@ -1,7 +1,8 @@
-"""From an oil's data sheet to what film and friction laws read, at any temperature.
+"""An oil: from its data sheet, or from numbers given, to what film and friction laws read of it.
 
 A data sheet gives the kinematic viscosity at 40 and 100 °C, the density at 15 °C and the type of the base
-oil. Temperatures are absolute, K; the functions take floats, arrays and traced numbers.
+oil; from that follows everything at any temperature. Temperatures are absolute, K; the functions take floats,
+arrays and traced numbers.
 """
 
 from collections.abc import Mapping
@@ -49,19 +50,12 @@ def density_at(density_15: Any, temperature: Any) -> Any:
     return density_15 - 0.7 * (temperature - 289.0)
 
 
-class PressureViscosity(NamedTuple):
-    """Coefficients of α38 = factor η38^exponent, 1/Pa, with η38 in Pa·s; and where they are from."""
-
-    factor: float
-    exponent: float
-    source: str
-
-
 _STANDARD = "ISO/TR 15144-1"
-PRESSURE_VISCOSITY: dict[OilType, PressureViscosity] = {
-    "mineral": PressureViscosity(2.657e-8, 0.1348, _STANDARD),
-    "pao": PressureViscosity(1.466e-8, 0.0507, _STANDARD),
-    "pag": PressureViscosity(1.392e-8, 0.1572, _STANDARD),
+#: Factor (1/Pa) and exponent of α38 = factor η38^exponent, η38 in Pa·s: ISO/TR 15144-1.
+PRESSURE_VISCOSITY: dict[OilType, tuple[float, float]] = {
+    "mineral": (2.657e-8, 0.1348),
+    "pao": (1.466e-8, 0.0507),
+    "pag": (1.392e-8, 0.1572),
 }
 #: α = s ν^t of saturated esters, 1/Pa, ν in mm²/s at the temperature asked for: Gold et al., J. Synthetic
 #: Lubrication 18 (2001) 51; ISO/TR 15144-1 gives no ester. From memory of the literature, not checked against
@@ -71,8 +65,8 @@ ESTER = (6.605e-9, 0.1360)
 
 def pressure_viscosity_38(kind: OilType, viscosity: Any) -> Any:
     """Pressure-viscosity coefficient at 38 °C, 1/Pa, from the viscosity η there, Pa·s; not of an ester."""
-    line = PRESSURE_VISCOSITY[kind]
-    return line.factor * exp(line.exponent * log(viscosity))
+    factor, exponent = PRESSURE_VISCOSITY[kind]
+    return factor * exp(exponent * log(viscosity))
 
 
 def pressure_viscosity_at(pressure_viscosity: Any, temperature: Any) -> Any:
@@ -103,43 +97,38 @@ def specific_heat(density_15: Any, temperature: Any) -> Any:
 
 
 class Typical(NamedTuple):
-    """A coefficient by the type of the oil: its value, the spread of what is published, where it is from."""
+    """A coefficient by the type of the oil."""
 
     value: float
-    spread: tuple[float, float]
     source: str
-
-    @property
-    def real_spread(self) -> tuple[float, float] | None:
-        """The spread; None where there is none."""
-        return self.spread if self.spread[0] < self.spread[1] else None
+    spread: tuple[float, float] | None = None  # of what is published; None: one value
 
 
 _ARANA = "Arana, Larrañaga & Ulacia (2019)"
 #: Λ_lim, limiting shear stress over pressure: twin discs at 1 GPa and 60 °C (DOI 10.1177/1350650118778655).
 LIMITING_SHEAR: dict[OilType, Typical] = {
-    "mineral": Typical(0.047, (0.047, 0.053), f"{_ARANA}, twin discs, 1 GPa, 60 °C: paraffinic; naphthenic"),
-    "pao": Typical(0.035, (0.030, 0.040), f"{_ARANA}, twin discs, 1 GPa, 60 °C; spread assumed"),
-    "ester": Typical(0.035, (0.030, 0.045), "assumption: as PAO, whose lubricant factor esters share"),
-    "pag": Typical(0.0315, (0.025, 0.035), "assumption: PAO's, by the ratio of Schlenk's lubricant factors"),
+    "mineral": Typical(0.047, f"{_ARANA}, twin discs, 1 GPa, 60 °C: paraffinic; naphthenic", (0.047, 0.053)),
+    "pao": Typical(0.035, f"{_ARANA}, twin discs, 1 GPa, 60 °C; spread assumed", (0.030, 0.040)),
+    "ester": Typical(0.035, "assumption: as PAO, whose lubricant factor esters share", (0.030, 0.045)),
+    "pag": Typical(0.0315, "assumption: PAO's, by the ratio of Schlenk's lubricant factors", (0.025, 0.035)),
 }
 #: f_c, friction coefficient of touching asperities: the same of all types.
-BOUNDARY_FRICTION = Typical(0.065, (0.065, 0.12), f"{_ARANA}, boundary; others use up to 0.12 (Veciana)")
+BOUNDARY_FRICTION = Typical(0.065, f"{_ARANA}, boundary; others use up to 0.12 (Veciana)", (0.065, 0.12))
 #: X_L of the mean friction coefficient of ISO/TR 15144-1 and of Niemann. Of esters the standard lists only
 #: the phosphate ester, 1.3; of PAG 0.6 where they dissolve in water.
 LUBRICANT_FACTOR: dict[OilType, Typical] = {
-    "mineral": Typical(1.0, (1.0, 1.0), _STANDARD),
-    "pao": Typical(0.8, (0.8, 0.8), _STANDARD),
-    "ester": Typical(0.8, (0.8, 1.0), "assumption: as PAO; ISO/TR 15144-1 gives none"),
-    "pag": Typical(0.7, (0.6, 0.7), f"{_STANDARD}, not soluble in water; 0.6 soluble"),
+    "mineral": Typical(1.0, _STANDARD),
+    "pao": Typical(0.8, _STANDARD),
+    "ester": Typical(0.8, "assumption: as PAO; ISO/TR 15144-1 gives none", (0.8, 1.0)),
+    "pag": Typical(0.7, f"{_STANDARD}, not soluble in water; 0.6 soluble", (0.6, 0.7)),
 }
 _OPEN = "values of an open program for Schlenk's formula"
 #: X_L of Schlenk's mean friction coefficient.
 SCHLENK_FACTOR: dict[OilType, Typical] = {
-    "mineral": Typical(0.846, (0.846, 0.846), _OPEN),
-    "pao": Typical(0.65, (0.65, 0.65), _OPEN),
-    "ester": Typical(0.65, (0.65, 0.65), _OPEN),
-    "pag": Typical(0.585, (0.585, 0.585), _OPEN),
+    "mineral": Typical(0.846, _OPEN),
+    "pao": Typical(0.65, _OPEN),
+    "ester": Typical(0.65, _OPEN),
+    "pag": Typical(0.585, _OPEN),
 }
 
 
@@ -148,7 +137,7 @@ def by_type(kind: OilType) -> dict[str, Typical]:
     return {
         "limiting_shear_coefficient": LIMITING_SHEAR[kind],
         "asperity_friction": BOUNDARY_FRICTION,
-        "load_exponent": Typical(0.0, (0.0, 0.0), "the lubricant factor stands for it"),
+        "load_exponent": Typical(0.0, "the lubricant factor stands for it"),
         "lubricant_factor": LUBRICANT_FACTOR[kind],
         "schlenk_factor": SCHLENK_FACTOR[kind],
     }
@@ -217,17 +206,89 @@ class OilSheet:
         at_hand = "ASTM D341 and density over temperature"
         viscosity = put("inlet_viscosity", self.viscosity(temperature), f"kinematic by {at_hand}")
         put("density", density_at(self.density_15, temperature), f"density_15 - 0.7 (T - 289 K), {_STANDARD}")
-        source = "Gold et al. (2001)" if self.type == "ester" else PRESSURE_VISCOSITY[self.type].source
-        coefficient = put(
-            "pressure_viscosity", self.pressure_viscosity(temperature), f"{source}, {self.type} oil"
-        )
-        put(
-            "viscosity_pressure_index",
-            roelands_index(coefficient, viscosity),
-            "pressure_viscosity and inlet_viscosity, Roelands",
-        )
+        source = f"{'Gold et al. (2001)' if self.type == 'ester' else _STANDARD}, {self.type} oil"
+        coefficient = put("pressure_viscosity", self.pressure_viscosity(temperature), source)
+        index = roelands_index(coefficient, viscosity)
+        put("viscosity_pressure_index", index, "pressure_viscosity and inlet_viscosity, Roelands")
         slope = temperature_viscosity_at(self.viscosity_40, self.viscosity_100, self.density_15, temperature)
         put("temperature_viscosity", slope, f"slope of {at_hand}")
         for name, usual in by_type(self.type).items():
-            put(name, usual.value, usual.source, usual.real_spread)
+            put(name, usual.value, usual.source, usual.spread)
         return found
+
+
+#: Where the defaults of `LubricantData` are from.
+DEFAULTS = {
+    "load_exponent": "default: mineral oil 75W90 (Diez-Ibarbia et al.)",
+    "lubricant_factor": "default: the load exponent stands for it",
+    "schlenk_factor": "default: mineral oil",
+}
+
+
+@dataclass(frozen=True)
+class FzgStages:
+    """Failure load stages of an oil in FZG's tests; None where the data sheet gives none."""
+
+    scuffing: int | None = None  # test A/8.3/90 (ISO 14635-1)
+    micropitting: int | None = None  # test C-GF/8.3/90 (FVA 54/7)
+    micropitting_temperature: float = 363.15  # oil temperature of the latter, K
+
+
+@dataclass(frozen=True)
+class LubricantData:
+    """Lubricant and asperities, as film and friction laws make their parameters of them."""
+
+    asperity_friction: float  # f_c, friction coefficient of the asperities
+    limiting_shear_coefficient: float  # Λ_lim, limiting shear stress over pressure
+    inlet_viscosity: float  # η0, dynamic viscosity at inlet temperature and ambient pressure, Pa s
+    pressure_viscosity: float  # α_PV, 1/Pa
+    viscosity_pressure_index: float  # z of Roelands' law
+    temperature_viscosity: float  # K_T, 1/K
+    density: float  # kg/m³; used by ISO/TR 14179-1 and by Veciana's variant of the Péclet number
+    #: d of Niemann's lubricant factor X_L w^−d; 0.0651 of mineral oil 75W90 (Diez-Ibarbia et al.)
+    load_exponent: float = 0.0651
+    lubricant_factor: float = 1.0  # X_L of Niemann's mean friction coefficient and of ISO/TR 15144-1
+    schlenk_factor: float = 0.846  # X_L of Schlenk's mean friction coefficient; default: mineral oil
+    temperature: Any = None  # at which the numbers hold, K; None: not given
+    type: OilType | None = None  # of an oil without a data sheet, where it is given
+    given: frozenset[str] | None = None  # numbers that are neither of the type nor defaults; None: all
+    sheet: OilSheet | None = None  # the data sheet that they come from, where they do
+    fzg: FzgStages = FzgStages()
+    #: temperature of the oil around the gears, K, where the numbers are those at the teeth's bulk
+    #: temperature: mean friction coefficients read the viscosity there
+    supply: Any = None
+
+
+def lubricant_from(sheet: OilSheet, temperature: Any, fzg: FzgStages = FzgStages()) -> LubricantData:
+    """Return the numbers of an oil at a temperature (K), from its data sheet."""
+    numbers = {name: number.value for name, number in sheet.values(temperature).items()}
+    return LubricantData(**numbers, temperature=temperature, sheet=sheet, fzg=fzg)
+
+
+def lubricant_at(lubricant: LubricantData, temperature: Any) -> LubricantData:
+    """Return the numbers of the same oil at another temperature (K); ValueError without a data sheet."""
+    if lubricant.sheet is None:
+        raise ValueError("a lubricant without a data sheet is known at one temperature only")
+    return lubricant_from(lubricant.sheet, temperature, lubricant.fzg)
+
+
+def lubricant_around(lubricant: LubricantData) -> LubricantData:
+    """Return the numbers of the oil around the gears, where the teeth are warmer than it."""
+    return lubricant if lubricant.supply is None else lubricant_at(lubricant, lubricant.supply)
+
+
+def oil_values(lubricant: LubricantData) -> dict[str, OilValue]:
+    """Numbers of a lubricant by name, with their origin, whether from a data sheet or given."""
+    if lubricant.sheet is not None:
+        return lubricant.sheet.values(lubricant.temperature)
+    typical = by_type(lubricant.type) if lubricant.type is not None else {}
+    found = {}
+    for name, unit in UNITS.items():
+        value, usual = getattr(lubricant, name), typical.get(name)
+        if lubricant.given is None or name in lubricant.given:
+            found[name] = OilValue(value, unit, GIVEN)
+        elif usual is not None:
+            found[name] = OilValue(value, unit, usual.source, usual.spread)
+        else:
+            found[name] = OilValue(value, unit, DEFAULTS[name])
+    return found

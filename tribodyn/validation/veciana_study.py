@@ -14,7 +14,7 @@ from tribodyn.tribology.contact import Surfaces
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import Closure, LawInput
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.oil import LubricantData
 
 #: Readings of the friction laws. "A" is the mixed law as printed: Roelands at the mean pressure, sliding
 #: speed in the Péclet numbers; "B" has the maximum pressure and each surface's own speed.

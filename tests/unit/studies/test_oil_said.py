@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.studies.gears.check import oil_data, oil_remarks, oil_table
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.oil import LubricantData
 
 
 @pytest.fixture(scope="module")

@@ -22,8 +22,7 @@ from tribodyn.tribology.closure import (
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmData, FrictionData
-from tribodyn.tribology.lubricant import lubricant_from
-from tribodyn.tribology.oil import OilSheet
+from tribodyn.tribology.oil import OilSheet, lubricant_from
 
 R1, R2, ALPHA, WIDTH = 34.5e-3, 70.5e-3, math.radians(20.0), 20e-3
 OMEGA, TORQUE = 10.0, 500.0

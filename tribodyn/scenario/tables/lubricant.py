@@ -5,7 +5,6 @@ from typing import Any, cast
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.tables.model_files import Lubricant
-from tribodyn.tribology.lubricant import FzgStages, LubricantData, lubricant_from
 from tribodyn.tribology.oil import (
     MAXIMUM_VISCOSITY,
     MINIMUM_VISCOSITY,
@@ -13,9 +12,12 @@ from tribodyn.tribology.oil import (
     TEMPERATURE_RANGE,
     UNITS,
     ZERO_CELSIUS,
+    FzgStages,
+    LubricantData,
     OilSheet,
     by_type,
     kinematic_viscosity,
+    lubricant_from,
 )
 
 #: What is taken for an oil: densities at 15 °C, kg/m³, and the kinematic viscosity at 40 °C at most, m²/s.

@@ -18,7 +18,7 @@ from tribodyn.studies.protocol.cost import (
     steady_states,
     total,
 )
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.oil import LubricantData
 
 _ALONG = ("roll_angle",)
 

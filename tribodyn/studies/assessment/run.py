@@ -27,7 +27,7 @@ from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
-from tribodyn.tribology.lubricant import oil_values
+from tribodyn.tribology.oil import oil_values
 
 #: What is no number, or has the unit of what is compared; what ends the name of a scatter.
 WITHOUT_UNIT, SPREAD_OF = ("limits", "samples"), "_spread"

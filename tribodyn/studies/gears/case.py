@@ -18,7 +18,7 @@ from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.losses import LossData
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.oil import LubricantData
 
 TRIBOLOGY = quantities(
     "film_min",

@@ -24,8 +24,15 @@ from tribodyn.tribology.closure import (
 )
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.law import Closure
-from tribodyn.tribology.lubricant import LubricantData, oil_values
-from tribodyn.tribology.oil import GIVEN, T_40, T_100, ZERO_CELSIUS, kinematic_viscosity
+from tribodyn.tribology.oil import (
+    GIVEN,
+    T_40,
+    T_100,
+    ZERO_CELSIUS,
+    LubricantData,
+    kinematic_viscosity,
+    oil_values,
+)
 from tribodyn.tribology.surface_state import range_shares
 
 #: The same for one of many cases: without values, so that equal remarks can be counted.

@@ -25,8 +25,7 @@ from tribodyn.tribology.bulk_temperature import (
     network_temperatures,
 )
 from tribodyn.tribology.losses import Loss, LossData, Wheel, losses_of_pair
-from tribodyn.tribology.lubricant import LubricantData, lubricant_at
-from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, specific_heat
+from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, LubricantData, lubricant_at, specific_heat
 
 #: Difference of temperatures that is not worth another motion, K; motions of a case at most.
 CLOSE, MOST_MOTIONS = 0.1, 5

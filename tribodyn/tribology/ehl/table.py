@@ -1,29 +1,159 @@
 """The solved contact over the duty of a mesh: polynomials in the logarithms of load, speed, radius, sliding.
 
-Contacts all over the duty are solved, mixed and with heat. Fitted by polynomials of the powers `TERMS` are
-the logarithm of the central film, the asperities' share, and of the film's friction coefficient μ_f below
-that at the limiting stress, μ_l, ln(μ_f/(μ_l − μ_f)), which is nearly even in all variables. A part of the
-contacts is not fitted but compared: their deviation is the table's error.
+Contacts all over the duty are solved, mixed and with heat, by one process per core. Fitted by polynomials of
+the powers `TERMS` are the logarithm of the central film, the asperities' share, and of the film's friction
+coefficient μ_f below that at the limiting stress, μ_l, ln(μ_f/(μ_l − μ_f)), which is nearly even in all
+variables. A part of the contacts is not fitted but compared: their deviation is the table's error.
 """
 
 import hashlib
+import math
+import pickle
+import sys
+from contextlib import suppress
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.numerics import child
 from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.elementary import is_jax
 from tribodyn.numerics.shapes import Array
 from tribodyn.numerics.sources import digest_of
+from tribodyn.numerics.work import steps, usable_cores
 from tribodyn.tribology.contact import DutyRange, hertz_half_width
+from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid import Fluid, Rheology
 from tribodyn.tribology.ehl.heat import HeatProperties
 from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, most_of_film
-from tribodyn.tribology.ehl.points import Contact, solve_all, spread
+from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.law import LawInput
+
+if TYPE_CHECKING:
+    import subprocess
+
+#: Grid's step of the contacts: the film within 0.05 %, friction within 1.5 % where pressures are low.
+STEP = 0.12
+#: Of the contacts along a path one in so many is spread over the whole box, so that no polynomial goes astray
+#: beside the path.
+BOXED = 6
+#: Departures from the path that vibrations make: of ln curvature and of ln slide-to-roll ratio.
+_BESIDE = (0.02, 0.1)
+#: Contacts that a process of its own is worth.
+_WORTH = 40
+
+
+class Contact(NamedTuple):
+    """What is the same in all contacts of a table; numbers alone, so that it has a hash."""
+
+    fluid: Fluid
+    effective_modulus: float
+    roughness: Roughness
+    rheology: Rheology
+    thermal: HeatProperties
+
+
+def spread(duty: DutyRange, count: int) -> tuple[Array, Array]:
+    """Return duties (count, 4), logarithms as in `DutyRange`, and whether each lies along the path.
+
+    Along a path, curvature and slide-to-roll ratio belong together, and entrainment with both up to the
+    speed: the contacts crowd there, with every load and speed of the range. They alone may be compared.
+    """
+    from scipy.stats import qmc
+
+    sequence: Any = qmc.Sobol
+    points = sequence(6, seed=1).random(2 ** max(count - 1, 1).bit_length())[:count]
+    # towards the ends of each range, where polynomials go astray first
+    ended = 0.5 - 0.5 * np.cos(math.pi * points)
+    ends = np.log(np.array(duty[:4]))
+    low, width = ends[:, 0], np.diff(ends, axis=1)[:, 0]
+    found = low + width * ended[:, :4]
+    if not duty.places:
+        return found, np.ones(count, dtype=bool)
+    along = np.arange(count) % BOXED != 0
+    path = np.log(np.maximum(np.array(duty.places), [0.0, 0.0, duty.slide_to_roll[0]]))
+    step = np.diff(path, axis=0) / np.maximum(width[1:], 1e-6)
+    way = np.concatenate([[0.0], np.cumsum(np.sqrt(np.sum(step * step, axis=1)))])
+    place = ended[:, 1] * way[-1]
+    on_path = np.stack([np.interp(place, way, values) for values in path.T], axis=1)
+    slowest, fastest = ends[1] - np.array([path[:, 0].min(), path[:, 0].max()])
+    beside = (2.0 * points[:, 4:] - 1.0) * _BESIDE
+    on_path += np.column_stack([slowest + (fastest - slowest) * ended[:, 2], beside])
+    found[along, 1:] = on_path[along]
+    return np.clip(found, ends[:, 0], ends[:, 1]), along
+
+
+def solve_one(contact: Contact, duty: Array) -> Array:
+    """Ln of film, ln of friction coefficient, and the asperities' share at a duty; NaN: none found."""
+    line_load, entrainment, curvature, ratio = map(math.exp, duty)
+    problem = LineContact(
+        line_load,
+        1.0 / curvature,
+        entrainment,
+        contact.fluid,
+        contact.effective_modulus,
+        ratio * entrainment,
+        contact.roughness,
+    )
+    try:
+        found = solve_coupled(problem, contact.rheology, contact.thermal, step=STEP)
+    except SimulationError:
+        return np.full(3, np.nan)
+    gap = np.interp(0.0, found.solution.place, found.solution.mean_gap)
+    friction = max(found.friction / line_load, 1e-12)
+    return np.array([math.log(gap), math.log(friction), found.solution.asperity_load_ratio])
+
+
+def solve_all(contact: Contact, duties: Array) -> Array:
+    """Return `solve_one` of each duty, (count, 3), by this process and one more per further core."""
+    workers = max(1, min(usable_cores(), len(duties) // _WORTH))
+    values = np.full((len(duties), 3), np.nan)
+    others = [_begun(contact, duties[number::workers]) for number in range(1, workers)]
+    try:
+        for at in steps(range(0, len(duties), workers)):
+            values[at] = solve_one(contact, duties[at])
+        for number, process in enumerate(others, start=1):
+            known = _answer(process)
+            rows = range(number, len(duties), workers)
+            if known is None:  # it could not be begun, or was killed
+                known = [solve_one(contact, duties[row]) for row in rows]
+            values[rows] = known
+    except KeyboardInterrupt as error:
+        error.add_note("nothing is kept of the table of solved contacts, the same call solves them anew")
+        raise
+    finally:
+        for process in others:
+            if process is not None:
+                child.end(process)
+    return values
+
+
+def _begun(contact: Contact, duties: Array) -> "subprocess.Popen[bytes] | None":
+    with suppress(OSError):
+        process = child.start(f"{__name__}:serve")
+        with suppress(OSError):
+            child.tell(process, pickle.dumps((contact, duties)))
+        return process
+    return None
+
+
+def _answer(process: "subprocess.Popen[bytes] | None") -> Array | None:
+    if process is None:
+        return None
+    assert process.stdout is not None
+    answer = process.stdout.read()
+    return pickle.loads(answer) if process.wait() == 0 else None
+
+
+def serve() -> None:
+    """Solve what comes in, pickled, and write the solutions; in a child process."""
+    contact, duties = pickle.load(sys.stdin.buffer)
+    values = np.array([solve_one(contact, duty) for duty in duties])
+    pickle.dump(values, sys.stdout.buffer)
+
 
 #: Deviation of film and friction that a table aims at, of 95 % of the compared contacts.
 WANTED = 0.01
@@ -62,19 +192,12 @@ class ContactTable(NamedTuple):
     solved: float
 
 
+@lru_cache(maxsize=16)
 def table_over(contact: Contact, duty: DutyRange) -> ContactTable:
     """Return the table, from this process, from the cache, or made.
 
-    Raises
-    ------
-    SimulationError
-        If too few of the contacts can be solved.
+    Raises SimulationError if too few of the contacts can be solved.
     """
-    return _table(contact, duty)
-
-
-@lru_cache(maxsize=16)
-def _table(contact: Contact, duty: DutyRange) -> ContactTable:
     digest = hashlib.sha256(digest_of(__name__) + repr((contact, duty)).encode()).hexdigest()
     made = lambda: _made(contact, duty)._asdict()  # noqa: E731
     found = arrays_kept_or_made("ehl", digest, made)
@@ -148,40 +271,21 @@ def _solved(powers: Array, known: Array, weight: Array) -> Array:
 def contact_of(given: LawInput) -> Contact:
     """Return what all contacts of a case have in common, from its surfaces, oil and materials.
 
-    The film slips at the oil's limiting shear stress Λ p beside `Rheology`'s floor.
-
-    Raises
-    ------
-    InputError
-        If a derivative by one of these numbers is asked for: a table is of one oil and one pair of surfaces.
+    The film slips at the oil's limiting shear stress Λ p beside `Rheology`'s floor. Raises InputError if a
+    derivative by one of these numbers is requested: a table is of one oil and one pair of surfaces.
     """
     surfaces, oil = given.surfaces, given.lubricant
-    numbers = [
-        *(
-            oil.inlet_viscosity,
-            oil.pressure_viscosity,
-            oil.viscosity_pressure_index,
-            surfaces.effective_modulus,
-        ),
-        *(
-            surfaces.roughness,
-            oil.asperity_friction,
-            oil.limiting_shear_coefficient,
-            oil.temperature_viscosity,
-        ),
+    numbers = (
+        *(oil.inlet_viscosity, oil.pressure_viscosity, oil.viscosity_pressure_index, oil.asperity_friction),
+        *(oil.limiting_shear_coefficient, oil.temperature_viscosity),
+        *(surfaces.effective_modulus, surfaces.roughness),
         *(surfaces.pinion_conductivity, surfaces.gear_conductivity),
         *(surfaces.pinion_heat_capacity, surfaces.gear_heat_capacity),
-    ]
-    if any(is_jax(number) for number in numbers):
-        raise InputError(
-            "film.law",
-            '"solved"',
-            "has no derivative by oil or surfaces",
-            "use a law of formulas, or differences",
-        )
-    eta, alpha, index, modulus, height, rubbing, limit, hot, k_1, k_2, c_1, c_2 = (
-        float(number) for number in numbers
     )
+    if any(is_jax(number) for number in numbers):
+        remedy = "use a law of formulas, or differences"
+        raise InputError("film.law", '"solved"', "has no derivative by oil or surfaces", remedy)
+    eta, alpha, index, rubbing, limit, hot, modulus, height, k_1, k_2, c_1, c_2 = map(float, numbers)
     return Contact(
         Fluid(eta, alpha, min(index, 1.0)),
         modulus,

@@ -14,7 +14,6 @@ from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import closure, duty_range, with_laws
 from tribodyn.tribology.contact import DutyRange, local_contact
-from tribodyn.tribology.ehl import points
 from tribodyn.tribology.ehl import table as tables
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, polynomial
@@ -44,9 +43,9 @@ def power_laws(contact, duties):
 def by_powers(monkeypatch, tmp_path):
     monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path))
     monkeypatch.setattr(tables, "solve_all", power_laws)
-    tables._table.cache_clear()
+    tables.table_over.cache_clear()
     yield
-    tables._table.cache_clear()
+    tables.table_over.cache_clear()
 
 
 def test_polynomial_is_the_sum_of_its_terms(rng):
@@ -76,8 +75,8 @@ def test_contacts_crowd_along_the_path():
     place = np.linspace(-1.0, 1.0, 41)
     places = [(0.15 + 0.02 * one, 200.0 * math.exp(one), 0.7 * abs(one)) for one in place]
     duty = DutyRange((1e5, 6e5), (0.13 * 0.8, 0.17 * 1.2), (73.0, 550.0), (0.02, 0.8), tuple(places))
-    found, along = points.spread(duty, 120)
-    assert np.mean(along) == pytest.approx(1 - 1 / points.BOXED, abs=0.01)
+    found, along = tables.spread(duty, 120)
+    assert np.mean(along) == pytest.approx(1 - 1 / tables.BOXED, abs=0.01)
     load, speed, curvature, ratio = np.exp(found).T
     for values, (low, high) in zip((load, speed, curvature, ratio), duty[:4], strict=True):
         assert low * (1 - 1e-12) <= values.min() < 1.1 * low
@@ -94,29 +93,29 @@ def test_contacts_crowd_along_the_path():
     # load, speed and place each go their own way
     ways = np.corrcoef(np.log([load[along], speeds, curvature[along]]))
     assert np.max(np.abs(ways - np.eye(3))) < 0.12
-    many, along = points.spread(duty, 512)
+    many, along = tables.spread(duty, 512)
     assert np.all(np.diff(np.sort(many[along, 2])) < 0.1)
-    assert points.spread(duty, 65)[0].shape == (65, 4)
-    assert points.spread(duty, 1)[0].shape == (1, 4)
-    box, all_of_it = points.spread(duty._replace(places=()), 64)
+    assert tables.spread(duty, 65)[0].shape == (65, 4)
+    assert tables.spread(duty, 1)[0].shape == (1, 4)
+    box, all_of_it = tables.spread(duty._replace(places=()), 64)
     assert box.shape == (64, 4)
     assert np.all(all_of_it)
     # denser towards the ends, by half a cosine: a third in either outer quarter of every variable
     middle, half = box_of(duty)
-    wide = (points.spread(duty._replace(places=()), 512)[0] - middle) / half
+    wide = (tables.spread(duty._replace(places=()), 512)[0] - middle) / half
     np.testing.assert_allclose(np.mean(wide < -0.5, axis=0), 1 / 3, atol=0.01)
     np.testing.assert_allclose(np.mean(wide > 0.5, axis=0), 1 / 3, atol=0.01)
     np.testing.assert_allclose(np.mean(wide < 0.0, axis=0), 1 / 2, atol=0.01)
 
 
 def test_processes_solve_what_one_solves(monkeypatch):
-    contact, (duties, _) = tables.contact_of(LIU_NI), points.spread(DUTY, 4)
-    monkeypatch.setattr(points, "usable_cores", lambda: 2)
-    monkeypatch.setattr(points, "_WORTH", 2)
-    found = points.solve_all(contact, duties)
-    np.testing.assert_array_equal(found, [points.solve_one(contact, one) for one in duties])
+    contact, (duties, _) = tables.contact_of(LIU_NI), tables.spread(DUTY, 4)
+    monkeypatch.setattr(tables, "usable_cores", lambda: 2)
+    monkeypatch.setattr(tables, "_WORTH", 2)
+    found = tables.solve_all(contact, duties)
+    np.testing.assert_array_equal(found, [tables.solve_one(contact, one) for one in duties])
     monkeypatch.setattr(sys, "executable", "no such program")
-    np.testing.assert_array_equal(points.solve_all(contact, duties), found)
+    np.testing.assert_array_equal(tables.solve_all(contact, duties), found)
 
 
 def test_a_table_is_kept(by_powers, monkeypatch, tmp_path):
@@ -125,7 +124,7 @@ def test_a_table_is_kept(by_powers, monkeypatch, tmp_path):
     first = tables.table_over(contact, DUTY)
 
     def again():
-        tables._table.cache_clear()
+        tables.table_over.cache_clear()
         found = tables.table_over(contact, DUTY)
         for one, other in zip(first, found, strict=True):
             np.testing.assert_array_equal(one, other)
@@ -165,7 +164,7 @@ def test_error_of_a_table_of_solved_contacts():
     assert found.film_error < 0.01
     assert found.friction_error < 0.01
     contact = tables.contact_of(LIU_NI)
-    state = points.solve_one(contact, np.log([3e5, 0.15, 112.0, 0.3]))
+    state = tables.solve_one(contact, np.log([3e5, 0.15, 112.0, 0.3]))
     laws = closure(LIU_NI._replace(duty=lambda: DUTY), FILM_LAWS["solved"], FRICTION_LAWS["solved"])
     known = surface_state(local_contact(3e5, 112.0, 0.15, 0.045, 0.1725, 0.1275), laws)
     assert math.log(known.central_film_thickness) == pytest.approx(state[0], abs=0.01)
@@ -326,10 +325,10 @@ def stopped(*_, **__):
 
 def test_a_solution_of_a_table_is_that_of_its_duty(monkeypatch):
     """Mean gap on the line of centres, friction over load, the asperities' share; NaN where there is none."""
-    assert points.STEP == 0.12
-    monkeypatch.setattr(points, "STEP", 0.5)
+    assert tables.STEP == 0.12
+    monkeypatch.setattr(tables, "STEP", 0.5)
     contact = tables.contact_of(LIU_NI)
-    found = points.solve_one(contact, np.log([2.7e5, 0.21, 93.0, 0.35]))
+    found = tables.solve_one(contact, np.log([2.7e5, 0.21, 93.0, 0.35]))
     problem = LineContact(
         2.7e5, 1 / 93.0, 0.21, contact.fluid, contact.effective_modulus, 0.35 * 0.21, contact.roughness
     )
@@ -338,5 +337,5 @@ def test_a_solution_of_a_table_is_that_of_its_duty(monkeypatch):
     expected = [math.log(gap), math.log(own.friction / 2.7e5), own.solution.asperity_load_ratio]
     np.testing.assert_allclose(found, expected, rtol=1e-6)
     wanted = np.log([2.7e5, 0.21, 93.0, 0.35])
-    monkeypatch.setattr(points, "solve_coupled", stopped)
-    assert np.all(np.isnan(points.solve_one(contact, wanted)))
+    monkeypatch.setattr(tables, "solve_coupled", stopped)
+    assert np.all(np.isnan(tables.solve_one(contact, wanted)))
