@@ -1,5 +1,6 @@
 """A case of a search: everything that one run needs to know, and the names of its keys and duties."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -31,6 +32,11 @@ class Free(NamedTuple):
     def continuous(self) -> bool:
         """Whether it takes all values between its bounds."""
         return not (self.whole or self.choices)
+
+    @property
+    def number_of_values(self) -> float:
+        """How many values it has."""
+        return math.inf if self.continuous else self.high - self.low + 1.0
 
 
 class Objective(NamedTuple):

@@ -1,11 +1,11 @@
 """What a search takes, before any work."""
 
-from tribodyn.studies.design.candidates.archive import resolutions
+from tribodyn.studies.design.candidates.archive import FACTORS, resolutions
 from tribodyn.studies.design.candidates.candidates import Overrides, cases_of, chosen, start_of
 from tribodyn.studies.design.candidates.converged import counts
 from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.layout import FACTORS, layout_of, names_of, scales_of
+from tribodyn.studies.design.layout import layout_of, names_of, scales_of
 from tribodyn.studies.design.methods import method_of
 from tribodyn.studies.protocol.cost import Driver, Estimate, record_bytes
 

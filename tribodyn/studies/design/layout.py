@@ -9,7 +9,7 @@ from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of
-from tribodyn.studies.design.candidates.archive import Candidate, Unfinished
+from tribodyn.studies.design.candidates.archive import FACTORS, Candidate, Unfinished
 from tribodyn.studies.design.candidates.candidates import Overrides, samples_of, shapes_gears, value_at
 from tribodyn.studies.design.candidates.evaluation import Figures
 from tribodyn.studies.design.candidates.sources import units_by_figure
@@ -23,9 +23,6 @@ OBJECTIVES = ("objective", "objective_2")
 LOWER, UPPER = "objective_lower", "objective_upper"
 #: Dataset of the figures of the base scenario as it stands.
 START_FIGURES = "start_figures"
-#: Resolutions over that of the scenario, none a multiple of the one before: the same positions would give the
-#: same extremes. The first is searched on, the others are those of the last stage.
-FACTORS = (1, 2, 5, 11, 23, 47)
 #: Dataset of the resolution of every evaluation.
 REFINEMENT = "refinement"
 #: Share of its range by which a free key is moved about the best.

@@ -10,7 +10,7 @@ import tomli_w
 
 from tribodyn.errors import printable
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
-from tribodyn.studies.design.candidates.archive import Archive, Candidate, front
+from tribodyn.studies.design.candidates.archive import Archive, Candidate
 from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.candidates.sources import standing
 from tribodyn.studies.design.case import DesignCase
@@ -98,7 +98,7 @@ def headline(case: DesignCase, archive: Archive, searched: Archive | None = None
     summary["figures_start"] = dict(scoring.at_start)
     summary["figures_best"] = dict(best.score.figures)
     if len(case.objectives) > 1:
-        points = front(archive.evaluations)
+        points = archive.front()
         summary["front"] = {
             "points": len(points),
             "objective": [point.score.objectives[0] for point in points],
@@ -124,7 +124,7 @@ def chosen_best(case: DesignCase, archive: Archive) -> Candidate | None:
     """The best candidate; of a front the one that is nearest to the best of both objectives."""
     if len(case.objectives) == 1:
         return archive.best()
-    points = front(archive.evaluations)
+    points = archive.front()
     if not points:
         return None
     columns = list(zip(*(point.score.objectives for point in points), strict=True))

@@ -9,7 +9,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
-from tribodyn.studies.design.candidates.candidates import PROFILE_ERROR
+from tribodyn.studies.design.candidates.candidates import PITCH_ERRORS, PROFILE_ERROR
 from tribodyn.studies.design.candidates.sources import (
     Sources,
     figure_name,
@@ -292,11 +292,12 @@ def _tolerance(place: str, table: Any, sources: Sources) -> Tolerance:
         raise InputError(f"{place}.plus_minus", None, "missing", 'add plus_minus = "…" with its unit')
     kind = kind_at(schema, key)
     kind = kind._replace(allowed="any") if isinstance(kind, Kind) else None
-    if kind is None and not table.key.endswith(PROFILE_ERROR):
+    is_curve = table.key.endswith((PITCH_ERRORS, PROFILE_ERROR))
+    if kind is None and not is_curve:
         _require(f"{place}.key", (table.key,), (table.plus_minus,), sources)
     size, unit, units = _number(f"{place}.plus_minus", table.plus_minus, kind)
     written = quoted(table.plus_minus)
-    if table.key.endswith(PROFILE_ERROR) and units != "m":
+    if is_curve and units != "m":
         raise InputError(f"{place}.plus_minus", written, "not a length", "write such as 3 um")
     if size <= 0:
         raise InputError(f"{place}.plus_minus", written, "not positive", "write such as 1 um")

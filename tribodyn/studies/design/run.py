@@ -1,9 +1,7 @@
 """From a case of a search to its record: every evaluation, the best, and what was evaluated about it."""
 
-from collections.abc import Iterator
-from concurrent.futures import Future
-from contextlib import ExitStack, contextmanager, suppress
-from functools import partial
+from contextlib import ExitStack, suppress
+from functools import cache
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -16,21 +14,28 @@ from tribodyn.record.reader import open_record
 from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import RecordWriter, check_target
 from tribodyn.studies.design.candidates.archive import (
+    FACTORS,
     Archive,
     Candidate,
-    Levels,
     Moved,
     SpentError,
     Unfinished,
     resolutions,
 )
-from tribodyn.studies.design.candidates.candidates import cases_of, chosen, shares_of, start_of
+from tribodyn.studies.design.candidates.candidates import cases_of, chosen, samples_of, shares_of, start_of
 from tribodyn.studies.design.candidates.converged import Converged, converged
-from tribodyn.studies.design.candidates.evaluation import Cluster, Evaluators, Figures, Pool, workers_for
-from tribodyn.studies.design.candidates.scoring import SLACK, Scoring
-from tribodyn.studies.design.case import DesignCase
+from tribodyn.studies.design.candidates.evaluation import (
+    Answer,
+    Cluster,
+    Evaluators,
+    Figures,
+    Pool,
+    workers_for,
+)
+from tribodyn.studies.design.candidates.scoring import SLACK
+from tribodyn.studies.design.candidates.sources import standing
+from tribodyn.studies.design.case import DesignCase, Free
 from tribodyn.studies.design.layout import (
-    FACTORS,
     LOWER,
     MOVED,
     START_FIGURES,
@@ -45,7 +50,49 @@ from tribodyn.studies.design.layout import (
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, signed, write_best
 from tribodyn.studies.protocol.recording import target, writer
-from tribodyn.studies.protocol.study import Progress, RunResult
+from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
+
+
+def check(case: DesignCase) -> CheckResult:
+    """Check a case and say what is searched."""
+    name, reason = method_of(case)
+    starts = [standing(case.scenarios, free.keys[0]) for free in case.free]
+    rows = [
+        (", ".join(free.keys), "–" if start is None else str(start), _bounds(free))
+        for free, start in zip(case.free, starts, strict=True)
+    ]
+    cases = len(case.duties) * len(samples_of(case))
+    wanted = [objective.name.removeprefix("-") for objective in case.objectives]
+    more = case.objectives[0].name.startswith("-")
+    data = {
+        "free": {key: _bounds(free) for free in case.free for key in free.keys},
+        "objective": wanted,
+        "subject_to": [constraint.text for constraint in case.constraints],
+        "method": name,
+        "cases_per_evaluation": cases,
+    }
+    tables = (
+        TextTable("Free keys", ("key", "start", "range"), rows),
+        TextTable(
+            "Search",
+            ("", ""),
+            (
+                ("maximise" if more else "minimise", " and ".join(wanted)),
+                *(("part", f"{name}: {part.get('title', '')}") for name, part in case.parts.items()),
+                *(("subject to", constraint.text) for constraint in case.constraints),
+                ("method", f"{name}: {reason}"),
+                ("evaluations", f"{case.search.evaluations} at most, {cases} cases each"),
+            ),
+        ),
+    )
+    return CheckResult(data, tables)
+
+
+def _bounds(free: Free) -> str:
+    """The range of a free key in words."""
+    if free.choices:
+        return ", ".join(map(str, free.choices))
+    return f"{free.low:g} … {free.high:g} {free.unit}".rstrip()
 
 
 def run(
@@ -65,89 +112,81 @@ def run(
     name, reason = method_of(case)
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
     before = _unfinished(case, path) if resume and not force else None
-    best_of = partial(write_best, case, record=path, force=force)
     check_targets(case, path, force)
-    force = force or before is not None
+    replace = force or before is not None
     before = before or Unfinished()
-    path = target(case, path, force)
+    path = target(case, path, replace)
     begun = perf_counter()
     with ExitStack() as stack:
-        pool, start = stack.enter_context(_started(case, before.start.get(1), client))
+        pool = stack.enter_context(_pool(case, client))
+        start = before.start.get(1) or pool.submit(cases_of(case, {})).result()
         before = before._replace(start={**before.start, 1: start})
         names = names_of(case, start)
         room = sum(map(len, before.known.values())) + len(FACTORS) * case.search.evaluations
-        scales = scales_of(case, names)
-        how: dict[str, Any] = {"scales": scales, "force": force, "code": computing_digest()}
+        how: dict[str, Any] = {"scales": scales_of(case, names), "force": replace, "code": computing_digest()}
         record = stack.enter_context(writer(case, path, layout_of(case), room, **how))
-
-        def started(factor: int, of: Figures) -> None:
-            record.put(FACTORS.index(factor), {START_FIGURES: figure_rows(names, of)})
 
         def keep(candidate: Candidate) -> None:
             record.write(record.written, rows_of(case, names, [candidate], record.written))
             if progress:
                 progress(min(1.0, record.written / case.search.evaluations))
 
-        levels = Levels(case, pool, before, started, keep)
-        archive = searched = levels.at(1)
+        @cache
+        def at(factor: int) -> Archive:
+            archive = Archive(case, pool, keep, factor, before)
+            record.put(FACTORS.index(factor), {START_FIGURES: figure_rows(names, archive.scoring.start)})
+            return archive
+
+        archive = at(1)
         for factor in sorted(before.known):
-            known = levels.at(factor).recorded
-            record.write(record.written, rows_of(case, names, known, record.written))
+            record.write(record.written, rows_of(case, names, at(factor).recorded, record.written))
 
         def so_far(**more: Any) -> dict[str, Any]:
-            where = {"engine": pool.name, "workers": pool.workers}
-            figures = {"method": name, "method_reason": reason, **where}
-            wall = {"wall_time": perf_counter() - begun}
-            return headline(case, archive, searched) | figures | more | wall
+            where = {"method": name, "method_reason": reason, "engine": pool.name, "workers": pool.workers}
+            return headline(case, archive, at(1)) | where | more | {"wall_time": perf_counter() - begun}
 
         try:
-            _search(case, archive, name)
-            end = converged(case, levels, name)
+            _search(case, at(1), name)
+            end = converged(case, at, name)
             archive = end.archive
             best = chosen_best(case, archive)
             if best is None:
                 message = _why_none(case, archive)
                 return RunResult(record.fail(message, so_far()), "failed", message, so_far())
-            summary = so_far(
-                **_resolved(case, searched, end, best),
-                **_about(case, archive, pool, best, before.moved, record),
-            )
+            about = _about(case, archive, pool, best, before.moved, record)
+            summary = so_far(**_resolved(case, at(1), end, best), **about)
         except KeyboardInterrupt as error:
-            archive.close()
             best = chosen_best(case, archive)
             kept = record.fail(str(error) or "interrupted by the user", so_far())
             if best is not None:
-                error.add_note(f"the best so far: {best_of({**best.values, **archive.more})[0]}")
+                files = write_best(case, {**best.values, **archive.more}, path, force)
+                error.add_note(f"the best so far: {files[0]}")
             error.add_note(f"the {record.written} evaluations so far: {kept}, --resume goes on")
             raise
-        files = best_of({**best.values, **archive.more})
-        names = [*(f"toml_{name}" if name else "toml" for name in case.scenarios), "dxf"]
-        summary["files"] = dict(zip(names, map(str, files), strict=False))
+        files = write_best(case, {**best.values, **archive.more}, path, force)
+        kinds = [*(f"toml_{name}" if name else "toml" for name in case.scenarios), "dxf"]
+        summary["files"] = dict(zip(kinds, map(str, files), strict=False))
         return RunResult(record.finish(summary, trim=True), "complete", "", summary)
 
 
 def figures(case: DesignCase) -> dict[str, Any]:
-    """Figures of a search without a record; raises SimulationError where nothing is feasible."""
+    """Quantities of a search without a record; raises SimulationError where nothing is feasible."""
     name, _ = method_of(case)
-    with _started(case) as (pool, start):
-        levels = Levels(case, pool, Unfinished(start={1: start}))
-        _search(case, levels.at(1), name)
-        end = converged(case, levels, name)
-        found = headline(case, end.archive, levels.at(1))
+    with _pool(case) as pool:
+        at = cache(lambda factor: Archive(case, pool, factor=factor))
+        _search(case, at(1), name)
+        end = converged(case, at, name)
+        found = headline(case, end.archive, at(1))
         if "objective" not in found:
             raise SimulationError(_why_none(case, end.archive))
         return found
 
 
-@contextmanager
-def _started(
-    case: DesignCase, start: Figures | None = None, client: Any = None
-) -> Iterator[tuple[Evaluators, Figures]]:
-    """Give what evaluates candidates, and the figures of the base scenario's cases as it stands."""
-    cases = cases_of(case, {})
-    workers = workers_for(case.search.evaluations * len(cases))
-    with Cluster(case.scenarios, client) if client else Pool(case.scenarios, workers) as pool:
-        yield pool, start or pool.submit(cases).result()
+def _pool(case: DesignCase, client: Any = None) -> Evaluators:
+    """What evaluates candidates; a context manager."""
+    if client:
+        return Cluster(case.scenarios, client)
+    return Pool(case.scenarios, workers_for(case.search.evaluations * len(cases_of(case, {}))))
 
 
 def _search(case: DesignCase, archive: Archive, name: str) -> None:
@@ -207,30 +246,32 @@ def _about(
 
     What stands in `moved`, of the search that this one goes on from, is not evaluated again.
     """
-    shares = shares_of(case, best.values)
-    waiting: list[tuple[int, str, Future[Figures]]] = []
-    for place, free in enumerate(case.free if case.sensitivities else ()):
-        for name, step in ((LOWER, -MOVED), (UPPER, MOVED)):
-            if (place, name) in moved:
-                continue
-            changed = shares.copy()
-            changed[place] = np.clip(changed[place] + step, 0.0, 1.0)
-            values = chosen(case, changed) if free.continuous else best.values
-            waiting.append((place, name, archive.found_of(values)))
-    for place in range(len(case.tolerances) if case.sensitivities else 0):
-        for name, side in ((LOWER, -1.0), (UPPER, 1.0)):
-            if (len(case.free) + place, name) not in moved:
-                figures = pool.submit(cases_of(case, best.values, archive.more, alone=(place, side)))
-                waiting.append((len(case.free) + place, name, figures))
+    shares, keys = shares_of(case, best.values), len(case.free)
+
+    def found(place: int, side: float) -> Answer:
+        if place >= keys:
+            return pool.submit(cases_of(case, best.values, archive.more, alone=(place - keys, side)))
+        if not case.free[place].continuous:
+            return archive.found_of(best.values)
+        changed = shares.copy()
+        changed[place] = np.clip(changed[place] + side * MOVED, 0.0, 1.0)
+        return archive.found_of(chosen(case, changed))
+
+    def objective(found: Figures) -> float:
+        return archive.scoring.score(found).objectives[0]
+
+    places = range(keys + len(case.tolerances)) if case.sensitivities else ()
+    waiting = {
+        (place, name): found(place, side)
+        for place in places
+        for name, side in ((LOWER, -1.0), (UPPER, 1.0))
+        if (place, name) not in moved
+    }
     ends = [{}, best.values] if case.confirm else []
     confirming = [pool.submit(cases_of(case, values, {**archive.more, **case.confirm})) for values in ends]
     for (place, name), value in moved.items():
         record.put(place, {name: value})
-    for place, name, figures in waiting:
-        record.put(place, {name: _objective(archive.scoring, figures.result())})
-    confirmed = [_objective(archive.scoring, figures.result()) for figures in confirming]
+    for (place, name), answer in waiting.items():
+        record.put(place, {name: objective(answer.result())})
+    confirmed = [objective(answer.result()) for answer in confirming]
     return {"objective_start_confirmed": confirmed[0], "objective_confirmed": confirmed[1]} if ends else {}
-
-
-def _objective(scoring: Scoring, found: Figures) -> float:
-    return scoring.score(found).objectives[0]

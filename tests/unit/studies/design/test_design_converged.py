@@ -1,13 +1,14 @@
 """A search ends on a resolution at which its figure stands."""
 
 from concurrent.futures import Future
+from functools import cache
 from typing import Any
 
 import pytest
 
 import tribodyn as td
 from tribodyn.studies import study_of
-from tribodyn.studies.design.candidates.archive import Levels
+from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.candidates.candidates import share_of
 from tribodyn.studies.design.candidates.converged import converged
 from tribodyn.studies.design.estimate import estimate
@@ -69,8 +70,6 @@ TWO = {
 class Sampled:
     """A pool of which figures at (x, y) are 3 + x + y and 3 - x + y, but for errors of first order."""
 
-    name, workers = "sampled", 1
-
     def __init__(self) -> None:
         self.asked: list[tuple[int, float, float]] = []
 
@@ -92,14 +91,14 @@ class Sampled:
 def test_a_front_is_that_of_a_resolution_at_which_all_its_members_stand():
     """(0, 0.02) only seems to be better than (0.01, 0); (2, 0) only seems to keep the constraint."""
     case, pool = loaded_search("load-contact-18-36", TWO, {}).case, Sampled()
-    levels = Levels(case, pool)
+    at = cache(lambda factor: Archive(case, pool, factor=factor))  # pyright: ignore[reportArgumentType]
     for values in ((-1.0, 0.0), (0.0, 0.02), (0.01, 0.0), (1.0, 0.0), (2.0, 0.0), (0.5, 0.8)):
-        levels.at(1).score([share_of(one, value) for one, value in zip(case.free, values, strict=True)])
-    before, searched = len(pool.asked), headline(case, levels.at(1))["front"]
+        at(1).score([share_of(one, value) for one, value in zip(case.free, values, strict=True)])
+    before, searched = len(pool.asked), headline(case, at(1))["front"]
     assert searched["objective"] == pytest.approx([2.0, 2.97, 4.0, 5.0])
-    end = converged(case, levels, "epsilon-constraint")
+    end = converged(case, at, "epsilon-constraint")
     assert (end.archive.factor, end.stands, end.evaluations) == (5, True, 9)
-    found = headline(case, end.archive, levels.at(1))
+    found = headline(case, end.archive, at(1))
     assert found["front"]["objective"] == pytest.approx([2.0, 3.01, 4.0])
     assert found["front"]["objective_2"] == pytest.approx([4.0, 2.99, 2.0])
     assert found["evaluations"] == 6

@@ -12,6 +12,7 @@ from tribodyn.studies.design.candidates.candidates import BEYOND, cases_of, chos
 from tribodyn.studies.design.candidates.evaluation import evaluate, loaded_case
 from tribodyn.studies.design.short_form import loaded_search
 
+PITCH = "drive.pinion.modification.pitch_errors"
 PROFILE, DISTANCE = "drive.gear.modification.profile_error", "drive.centre_distance"
 FREE = [{"key": "drive.pinion.profile_shift", "from": 0.0, "to": 0.2}]
 EFFICIENCY = "efficiency-involute-18-36"
@@ -76,6 +77,22 @@ def test_one_tolerance_alone_leaves_the_others_as_they_stand():
     assert PROFILE in other
 
 
-def test_a_profile_deviates_by_a_length():
+def test_every_tooth_deviates_by_itself_within_its_bounds():
+    given = {"free": FREE, "minimise": "peak_to_peak", "robust": {"samples": 2}}
+    given["tolerance"] = [{"key": PITCH, "plus_minus": "3 um"}]
+    short = {"output.positions_per_cycle": 8, "mesh.slices": 3}
+    case = loaded_search("load-contact-18-36", given, short).case
+    cases = cases_of(case, chosen(case, [0.3]))
+    errors = np.array([[float(error.removesuffix(" um")) for error in one[PITCH]] for one in cases])
+    assert errors.shape == (2, 18)
+    assert np.abs(errors).max() <= 3.0
+    assert np.ptp(errors, axis=0).min() > 0.0
+    rows: list[Any] = evaluate(case.scenarios, cases)
+    assert rows[0]["contact_ratio"] == rows[1]["contact_ratio"]
+    assert rows[0]["face_load_factor"] > 0.0
+
+
+@pytest.mark.parametrize("key", [PROFILE, PITCH])
+def test_a_curve_deviates_by_a_length(key: str):
     with pytest.raises(InputError, match="not a length"):
-        search({"key": PROFILE, "plus_minus": "3 N"})
+        search({"key": key, "plus_minus": "3 N"})

@@ -1,6 +1,7 @@
 """Methods on functions whose minima are known; nothing is evaluated twice."""
 
 from concurrent.futures import Future
+from contextlib import suppress
 from importlib.util import find_spec
 from typing import Any
 
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.studies.design.candidates.archive import Archive, front
+from tribodyn.studies.design.candidates.archive import Archive, SpentError
 from tribodyn.studies.design.candidates.candidates import start_of
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import chosen_best, headline
@@ -38,15 +39,20 @@ class Formulas:
         return future
 
 
-def search(formulas: Formulas, **design: Any) -> tuple[Archive, list[Any]]:
+def archive_of(formulas: Formulas, **design: Any) -> tuple[Archive, list[Any]]:
     free = [{"key": key, "from": -1.0, "to": 1.0} for key in KEYS]
     keys = {"free": free, **({} if "maximise" in design else {"minimise": F}), **design}
     case = loaded_search("load-contact-18-36", keys, {}).case
-    start = formulas.submit([{}]).result()
     kept: list[Any] = []
-    archive = Archive(case, start, formulas, kept.append)  # pyright: ignore[reportArgumentType]
-    archive.score(start_of(case))
-    METHODS[method_of(case)[0]](archive, start_of(case))
+    return Archive(case, formulas, kept.append), kept  # pyright: ignore[reportArgumentType]
+
+
+def search(formulas: Formulas, **design: Any) -> tuple[Archive, list[Any]]:
+    archive, kept = archive_of(formulas, **design)
+    case = archive.case
+    with suppress(SpentError):
+        archive.score(start_of(case))
+        METHODS[method_of(case)[0]](archive, start_of(case))
     return archive, kept
 
 
@@ -128,7 +134,7 @@ def test_a_front():
         **{F: lambda x, y: 1e-3 + x * x + y * y, H: lambda x, y: 1e-3 + (x - 1.0) ** 2 + y * y}
     )
     archive, _ = search(formulas, minimise=[F, H], evaluations=500)
-    points = front(archive.evaluations)
+    points = archive.front()
     objectives = np.array([one.score.objectives for one in points]) - 1e-3
     assert len(points) > 7
     np.testing.assert_allclose(np.sqrt(objectives).sum(axis=1), 1.0, atol=0.08)
@@ -137,6 +143,33 @@ def test_a_front():
     best = chosen_best(archive.case, archive)
     assert best is not None
     np.testing.assert_allclose(values_of(best), [0.5, 0.0], atol=0.2)
+
+
+def test_the_front_is_what_nothing_is_better_than():
+    """Of whole numbers, so that some are equal; those with x + y < -0.5 miss the constraint."""
+    formulas = Formulas(
+        **{
+            F: lambda x, _: 7.0 + round(5.0 * x),
+            H: lambda x, y: 9.0 - round(5.0 * x) + round(3.0 * y),
+            G: lambda x, y: x + y,
+        }
+    )
+    archive, _ = archive_of(formulas, minimise=[F, H], subject_to=[f"{G} >= -0.5"])
+    archive.score_all(list(np.random.default_rng(5).random((60, 2))))
+    feasible = [one for one in archive.evaluations if sum(values_of(one)) >= -0.5]
+    objectives = {one.score.objectives for one in feasible}
+    expected = {
+        one
+        for one in objectives
+        if not any(other != one and other[0] <= one[0] and other[1] <= one[1] for other in objectives)
+    }
+    found = archive.front()
+    assert [one.score.objectives for one in found] == sorted(expected)
+    assert 3 < len(expected) < len(objectives) < len(feasible) < 60
+    for one in found:  # of equal ones the first
+        assert one.numbers == min(
+            other.numbers for other in feasible if other.score.objectives == one.score.objectives
+        )
 
 
 def test_whole_numbers_are_all_tried_or_evolved():
@@ -176,7 +209,7 @@ def test_a_front_by_nsga2():
         **{F: lambda x, y: 1e-3 + x * x + y * y, H: lambda x, y: 1e-3 + (x - 1.0) ** 2 + y * y}
     )
     archive, _ = search(formulas, minimise=[F, H], method="nsga2", evaluations=400)
-    objectives = np.array([one.score.objectives for one in front(archive.evaluations)]) - 1e-3
+    objectives = np.array([one.score.objectives for one in archive.front()]) - 1e-3
     assert len(objectives) > 10
     np.testing.assert_allclose(np.sqrt(objectives).sum(axis=1), 1.0, atol=0.15)
 

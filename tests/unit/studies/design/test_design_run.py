@@ -2,6 +2,7 @@
 
 import shutil
 import tomllib
+from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,6 @@ import pytest
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
-from tribodyn.studies.design.candidates import archive, evaluation
 from tribodyn.studies.design.report import sentences
 from tribodyn.studies.pages.page import report
 
@@ -57,36 +57,42 @@ def test_what_a_search_leaves(tmp_path: Path):
     )
 
 
-def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    evaluated: list[Any] = []
+class Counting:
+    """A client of Dask that evaluates in this process, at once, and counts what it is given."""
 
-    class Counted(evaluation.Pool):
-        def submit(self, several: Any) -> Any:
-            evaluated.append(several)
-            return super().submit(several)
+    def __init__(self) -> None:
+        self.count = 0
 
-    monkeypatch.setattr("tribodyn.studies.design.run.Pool", Counted)
-    whole = search(tmp_path / "whole.h5")
-    of_whole = len(evaluated)
-    assert of_whole >= whole.evaluations + 1  # the start, and about the best what is not known
+    def scheduler_info(self, **_: Any) -> dict[str, Any]:
+        return {"workers": {}}
 
-    class Interrupted(archive.Archive):
-        def score_all(self, several: Any) -> Any:
-            if len(self.evaluations) > 3:
-                raise KeyboardInterrupt
-            return super().score_all(several)
+    def cancel(self, futures: list[Any]) -> None:
+        assert not futures
 
-    with monkeypatch.context() as patch:
-        patch.setattr("tribodyn.studies.design.candidates.archive.Archive", Interrupted)
-        with pytest.raises(KeyboardInterrupt) as stopped:
-            search(tmp_path / "stopped.h5")
+    def submit(self, function: Any, *given: Any, **_: Any) -> "Future[Any]":
+        self.count += 1
+        done: Future[Any] = Future()
+        done.set_result(function(*given))
+        return done
+
+
+def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path):
+    client = Counting()
+    whole = search(tmp_path / "whole.h5", client=client)
+    assert client.count >= whole.evaluations + 1  # the start, and about the best what is not known
+
+    def stop(share: float) -> None:
+        if share >= 0.4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt) as stopped:
+        search(tmp_path / "stopped.h5", progress=stop)
     assert any("the best so far" in note for note in stopped.value.__notes__)
     assert any("--resume goes on" in note for note in stopped.value.__notes__)
     with open_record(tmp_path / "stopped.partial.h5") as record:
         assert record.status == "failed"
         assert record.message == "interrupted by the user"
-        done = record.samples
-        assert 3 < done < whole.evaluations
+        assert record.samples == 4
         assert record.summary["objective"] == min(record["objective"])
         best = tomllib.loads((tmp_path / "stopped-best.toml").read_text(encoding="utf-8"))
         shift = record.summary["best"]["drive.pinion.profile_shift"]
@@ -101,12 +107,12 @@ def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkey
     with pytest.raises(InputError, match="computed by other code"):
         search(tmp_path / "other.h5", resume=True)
 
-    evaluated.clear()
-    gone_on = search(tmp_path / "stopped.h5", resume=True)
+    rest = Counting()
+    gone_on = search(tmp_path / "stopped.h5", resume=True, client=rest)
     assert gone_on.status == "complete"
     assert gone_on.best == whole.best
     assert (gone_on.data.objective.values == whole.data.objective.values).all()
-    assert len(evaluated) == of_whole - done - 1
+    assert rest.count == client.count - 4 - 1
 
 
 def test_a_front_without_duties_is_drawn_and_told(tmp_path: Path):

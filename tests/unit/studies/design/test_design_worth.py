@@ -1,4 +1,4 @@
-"""What a search makes of figures, in plain loops: objectives, margins, fronts, samples."""
+"""What a search makes of quantities, in plain loops: objectives, margins, samples."""
 
 from dataclasses import replace
 from functools import cache
@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from scipy.special import ndtr
 
-from tribodyn.studies.design.candidates.archive import Candidate, front
 from tribodyn.studies.design.candidates.candidates import samples_of
-from tribodyn.studies.design.candidates.scoring import Score, Scoring
+from tribodyn.studies.design.candidates.scoring import Scoring
 from tribodyn.studies.design.case import Constraint, DesignCase, Objective, Robust, Tolerance, WeightedDuty
 from tribodyn.studies.design.short_form import loaded_search
 
@@ -117,36 +116,6 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
             "c <= start": worst(FOUND, "c", 1.0),
         }
     )
-
-
-def evaluations(count: int, feasible: bool = False) -> list[Candidate]:
-    """Made up: coarse numbers, so that some are equal."""
-    rng = np.random.default_rng(5)
-    found = []
-    for number in range(count):
-        first = float(rng.integers(2, 12))
-        objectives = first, 14.0 - first + float(rng.integers(0, 4))
-        margin = 1.0 if feasible or rng.uniform() > 0.3 else -0.5
-        score = Score(objectives, (margin,), objectives[:1], {})
-        found.append(Candidate({"n": number}, (float(number),), [], score))
-    return found
-
-
-def test_the_front_is_what_nothing_is_better_than():
-    some = evaluations(60)
-    feasible = {one.score.objectives for one in some if one.score.margins[0] > 0}
-    expected = {
-        one
-        for one in feasible
-        if not any(other != one and other[0] <= one[0] and other[1] <= one[1] for other in feasible)
-    }
-    found = front(some)
-    assert [one.score.objectives for one in found] == sorted(expected)
-    assert len(expected) > 3
-    for one in found:  # of equal ones the first
-        assert one.numbers == min(
-            i.numbers for i in some if i.score.objectives == one.score.objectives and i.score.feasible
-        )
 
 
 def test_samples_fill_their_distributions_evenly():

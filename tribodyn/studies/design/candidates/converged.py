@@ -1,6 +1,6 @@
-"""The last stage of a search: finer, until the figure of the best no longer depends on the resolution.
+"""The last stage of a search: finer, until the quantity of the best no longer depends on the resolution.
 
-Methods search on the resolution of the scenario. Where the figure of the best changes on a finer one, the
+Methods search on the resolution of the scenario. Where the quantity of the best changes on a finer one, the
 best candidates are evaluated again and searched about on one that is `SEARCHED` times as fine, and the best
 of those on finer ones. Of a front its members, and what may be members on a finer resolution, are evaluated
 again; nothing is searched about them. Constraints and dominance are those of the last one.
@@ -12,58 +12,47 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.studies.design.candidates.archive import (
-    Archive,
-    Candidate,
-    Levels,
-    SpentError,
-    front,
-    resolutions,
-)
+from tribodyn.studies.design.candidates.archive import FACTORS, Archive, Candidate, SpentError, resolutions
 from tribodyn.studies.design.candidates.candidates import shares_of
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.layout import FACTORS
 from tribodyn.studies.design.methods import SMOOTH
 from tribodyn.studies.design.methods.local import RADIUS, Scalar, minimise
 
-#: Relative change of the figure from one resolution to the next, twice in a row, within which it stands. What
-#: is left of errors of first order is as much again.
+#: Relative change of the quantity from one resolution to the next, twice in a row, within which it stands.
+#: What is left of errors of first order is as much again.
 STANDS = 2.5e-3
 #: Factor at which is searched about the best.
 SEARCHED = FACTORS[2]
 #: Candidates that are evaluated on finer resolutions; share of `evaluations` of the search about the best.
 KEPT, SHARE = 6, 1 / 2
-#: Change of a figure below which no two differ.
+#: Change of a quantity below which no two differ.
 TINY = 1e-200
 #: Size of the first simplex about the best, as a share of the ranges.
 SIMPLEX = 0.01
 
 At = Callable[[int], Archive]
-"""Archives by factor, see `Levels`."""
+"""The archive of a factor, one of `FACTORS`: of each the same."""
 
 
 class Converged(NamedTuple):
     """Where a search ended."""
 
     archive: Archive  # of the last resolution
-    stands: bool | None = None  # whether the figures stand; None where that was not tested
+    stands: bool | None = None  # whether the quantities stand; None where that was not tested
     evaluations: int = 0  # on finer resolutions
 
 
-def converged(case: DesignCase, levels: Levels, method: str) -> Converged:
-    """Go on from what a search found until the figures of its best, or of its front, stand."""
-    archive = levels.at(1)
-    if not resolutions(case, 1) or archive.best() is None:
-        return Converged(archive)
-    if len(case.objectives) > 1:
-        factor, stands = _of_front(case, levels.at)
-    else:
-        factor, stands = _of_one(case, levels.at, method)
-    return Converged(levels.at(factor), stands, levels.finer)
+def converged(case: DesignCase, at: At, method: str) -> Converged:
+    """Go on from what a search found until the quantities of its best, or of its front, stand."""
+    if not resolutions(case, 1) or at(1).best() is None:
+        return Converged(at(1))
+    last, stands = _of_front(at) if len(case.objectives) > 1 else _of_best(at, method in SMOOTH)
+    finer = sum(len(at(factor).evaluations) for factor in FACTORS[1:] if factor <= last)
+    return Converged(at(last), stands, finer)
 
 
 def counts(case: DesignCase, method: str) -> dict[int, int]:
-    """How many candidates a search evaluates by factor, about; the figures may stand sooner."""
+    """How many candidates a search evaluates by factor, about; the quantities may stand sooner."""
     most = case.search.evaluations
     if len(case.objectives) > 1:
         each = 2 * max(KEPT, case.search.points)
@@ -73,34 +62,35 @@ def counts(case: DesignCase, method: str) -> dict[int, int]:
     return {1: most, 2: 1} | more | {SEARCHED: KEPT + about}
 
 
-def _of_one(case: DesignCase, at: At, method: str) -> tuple[int, bool]:
-    """Factor at which the figure of the best stands, and whether it does."""
-    some = _best_of(at(1), 1)
-    if _stands(some[0], [at(factor) for factor in FACTORS[:3]], case):
+def _of_best(at: At, smooth: bool) -> tuple[int, bool]:
+    """Factor at which the quantity of the best stands, and whether it does."""
+    if _stands(_best_of(at(1), 1)[0], [at(factor) for factor in FACTORS[:3]]):
         return SEARCHED, True
-    some = _asked(at(SEARCHED), _best_of(at(1), KEPT), case)
-    if method in SMOOTH:
+    some = _best_of(at(1), KEPT)
+    _evaluate(at(SEARCHED), some)
+    if smooth:
         _search_about(at(SEARCHED))
         some = _best_of(at(SEARCHED), KEPT) or some
     for number, factor in enumerate(FACTORS[3:], 3):
-        _asked(at(factor), some, case)
-        if at(factor).best() is None and method in SMOOTH:  # what held before fails here, by little
+        _evaluate(at(factor), some)
+        if at(factor).best() is None and smooth:  # what held before fails here, by little
             _search_about(at(factor), near=True)
         best = _best_of(at(factor), 1)
-        if best and _stands(best[0], [at(last) for last in FACTORS[number - 2 : number + 1]], case):
+        if best and _stands(best[0], [at(last) for last in FACTORS[number - 2 : number + 1]]):
             return factor, True
     return FACTORS[-1], False
 
 
-def _of_front(case: DesignCase, at: At) -> tuple[int, bool]:
-    """Factor at which both figures of every member of the front stand, and whether they do."""
+def _of_front(at: At) -> tuple[int, bool]:
+    """Factor at which both quantities of every member of the front stand, and whether they do."""
     for number, factor in enumerate(FACTORS[1:], 1):
         coarse, fine = at(FACTORS[number - 1]), at(factor)
-        members = _asked(fine, front(coarse.evaluations) or coarse.evaluations, case)
-        _asked(fine, _near(coarse, fine, members), case)
-        end = front(fine.evaluations)
+        members = coarse.front() or coarse.evaluations
+        _evaluate(fine, members)
+        _evaluate(fine, _near(coarse, fine, members))
+        end = fine.front()
         last = [at(each) for each in FACTORS[number - 2 : number + 1]] if number > 1 else []
-        if last and end and all(_stands(member, last, case) for member in end):
+        if last and end and all(_stands(member, last) for member in end):
             return factor, True
     return FACTORS[-1], False
 
@@ -127,17 +117,14 @@ def _near(coarse: Archive, fine: Archive, members: list[Candidate]) -> list[Cand
 
 def _best_of(archive: Archive, count: int) -> list[Candidate]:
     """The best feasible candidates, the nearest to holding where none is."""
-    some = [candidate for candidate in archive.evaluations if candidate.score.feasible]
-    some.sort(key=lambda candidate: (candidate.score.objectives[0], candidate.numbers))
     nearest = archive.nearest()
-    return some[:count] or ([nearest] if nearest else [])
+    return archive.feasible()[:count] or ([nearest] if nearest else [])
 
 
-def _asked(archive: Archive, some: list[Candidate], case: DesignCase) -> list[Candidate]:
-    """Evaluate candidates on another resolution; gives them back."""
+def _evaluate(archive: Archive, some: list[Candidate]) -> None:
+    """Evaluate candidates of another resolution, as many as there is room for."""
     with suppress(SpentError):
-        archive.score_all([shares_of(case, candidate.values) for candidate in some])
-    return some
+        archive.score_all([shares_of(archive.case, candidate.values) for candidate in some])
 
 
 def _search_about(archive: Archive, near: bool = False) -> None:
@@ -168,10 +155,10 @@ def _search_about(archive: Archive, near: bool = False) -> None:
         )
 
 
-def _stands(candidate: Candidate, levels: list[Archive], case: DesignCase) -> bool:
-    """Whether a candidate's figures change little from level to level; its constraints hold on the last."""
+def _stands(candidate: Candidate, levels: list[Archive]) -> bool:
+    """Whether a candidate's quantities change little from level to level; it is feasible on the last."""
     try:
-        several = [level.score(shares_of(case, candidate.values)) for level in levels]
+        several = [level.score(shares_of(level.case, candidate.values)) for level in levels]
     except SpentError:
         return False
     values = np.array([score.objectives for score in several])

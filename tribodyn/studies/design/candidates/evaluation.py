@@ -7,12 +7,12 @@ of text. They import nothing of the user's program, which a process of `multipro
 import copy
 import json
 import sys
-import threading
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, Self
+from queue import PriorityQueue
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics import child
@@ -32,6 +32,11 @@ if TYPE_CHECKING:
 ALTERNATIVES = (SPEEDS, LOADS)
 #: Stands for the file of a base scenario: what choices name is looked for from here.
 FILE = Path("scenario")
+#: Evaluations that a process of its own is worth.
+WORTH = 24
+
+Figures = list[dict[str, Any] | str]
+"""Quantities of cases by name; a text instead where one has none: why."""
 
 
 def loaded_case(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> Loaded:
@@ -56,8 +61,8 @@ def evaluate(
     scenarios: Mapping[str, Mapping[str, Any]],
     several: Sequence[Mapping[str, Any]],
     workers: int | None = None,
-) -> list[dict[str, Any] | str]:
-    """Figures of cases, numbers alone; a text instead where one fails: why.
+) -> Figures:
+    """Quantities of cases, numbers alone; a text instead where one fails: why.
 
     Parameters
     ----------
@@ -65,19 +70,19 @@ def evaluate(
     several : overrides of each case
     workers : threads of a study that evaluates cases together
     """
-    found: list[dict[str, Any] | str] = [{} for _ in several]
+    found: Figures = [{} for _ in several]
     for name, data in scenarios.items():
         schema = study_of(data).table(data)
         requests = [own(name, schema, overrides, scenarios) for overrides in several]
-        once = {json.dumps(request, sort_keys=True): request for request in requests}
+        keys = [json.dumps(request, sort_keys=True) for request in requests]
+        once = dict(zip(keys, requests, strict=True))
         known = dict(zip(once, _figures(data, list(once.values()), workers), strict=True))
-        for place, request in enumerate(requests):
-            found[place] = _with(found[place], name, known[json.dumps(request, sort_keys=True)])
+        found = [_with(whole, name, known[key]) for whole, key in zip(found, keys, strict=True)]
     return found
 
 
 def _with(known: dict[str, Any] | str, name: str, more: dict[str, Any] | str) -> dict[str, Any] | str:
-    """Figures of a case with those of one more scenario."""
+    """Quantities of a case with those of one more scenario."""
     if isinstance(known, str):
         return known
     if isinstance(more, str):
@@ -85,10 +90,8 @@ def _with(known: dict[str, Any] | str, name: str, more: dict[str, Any] | str) ->
     return known | {f"{name}.{figure}" if name else figure: value for figure, value in more.items()}
 
 
-def _figures(
-    data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None
-) -> list[dict[str, Any] | str]:
-    """Figures of cases of one scenario."""
+def _figures(data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None) -> Figures:
+    """Quantities of cases of one scenario."""
     cases: list[Any] = []
     for overrides in several:
         try:
@@ -120,7 +123,7 @@ def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) 
 
 
 def numbers(figures: Mapping[str, Any]) -> dict[str, float]:
-    """The figures that are single finite numbers."""
+    """The quantities that are single finite numbers."""
     return {
         name: float(value)
         for name, value in figures.items()
@@ -137,86 +140,60 @@ def serve() -> None:
         answers.flush()
 
 
-#: Evaluations that a process of its own is worth.
-WORTH = 24
-
-Figures = list[dict[str, Any] | str]
-
-
 def workers_for(evaluations: int) -> int:
     """How many evaluate side by side: one per core, fewer where there is little to do."""
     return max(1, min(usable_cores(), evaluations // WORTH))
 
 
-class Evaluators(Protocol):
-    """What evaluates candidates; a context manager."""
-
-    #: What the record says of it.
-    name: str
-    #: How many evaluate at a time.
-    workers: int
-
-    def submit(self, several: Sequence[Mapping[str, Any]]) -> Any:
-        """Evaluate cases by their overrides; gives what has their `Figures` as its ``result()``."""
-        ...
-
-
 class Pool:
-    """Evaluates lists of overrides; a context manager.
-
-    Parameters
-    ----------
-    scenarios : as `evaluation.evaluate` takes them
-    workers : how many at a time
-    """
+    """Evaluates lists of overrides, `workers` at a time; a context manager."""
 
     name = "native"
 
     def __init__(self, scenarios: Mapping[str, Mapping[str, Any]], workers: int) -> None:
-        self.scenarios = scenarios
         self.workers = workers
-        self._own = threading.local()
-        self._processes: list[subprocess.Popen[bytes]] = []
-        self._seats = list(range(workers))
-        self._lock = threading.Lock()
-        self._threads = ThreadPoolExecutor(workers, initializer=self._seat)
+        self._scenarios = scenarios
+        self._threads = ThreadPoolExecutor(workers)
+        #: those that are free, the first of which is this process, and the processes of the others
+        self._seats: PriorityQueue[int] = PriorityQueue()
+        self._processes: dict[int, subprocess.Popen[bytes]] = {}
+        for seat in range(workers):
+            self._seats.put(seat)
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
         self._threads.shutdown(wait=False, cancel_futures=True)
-        for process in self._processes:
+        for process in self._processes.values():
             child.end(process)
 
     def submit(self, several: Sequence[Mapping[str, Any]]) -> "Future[Figures]":
-        """Evaluate cases by their overrides, as `evaluation.evaluate` does."""
+        """Evaluate cases by their overrides, as `evaluate` does."""
         return self._threads.submit(self._evaluate, list(several))
 
-    def _seat(self) -> None:
-        """Give the first thread this process, every other one a process of its own."""
-        with self._lock:
-            seat = self._seats.pop(0)
-        self._own.process = None
-        if seat:
-            process = child.start(f"{evaluate.__module__}:serve")
-            with self._lock:
-                self._processes.append(process)
-            self._own.process = process
-            child.tell(process, _line(self.scenarios))
-
     def _evaluate(self, several: list[Mapping[str, Any]]) -> Figures:
-        process = self._own.process
-        if process is None:
-            return evaluate(self.scenarios, several, None if self.workers == 1 else 1)
+        seat = self._seats.get()
         try:
-            child.tell(process, _line(several))
-            answer = process.stdout.readline()
+            if seat == 0:
+                return evaluate(self._scenarios, several, None if self.workers == 1 else 1)
+            answer = self._answer(seat, several)
         except OSError:
             answer = b""
+        finally:
+            self._seats.put(seat)
         if not answer:
             raise SimulationError("a process that evaluates designs ended: out of memory, or killed")
         return json.loads(answer)
+
+    def _answer(self, seat: int, several: list[Mapping[str, Any]]) -> bytes:
+        """What the process of a seat answers; it is started for its first question."""
+        if seat not in self._processes:
+            self._processes[seat] = child.start(f"{evaluate.__module__}:serve")
+            child.tell(self._processes[seat], _line(self._scenarios))
+        process = self._processes[seat]
+        child.tell(process, _line(several))
+        return process.stdout.readline() if process.stdout else b""
 
 
 def _line(message: Any) -> bytes:
@@ -230,40 +207,43 @@ class Cluster:
 
     Parameters
     ----------
-    scenarios : as `evaluation.evaluate` takes them
     client : distributed.Client
     """
 
     name = "dask"
 
     def __init__(self, scenarios: Mapping[str, Mapping[str, Any]], client: Any) -> None:
-        self.scenarios = scenarios
-        self.client = client
         self.workers = workers_of(client)
+        self._scenarios = scenarios
+        self._client = client
         self._sent: list[Any] = []
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.client.cancel([future for future in self._sent if not future.done()])
+        self._client.cancel([future for future in self._sent if not future.done()])
 
     def submit(self, several: Sequence[Mapping[str, Any]]) -> "_Answer":
-        """Evaluate cases by their overrides, as `evaluation.evaluate` does."""
+        """Evaluate cases by their overrides, as `evaluate` does."""
         # impure: equal candidates of two searches must not be taken for one
-        sent = self.client.submit(evaluate, self.scenarios, list(several), 1, pure=False, retries=3)
+        sent = self._client.submit(evaluate, self._scenarios, list(several), 1, pure=False, retries=3)
         self._sent.append(sent)
         return _Answer(sent)
 
 
-class _Answer:
+class _Answer(NamedTuple):
     """What a worker of a cluster answers."""
 
-    def __init__(self, sent: Any) -> None:
-        self._sent = sent
+    sent: Any
 
     def result(self) -> Figures:
         try:
-            return self._sent.result()
+            return self.sent.result()
         except Exception as error:
             raise SimulationError(f"a worker of the cluster could not go on: {error!r}") from error
+
+
+Evaluators = Pool | Cluster
+Answer = Future[Figures] | _Answer
+"""What they give: it has the quantities of the cases as its ``result()``."""

@@ -1,5 +1,6 @@
 """The methods of a search, one sort a file; all of them ask the archive and return nothing."""
 
+import math
 from collections.abc import Callable
 from importlib.util import find_spec
 
@@ -11,7 +12,6 @@ from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.methods.local import derivatives_of, epsilon_constraint, local
 from tribodyn.studies.design.methods.population import (
     cma_es,
-    count_of_all,
     differential_evolution,
     every,
     nsga2,
@@ -58,10 +58,11 @@ def method_of(case: DesignCase) -> tuple[str, str]:
 def _fitting(case: DesignCase) -> tuple[str, str]:
     """The method that is wanted, or that fits, and why."""
     wanted = case.search.method
+    count = math.prod(free.number_of_values for free in case.free)
     smooth = all(free.continuous for free in case.free)
     two = len(case.objectives) == 2
     if wanted == "auto":
-        if not smooth and not two and count_of_all(case) <= case.search.evaluations:
+        if not smooth and not two and count <= case.search.evaluations:
             return "every", "few enough values to evaluate every one"
         if two:
             name = "epsilon-constraint" if smooth else "nsga2"
@@ -78,7 +79,7 @@ def _fitting(case: DesignCase) -> tuple[str, str]:
     if wanted in SMOOTH and not smooth:
         rule = "whole numbers and choices are free, which it cannot search"
         raise InputError("design.method", f'"{wanted}"', rule, "choose differential-evolution or nsga2")
-    if wanted == "every" and not count_of_all(case) <= case.search.evaluations:
+    if wanted == "every" and not count <= case.search.evaluations:
         rule = "there are more values than design.evaluations"
         raise InputError("design.method", f'"{wanted}"', rule, "choose another method, or more evaluations")
     return wanted, "chosen by the scenario"

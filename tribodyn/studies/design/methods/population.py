@@ -1,14 +1,12 @@
 """Global searches: differential evolution, CMA-ES, NSGA-II, every combination of numbers and choices."""
 
-import math
 from itertools import product
 from typing import Any
 
 import numpy as np
 
 from tribodyn.studies.design.candidates.archive import Archive
-from tribodyn.studies.design.case import DesignCase, Free
-from tribodyn.studies.design.methods.local import Scalar, ended_when_spent, sobol
+from tribodyn.studies.design.methods.local import Scalar, sobol
 
 #: Candidates in a generation per free key.
 PER_KEY = 6
@@ -24,20 +22,17 @@ def differential_evolution(archive: Archive, start: np.ndarray) -> None:
     first = sobol(count, size, case.search.seed)
     first[0] = np.clip(start, 0.0, 1.0)
 
-    def search() -> None:
-        evolve(
-            lambda shares: view.merits(list(np.atleast_2d(shares.T))),
-            bounds=[(0.0, 1.0)] * count,
-            init=first,  # pyright: ignore[reportArgumentType]
-            maxiter=case.search.evaluations,
-            tol=case.search.accuracy,
-            rng=np.random.default_rng(case.search.seed),
-            polish=False,
-            updating="deferred",
-            vectorized=True,
-        )
-
-    ended_when_spent(search)
+    evolve(
+        lambda shares: view.merits(list(np.atleast_2d(shares.T))),
+        bounds=[(0.0, 1.0)] * count,
+        init=first,  # pyright: ignore[reportArgumentType]
+        maxiter=case.search.evaluations,
+        tol=case.search.accuracy,
+        rng=np.random.default_rng(case.search.seed),
+        polish=False,
+        updating="deferred",
+        vectorized=True,
+    )
 
 
 def cma_es(archive: Archive, start: np.ndarray) -> None:
@@ -55,29 +50,16 @@ def cma_es(archive: Archive, start: np.ndarray) -> None:
     }
     strategy = cma.CMAEvolutionStrategy(np.clip(start, 0.05, 0.95), 0.25, settings)
 
-    def search() -> None:
-        while not strategy.stop():
-            candidates = strategy.ask()
-            strategy.tell(candidates, view.merits(candidates).tolist())
-
-    ended_when_spent(search)
-
-
-def count_of(free: Free) -> float:
-    """How many values a free key has."""
-    return math.inf if free.continuous else free.high - free.low + 1.0
-
-
-def count_of_all(case: DesignCase) -> float:
-    """How many combinations there are."""
-    return math.prod(count_of(free) for free in case.free)
+    while not strategy.stop():
+        candidates = strategy.ask()
+        strategy.tell(candidates, view.merits(candidates).tolist())
 
 
 def every(archive: Archive, _start: np.ndarray) -> None:
     """Evaluate every combination."""
     axes = []
     for free in archive.case.free:
-        count = int(count_of(free))
+        count = int(free.number_of_values)
         if free.choices:
             axes.append((np.arange(count) + 0.5) / count)
         else:
@@ -105,13 +87,5 @@ def nsga2(archive: Archive, start: np.ndarray) -> None:
             out["G"] = np.array(missed)
 
     size = max(16, PER_KEY * count)
-
-    def search() -> None:
-        minimize(
-            Wanted(),
-            NSGA2(pop_size=size),
-            ("n_gen", max(2, case.search.evaluations // size)),
-            seed=case.search.seed,
-        )
-
-    ended_when_spent(search)
+    generations = ("n_gen", max(2, case.search.evaluations // size))
+    minimize(Wanted(), NSGA2(pop_size=size), generations, seed=case.search.seed)
