@@ -17,8 +17,8 @@ from tribodyn.numerics.parameter import Variable
 from tribodyn.record import disk
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.record.sweep_schema import DONE, SweepLayout
-from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
+from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
+from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 
 SAMPLES = 30
 
@@ -140,7 +140,7 @@ def test_a_finished_record_that_cannot_get_its_name_is_kept(tmp_path: Path, monk
 HEAD = SweepHead(
     "title = 1\n",
     "0",
-    (ParameterScale("speed", "operating.pinion_speed", "rad/s", [1.0, 2.0, 3.0]),),
+    (VariedKey("speed", "operating.pinion_speed", "rad/s", [1.0, 2.0, 3.0]),),
     "x = 1\n",
     (),
     SweepLayout({"figure": Variable((), "1", "a figure")}),

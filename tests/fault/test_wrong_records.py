@@ -27,8 +27,8 @@ from tribodyn.post.style import house_style
 from tribodyn.post.sweep_report import sweep_as_json
 from tribodyn.record import soundness
 from tribodyn.record.sweep_reader import SweepRecord, open_any
-from tribodyn.record.sweep_schema import DONE, SweepLayout
-from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
+from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
+from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.studies import STUDIES
 from tribodyn.studies.pages import pictures as of
 from tribodyn.studies.pages.page import report, sweep_report
@@ -141,7 +141,7 @@ def test_a_sweep_goes_on_from_what_is_left_or_refuses_it(tmp_path: Path, monkeyp
     head = SweepHead(
         "title = 1\n",
         "0",
-        (ParameterScale("speed", "operating.pinion_speed", "rad/s", [1.0, 2.0, 3.0]),),
+        (VariedKey("speed", "operating.pinion_speed", "rad/s", [1.0, 2.0, 3.0]),),
         "x = 1\n",
         (),
         SweepLayout({"figure": Variable((), "1", "a figure")}),

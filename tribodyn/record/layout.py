@@ -110,11 +110,19 @@ def write_summary(file: h5py.File, summary: Mapping[str, Any], prefix: str = "")
 
 
 def encode(variable: Variable, values: Any) -> np.ndarray:
-    """Turn `values` into the numbers that the file holds; NaN into what stands for "nothing written"."""
-    values = np.asarray(values)
+    """Turn `values` into what the file holds: NaN of flags into "nothing written", texts cut to the room."""
+    kind, values = np.dtype(variable.dtype), np.asarray(values)
+    if kind.kind == "S" and values.dtype.kind in "OU":
+        return np.array([_cut(str(value), kind.itemsize) for value in values], kind)
     if variable.flags and values.dtype.kind == "f":
         values = np.where(np.isnan(values), variable.fill, values)
-    return np.ascontiguousarray(values, dtype=variable.dtype)
+    return values.astype(kind)
+
+
+def _cut(text: str, room: int) -> bytes:
+    """Bytes of a text, cut at a whole character."""
+    raw = text.encode()
+    return raw if len(raw) <= room else raw[: room - 3].decode(errors="ignore").encode() + "…".encode()
 
 
 def write_head(
@@ -192,7 +200,7 @@ def scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray) 
     """Write a dimension scale, and return it."""
     text = values.dtype.kind == "U"
     # of fixed length, because Octave stops reading at other strings; the attribute makes xarray decode
-    dataset = group.create_dataset(name, data=values.astype("S") if text else values)
+    dataset = group.create_dataset(name, data=np.char.encode(values, "utf-8") if text else values)
     if text:
         dataset.attrs["_Encoding"] = "utf-8"
     describe(dataset, variable)

@@ -4,7 +4,7 @@ import tomllib
 from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import h5py
 import numpy as np
@@ -13,17 +13,8 @@ from tribodyn.errors import InputError, harmless
 from tribodyn.record import schema
 from tribodyn.record.opened import OpenRecord, attributes, harmless_data, open_file
 from tribodyn.record.reader import Record, open_record
-from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING
+from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING, VariedKey
 from tribodyn.record.withheld import warnings_in
-
-
-class VariedKey(NamedTuple):
-    """A varied parameter: its dimension, its key in the scenario, SI unit and values."""
-
-    name: str
-    key: str
-    units: str
-    values: np.ndarray
 
 
 class SweepRecord(OpenRecord):

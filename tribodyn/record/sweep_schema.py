@@ -5,6 +5,8 @@ from enum import IntEnum
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.trust import NOT_JUDGED, TRUST
 
@@ -47,6 +49,15 @@ DIRECTION = Variable(
 )
 
 
+class VariedKey(NamedTuple):
+    """A varied parameter."""
+
+    name: str  # of its dimension
+    key: str  # in the scenario
+    units: str  # SI
+    values: Any  # numbers or texts; an array where a record is read
+
+
 class SweepLayout(NamedTuple):
     """What a sweep records of every case of a study."""
 
@@ -62,8 +73,6 @@ class SweepLayout(NamedTuple):
 
     def empty_rows(self, count: int) -> dict[str, Any]:
         """Rows of `count` cases without results."""
-        import numpy as np
-
         rows = {}
         for name, variable in self.variables.items():
             shape = (count, *(len(self.scales[dim][1]) for dim in variable.dims))

@@ -28,24 +28,13 @@ from tribodyn.record.schema import (
     require_same_code,
 )
 from tribodyn.record.soundness import UNREADABLE, check_sound, remember_own
-from tribodyn.record.sweep_schema import SWEEP, SweepLayout
+from tribodyn.record.sweep_schema import SWEEP, SweepLayout, VariedKey
 from tribodyn.record.withheld import cases_withheld
 from tribodyn.record.writer import check_target, conclude, refuse_existing
 from tribodyn.record.writing_lock import WritingLock, remove_orphans, scratch_path
 
 #: What the root says of a sweep that is not complete.
 NOTE = "the sweep is going on, or was stopped: cases whose status is 0 are still to be done"
-#: How NumPy's names of texts of fixed length begin.
-_TEXT = "S"
-
-
-class ParameterScale(NamedTuple):
-    """One varied parameter: its dimension's name, the key in the scenario, unit and values."""
-
-    name: str
-    key: str
-    units: str
-    values: Sequence[float] | Sequence[str]
 
 
 class SweepHead(NamedTuple):
@@ -54,7 +43,7 @@ class SweepHead(NamedTuple):
     #: scenario, sha256: the first case's scenario, resolved, and its digest
     scenario: str
     sha256: str
-    parameters: tuple[ParameterScale, ...]  # in the order of the dimensions
+    parameters: tuple[VariedKey, ...]  # in the order of the dimensions
     #: everything else that the results depend on, as TOML: a sweep is taken up only with the same
     settings: str
     directions: tuple[str, ...]  # "up", "down"; none where every case is on its own
@@ -137,7 +126,7 @@ class SweepWriter:
         runs = np.split(np.arange(len(cases)), np.flatnonzero(np.diff(cases) != 1) + 1)
         for name, variable in self._variables.items():  # status is the last of them
             place = self._places[name]
-            values = _encoded(variable, block[name])
+            values = layout.encode(variable, block[name])
             if values.shape != (len(cases), *place.row):
                 raise ValueError(f"{name}: shape {values.shape}, not {(len(cases), *place.row)}")
             try:
@@ -197,7 +186,7 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
                 full = full._replace(units=head.parameters[0].units or "1")
             dataset = layout.reserve(file, name, full, tuple(scales[dim].shape[0] for dim in full.dims))
             layout.attach(dataset, full, scales)
-            if _TEXT in variable.dtype:
+            if dataset.dtype.kind == "S":
                 dataset.attrs["_Encoding"] = "utf-8"
             places[name] = _case_place(dataset, len(head.dims))
             blanks.append(layout.blank_of(dataset, full))
@@ -221,13 +210,10 @@ def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, h5py.Dataset]:
 
 
 def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequence[Any]) -> h5py.Dataset:
-    """Numbers as they are; texts of fixed length, see `layout`."""
-    if isinstance(values[0], str):
-        dataset = layout.scale(file, name, variable, np.char.encode(np.array(values), "utf-8"))
-        dataset.attrs["_Encoding"] = "utf-8"
-        return dataset
-    numbers = np.asarray(values)
-    return layout.scale(file, name, variable, numbers if numbers.dtype.kind == "i" else numbers.astype("<f8"))
+    written = np.asarray(values)
+    return layout.scale(
+        file, name, variable, written if written.dtype.kind in "iU" else written.astype("<f8")
+    )
 
 
 def _case_place(dataset: h5py.Dataset, dims: int) -> layout.DataPlace:
@@ -272,17 +258,3 @@ def _found(dataset: Any, name: str, head: SweepHead) -> layout.DataPlace:
     if dataset.id.get_create_plist().get_layout() != h5py.h5d.CONTIGUOUS or not dataset.id.get_offset():
         raise ValueError(f"{name} has no place of its own")
     return _case_place(dataset, len(head.dims))
-
-
-def _encoded(variable: Variable, values: Any) -> np.ndarray:
-    """Values as the bytes that the file holds; texts cut to their room at a whole character."""
-    kind = variable.dtype
-    if _TEXT not in kind:
-        return np.ascontiguousarray(values, dtype=kind)
-    room = int(kind.removeprefix(_TEXT))
-    return np.array([_cut(str(value), room) for value in values], dtype=kind)
-
-
-def _cut(text: str, room: int) -> bytes:
-    raw = text.encode()
-    return raw if len(raw) <= room else raw[: room - 3].decode(errors="ignore").encode() + "…".encode()

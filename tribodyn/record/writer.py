@@ -189,13 +189,7 @@ class RecordWriter:
             raise ValueError(
                 f"block {start}…{start + length} does not follow {self.written} of {self.samples}"
             )
-        pieces = []
-        for name, values in block.items():
-            place = self._place[name]
-            array = file_layout.encode(self._variables[name], samples_withheld(name, values))
-            if array.shape != (length, *place.row):
-                raise ValueError(f"{name}: shape {array.shape}, not {(length, *place.row)}")
-            pieces.append((place.offset + start * place.stride, array))
+        pieces = [self._piece(name, values, start, (length,)) for name, values in block.items()]
         # last, so that whatever moment the process dies at, the count covers only what is there
         pieces.append((self._place["samples_written"].offset, np.array(start + length, dtype="<i8")))
         self._put_all(pieces)
@@ -203,16 +197,15 @@ class RecordWriter:
 
     def put(self, row: int, values: Mapping[str, Any]) -> None:
         """Put one row into datasets that lie along other axes (`schema.Layout.others`); raises as `write`."""
-        pieces = []
-        for name, value in values.items():
-            place = self._place[name]
-            array = file_layout.encode(self._variables[name], samples_withheld(name, value)).reshape(
-                np.shape(value)
-            )
-            if array.shape != place.row:
-                raise ValueError(f"{name}: shape {array.shape}, not {place.row}")
-            pieces.append((place.offset + row * place.stride, array))
-        self._put_all(pieces)
+        self._put_all([self._piece(name, value, row) for name, value in values.items()])
+
+    def _piece(self, name: str, values: Any, row: int, rows: tuple[int, ...] = ()) -> tuple[int, np.ndarray]:
+        """Where the values of a row, or of several from it on, go in the file, and what the file holds."""
+        place = self._place[name]
+        array = file_layout.encode(self._variables[name], samples_withheld(name, values))
+        if array.shape != (*rows, *place.row):
+            raise ValueError(f"{name}: shape {array.shape}, not {(*rows, *place.row)}")
+        return place.offset + row * place.stride, array
 
     def finish(self, summary: Mapping[str, Any], trim: bool = False) -> Path:
         """Add the summary, mark the record complete and give it its final name, which is returned.

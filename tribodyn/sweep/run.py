@@ -10,8 +10,8 @@ import numpy as np
 import tomli_w
 
 from tribodyn.errors import InputError
-from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, WAITING
-from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
+from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, WAITING, VariedKey
+from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.writer import check_target
 from tribodyn.scenario.vary import Axis
 from tribodyn.sweep.engines import Engine
@@ -123,7 +123,7 @@ def _can_be_followed(grid: Grid, directions: Sequence[str], unstable: bool) -> N
 
 
 def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:
-    scales = tuple(ParameterScale(axis.name, axis.key, axis.units, axis.values) for axis in grid.axes)
+    scales = tuple(VariedKey(axis.name, axis.key, axis.units, axis.values) for axis in grid.axes)
     described = {
         "vary": {axis.key: list(axis.written) for axis in grid.axes},
         "weights": {axis.name: _weights(grid, axis) for axis in grid.axes if axis.weighed},

@@ -18,8 +18,8 @@ from tribodyn.post.report import as_json
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.record.sweep_schema import DONE, SweepLayout
-from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
+from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
+from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.trust import (
     EXTRAPOLATED,
     INSIDE,
@@ -155,7 +155,7 @@ def test_the_record_says_so(tmp_path, outside):
 
 
 def test_a_sweep_says_it_case_by_case(tmp_path, outside):
-    scale = ParameterScale("speed", "operating.pinion_speed", "rad/s", (1.0, 2.0, 3.0))
+    scale = VariedKey("speed", "operating.pinion_speed", "rad/s", (1.0, 2.0, 3.0))
     layout = SweepLayout({"efficiency": QUANTITIES["efficiency"].variable()})
     head = SweepHead('kind = "efficiency"', "0", (scale,), "", (), layout)
     with SweepWriter(tmp_path / "sweep.h5", head) as writer:

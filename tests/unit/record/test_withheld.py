@@ -13,8 +13,8 @@ from tribodyn.post.report import as_json
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.record.sweep_schema import DONE, SweepLayout
-from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
+from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
+from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.withheld import is_efficiency, reason_to_withhold, samples_withheld, warnings, withheld
 from tribodyn.studies.pages.pictures import summary_table, sweep_table
 
@@ -103,7 +103,7 @@ def test_a_figure_that_an_older_version_wrote_is_not_shown(wrong):
 
 
 def test_a_sweep_withholds_it_case_by_case(tmp_path):
-    scale = ParameterScale("speed", "operating.pinion_speed", "rad/s", (1.0, 2.0, 3.0))
+    scale = VariedKey("speed", "operating.pinion_speed", "rad/s", (1.0, 2.0, 3.0))
     layout = SweepLayout({"efficiency": QUANTITIES["efficiency"].variable()})
     with SweepWriter(
         tmp_path / "sweep.h5", SweepHead('kind = "efficiency"', "0", (scale,), "", (), layout)

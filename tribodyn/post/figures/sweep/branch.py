@@ -15,8 +15,8 @@ from matplotlib.patches import Patch
 from tribodyn.errors import InputError
 from tribodyn.post.style import PALETTE, QUIET, literal
 from tribodyn.quantities.quantity import shown, shown_unit
-from tribodyn.record.sweep_reader import SweepRecord, VariedKey
-from tribodyn.record.sweep_schema import DONE
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE, VariedKey
 
 #: Branches that have a colour of the palette each; of more, colours follow their order.
 MOST_COLORS = 6
