@@ -118,7 +118,7 @@ def _mean_table(record: SweepRecord, columns: Sequence[Quantity]) -> list[Any]:
     return [Text(""), table]
 
 
-def sweep_said(record: SweepRecord) -> list[str]:
+def sweep_remarks(record: SweepRecord) -> list[str]:
     """What a sweep found besides its figures: cases, sorts of motion, ends of branches, failures."""
     return [*_head(record), *_tail(record)]
 

@@ -168,7 +168,14 @@ def series_data(series: Series) -> dict[str, Any]:
         curves.append(
             {"label": one.label, "y": packed(one.values), "i": None if whole else packed(one.places, "<u4")}
         )
-    return {"name": series.name, "title": series.title, "unit": series.unit, "curves": curves}
+    short = series.name.replace("_", " ")
+    return {
+        "name": series.name,
+        "title": series.title,
+        "unit": series.unit,
+        "curves": curves,
+        "short": short,
+    }
 
 
 class PageMap(NamedTuple):

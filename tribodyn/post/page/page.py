@@ -39,8 +39,8 @@ FIGURES = 4
 CYCLES = 2
 
 
-class Told(NamedTuple):
-    """What a record's study says of it."""
+class PageContent(NamedTuple):
+    """What a record's study has for its page."""
 
     reported: Reported  # quantities of its summary by heading
     sentences: Sequence[str]  # how far to trust it
@@ -53,84 +53,88 @@ class Told(NamedTuple):
     pictures: Sequence[tuple[str, str, Figure]] = ()  # sequence of (name, about, figure)
 
 
-def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) -> str:
+def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bool = True) -> str:
     """Write the page of records, which share their quantities; the first one's are the panels.
 
-    Parameters
-    ----------
-    records : open
-    told : of each
-    figures : whether there is more on the page than the teeth and what moves them: figures, summary, origin
-
-    Raises
-    ------
-    InputError
-        For a record without samples.
+    Without `figures` there is no more on it than the teeth and what moves them. Raises InputError for a
+    record without samples.
     """
     data = [_record(record, len(records)) for record in records]
-    if figures:
-        for one, record, what in zip(data, records, told, strict=True):
-            one["maps"] = [map_data(record, found) for found in what.maps]
-            if what.profiles:
-                one["profiles"] = profiles_data(record, what.profiles)
-                over_places = {row.name for row in what.profiles.rows}
-                one["series"] = [series for series in one["series"] if series["name"] not in over_places]
-    if not figures:
-        panels = (LOAD, *told[0].panels)
-        for one in data:
-            one["series"] = [
-                series for series in one["series"] if len(series["curves"]) > 1 or series["name"] in panels
+    for entry, record, content in zip(data, records, contents, strict=True):
+        if figures:
+            entry["maps"] = [map_data(record, found) for found in content.maps]
+            over_places: set[str] = set()
+            if content.profiles:
+                entry["profiles"] = profiles_data(record, content.profiles)
+                over_places = {row.name for row in content.profiles.rows}
+            entry["series"] = [series for series in entry["series"] if series["name"] not in over_places]
+        else:
+            kept = (LOAD, *contents[0].panels)
+            entry["series"] = [
+                series for series in entry["series"] if len(series["curves"]) > 1 or series["name"] in kept
             ]
-    names = [one["name"] for one in data[0]["series"]]
-    panels = [name for name in told[0].panels if name in names] or names[:FIGURES]
-    axis = records[0].axis
-    unit = data[0].pop("axis_unit")
-    for one in data[1:]:
-        one.pop("axis_unit")
-    payload = {"records": data, "panels": panels, "load": LOAD, "axis": f"{axis.replace('_', ' ')} ({unit})"}
-    title = " · ".join(dict.fromkeys(_title(record) for record in records))
+    units = [entry.pop("axis_unit") for entry in data]
+    names = [series["name"] for series in data[0]["series"]]
+    panels = [name for name in contents[0].panels if name in names] or names[:FIGURES]
+    axis = f"{records[0].axis.replace('_', ' ')} ({units[0]})"
+    several = len(records) > 1
     sections = {
-        "WARNINGS": "".join(warnings_of(record, len(records) > 1) for record in records),
-        "SUMMARY": summary_tables(records, [one.reported for one in told]) if figures else "",
+        "WARNINGS": "".join(warnings_of(record, several) for record in records),
+        "SUMMARY": summary_tables(records, [content.reported for content in contents]) if figures else "",
         "TRUST": "".join(
-            _list(record, one.sentences, len(records) > 1) for record, one in zip(records, told, strict=True)
+            _on_trust(record, content.sentences, several)
+            for record, content in zip(records, contents, strict=True)
         ),
-        "SHEET": _sheets(records, told) if figures else "",
-        "PICTURES": "".join(picture(*drawn) for one in told for drawn in one.pictures),
+        "SHEET": _sheets(records, contents) if figures else "",
+        "PICTURES": "".join(picture(*drawn) for content in contents for drawn in content.pictures),
         "ORIGIN": "".join(map(origin, records)) if figures else "",
+        "OVER": "Over the run",
     }
-    return assembled(title, payload, sections, figures)
+    payload = {"records": data, "panels": panels, "load": LOAD, "axis": axis}
+    return assembled(" · ".join(dict.fromkeys(map(title_of, records))), payload, sections, figures)
 
 
 def assembled(title: str, payload: dict[str, Any], sections: dict[str, str], figures: bool = True) -> str:
     """Put a page together of its title, its data and the HTML of its sections."""
     payload["figures"] = figures
     parts = {
-        **dict.fromkeys(("WARNINGS", "SUMMARY", "TRUST", "SHEET", "PICTURES", "ORIGIN"), ""),
-        "OVER": "Over the run",
         **sections,
         "TITLE": escape(title),
-        "STYLE": _file("page.css"),
         # no text of a record can end the element that holds it
         "DATA": json.dumps(payload, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
-        "PLOTLY": _plotly() if figures else "",
+        "PLOTLY": _file("package_data/plotly.min.js", "plotly") if figures else "",
         "SCRIPT": _file("page.js"),
     }
-    written = _file("page.html")
-    pieces = written.split("@")
     # every other piece is a name: what stands in for one is not looked through again
-    return "".join(parts[piece] if piece in parts else piece for piece in pieces)
+    body = "".join(parts.get(piece, piece) for piece in _file("page.html").split("@"))
+    policy = "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:"
+    return document(title, _file("page.css"), body, policy)
 
 
-def _file(name: str) -> str:
-    return resources.files(__package__ or "").joinpath(name).read_text(encoding="utf-8")
+def document(title: str, style: str, body: str, policy: str) -> str:
+    """Put a body (HTML) into a file that may load nothing but what the `policy` names."""
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; {policy}">
+<meta name="generator" content="tribodyn">
+<title>{escape(title)}</title>
+<style>{style}</style>
+</head>
+<body>
+{body}</body>
+</html>
+"""
 
 
-def _plotly() -> str:
-    return resources.files("plotly").joinpath("package_data/plotly.min.js").read_text(encoding="utf-8")
+def _file(name: str, package: str = __package__ or "") -> str:
+    return resources.files(package).joinpath(name).read_text(encoding="utf-8")
 
 
-def _title(record: Record) -> str:
+def title_of(record: Record | SweepRecord) -> str:
+    """What a record is about, and that it is unfinished where it is."""
     title = str(record.scenario.get("title", record.label))
     return title if record.status == "complete" else f"{title} [{record.status}]"
 
@@ -140,7 +144,6 @@ def _record(record: Record, count: int) -> dict[str, Any]:
     if not record.samples:
         rule = "holds no samples to draw"
         raise InputError("record", str(record.path), rule, "run the scenario again")
-    teeth = rolling_teeth(record)
     axis, unit = in_engineers_units(np.asarray(record[record.axis], dtype=float), record.units(record.axis))
     cycle = float(axis[-1] - axis[0]) / 20.0
     window = [float(axis[0]), float(axis[-1])]
@@ -150,9 +153,6 @@ def _record(record: Record, count: int) -> dict[str, Any]:
         window[0] = max(window[0], window[1] - CYCLES * cycle)
     elif record.axis == "phase":
         cycle = 1.0
-    series = [series_data(one) for one in series_of(record, count)]
-    for one in series:
-        one["short"] = one["name"].replace("_", " ")
     return {
         "label": record.label,
         "axis": packed(axis, "<f8"),
@@ -160,19 +160,18 @@ def _record(record: Record, count: int) -> dict[str, Any]:
         "cycle": cycle,
         "window": window,
         "start": window[0],
-        "series": series,
+        "series": [series_data(series) for series in series_of(record, count)],
         "outside": extrapolated(record),
         "trust": record.trust == trust.OUTSIDE,
-        "teeth": teeth,
+        "teeth": rolling_teeth(record),
     }
 
 
 def warnings_of(record: Record, named: bool) -> str:
     """Write what forbids to trust a record, a paragraph each; `named`: with its label."""
-    said = [*warnings(record.summary), *([record.message] if record.message else [])]
-    return "".join(
-        f'<p class="warning">{escape(f"{record.label}: " if named else "")}{escape(one)}</p>' for one in said
-    )
+    head = f"{record.label}: " if named else ""
+    found = [*warnings(record.summary), *([record.message] if record.message else [])]
+    return "".join(f'<p class="warning">{escape(head + warning)}</p>' for warning in found)
 
 
 def summary_tables(records: Sequence[Record], reported: Sequence[Reported]) -> str:
@@ -207,33 +206,36 @@ def _cell(record: Record, quantity: Quantity) -> str:
     return "" if value is None else quantity.written(value)
 
 
-def _list(record: Record, sentences: Sequence[str], named: bool) -> str:
+def _on_trust(record: Record, sentences: Sequence[str], named: bool) -> str:
     heading = f"<h3>{escape(record.label)}</h3>" if named else ""
-    marks = [' class="note"' if one.startswith(EXCEEDED) else "" for one in sentences]
-    items = (f"<li{mark}>{escape(one)}</li>" for mark, one in zip(marks, sentences, strict=True))
+    marks = [' class="note"' if sentence.startswith(EXCEEDED) else "" for sentence in sentences]
+    items = (f"<li{mark}>{escape(sentence)}</li>" for mark, sentence in zip(marks, sentences, strict=True))
     return f"{heading}<ul>{''.join(items)}</ul>"
 
 
-def _sheets(records: Sequence[Record], told: Sequence[Told]) -> str:
+def _sheets(records: Sequence[Record], contents: Sequence[PageContent]) -> str:
     """Tables of the gears of every record, equal ones once."""
     found: dict[str, list[str]] = {}
-    for record, one in zip(records, told, strict=True):
-        if one.tables:
-            found.setdefault("".join(table(*part) for part in one.tables), []).append(record.label)
+    for record, content in zip(records, contents, strict=True):
+        if content.tables:
+            found.setdefault("".join(table(*part) for part in content.tables), []).append(record.label)
     texts = (
         f"<details{' open' if len(found) == 1 else ''}><summary>{escape(', '.join(names))}</summary>"
         f'<div class="tables">{text}</div></details>'
         for text, names in found.items()
     )
-    heading = escape(told[0].heading)
+    heading = escape(contents[0].heading)
     return f"<section><h2>{heading}</h2>{''.join(texts)}</section>" if found else ""
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A table with a heading."""
-    head = "".join(f"<th>{escape(str(one))}</th>" for one in columns)
-    body = "".join("<tr>" + "".join(f"<td>{escape(str(one))}</td>" for one in row) + "</tr>" for row in rows)
-    return f'<div class="wide"><h3>{escape(title)}</h3><table><tr>{head}</tr>{body}</table></div>'
+
+    def cells(tag: str, row: Sequence[str]) -> str:
+        return "<tr>" + "".join(f"<{tag}>{escape(str(cell))}</{tag}>" for cell in row) + "</tr>"
+
+    body = cells("th", columns) + "".join(cells("td", row) for row in rows)
+    return f'<div class="wide"><h3>{escape(title)}</h3><table>{body}</table></div>'
 
 
 def picture(name: str, about: str, figure: Figure) -> str:

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post.figures.sweep.branch import axis_label, branches
 from tribodyn.post.page.data import packed
-from tribodyn.post.page.page import assembled, origin, picture, table
-from tribodyn.post.sweep_report import described, sweep_rows, sweep_said, sweep_warnings
+from tribodyn.post.page.page import assembled, origin, picture, table, title_of
+from tribodyn.post.sweep_report import described, sweep_remarks, sweep_rows, sweep_warnings
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_reader import SweepRecord
 
@@ -80,19 +80,18 @@ def sweep_page(
     }
     columns = ("", "minimum", "at", "maximum", "at", "unit")
     warnings = [*sweep_warnings(record), *([record.message] if record.message else [])]
-    sheet = "".join(table(*one) for one in tables)
-    said = "".join(f"<li>{escape(one)}</li>" for one in sweep_said(record))
-    title = str(record.scenario.get("title", record.label))
+    sheet = "".join(table(*written) for written in tables)
+    remarks = "".join(f"<li>{escape(remark)}</li>" for remark in sweep_remarks(record))
     return assembled(
-        title if record.status == "complete" else f"{title} [{record.status}]",
+        title_of(record),
         payload,
         {
-            "WARNINGS": "".join(f'<p class="warning">{escape(one)}</p>' for one in warnings),
+            "WARNINGS": "".join(f'<p class="warning">{escape(warning)}</p>' for warning in warnings),
             "SUMMARY": table("Quantities of the cases", columns, sweep_rows(record, known)),
-            "TRUST": f"<ul>{said}</ul>",
+            "TRUST": f"<ul>{remarks}</ul>",
             "OVER": "Over the first varied key",
             "SHEET": f"<section><h2>The scenario that is varied</h2>{sheet}</section>" if sheet else "",
-            "PICTURES": "".join(picture(*one) for one in pictures),
+            "PICTURES": "".join(picture(*drawing) for drawing in pictures),
             "ORIGIN": origin(record),
         },
     )

@@ -10,7 +10,7 @@ from typing import Any
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.output_files import write_output
-from tribodyn.post.page.page import table, warnings_of
+from tribodyn.post.page.page import document, table, warnings_of
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
@@ -77,13 +77,9 @@ def page(record: Record) -> str:
         "<section><h2>Gears and oil</h2>" + "".join(table(*one) for one in check(case).tables) + "</section>",
         _origin(record),
     ]
-    pieces = {"TITLE": escape(title), "STYLE": _file("page.css"), "BODY": "\n".join(body)}
-    written = _file("page.html").split("@")
-    return "".join(pieces.get(piece, piece) for piece in written)
-
-
-def _file(name: str) -> str:
-    return resources.files(__package__ or "").joinpath(name).read_text(encoding="utf-8")
+    style = resources.files(__package__ or "").joinpath("page.css").read_text(encoding="utf-8")
+    policy = "style-src 'unsafe-inline'; img-src data:"
+    return document(title, style, "\n".join(body) + "\n", policy)
 
 
 def _header(record: Record, title: str) -> str:

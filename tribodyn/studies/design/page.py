@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.post.page.page import Told
+from tribodyn.post.page.page import PageContent
 from tribodyn.post.page.page import page as write
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.figures import DRAWINGS
@@ -25,7 +25,7 @@ def page(record: Record) -> str:
         for name in PICTURES
         if DRAWINGS[name].fits(record)
     ]
-    told = Told(
+    content = PageContent(
         REPORTED,
         sentences(record),
         PANELS,
@@ -33,7 +33,7 @@ def page(record: Record) -> str:
         heading="Design",
         pictures=pictures,
     )
-    return write([record], [told])
+    return write([record], [content])
 
 
 def before_and_after(record: Record) -> tuple[TextTable, ...]:

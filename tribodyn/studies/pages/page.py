@@ -28,7 +28,7 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
     InputError
         For no record, one without samples, and records that share no quantities.
     """
-    from tribodyn.post.page.page import Told, page
+    from tribodyn.post.page.page import PageContent, page
 
     if not records:
         raise InputError("records", None, "there is nothing to report on", "name at least one record")
@@ -40,8 +40,8 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
     own = studies[0].own_page()
     if own and figures and len(records) == 1:
         return own(records[0])
-    told = [
-        Told(
+    contents = [
+        PageContent(
             one.reported(),
             one.sentences(record),
             one.panels(),
@@ -51,7 +51,7 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
         )
         for one, record in zip(studies, records, strict=True)
     ]
-    return page(records, told, figures)
+    return page(records, contents, figures)
 
 
 def sheet(record: Record | SweepRecord) -> "Sequence[TextTable]":
