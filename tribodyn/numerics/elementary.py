@@ -119,6 +119,16 @@ def skippable(condition: Any) -> bool:
     return False
 
 
+def anywhere(condition: Any) -> bool:
+    """Whether a condition holds; compiled for many cases at once, in any of them."""
+    return bool(np.any(condition))
+
+
+def opposite(condition: Any) -> Any:
+    """Where a condition fails; compiled for one case, a truth and no integer."""
+    return namespace(condition).logical_not(condition)
+
+
 def minimum(a: Any, b: Any) -> Any:
     """The smaller of the two; NaN if either is."""
     if type(a) is float and type(b) is float:

@@ -80,6 +80,8 @@ def march(
         return result
     if method not in (AUTO, EXPLICIT):
         return one_by_one(models, states, method, march, count, progress)
+    from tribodyn.solve.lanes.batch import in_lanes
+
     limit = max_steps if method == EXPLICIT else min(max_steps, HANDED_OVER)
     result = in_lanes(models, states, march._replace(max_steps=limit), count, progress)
     expensive = np.flatnonzero((result.status == Status.TOO_MANY_STEPS) & (limit < max_steps)).tolist()
@@ -114,24 +116,6 @@ def seek_again(models: Sequence[Model], result: Ensemble, plan: March, workers: 
         found = extremes_of(result.extremes, there)
         take_in(found, again.extremes)
         put_extremes(result.extremes, there, found)
-
-
-def in_lanes(
-    models: Sequence[Model],
-    states: Float[Array, "case state"],
-    march: March,
-    workers: int,
-    progress: Callable[[float], None] | None = None,
-) -> Ensemble:
-    """Integrate with the explicit method, many cases side by side in the lanes of vectors."""
-    from tribodyn.solve.lanes.batch import batches, run_threads
-
-    result = nothing_yet(states, march.window * march.samples, march.extremes)
-    queued = batches(models, states, march)
-    run_threads(queued, march, workers, progress)
-    for batch in queued:
-        put(result, batch.places, batch.queue.results())
-    return result
 
 
 def one_by_one(

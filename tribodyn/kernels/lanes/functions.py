@@ -206,6 +206,16 @@ def _skippable(condition):
     return (lambda condition: not any_of(~condition)) if condition is MASK else None
 
 
+@part_instead(elementary.anywhere)
+def _anywhere(condition):
+    return (lambda condition: any_of(condition)) if condition is MASK else None
+
+
+@part_instead(elementary.opposite)
+def _opposite(condition):
+    return (lambda condition: ~condition) if condition is MASK else None
+
+
 @part_instead(elementary.plain)
 def _plain(x):
     return (lambda x: x) if x is LANES else None

@@ -56,8 +56,14 @@ def _truncate(context, builder, sig, args):
 
 
 @_numeric(elementary.skippable, [types.Boolean], types.boolean)
-def _skippable(context, builder, sig, args):
+@_numeric(elementary.anywhere, [types.Boolean], types.boolean)
+def _truth(context, builder, sig, args):
     return args[0]
+
+
+@_numeric(elementary.opposite, [types.Boolean], types.boolean)
+def _opposite(context, builder, sig, args):
+    return builder.not_(args[0])
 
 
 @_numeric(elementary.plain, [types.Number])

@@ -10,19 +10,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.contact_forces import QUANTITIES
-from tribodyn.dynamics.extremes import EXTREMES, measures_of
-from tribodyn.dynamics.extremes import ROWS as ROWS_OF_MEASURES
+from tribodyn.dynamics.extremes import Extremes
 from tribodyn.dynamics.parameters import STATES, Model, Options
 from tribodyn.kernels.lanes.tables import Field, LaneRecord
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.integrator import March, nothing_yet
+from tribodyn.solve.integrator import Ensemble, March, nothing_yet, put
 from tribodyn.solve.lanes.march import march_lanes
 from tribodyn.solve.lanes.queue import CASE, ROWS, LaneBlock, Queue
+from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.reversal import stops_of_many
-from tribodyn.solve.methods.dopri5 import STAGES
+from tribodyn.solve.methods import dopri5
 from tribodyn.solve.tolerances import tolerances_of_many
 
+#: Time between two reports of progress, s.
+INTERVAL = 0.1
 #: The model's named tuples of numbers and tables.
 RECORDS = tuple(name for name in Model._fields if name != "options")
 #: Tables that models of one shape have in common, value for value: branches may hang on them.
@@ -144,14 +146,9 @@ def _row(record: Any, fields: tuple[Field, ...], kept: dict[int, Kept]) -> tuple
 
 def lane_model(packed: Packed) -> tuple[Model, np.ndarray, np.ndarray]:
     """A model over the lanes, and its numbers (F, WIDTH) and addresses (T, WIDTH), all of the first case."""
-    numbers = np.repeat(packed.numbers[0][:, None], WIDTH, axis=1)
-    addresses = np.repeat(packed.addresses[0][:, None], WIDTH, axis=1)
+    numbers, addresses = _over_lanes(packed.numbers[0]), _over_lanes(packed.addresses[0])
     records: list[Any] = [LaneRecord(group, numbers, addresses, packed.lengths) for group in packed.fields]
     return Model(**dict(zip(RECORDS, records, strict=True)), options=packed.shape.options), numbers, addresses
-
-
-#: Time between two reports of progress, s.
-INTERVAL = 0.1
 
 
 class LaneBatch(NamedTuple):
@@ -162,33 +159,16 @@ class LaneBatch(NamedTuple):
     queue: Queue
 
 
-def batches(models: Sequence[Model], states: Float[Array, "case state"], march: March) -> list[LaneBatch]:
-    """One batch per shape of models, the cases of low speed first, which take the most steps.
-
-    Lanes side by side then cost about the same.
-    """
-    return [_batch(models, states, march, places) for places in by_shape(models)]
-
-
-def _batch(
-    models: Sequence[Model], states: Float[Array, "case state"], march: March, places: Int[Array, " case"]
-) -> LaneBatch:
-    speeds = [float(models[case].mechanics.nominal_speed) for case in places]
-    places = places[np.argsort(speeds, kind="stable")]
-    mine = [models[case] for case in places]
-    packed = pack(mine)
-    result = nothing_yet(states[places], march.window * march.samples, march.extremes)
-    counters = (np.zeros(1, dtype=np.int64) for _ in range(3))
-    atol, stops = tolerances_of_many(mine, states[places], march.rtol), stops_of_many(mine)
-    queue = Queue(packed.numbers, packed.addresses, atol, stops, *result[:-1], *result.extremes, *counters)
-    return LaneBatch(places, packed, queue)
-
-
-def run_threads(
-    batches: list[LaneBatch], march: March, workers: int, progress: Callable[[float], None] | None
-) -> None:
-    """Work through the queues; returns when all cases are done, or raises what interrupts it."""
-    whole = sum(len(batch.places) for batch in batches) * march.cycles
+def in_lanes(
+    models: Sequence[Model],
+    states: Float[Array, "case state"],
+    march: March,
+    workers: int,
+    progress: Callable[[float], None] | None = None,
+) -> Ensemble:
+    """Integrate with the explicit method, many cases side by side in the lanes of vectors."""
+    batches = [_batch(models, states, march, places) for places in by_shape(models)]
+    whole = len(models) * march.cycles
     with ThreadPoolExecutor(workers) as pool:
         try:
             running = {
@@ -206,29 +186,42 @@ def run_threads(
             for batch in batches:
                 batch.queue.stop[0] = 1
             pool.shutdown(cancel_futures=True)
+    result = nothing_yet(states, march.window * march.samples, march.extremes)
+    for batch in batches:
+        put(result, batch.places, batch.queue.result)
+    return result
 
 
-def empty_lanes(
-    packed: Packed, numbers: Float[Array, "number lane"], addresses: Int[Array, "table lane"]
-) -> LaneBlock:
-    """Lanes without cases."""
-    pairs = packed.shape.pairs
-    of_states = [(STATES,)] * 4
-    of_extremes = [(EXTREMES,)] * 3
-    shapes = (
-        (ROWS,),
-        *of_states,
-        (STAGES, STATES),
-        (QUANTITIES + pairs, pairs),
-        (ROWS_OF_MEASURES, measures_of(pairs)),
-        *of_extremes,
-        (EXTREMES, STATES),
-    )
-    block = LaneBlock(numbers, addresses, *(np.zeros((*shape, WIDTH)) for shape in shapes))
-    block.rows[CASE] = -1.0
-    return block
+def _batch(
+    models: Sequence[Model], states: Float[Array, "case state"], march: March, places: Int[Array, " case"]
+) -> LaneBatch:
+    """Cases of one shape, those of low speed first, which take the most steps.
+
+    Lanes side by side then cost about the same.
+    """
+    speeds = [float(models[case].mechanics.nominal_speed) for case in places]
+    places = places[np.argsort(speeds, kind="stable")]
+    mine = [models[case] for case in places]
+    packed = pack(mine)
+    result = nothing_yet(states[places], march.window * march.samples, march.extremes)
+    counters = (np.zeros(1, dtype=np.int64) for _ in range(3))
+    atol, stops = tolerances_of_many(mine, states[places], march.rtol), stops_of_many(mine)
+    return LaneBatch(places, packed, Queue(packed.numbers, packed.addresses, atol, stops, result, *counters))
 
 
 def _work(batch: LaneBatch, march: March) -> None:
+    """Work through a queue, until it is empty, in lanes of this thread's own."""
     model, numbers, addresses = lane_model(batch.packed)
-    march_lanes(model, empty_lanes(batch.packed, numbers, addresses), batch.queue, march)
+    pairs = batch.packed.shape.pairs
+    measures, state, extremes = Search.begun(pairs)
+    search = Search(_over_lanes(measures), _over_lanes(state), Extremes(*map(_over_lanes, extremes)))
+    y, atol = np.zeros((STATES, WIDTH)), np.zeros((STATES, WIDTH))
+    work, rows = np.zeros((QUANTITIES + pairs, pairs, WIDTH)), np.zeros((ROWS, WIDTH))
+    rows[CASE] = -1.0
+    block = LaneBlock(numbers, addresses, rows, y, atol, _over_lanes(dopri5.buffer()), work, search)
+    march_lanes(model, block, batch.queue, march)
+
+
+def _over_lanes(values: np.ndarray) -> np.ndarray:
+    """The values in every lane: with the lanes as last axis."""
+    return np.repeat(values[..., None], WIDTH, axis=-1)

@@ -5,7 +5,7 @@ wait for the last. A lane that is done, or that failed, takes the queue's next c
 No lane's arithmetic reads another lane, so a case's bits are the same whatever the other lanes hold.
 """
 
-from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.extremes import Extremes
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIP, STATES, XI_RATE
 from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.kernels.lanes.arrays import rows_of
@@ -14,7 +14,6 @@ from tribodyn.kernels.native import kernel
 from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import maximum, minimum, where
 from tribodyn.solve.integrator import Status
-from tribodyn.solve.lanes.extremes import open_lanes, search_lanes, seeking
 from tribodyn.solve.lanes.queue import (
     CASE,
     CUT,
@@ -38,86 +37,63 @@ from tribodyn.solve.lanes.queue import (
     keep_sample,
     take_cases,
 )
-from tribodyn.solve.march.step_control import (
-    MINIMUM_ERROR,
-    MOST_TRIES,
-    RELATIVE,
-    RETRY,
-    begin_turning,
-    collected,
-    cut_at_stop,
-    keep_turned,
-    longest_step,
-    next_step,
-    refused,
-    resolves_turns,
-    step_error,
-    step_outcome,
-    turn_of,
-    unbounded,
-    weighed_error,
-)
-from tribodyn.solve.methods.dopri5 import (
-    STAGES,
-    C,
-    dense_output,
-    embedded_difference,
-    growth,
-    shrinkage,
-    stage_state,
-)
+from tribodyn.solve.march import extreme_search
+from tribodyn.solve.march import step_control as rules
+from tribodyn.solve.march.extreme_search import Search
+from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Place
+from tribodyn.solve.methods import dopri5
 from tribodyn.solve.right_hand_side import engage
+
+METHOD = dopri5.METHOD
 
 
 @kernel
 def march_lanes(model, block, queue, march):
     """Integrate cases of the queue, `WIDTH` at a time, until none is left."""
-    rows, y, new, k = rows_of(block.rows), rows_of(block.y), rows_of(block.new), rows_of(block.k)
+    rows, y, buffer, work = rows_of(block.rows), rows_of(block.y), rows_of(block.buffer), rows_of(block.work)
     segments = model.table.in_contact.shape[0]
     while take_cases(block, queue, march):
         for segment in range(segments):
             open_segment(segment, model, block, queue, march)
-            first = 0
+            fresh = True
             while any_of(rows[PHASE] < rows[END]):
                 choose_step(model, block, queue, march)
-                for s in range(first, STAGES):
-                    if s == 0:
-                        copy_rows(y, new)
-                    else:
-                        stage_state(s, rows[STEP], y, k, new)
-                    derivatives(
-                        rows[PHASE] + C[s] * rows[STEP],
-                        rows[CYCLE] + march.first_cycle,
-                        segment,
-                        new,
-                        model,
-                        rows_of(block.work),
-                        k[s],
-                    )
-                judge(STAGES - first, segment, model, block, queue, march)
-                first = 1
+                place = Place(rows[PHASE], rows[CYCLE] + march.first_cycle, segment, rows[END])
+                taken = dopri5.attempt(fresh, rows[STEP], place, y, march, model, work, buffer)
+                judge(taken, segment, model, block, queue, march)
+                fresh = False
         close_cycle(block, queue, march)
 
 
 @part
-def copy_rows(source, target):
-    """Copy a state of all lanes."""
-    for i in range(STATES):
-        target[i] = source[i]
+def search_of(block):
+    """The search for extremes, over the lanes."""
+    search, found = block.search, block.search.extremes
+    extremes = Extremes(
+        rows_of(found.measure), rows_of(found.cycles), rows_of(found.segment), rows_of(found.state)
+    )
+    return Search(rows_of(search.measures), rows_of(search.state), extremes)
+
+
+@part
+def seeking(lanes, block, march):
+    """Those of some lanes whose case is in its window."""
+    rows = rows_of(block.rows)
+    return lanes & (rows[CASE] >= 0.0) & (rows[CYCLE] >= march.cycles - march.window)
 
 
 @part
 def open_segment(segment, model, block, queue, march):
     """Put all lanes at the segment's start, behind the change of contacting pairs; keep a sample if due."""
-    rows, y = rows_of(block.rows), rows_of(block.y)
+    rows, y, work = rows_of(block.rows), rows_of(block.y), rows_of(block.work)
     start, end = model.table.boundary[segment], model.table.boundary[segment + 1]
     has_case = rows[CASE] >= 0.0
     rows[PHASE] = where(has_case, start, end)
     rows[END] = end
-    engage(segment, has_case & (rows[FRESH] == 0.0), y, model, rows_of(block.work), y)
+    engage(segment, has_case & (rows[FRESH] == 0.0), y, model, work, y)
     rows[FRESH] = where(has_case, 0.0, rows[FRESH])
     if model.options.sliding == SLIDING_DYNAMIC:
-        begin_turning(rows[PHASE], segment, y, model, rows_of(block.work))
+        rules.begin_turning(rows[PHASE], segment, y, model, work)
     for lane in range(WIDTH):
         block.rows[STOP, lane] = 0.0
         if block.rows[CASE, lane] >= 0.0:
@@ -128,7 +104,8 @@ def open_segment(segment, model, block, queue, march):
     if march.extremes:
         lanes = seeking(has_case, block, march)
         if any_of(lanes):
-            open_lanes(start, segment, lanes, model, block, march)
+            place = Place(start, rows[CYCLE] + march.first_cycle, segment, end)
+            extreme_search.open_segment(lanes, place, y, model, work, search_of(block))
 
 
 @part
@@ -138,10 +115,10 @@ def choose_step(model, block, queue, march):
     nominal_speed = model.mechanics.nominal_speed
     running = rows[PHASE] < rows[END]
     rows[UNCUT_STEP] = rows[STEP]
-    cut, step = cut_at_stop(rows[PHASE], rows[STEP], rows[LIMIT])
+    cut, step = rules.cut_at_stop(rows[PHASE], rows[STEP], rows[LIMIT])
     rows[CUT] = where(running & cut, 1.0, 0.0)
     rows[STEP] = where(running, step, rows[STEP])
-    too_many, vanishing, at_rest = refused(
+    too_many, vanishing, at_rest = rules.refused(
         rows[STEPS] - rows[STEPS_BEFORE],
         march.max_steps,
         rows[STEP],
@@ -158,27 +135,29 @@ def choose_step(model, block, queue, march):
 @part
 def judge(evaluations, segment, model, block, queue, march):
     """Accept or reject the step of every lane that is not yet at the end of the segment, each for itself."""
-    rows, y, new, k, atol = (
+    rows, y, buffer, atol, work = (
         rows_of(block.rows),
         rows_of(block.y),
-        rows_of(block.new),
-        rows_of(block.k),
+        rows_of(block.buffer),
         rows_of(block.atol),
+        rows_of(block.work),
     )
+    new = buffer[STATE]
     phase, step = rows[PHASE], rows[STEP]
     running = phase < rows[END]
     cut = rows[CUT] > 0.0
     rows[EVALUATIONS] = rows[EVALUATIONS] + where(running, 1.0 * evaluations, 0.0)
     worst, total = 0.0 * step, 0.0 * step
     for i in range(STATES):
-        rtol = march.rtol * RELATIVE[i]
-        weighed = weighed_error(step * embedded_difference(k, i), y[i], new[i], atol[i], rtol)
-        worst, total = collected(worst, total, weighed)
-    error = step_error(worst, total)
-    accepted, undefined, lost, stalled = step_outcome(error, step, model.mechanics.nominal_speed + new[SLIP])
+        rtol = march.rtol * rules.RELATIVE[i]
+        weighed = rules.weighed_error(buffer[ERROR, i], y[i], new[i], atol[i], rtol)
+        worst, total = rules.collected(worst, total, weighed)
+    error = rules.step_error(worst, total)
+    speed_after = model.mechanics.nominal_speed + new[SLIP]
+    accepted, undefined, lost, stalled = rules.step_outcome(error, step, speed_after)
     stalled, lost = running & stalled, running & lost
     accepted = running & accepted & ~stalled
-    runaway = accepted & unbounded(new, model.table)
+    runaway = accepted & rules.unbounded(new, model.table)
     accepted = accepted & ~runaway
     ended = stalled | lost | runaway
     if any_of(ended):
@@ -187,30 +166,38 @@ def judge(evaluations, segment, model, block, queue, march):
         running = running & ~ended
     turned, shorter = accepted & ~accepted, step
     if model.options.sliding == SLIDING_DYNAMIC:
-        too_far, shorter = turn_of(step, segment, model, rows_of(block.work))
-        fine = resolves_turns(atol[XI_RATE], model)
-        turned = accepted & too_far & fine & (rows[TRIES] < MOST_TRIES)
+        too_far, shorter = rules.turn_of(step, segment, model, work)
+        fine = rules.resolves_turns(atol[XI_RATE], model)
+        turned = accepted & too_far & fine & (rows[TRIES] < rules.MOST_TRIES)
         accepted = accepted & ~turned
         rows[TRIES] = where(turned, rows[TRIES] + 1.0, where(accepted, 0.0, rows[TRIES]))
-        keep_turned(accepted, step, segment, model, rows_of(block.work))
+        rules.keep_turned(accepted, step, segment, model, work)
     reached = where(cut, rows[LIMIT], phase + step)
-    keep_dense(phase, step, reached, accepted, block, queue, march)
+    due = accepted & (rows[DUE] <= reached) & (rows[DUE] < rows[END])
+    while any_of(due):
+        dopri5.sample((rows[DUE] - phase) / step, step, y, buffer, rows_of(block.search.state))
+        keep_sample(due, block.search.state, block, queue, march)
+        due = accepted & (rows[DUE] <= reached) & (rows[DUE] < rows[END])
     if march.extremes:
         lanes = seeking(accepted, block, march)
         if any_of(lanes):
-            search_lanes(lanes, phase, step, reached, segment, model, block, march)
-    grown = next_step(step * growth(error, rows[LAST_ERROR]), cut, rows[UNCUT_STEP])
+            place = Place(phase, rows[CYCLE] + march.first_cycle, segment, reached)
+            search = search_of(block)
+            extreme_search.search_step(METHOD, lanes, place, step, y, model, work, buffer, search)
+    grown = step * dopri5.growth(error, rows[LAST_ERROR])
+    grown = rules.next_step(grown, cut, rows[UNCUT_STEP])
     if model.options.sliding == SLIDING_DYNAMIC:
-        longest = longest_step(segment, model, rows_of(block.work))
-        grown = where(resolves_turns(atol[XI_RATE], model), minimum(grown, longest), grown)
-    rejected = where(turned, shorter, step * where(undefined, RETRY, shrinkage(error)))
+        longest = rules.longest_step(segment, model, work)
+        grown = where(rules.resolves_turns(atol[XI_RATE], model), minimum(grown, longest), grown)
+    rejected = where(turned, shorter, step * where(undefined, rules.RETRY, dopri5.shrinkage(error)))
     rows[STEP] = where(running, where(accepted, grown, rejected), step)
-    rows[LAST_ERROR] = where(accepted, maximum(error, MINIMUM_ERROR), rows[LAST_ERROR])
+    rows[LAST_ERROR] = where(accepted, maximum(error, rules.MINIMUM_ERROR), rows[LAST_ERROR])
     rows[PHASE] = where(accepted, reached, rows[PHASE])
     rows[STEPS] = rows[STEPS] + where(accepted, 1.0, 0.0)
     for i in range(STATES):
         y[i] = where(accepted, new[i], y[i])
-        k[0, i] = where(accepted, k[STAGES - 1, i], k[0, i])
+        last = buffer[SCRATCH + dopri5.STAGES - 1, i]  # of a step accepted the next one's first stage
+        buffer[SCRATCH, i] = where(accepted, last, buffer[SCRATCH, i])
     stopped = accepted & cut & (reached < rows[END])
     if any_of(stopped):
         rows[SELECTED] = where(stopped, 1.0, 0.0)
@@ -219,22 +206,3 @@ def judge(evaluations, segment, model, block, queue, march):
                 stop = int(block.rows[STOP, lane]) + 1
                 block.rows[STOP, lane] = stop
                 block.rows[LIMIT, lane] = queue.stops[int(block.rows[CASE, lane]), segment, stop]
-
-
-@part
-def keep_dense(phase, step, reached, accepted, block, queue, march):
-    """Keep the samples that fall into the steps just accepted."""
-    rows, y, new, k, sample = (
-        rows_of(block.rows),
-        rows_of(block.y),
-        rows_of(block.new),
-        rows_of(block.k),
-        rows_of(block.sample),
-    )
-    due = accepted & (rows[DUE] <= reached) & (rows[DUE] < rows[END])
-    while any_of(due):
-        theta = (rows[DUE] - phase) / step
-        for i in range(STATES):
-            sample[i] = dense_output(theta, step, y[i], new[i], k, i)
-        keep_sample(due, block.sample, block, queue, march)
-        due = accepted & (rows[DUE] <= reached) & (rows[DUE] < rows[END])

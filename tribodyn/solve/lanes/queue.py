@@ -7,13 +7,14 @@ The rows are in three groups: step control, counters, flags.
 
 from typing import NamedTuple
 
-from tribodyn.dynamics.extremes import EXTREMES, LOWEST, Extremes
+from tribodyn.dynamics.extremes import EXTREMES, LOWEST
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, count
 from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import where
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import Ensemble, Status
+from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR
 
 #: Step control: phase (mesh cycles, 0 … 1); end of the segment, a lane runs while its phase is below; next
@@ -33,62 +34,29 @@ NEVER = 2.0
 
 
 class LaneBlock(NamedTuple):
-    """Scratch of the lanes that one thread works with; from `measures` on as in `extreme_search.Search`.
+    """Scratch of the lanes that one thread works with."""
 
-    `numbers` and `addresses` are those of the lanes' models, see `batch`.
-    """
-
-    numbers: Float[Array, "number lane"]
+    numbers: Float[Array, "number lane"]  # this and the next: those of the lanes' models, see `batch`
     addresses: Int[Array, "table lane"]
     rows: Float[Array, "row lane"]
     y: Float[Array, "state lane"]
-    new: Float[Array, "state lane"]
-    sample: Float[Array, "state lane"]
     atol: Float[Array, "state lane"]
-    k: Float[Array, "stage state lane"]
+    buffer: Float[Array, "row state lane"]  # of the method
     work: Float[Array, "quantity pair lane"]
-    measures: Float[Array, "row measure lane"]
-    extreme: Float[Array, "extreme lane"]
-    cycles: Float[Array, "extreme lane"]
-    segments: Float[Array, "extreme lane"]
-    states: Float[Array, "extreme state lane"]
+    search: Search  # with the lanes as its last axis
 
 
 class Queue(NamedTuple):
-    """Cases of one shape in the order in which they are begun, shared by all threads.
+    """Cases of one shape in the order in which they are begun, shared by all threads."""
 
-    Attributes
-    ----------
-    numbers, addresses : the models, see `batch`
-    stops : phases that steps end on, see `reversal.stops`
-    state … evaluations : results, as in `Ensemble`; `state` holds the start before
-    measure … extreme_state : results, as in `Extremes`, where they are sought
-    taken, done, stop : cases begun; mesh cycles done; not 0 to stop all threads
-    """
-
-    numbers: Float[Array, "case number"]
+    numbers: Float[Array, "case number"]  # this and the next: the models, see `batch`
     addresses: Int[Array, "case table"]
     atol: Float[Array, "case state"]
-    stops: Float[Array, "case segment stop"]
-    state: Float[Array, "case state"]
-    samples: Float[Array, "case sample state"]
-    status: Int[Array, " case"]
-    reached: Float[Array, " case"]
-    steps: Int[Array, " case"]
-    evaluations: Int[Array, " case"]
-    measure: Float[Array, "case extreme"]
-    at: Float[Array, "case extreme"]
-    segment: Float[Array, "case extreme"]
-    extreme_state: Float[Array, "case extreme state"]
-    taken: Int[Array, "1"]
-    done: Int[Array, "1"]
-    stop: Int[Array, "1"]
-
-    def results(self) -> Ensemble:
-        """Results of the cases, in the order of the queue."""
-        extremes = Extremes(self.measure, self.at, self.segment, self.extreme_state)
-        counts = self.status, self.reached, self.steps, self.evaluations
-        return Ensemble(self.state, self.samples, *counts, extremes)
+    stops: Float[Array, "case segment stop"]  # phases that steps end on, see `reversal.stops`
+    result: Ensemble  # its `state` holds the start before
+    taken: Int[Array, "1"]  # cases begun
+    done: Int[Array, "1"]  # mesh cycles done
+    stop: Int[Array, "1"]  # not 0 to stop all threads
 
 
 @part
@@ -104,18 +72,18 @@ def take_cases(block, queue, march):
     rows = block.rows
     running = False
     for lane in range(WIDTH):
-        if rows[CASE, lane] < 0.0 and queue.taken[0] < queue.state.shape[0]:
+        if rows[CASE, lane] < 0.0 and queue.taken[0] < queue.result.state.shape[0]:
             case = count(queue.taken, 1)
-            if case < queue.state.shape[0]:
+            if case < queue.result.state.shape[0]:
                 copy(queue.numbers[case], block.numbers[:, lane])
                 copy(queue.addresses[case], block.addresses[:, lane])
-                copy(queue.state[case], block.y[:, lane])
+                copy(queue.result.state[case], block.y[:, lane])
                 copy(queue.atol[case], block.atol[:, lane])
                 for row in range(ROWS):
                     rows[row, lane] = 0.0
                 rows[CASE, lane] = case
                 for i in range(EXTREMES):
-                    block.extreme[i, lane] = LOWEST
+                    block.search.extremes.measure[i, lane] = LOWEST
                 rows[STEP, lane] = FIRST_STEP
                 rows[LAST_ERROR, lane] = MINIMUM_ERROR
                 rows[FRESH, lane] = 0.0 if march.started else 1.0
@@ -148,17 +116,18 @@ def let_go(lane, status, block, queue):
     """Hand in a lane's case; the lane idles to the end of the cycle."""
     rows = block.rows
     case = int(rows[CASE, lane])
-    copy(block.y[:, lane], queue.state[case])
-    queue.status[case] = status
-    queue.reached[case] = rows[CYCLE, lane] + rows[PHASE, lane]
-    queue.steps[case] = int(rows[STEPS, lane])
-    queue.evaluations[case] = int(rows[EVALUATIONS, lane])
-    if queue.measure.shape[0] > 0:
-        copy(block.extreme[:, lane], queue.measure[case])
-        copy(block.cycles[:, lane], queue.at[case])
-        copy(block.segments[:, lane], queue.segment[case])
+    copy(block.y[:, lane], queue.result.state[case])
+    queue.result.status[case] = status
+    queue.result.reached[case] = rows[CYCLE, lane] + rows[PHASE, lane]
+    queue.result.steps[case] = int(rows[STEPS, lane])
+    queue.result.evaluations[case] = int(rows[EVALUATIONS, lane])
+    found, extremes = block.search.extremes, queue.result.extremes
+    if extremes.measure.shape[0] > 0:
+        copy(found.measure[:, lane], extremes.measure[case])
+        copy(found.cycles[:, lane], extremes.cycles[case])
+        copy(found.segment[:, lane], extremes.segment[case])
         for i in range(EXTREMES):
-            copy(block.states[i, :, lane], queue.extreme_state[case, i])
+            copy(found.state[i, :, lane], extremes.state[case, i])
     rows[CASE, lane] = -1.0
     rows[PHASE, lane] = rows[END, lane]
 
@@ -174,16 +143,16 @@ def fail(failure, block, queue, march):
 
 
 @part
-def keep_sample(lanes, sample, block, queue, march):
-    """Copy the state in `sample` to the results of some lanes, and say when their next one is due."""
+def keep_sample(lanes, state, block, queue, march):
+    """Copy a state to the results of some lanes, and say when their next one is due."""
     rows = block.rows
     rows_of(rows)[SELECTED] = where(lanes, 1.0, 0.0)
     for lane in range(WIDTH):
         if rows[SELECTED, lane] > 0.0:
             number = int(rows[SAMPLE, lane])
             cycle = int(rows[CYCLE, lane]) - (march.cycles - march.window)
-            kept = queue.samples[int(rows[CASE, lane]), cycle * march.samples + number]
-            copy(sample[:, lane], kept)
+            kept = queue.result.samples[int(rows[CASE, lane]), cycle * march.samples + number]
+            copy(state[:, lane], kept)
             number += 1
             rows[SAMPLE, lane] = number
             rows[DUE, lane] = number / march.samples if number < march.samples else NEVER

@@ -4,6 +4,9 @@ Every accepted step is measured at its end (`dynamics.extremes.measure`), where 
 already. Where a measure is so near its extreme so far that it may pass it inside the step, it is measured in
 the middle too, and where the parabola through the three values is highest, on the method's dense output.
 Both sides of every boundary between segments are measured.
+
+The same code seeks in one case and in many side by side: `lanes` says which of these take part, and is True
+for the one. What a lane finds depends on no other.
 """
 
 from typing import NamedTuple, Self
@@ -30,45 +33,31 @@ from tribodyn.dynamics.extremes import (
     measure_end,
     measure_inside,
     measures_of,
+    no_extremes,
     vertex,
 )
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import absolute, law, maximum, where
+from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, opposite, where
 from tribodyn.numerics.shapes import Array, Float
 
 #: Rise over an extreme, as a share of it, that is not worth another evaluation.
 WORTH = 1e-7
-#: A rate of change that is not known.
-UNKNOWN = 1e150
+#: A rate of change that is not known, and a row that no measure stands in.
+UNKNOWN, NONE = 1e150, 1e9
 
 
 class Search(NamedTuple):
     """What a search knows."""
 
-    measures: Float[Array, "row measure"]  # (ROWS, measures)
-    state: Float[Array, " state"]  # (STATES,); scratch: a state inside a step
-    #: extreme, cycles, segments: (EXTREMES,); the most extreme measures so far, and where; as in `Extremes`
-    extreme: Float[Array, " extreme"]
-    cycles: Float[Array, " extreme"]
-    segments: Float[Array, " extreme"]
-    states: Float[Array, "extreme state"]  # (EXTREMES, STATES)
+    measures: Float[Array, "row measure"]
+    state: Float[Array, " state"]  # scratch: a state inside a step
+    extremes: Extremes  # the most extreme measures so far, and where
 
     @classmethod
     def begun(cls, pairs: int) -> Self:
         """A search that knows nothing, with so many pair slots."""
-        return cls(
-            np.zeros((ROWS, measures_of(pairs))),
-            np.zeros(STATES),
-            np.full(EXTREMES, LOWEST),
-            np.zeros(EXTREMES),
-            np.zeros(EXTREMES),
-            np.zeros((EXTREMES, STATES)),
-        )
-
-    def found(self) -> Extremes:
-        """What was found."""
-        return Extremes(self.extreme, self.cycles, self.segments, self.states)
+        return cls(np.zeros((ROWS, measures_of(pairs))), np.zeros(STATES), no_extremes())
 
 
 @law
@@ -124,80 +113,89 @@ def contacts_at(phase, segment, y, model, work):
 
 
 @kernel
-def keep(row, cycles, segment, y, search):
+def keep(lanes, row, cycles, segment, y, search):
     """Replace the extremes that a row of measures, those of a state, surpasses."""
-    for i in range(search.measures.shape[1]):
-        value = search.measures[row, i]
+    measures, extremes = search.measures, search.extremes
+    for i in range(measures.shape[1]):
+        value = measures[row, i]
         which = extreme_of(i)
-        if value > search.extreme[which]:
-            search.extreme[which] = value
-            search.cycles[which] = cycles
-            search.segments[which] = segment
+        better = lanes & (value > extremes.measure[which])
+        if anywhere(better):
+            extremes.measure[which] = where(better, value, extremes.measure[which])
+            extremes.cycles[which] = where(better, cycles, extremes.cycles[which])
+            extremes.segment[which] = where(better, 1.0 * segment, extremes.segment[which])
             for j in range(STATES):
-                search.states[which, j] = y[j]
-            for other in alike(i, search.measures.shape[1]):
-                search.measures[EXTREME, other] = value
+                extremes.state[which, j] = where(better, y[j], extremes.state[which, j])
+            for other in alike(i, measures.shape[1]):
+                measures[EXTREME, other] = extremes.measure[which]
 
 
 @kernel
-def open_segment(place, y, model, work, search):
+def open_segment(lanes, place, y, model, work, search):
     """Measure the state at the start of a segment."""
-    for i in range(search.measures.shape[1]):
+    measures, extreme = search.measures, search.extremes.measure
+    for i in range(measures.shape[1]):
         for row in range(RATE):
-            search.measures[row, i] = LOWEST
-        search.measures[EXTREME, i] = search.extreme[extreme_of(i)]
-    begin_rates(search.measures, search.extreme, search.measures.shape[1])
+            measures[row, i] = LOWEST
+        measures[EXTREME, i] = extreme[extreme_of(i)]
+    begin_rates(measures, extreme, measures.shape[1])
     contacts_at(place.phase, place.segment, y, model, work)
-    measure(place.phase, place.segment, y, model, work, search.measures[START])
-    begin_surfaces(place.phase, place.segment, model, search.measures)
-    keep(START, place.cycle + place.phase, place.segment, y, search)
+    measure(place.phase, place.segment, y, model, work, measures[START])
+    begin_surfaces(place.phase, place.segment, model, measures)
+    keep(lanes, START, place.cycle + place.phase, place.segment, y, search)
 
 
 @kernel
-def search_step(method, place, step, y, model, work, buffer, search):
+def search_step(method, lanes, place, step, y, model, work, buffer, search):
     """Seek extremes over an accepted step from the state `y`, which ends at `place.end`."""
-    measures = search.measures
+    measures, new = search.measures, buffer[0]
     method.contacts(place.end, place.segment, model, work, buffer)
-    measure_end(False, place.end, step, place.segment, buffer[0], model, work, measures)
-    better, inside = False, False
+    measure_end(opposite(lanes), place.end, step, place.segment, new, model, work, measures)
+    better, inside = step < 0.0, step < 0.0
     for i in range(measures.shape[1]):
         start, end, extreme = measures[START, i], measures[END, i], measures[EXTREME, i]
-        better |= end > extreme
-        inside |= promising(start, end, measures[RATE, i] * step, extreme)
-    if better:
-        keep(END, place.cycle + place.end, place.segment, buffer[0], search)
-    if inside:
-        look_inside(method, place, step, y, model, work, buffer, search)
+        better = better | (end > extreme)
+        inside = inside | promising(start, end, measures[RATE, i] * step, extreme)
+    better, inside = lanes & better, lanes & inside
+    if anywhere(better):
+        keep(better, END, place.cycle + place.end, place.segment, new, search)
+    if anywhere(inside):
+        look_inside(method, inside, place, step, y, model, work, buffer, search)
     per_step = 1.0 / step
     for i in range(measures.shape[1]):
-        measures[RATE, i] = rate_of(measures[START, i], measures[END, i], per_step)
-        measures[START, i] = measures[END, i]
+        rate = rate_of(measures[START, i], measures[END, i], per_step)
+        measures[RATE, i] = where(lanes, rate, measures[RATE, i])
+        measures[START, i] = where(lanes, measures[END, i], measures[START, i])
 
 
 @kernel
-def ignore_segment(place, y, model, work, search):
+def look_inside(method, lanes, place, step, y, model, work, buffer, search):
+    """Measure the middles of steps, and one after the other the places where measures are highest."""
+    measures, extreme = search.measures, search.extremes.measure
+    chosen, row, share, done = lanes, MIDDLE, 0.5 + 0.0 * step, 0.0 * step - 1.0
+    while anywhere(chosen):
+        phase = place.phase + share * step
+        method.sample(share, step, y, buffer, search.state)
+        contacts_at(phase, place.segment, search.state, model, work)
+        measure_inside(opposite(chosen), row, phase, place.segment, search.state, model, work, measures)
+        keep(chosen, row, place.cycle + phase, place.segment, search.state, search)
+        row = TRIAL
+        following, share = 0.0 * step + NONE, 0.0 * step
+        for i in range(measures.shape[1]):
+            at, value = vertex(measures[START, i], measures[MIDDLE, i], measures[END, i])
+            wanted = lanes & (at > 0.0) & worthwhile(value, extreme[extreme_of(i)])
+            wanted = wanted & (done < i) & (following == NONE)
+            following = where(wanted, 1.0 * i, following)
+            share = where(wanted, at, share)
+        chosen = following < NONE
+        done = following
+
+
+@kernel
+def ignore_segment(lanes, place, y, model, work, search):
     """Take the place of `open_segment` where no extremes are sought."""
 
 
 @kernel
-def ignore_step(method, place, step, y, model, work, buffer, search):
+def ignore_step(method, lanes, place, step, y, model, work, buffer, search):
     """Take the place of `search_step` where no extremes are sought."""
-
-
-@kernel
-def look_inside(method, place, step, y, model, work, buffer, search):
-    """Measure the middle of a step, and the place where that says that a measure is highest."""
-    measures = search.measures
-    row, share = MIDDLE, 0.5
-    for i in range(-1, measures.shape[1]):
-        if i >= 0:
-            which = extreme_of(i)
-            share, value = vertex(measures[START, i], measures[MIDDLE, i], measures[END, i])
-            if not (share > 0.0 and worthwhile(value, search.extreme[which])):
-                continue
-            row = TRIAL
-        phase = place.phase + share * step
-        method.sample(share, step, y, buffer, search.state)
-        contacts_at(phase, place.segment, search.state, model, work)
-        measure_inside(False, row, phase, place.segment, search.state, model, work, measures)
-        keep(row, place.cycle + phase, place.segment, search.state, search)

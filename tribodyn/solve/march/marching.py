@@ -15,28 +15,9 @@ from tribodyn.kernels.native import kernel, packed
 from tribodyn.numerics.elementary import largest_slope, maximum, minimum, plain
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.integrator import IntegratedCycles, March, Status
+from tribodyn.solve.march import step_control as rules
 from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.reversal import stops
-from tribodyn.solve.march.step_control import (
-    FIRST_STEP,
-    MINIMUM_ERROR,
-    MOST_TRIES,
-    RELATIVE,
-    RETRY,
-    begin_turning,
-    collected,
-    cut_at_stop,
-    keep_turned,
-    longest_step,
-    next_step,
-    refused,
-    resolves_turns,
-    step_error,
-    step_outcome,
-    turn_of,
-    unbounded,
-    weighed_error,
-)
 from tribodyn.solve.right_hand_side import engage, work_array
 from tribodyn.solve.tolerances import StepTolerances
 
@@ -116,8 +97,8 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
     steps = 0
     evaluations = 0
     written = 0
-    last_error = MINIMUM_ERROR
-    turning = model.options.sliding == SLIDING_DYNAMIC and resolves_turns(control.atol[XI_RATE], model)
+    last_error = rules.MINIMUM_ERROR
+    turning = model.options.sliding == SLIDING_DYNAMIC and rules.resolves_turns(control.atol[XI_RATE], model)
     for cycle in range(march.cycles):
         whole = float(march.first_cycle + cycle)
         steps_before = steps
@@ -131,16 +112,16 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                     out[written, i] = y[i]
                 written += 1
             if march.extremes:
-                method.opened(Place(phase, whole, segment, end), y, model, work, search)
+                method.opened(True, Place(phase, whole, segment, end), y, model, work, search)
             if turning:
-                begin_turning(phase, segment, y, model, work)
+                rules.begin_turning(phase, segment, y, model, work)
             fresh = True
             stop, tries = 0, 0.0
             while phase < end:
                 limit = control.stops[segment, stop]
                 uncut_step = step
-                cut, step = cut_at_stop(phase, step, limit)
-                too_many, vanishing, at_rest = refused(
+                cut, step = rules.cut_at_stop(phase, step, limit)
+                too_many, vanishing, at_rest = rules.refused(
                     steps - steps_before, march.max_steps, step, nominal_speed + y[SLIP], nominal_speed
                 )
                 if too_many:
@@ -154,46 +135,46 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                 fresh = False
                 worst, total = 0.0, 0.0
                 for i in range(STATES):
-                    weighed = weighed_error(
+                    weighed = rules.weighed_error(
                         plain(buffer[ERROR, i]),
                         plain(y[i]),
                         plain(buffer[STATE, i]),
                         control.atol[i],
-                        march.rtol * RELATIVE[i],
+                        march.rtol * rules.RELATIVE[i],
                     )
-                    worst, total = collected(worst, total, weighed)
+                    worst, total = rules.collected(worst, total, weighed)
                 for i in range(MECHANICAL):  # of the derivatives, where numbers carry them
-                    weighed = weighed_error(
+                    weighed = rules.weighed_error(
                         largest_slope(buffer[ERROR, i]),
                         largest_slope(y[i]),
                         largest_slope(buffer[STATE, i]),
                         control.slope_tolerance * control.scale[i],
                         control.slope_tolerance,
                     )
-                    worst, total = collected(worst, total, weighed)
-                error = step_error(worst, total)
-                accepted, undefined, lost, stalled = step_outcome(
+                    worst, total = rules.collected(worst, total, weighed)
+                error = rules.step_error(worst, total)
+                accepted, undefined, lost, stalled = rules.step_outcome(
                     error, step, nominal_speed + buffer[STATE, SLIP]
                 )
                 if lost:
                     return Status.NOT_FINITE.value, cycle + phase, step, steps, evaluations, written
                 if stalled:
                     return Status.STALLED.value, cycle + phase, step, steps, evaluations, written
-                if accepted and unbounded(buffer[STATE], table):
+                if accepted and rules.unbounded(buffer[STATE], table):
                     return Status.UNBOUNDED.value, cycle + phase, step, steps, evaluations, written
                 if undefined:
-                    step *= RETRY
+                    step *= rules.RETRY
                     continue
                 if not accepted:
                     step = method.adapted(step, error, last_error, buffer)
                     continue
                 if turning:
-                    too_far, shorter = turn_of(step, segment, model, work)
-                    if too_far and tries < MOST_TRIES:
+                    too_far, shorter = rules.turn_of(step, segment, model, work)
+                    if too_far and tries < rules.MOST_TRIES:
                         step, tries = shorter, tries + 1.0
                         continue
                     tries = 0.0
-                    keep_turned(True, step, segment, model, work)
+                    rules.keep_turned(True, step, segment, model, work)
                 next_phase = limit if cut else phase + step
                 while written < (cycle + 1) * samples:
                     at = (written - cycle * samples) / samples
@@ -203,7 +184,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                     written += 1
                 if march.extremes:
                     place = Place(phase, whole, segment, next_phase)
-                    method.stepped(method, place, step, y, model, work, buffer, search)
+                    method.stepped(method, True, place, step, y, model, work, buffer, search)
                 phase = next_phase
                 for i in range(STATES):
                     y[i] = buffer[STATE, i]
@@ -211,10 +192,10 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                 steps += 1
                 if cut:
                     stop += 1
-                step = next_step(method.adapted(step, error, last_error, buffer), cut, uncut_step)
+                step = rules.next_step(method.adapted(step, error, last_error, buffer), cut, uncut_step)
                 if turning:
-                    step = minimum(step, longest_step(segment, model, work))
-                last_error = maximum(error, MINIMUM_ERROR)
+                    step = minimum(step, rules.longest_step(segment, model, work))
+                last_error = maximum(error, rules.MINIMUM_ERROR)
     return Status.DONE.value, float(march.cycles), step, steps, evaluations, written
 
 
@@ -242,7 +223,7 @@ class NativeIntegrator:
         self.tolerances = tolerances
         self.extremes = False
         self._pairs = int(model.table.side.shape[0])
-        self.step = FIRST_STEP
+        self.step = rules.FIRST_STEP
         self.started = False
 
     def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
@@ -257,5 +238,5 @@ class NativeIntegrator:
             march, control, self._model, y, out, self._work, self._buffer, search
         )
         self.started = True
-        found = search.found() if self.extremes else None
+        found = search.extremes if self.extremes else None
         return IntegratedCycles(out[:written], y, Status(status), reached, steps, evaluations, "", found)
