@@ -11,7 +11,7 @@ import numpy as np
 from tools.marked_block import DOCS, put, table
 from tribodyn.studies.ehl.along_path import prepare, way
 from tribodyn.studies.ehl.judgement import case_for
-from tribodyn.studies.ehl.run import solve, squeeze_figures
+from tribodyn.studies.ehl.run import solve, squeeze_summary
 from tribodyn.studies.protocol.load import load_scenario
 
 SCENARIOS = ("crc-23-47", "involute-23-47", "involute-18-36", "cycloidal-23-47")
@@ -36,7 +36,7 @@ def row(scenario: str) -> list[str]:
         begun = process_time()
         arrays = solve(study, way(study), lambda _share: None)
         seconds.append(process_time() - begun)
-    found = squeeze_figures(arrays)
+    found = squeeze_summary(arrays)
     central, minimum = (
         f"{100 * found[f'{name}_film_departure_mean']:.1f}, {100 * found[f'{name}_film_departure_max']:.0f} %"
         for name in ("central", "minimum")

@@ -1,31 +1,31 @@
 """A pair's way through the mesh: its loads, speeds and radii, quasi-static, and its contact solved there."""
 
 import math
-from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.path import kinematics
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array
 from tribodyn.studies.ehl.case import BEGIN, END, PLACES, EhlCase
-from tribodyn.studies.ehl.loads import given_loads, quasi_static_loads
 from tribodyn.studies.gears.prepare import PreparedGears, assembled
-from tribodyn.tribology.closure import surfaces_of, untried_closure_of
+from tribodyn.tribology.closure import surfaces_of, untried_closure_of, with_laws, without_nominal_conditions
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
 from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact, Solution
 from tribodyn.tribology.ehl.table import Contact, contact_of
-from tribodyn.tribology.film import FILM_LAWS
-from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import FilmData, FrictionData, LawInput
+from tribodyn.tribology.law import LawInput
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
 
 #: Positions at which the friction is solved that enters the loads.
 FRICTION_POSITIONS = 8
 #: Loads over the highest at which a pair is taken as out of contact.
 _UNLOADED = 1e-6
+#: By how much of the whole way the ends of given loads may miss those of the contact.
+_SAME_WAY = 0.02
 #: Nodes over half the width over which a jump of the load is spread.
 _SPREAD = 32
 
@@ -99,6 +99,44 @@ def _way(study: PreparedEhl, positions: int, friction: tuple[Array, Array] | Non
     return PairWay(roll, line_load * float(cycle.face_width), line_load, radius, speeds, (nodes, loads))
 
 
+def quasi_static_loads(
+    cycle: MeshCycle, gear_torque: float, friction: tuple[Array, Array] | None
+) -> tuple[Array, Array]:
+    """Roll angles of the table's nodes, and the load of the pair that is there; in order of the angle.
+
+    Nodes on both sides of a boundary share an angle and keep the order of time. `friction`: roll angles and
+    friction coefficients there; None: frictionless.
+    """
+    pairs = cycle.front_pairs
+    age = np.asarray(cycle.phase)[:, :, None] + np.arange(pairs - 1.0, -1.0, -1.0)
+    roll = float(cycle.roll_start) + float(cycle.pitch_angle) * age
+    signed = None
+    if friction is not None:
+        # the pinion slides ahead of the gear behind the pitch point, which the pair passes at roll angle zero
+        signed = np.zeros(np.shape(cycle.compliance))
+        signed[:, :, :pairs] = np.sign(roll) * np.interp(roll, *friction)
+    load = np.asarray(quasi_static(cycle, gear_torque, signed).normal_load)[:, :, :pairs]
+    touching = np.broadcast_to(np.asarray(cycle.in_contact)[:, None, :pairs] > 0, load.shape)
+    # a pair passes through the phases as the youngest, then once more as the one before
+    roll, load, touching = (np.moveaxis(values, 2, 0)[::-1] for values in (roll, load, touching))
+    return roll[touching], load[touching]
+
+
+def given_loads(loads: tuple[Array, Array], cycle: MeshCycle) -> tuple[Array, Array]:
+    """Return given loads, those below 0 as 0; InputError for another way of contact, or none above 0."""
+    roll, load = loads
+    start, end = float(cycle.roll_start), float(cycle.roll_end)
+    if max(abs(roll[0] - start), abs(roll[-1] - end)) > _SAME_WAY * (end - start):
+        given, touching = (f"{a:.4g} … {b:.4g}°" for a, b in np.degrees([(roll[0], roll[-1]), (start, end)]))
+        rule = f"for roll angles {given}, where a pair touches at {touching}"
+        remedy = "give loads of this drive over its whole contact, from the pitch point"
+        raise InputError("contact.loads", None, rule, remedy)
+    if not np.any(load > 0.0):
+        rule = "nowhere above 0: there is no contact to solve"
+        raise InputError("contact.loads", None, rule, "give loads that press")
+    return roll, np.maximum(load, 0.0)
+
+
 def jump_width(study: PreparedEhl, line_load: float, radius: Array, speeds: tuple[Array, Array]) -> float:
     """Roll angle in which the oil is drawn through half a contact, b/u, at the highest load; rad.
 
@@ -122,30 +160,22 @@ def _spread(nodes: Array, loads: Array, width: float) -> tuple[Array, Array]:
 
 def friction_along(study: PreparedEhl, over: PairWay) -> Array:
     """Friction coefficient of the solved contact, of the sign of the sliding; NaN where there is none."""
-    seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
+    seen = seen_by(study, over)
     found = np.full(len(over.roll), np.nan)
-    for at in np.flatnonzero(loaded(over)):
-        solved = solved_at(contact, over, seen, at, study.case.step)
+    for at in map(int, np.flatnonzero(loaded(over))):
+        solved = solved_at(study, over, seen, at)
         if solved is not None:
             found[at] = solved.friction / float(over.line_load[at])
     return found
 
 
-def given_of(case: EhlCase) -> LawInput:
-    """What laws and solution are made from."""
-
-    def none() -> Any:
-        raise InputError("film.law", '"solved"', "is not compared with itself", "use another law")
-
-    return LawInput(surfaces_of(case), case.lubricant, case.materials, none, none)
-
-
-def seen_by(study: PreparedEhl, over: PairWay, film: str | None, friction: str) -> ContactFriction:
+def seen_by(
+    study: PreparedEhl, over: PairWay, film: str | None = None, friction: str = "none"
+) -> ContactFriction:
     """What a film law (None: that which goes with the friction law) and a friction law make of the way."""
-    case = replace(study.case, film=FilmData(film), friction=FrictionData(friction))
     cycle, speed = study.cycle, study.case.operating.pinion_speed
     return contact_friction(
-        untried_closure_of(case),
+        untried_closure_of(with_laws(study.case, film, friction)),
         np.maximum(over.line_load, 1e-9),
         over.radius,
         *over.speeds,
@@ -154,45 +184,11 @@ def seen_by(study: PreparedEhl, over: PairWay, film: str | None, friction: str) 
     )
 
 
-def by_laws(study: PreparedEhl, over: PairWay) -> dict[str, dict[str, Array]]:
-    """Film by every film law and friction by every friction law that needs no values of its own.
-
-    The solved law is left out: it is tabulated from the contacts that are solved here.
-    """
-    films, frictions = {}, {}
-    for name in FILM_LAWS:
-        if name != "solved":
-            films[name] = np.asarray(seen_by(study, over, name, "none").surface.central_film_thickness)
-    for name in FRICTION_LAWS:
-        if name in ("solved", "none"):
-            continue
-        try:
-            seen = seen_by(study, over, None, name)
-        except InputError:  # it wants a value of its own
-            continue
-        frictions[name] = np.abs(np.asarray(seen.surface.friction_coefficient)) + 0.0 * over.roll
-    return {"film": films, "friction": frictions}
-
-
-def meant_by(study: PreparedEhl, over: PairWay, law: str) -> str:
-    """Which dataset of the solved contact a film law stands for.
-
-    Its central or its minimum film; and that between smooth surfaces, where the law knows no roughness.
-    """
-    smooth = replace(study, case=replace(study.case, roughness=1e-3 * study.case.roughness))
-    rough, flat = (
-        seen_by(prepared, over, law, "none").surface.central_film_thickness for prepared in (study, smooth)
-    )
-    kind = "smooth" if np.array_equal(np.asarray(rough), np.asarray(flat)) else "thickness"
-    return f"{FILM_LAWS[law].thickness}_film_{kind}"
-
-
 def solved_at(
-    contact: Contact,
+    study: PreparedEhl,
     over: PairWay,
     seen: ContactFriction,
-    at: Any,
-    step: float,
+    at: int,
     slide_to_roll: float | None = None,
     smooth: bool = False,
 ) -> CoupledSolution | None:
@@ -200,6 +196,7 @@ def solved_at(
 
     None: next to no load, or no solution was found.
     """
+    contact = contact_for(study.case)
     line_load, radius, speed = (float(x[at]) for x in (over.line_load, seen.radius, seen.entrainment))
     sliding = float(over.sliding[at]) if slide_to_roll is None else float(slide_to_roll * speed)
     roughness = None if smooth else contact.roughness
@@ -209,7 +206,7 @@ def solved_at(
     if problem.moes_load < LEAST_LOAD:
         return None
     try:
-        return solve_coupled(problem, contact.rheology, contact.thermal, step=step)
+        return solve_coupled(problem, contact.rheology, contact.thermal, step=study.case.step)
     except SimulationError:
         return None
 
@@ -239,7 +236,8 @@ def over_places(solution: Solution, values: Array, outside: float) -> Array:
 
 def contact_for(case: EhlCase) -> Contact:
     """What all contacts of a case have in common: oil, surfaces, rheology and heat."""
-    return contact_of(given_of(case))
+    given = LawInput(surfaces_of(case), case.lubricant, case.materials, without_nominal_conditions)
+    return contact_of(given)
 
 
 def loaded(over: PairWay) -> Array:

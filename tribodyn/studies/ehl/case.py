@@ -1,5 +1,6 @@
 """A case of the solved contact study: what one run needs to know, records and takes; SI units."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,6 +71,12 @@ SCALES = {
     "friction_law": Variable(("friction_law",), "1", "friction law"),
     "slide_to_roll": Variable(("slide_to_roll",), "1", "sliding speed over entrainment speed"),
 }
+
+
+def unsolved(variables: Mapping[str, Variable], positions: int) -> dict[str, NDArray[np.float64]]:
+    """Arrays of NaN for these datasets at the positions of a way."""
+    sizes = {"phase": positions, "place": PLACES}
+    return {name: np.full([sizes[dim] for dim in known.dims], np.nan) for name, known in variables.items()}
 
 
 def layout_of(transient: bool) -> Layout:

@@ -12,17 +12,17 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.scenario.tables.duty import OiledOperatingTable
-from tribodyn.studies.ehl.along_path import PreparedEhl, by_laws, meant_by, prepare, seen_by, way
+from tribodyn.studies.ehl.along_path import PairWay, PreparedEhl, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.ehl.run import solve
+from tribodyn.studies.ehl.run import by_laws, meant_by, solve
 from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.protocol.recording import TextTable
 from tribodyn.studies.protocol.study import CaseHead, Progress
-from tribodyn.tribology.closure import untried_closure_of
+from tribodyn.tribology.closure import untried_closure_of, with_laws
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import FilmData, FilmLaw, FrictionData, FrictionLaw
-from tribodyn.tribology.surface_state import ContactFriction, range_shares
+from tribodyn.tribology.law import FilmLaw, FrictionLaw
+from tribodyn.tribology.surface_state import range_shares
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -228,13 +228,11 @@ def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
         for law, values in laws.items():
             if what == "film":
                 meant, stated = meant_by(study, over, law), FILM_LAWS[law]
-                seen = seen_by(study, over, law, "none")
             else:
                 meant, stated = "friction_coefficient", FRICTION_LAWS[law]
-                seen = seen_by(study, over, None, law)
             ratio = values / arrays[meant]
             ratio = ratio[np.isfinite(ratio)]
-            inside = _inside(study, seen, stated)
+            inside = _inside(study, over, stated)
             low = middle = high = float("nan")
             if len(ratio):
                 low, middle, high = (float(function(ratio)) for function in (np.min, np.median, np.max))
@@ -244,10 +242,10 @@ def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
     return found
 
 
-def _inside(study: PreparedEhl, seen: ContactFriction, law: FilmLaw | FrictionLaw) -> tuple[float, float]:
+def _inside(study: PreparedEhl, over: PairWay, law: FilmLaw | FrictionLaw) -> tuple[float, float]:
     """Shares of the way inside the law's range, and inside its judged limits alone; NaN: none stated."""
-    film, friction = (law.name, "none") if law.table == "film" else (None, law.name)
-    closure = untried_closure_of(replace(study.case, film=FilmData(film), friction=FrictionData(friction)))
+    names = (law.name, "none") if law.table == "film" else (None, law.name)
+    seen, closure = seen_by(study, over, *names), untried_closure_of(with_laws(study.case, *names))
     shares = range_shares(seen.contact, closure)[law.table != "film"]
     least = np.min(np.broadcast_to(shares, (*seen.radius.shape, shares.shape[-1])), axis=-1)
     whole = float("nan") if np.all(np.isnan(least)) else float(np.mean(least >= 1.0))

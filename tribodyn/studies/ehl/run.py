@@ -1,38 +1,38 @@
 """From a case of the solved contact study to its record."""
 
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
+from tribodyn.errors import InputError
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.numerics.shapes import Array
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.ehl.along_path import (
     PairWay,
     PreparedEhl,
-    by_laws,
-    contact_for,
     loaded,
-    meant_by,
     prepare,
     profiles,
     seen_by,
     solved_at,
     way,
 )
-from tribodyn.studies.ehl.case import BEGIN, END, PLACES, SAMPLES, EhlCase, layout_of
+from tribodyn.studies.ehl.case import BEGIN, END, PLACES, SAMPLES, EhlCase, layout_of, unsolved
 from tribodyn.studies.ehl.squeezed import SteadyContact, squeezed, steady_of
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 
 #: Slide-to-roll ratios of the traction curve.
 TRACTION = np.array([0.001, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
 #: Share of the time that the steady contacts take, of a way that is solved with squeeze too.
 _STEADY = 0.7
-_PROFILES = ("pressure", "film_thickness", "temperature_rise", "shear_stress")
 
 
 def run(
@@ -45,7 +45,7 @@ def run(
     over = way(study)
     laws = by_laws(study, over)
     arrays = solve(study, over, progress or (lambda _share: None))
-    summary = _figures(study, over, arrays, laws)
+    summary = _summary(study, over, arrays, laws)
     scales: dict[str, Array] = {
         "place": np.linspace(BEGIN, END, PLACES),
         "film_law": np.array(list(laws["film"])),
@@ -73,23 +73,18 @@ def check(case: EhlCase) -> CheckResult:
 
 
 def figures(case: EhlCase) -> dict[str, Any]:
-    """Figures of a case without a record."""
+    """Summary of a case without a record."""
     study = prepare(case)
     over = way(study)
-    return _figures(study, over, solve(study, over, lambda _share: None), by_laws(study, over))
+    return _summary(study, over, solve(study, over, lambda _share: None), by_laws(study, over))
 
 
 def solve(study: PreparedEhl, over: PairWay, progress: Progress) -> dict[str, Array]:
     """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
-    case = study.case
-    seen = seen_by(study, over, None, "none")
+    case, seen = study.case, seen_by(study, over)
     start, count = float(study.cycle.roll_start), len(over.roll)
-    arrays: dict[str, Array] = {
-        name: np.full((count, PLACES) if name in _PROFILES else count, np.nan)
-        for name in SAMPLES
-        if not name.endswith("_by_law")
-    }
-    arrays |= {
+    alone = {name: known for name, known in SAMPLES.items() if not name.endswith("_by_law")}
+    arrays = unsolved(alone, count) | {
         "phase": (over.roll - start) / float(study.cycle.pitch_angle),
         "roll_angle": over.roll,
         "normal_load": over.normal_load,
@@ -99,10 +94,9 @@ def solve(study: PreparedEhl, over: PairWay, progress: Progress) -> dict[str, Ar
         "sliding_speed": over.sliding,
         "hertz_pressure": np.asarray(seen.surface.hertz_pressure),
     }
-    contact = contact_for(case)
     steady: list[SteadyContact | None] = [None] * count
-    for at in np.flatnonzero(loaded(over)):
-        found = solved_at(contact, over, seen, at, case.step)
+    for at in map(int, np.flatnonzero(loaded(over))):
+        found = solved_at(study, over, seen, at)
         if found is not None:
             solution, problem = found.solution, found.solution.problem
             gap = solution.mean_gap
@@ -123,29 +117,61 @@ def solve(study: PreparedEhl, over: PairWay, progress: Progress) -> dict[str, Ar
                 arrays[name][at] = value
             if case.transient:
                 steady[at] = steady_of(found)
-        flat = solved_at(contact, over, seen, at, case.step, smooth=True)
+        flat = solved_at(study, over, seen, at, smooth=True)
         if flat is not None:
             arrays["central_film_smooth"][at] = flat.solution.central_film_thickness
             arrays["minimum_film_smooth"][at] = flat.solution.minimum_film_thickness
         progress((at + 1) / count * (_STEADY if case.transient else 1.0))
     if case.transient:
         rest = lambda share: progress(_STEADY + (1.0 - _STEADY) * share)  # noqa: E731
-        arrays |= squeezed(over, case, contact, steady, rest)
+        arrays |= squeezed(over, case, steady, rest)
     return arrays
+
+
+def by_laws(study: PreparedEhl, over: PairWay) -> dict[str, dict[str, Array]]:
+    """Film by every film law and friction by every friction law that needs no values of its own.
+
+    The solved law is left out: it is tabulated from the contacts that are solved here.
+    """
+    films, frictions = {}, {}
+    for name in FILM_LAWS:
+        if name != "solved":
+            films[name] = np.asarray(seen_by(study, over, name).surface.central_film_thickness)
+    for name in FRICTION_LAWS:
+        if name in ("solved", "none"):
+            continue
+        try:
+            seen = seen_by(study, over, friction=name)
+        except InputError:  # it wants a value of its own
+            continue
+        frictions[name] = np.abs(np.asarray(seen.surface.friction_coefficient)) + 0.0 * over.roll
+    return {"film": films, "friction": frictions}
+
+
+def meant_by(study: PreparedEhl, over: PairWay, law: str) -> str:
+    """Which dataset of the solved contact a film law stands for.
+
+    Its central or its minimum film; and that between smooth surfaces, where the law knows no roughness.
+    """
+    smooth = replace(study, case=replace(study.case, roughness=1e-3 * study.case.roughness))
+    rough, flat = (
+        seen_by(prepared, over, law).surface.central_film_thickness for prepared in (study, smooth)
+    )
+    kind = "smooth" if np.array_equal(np.asarray(rough), np.asarray(flat)) else "thickness"
+    return f"{FILM_LAWS[law].thickness}_film_{kind}"
 
 
 def _traction(study: PreparedEhl, over: PairWay) -> list[float]:
     """Friction coefficient over slide-to-roll ratio, where the load is highest; NaN: not solved."""
-    seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
-    at = int(np.argmax(over.line_load))
+    seen, at = seen_by(study, over), int(np.argmax(over.line_load))
     curve = []
     for ratio in TRACTION:
-        found = solved_at(contact, over, seen, at, study.case.step, slide_to_roll=ratio)
+        found = solved_at(study, over, seen, at, slide_to_roll=ratio)
         curve.append(np.nan if found is None else abs(found.friction) / float(over.line_load[at]))
     return curve
 
 
-def _figures(
+def _summary(
     study: PreparedEhl, over: PairWay, arrays: dict[str, Array], laws: dict[str, dict[str, Array]]
 ) -> dict[str, Any]:
     solved = np.isfinite(arrays["central_film_thickness"])
@@ -163,9 +189,8 @@ def _figures(
     friction = {
         name: _mean_by_loss(arrays, values, solved) / mean for name, values in laws["friction"].items()
     }
-    squeeze = squeeze_figures(arrays) if study.case.transient else {}
     return {
-        **squeeze,
+        **(squeeze_summary(arrays) if study.case.transient else {}),
         **_judged(study.case, arrays, solved),
         "contact_ratio": float(study.cycle.contact_ratio),
         "positions_solved": int(np.count_nonzero(solved)),
@@ -205,7 +230,7 @@ def _mean_by_loss(arrays: dict[str, Array], values: Array, solved: Array) -> flo
     return float(np.sum(weight * values[solved]) / np.sum(weight))
 
 
-def squeeze_figures(arrays: dict[str, Array]) -> dict[str, Any]:
+def squeeze_summary(arrays: dict[str, Array]) -> dict[str, Any]:
     """How far films and friction with squeeze depart from the steady ones."""
     solved = np.isfinite(arrays["transient_central_film_thickness"])
     found: dict[str, Any] = {

@@ -4,9 +4,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import Field
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.common import LoadCurve
 from tribodyn.scenario.quantity import Switch, Table, csv_or_record, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
@@ -23,13 +24,42 @@ class EhlMesh(Table):
     )
 
 
-def _of_record(path: Path, key: str) -> dict[str, Any]:
-    from tribodyn.studies.ehl.loads import loads_of_record
+def loads_of_record(path: Path, key: str) -> dict[str, Any]:
+    """Loads of the last pair that passed through the whole mesh in a simulation over time, as columns.
 
-    return loads_of_record(path, key)
+    Raises InputError if the file is no such record, or too short.
+    """
+    from tribodyn.post.cycles import last_cycles
+    from tribodyn.record.reader import open_record
+
+    def bad(rule: str, remedy: str) -> InputError:
+        return InputError(key, quoted(path.name), rule, remedy, str(path))
+
+    try:
+        opened = open_record(path)
+    except InputError as error:
+        raise bad(error.rule, error.remedy) from None
+    with opened as record:
+        if record.axis != "time" or "normal_load" not in record or "mesh_cycle" not in record.groups:
+            raise bad("holds no loads of pairs over time", "give the record of a gear pair's simulation")
+        cycle, numbers = record.mesh_cycle, np.asarray(record["pair"])
+        ratio = float(cycle["contact_ratio"])
+        window = last_cycles(record, int(np.ceil(ratio)))
+        if window.phase[-1] < ratio:
+            raise bad("ends before a pair has passed through the mesh", "let it run for more mesh cycles")
+        age = window.phase[window.phase <= ratio]
+        load = np.asarray(record["normal_load"])[window.part][: len(age)]
+    # the pair that entered with the first sample is number 1, then 0, then -1
+    column = np.searchsorted(numbers, 1 - np.floor(age + 1e-9).astype(int))
+    roll = float(cycle["roll_start"]) + 2.0 * np.pi / float(cycle["pinion_teeth"]) * age
+    values = np.nan_to_num(load[np.arange(len(age)), column])
+    return {
+        "roll_angle": {"unit": "rad", "values": roll.tolist()},
+        "normal_load": {"unit": "N", "values": values.tolist()},
+    }
 
 
-LOADS = csv_or_record("roll_angle", "normal_load", record=_of_record)
+LOADS = csv_or_record("roll_angle", "normal_load", record=loads_of_record)
 
 
 class EhlContact(Table):

@@ -14,8 +14,8 @@ from scipy.interpolate import CubicSpline
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.shapes import Array
-from tribodyn.studies.ehl.along_path import PairWay, pressure_and_film
-from tribodyn.studies.ehl.case import PLACES, EhlCase
+from tribodyn.studies.ehl.along_path import PairWay, contact_for, pressure_and_film
+from tribodyn.studies.ehl.case import SQUEEZED, EhlCase, unsolved
 from tribodyn.studies.protocol.study import Progress
 from tribodyn.tribology.ehl.coupled import CoupledSolution, friction_of
 from tribodyn.tribology.ehl.grid import FilmGrid
@@ -29,8 +29,6 @@ from tribodyn.tribology.ehl.transient import Instant, march
 
 #: Longest time step, over that in which the oil is drawn through half a contact: films within 0.1 %.
 WAY_OF_A_STEP = 0.1
-_PROFILES = ("pressure", "film_thickness")
-_SCALARS = ("central_film_thickness", "minimum_film_thickness", "friction_coefficient")
 PREFIX = "transient_"
 
 
@@ -68,20 +66,13 @@ def steady_of(found: CoupledSolution) -> SteadyContact:
 
 
 def squeezed(
-    over: PairWay, case: EhlCase, contact: Contact, steady: Sequence[SteadyContact | None], progress: Progress
+    over: PairWay, case: EhlCase, steady: Sequence[SteadyContact | None], progress: Progress
 ) -> dict[str, Array]:
     """Datasets of the way with squeeze, NaN where it was not solved, and `restarts` within the way.
 
-    Parameters
-    ----------
-    case : whose pinion's speed and step of the grid hold
-    contact : what all contacts have in common
-    steady : of each position; None: unloaded or not solved
+    `steady` is of each position; None: unloaded or not solved.
     """
-    count = len(over.roll)
-    arrays: dict[str, Array] = {PREFIX + name: np.full(count, np.nan) for name in _SCALARS}
-    arrays |= {PREFIX + name: np.full((count, PLACES), np.nan) for name in _PROFILES}
-    begun = 0
+    arrays, contact, begun = unsolved(SQUEEZED, len(over.roll)), contact_for(case), 0
     for first, last in _runs([position is not None for position in steady]):
         chosen = [position for position in steady[first : last + 1] if position is not None]
         stretch = _stretch(chosen, over, np.arange(first, last + 1), case)
@@ -118,7 +109,7 @@ def _through(
         reached = at
         for reached, solution in _carried(stretch, at):
             _put(arrays, first + reached, solution, contact, stretch.rises[reached])
-            progress((first + reached + 1) / len(arrays[PREFIX + _SCALARS[0]]))
+            progress((first + reached + 1) / len(next(iter(arrays.values()))))
         begun += reached > at
         at = reached + 1
     return begun
@@ -140,7 +131,7 @@ def _carried(stretch: Stretch, begin: int) -> Iterator[tuple[int, Solution]]:
 
 
 def _begun(stretch: Stretch, at: int) -> Solution:
-    """SteadyContact contact of a position, on the grid of the stretch."""
+    """Steady contact of a position, on the grid of the stretch."""
     contact, grid = stretch.steady[at], stretch.grid
     reduced = reduced_problem(contact.problem)
 

@@ -7,8 +7,8 @@ import pytest
 
 import tribodyn as td
 from tribodyn.record.reader import open_record
-from tribodyn.studies.ehl.along_path import contact_for, prepare, seen_by, solved_at, way
-from tribodyn.studies.ehl.loads import loads_of_record
+from tribodyn.studies.ehl.along_path import prepare, seen_by, solved_at, way
+from tribodyn.studies.ehl.scenario import loads_of_record
 from tribodyn.studies.ehl.squeezed import squeezed, steady_of
 from tribodyn.studies.protocol.load import load
 
@@ -66,8 +66,8 @@ def test_the_step_is_that_of_the_grid():
         study = prepare(load("ehl-crc-23-47", {"output.positions": 4, "contact.step": step}).case)
         assert study.case.step == step
         over = way(study)
-        seen = seen_by(study, over, None, "none")
-        found[step] = solved_at(contact_for(study.case), over, seen, 1, study.case.step).solution
+        seen = seen_by(study, over)
+        found[step] = solved_at(study, over, seen, 1).solution
     assert 1.7 < len(found[0.1].place) / len(found[0.2].place) < 2.2
     films = [one.central_film_thickness for one in found.values()]
     assert 0.0 < abs(films[1] / films[0] - 1.0) < 3e-3
@@ -78,11 +78,11 @@ def test_the_film_begins_anew_behind_a_loss_of_contact():
     study = prepare(
         load("ehl-crc-23-47", {"output.positions": 8, "contact.transient": True, "contact.step": 0.2}).case
     )
-    over, contact = way(study), contact_for(study.case)
-    seen = seen_by(study, over, None, "none")
-    solved = {at: solved_at(contact, over, seen, at, 0.2) for at in (1, 2, 5, 6, 7)}
+    over = way(study)
+    seen = seen_by(study, over)
+    solved = {at: solved_at(study, over, seen, at) for at in (1, 2, 5, 6, 7)}
     steady = [steady_of(one) if (one := solved.get(at)) else None for at in range(8)]
-    found = squeezed(over, study.case, contact, steady, lambda _share: None)
+    found = squeezed(over, study.case, steady, lambda _share: None)
     film = found["transient_central_film_thickness"]
     assert list(np.isfinite(film)) == [one is not None for one in steady]
     assert found["restarts"] == 1

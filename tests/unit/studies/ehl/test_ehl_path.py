@@ -7,7 +7,7 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.path import kinematics
-from tribodyn.studies.ehl import along_path, loads
+from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.along_path import PairWay, PreparedEhl, prepare
 from tribodyn.studies.protocol.load import load
 
@@ -27,7 +27,9 @@ def over(study: PreparedEhl) -> PairWay:
 def test_given_loads_are_those_of_the_way(study: PreparedEhl):
     start, end = float(study.cycle.roll_start), float(study.cycle.roll_end)
     span = end - start
-    roll, load = loads.given_loads((np.array([start, 0.0, end]), np.array([-3.0, 4.0, 0.0])), study.cycle)
+    roll, load = along_path.given_loads(
+        (np.array([start, 0.0, end]), np.array([-3.0, 4.0, 0.0])), study.cycle
+    )
     assert (list(roll), list(load)) == ([start, 0.0, end], [0.0, 4.0, 0.0])
     for low, high, good in (
         (0.019, -0.019, True),
@@ -39,12 +41,12 @@ def test_given_loads_are_those_of_the_way(study: PreparedEhl):
     ):
         ends = np.array([start + low * span, end + high * span]), np.array([1.0, 0.0])
         if good:
-            loads.given_loads(ends, study.cycle)
+            along_path.given_loads(ends, study.cycle)
         else:
             with pytest.raises(InputError, match=f"where a pair touches at {math.degrees(start):.4g}"):
-                loads.given_loads(ends, study.cycle)
+                along_path.given_loads(ends, study.cycle)
     with pytest.raises(InputError, match="nowhere above 0"):
-        loads.given_loads((np.array([start, end]), np.array([0.0, -1.0])), study.cycle)
+        along_path.given_loads((np.array([start, end]), np.array([0.0, -1.0])), study.cycle)
 
 
 def test_the_way_is_divided_evenly_and_its_loads_balance_the_torque(study: PreparedEhl, over: PairWay):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.studies.ehl.run import squeeze_figures
+from tribodyn.studies.ehl.run import squeeze_summary
 
 NAN = np.nan
 ARRAYS = {
@@ -20,7 +20,7 @@ ARRAYS = {
 
 
 def test_departures_are_those_of_the_positions_that_were_solved():
-    found = squeeze_figures(dict(ARRAYS))
+    found = squeeze_summary(dict(ARRAYS))
     assert (found["transient_positions_solved"], found["transient_restarts"]) == (3, 2)
     assert found["central_film_departure_max"] == pytest.approx(0.25)  # 0.2, 0.1, 0.25
     assert found["central_film_departure_mean"] == pytest.approx(0.55 / 3)
@@ -36,5 +36,5 @@ def test_departures_are_those_of_the_positions_that_were_solved():
 
 def test_where_nothing_was_solved_nothing_is_said_of_films():
     none = {**ARRAYS, "transient_central_film_thickness": np.full(4, NAN)}
-    found = squeeze_figures(none)
+    found = squeeze_summary(none)
     assert found == {"transient_positions_solved": 0, "transient_restarts": 2}
