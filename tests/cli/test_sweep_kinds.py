@@ -79,7 +79,7 @@ def test_a_sweep_has_the_figures_of_single_runs(kind: str, swept, tmp_path: Path
     figures = STUDIES[kind].swept()
     with SweepRecord(path) as record:
         assert (record.status, record.kind_of_study) == ("complete", kind)
-        assert set(record.figures) == set(figures)
+        assert set(record.quantities) == set(figures)
         assert (record["status"] == DONE).all()
         for name, quantity in figures.items():
             expected = quantity.variable()

@@ -34,7 +34,7 @@ def test_dynamics_are_of_the_operating_line_of_action():
 def test_the_efficiency_is_that_of_its_loss_factor():
     given = OFF | {"friction.law": "coulomb", "friction.coefficient": 0.01}
     loaded = load("efficiency-involute-18-36", given)
-    found = STUDIES["efficiency"].figures(loaded.case)
+    found = STUDIES["efficiency"].quantities_of(loaded.case)
     tips = [math.sqrt(r**2 - b**2) for r, b in ((30e-3, BASE / 2), (57e-3, BASE))]
     length = 81.5e-3 * math.sin(WORKING)
     pitch = 3e-3 * math.pi * math.cos(math.radians(20))

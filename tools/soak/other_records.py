@@ -189,7 +189,7 @@ def search_faults(record: Record) -> Iterator[str]:
     study = STUDIES[again.kind]
     if "duties" in summary or study.batch():
         return
-    for name, one in study.figures(again).items():
+    for name, one in study.quantities_of(again).items():
         known = summary["figures_best"].get(name)
         if name != "wall_time" and known is not None and not np.isclose(one, known, rtol=1e-6):
             yield f"the best scenario has {name} = {one:.9g}, the search {known:.9g}"
@@ -222,7 +222,7 @@ def rolling_faults(record: Record) -> Iterator[str]:
 def sweep_faults(record: SweepRecord) -> Iterator[str]:
     """Say what is wrong with the record of a sweep of a gear pair's dynamics."""
     done = record["status"] == DONE
-    for name in record.figures:
+    for name in record.quantities:
         values = record[name][done] if name in record else np.zeros(0)
         if values.dtype.kind == "f" and np.any(np.isinf(values)):
             yield f"{name} is infinite"

@@ -72,7 +72,7 @@ def sweep(
             metavar="N",
             min=1,
             max=10**9,
-            help="March N mesh cycles instead; figures of the last ones.",
+            help="March N mesh cycles instead; quantities of the last ones.",
         ),
     ] = None,
     direction: Annotated[
@@ -107,7 +107,7 @@ def sweep(
     settings: SetOption = None,
     force: ForceOption = False,
     allow_large: LargeOption = False,
-    json: Annotated[bool, typer.Option("--json", help="Print axes and figures as JSON.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print axes and quantities as JSON.")] = False,
 ) -> None:
     """Vary keys of a scenario, one record of all cases."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain

@@ -1,4 +1,4 @@
-"""Reference stiffness after ISO 6336-1, method B: the figures that ours are compared with.
+"""Reference stiffness after ISO 6336-1, method B: the values that ours are compared with.
 
 External gears, theory after Weber & Banaschek for solid discs of steel with the standard basic rack,
 corrected by measurements and by factors for what differs. Formulas and limits are those of ISO 6336-1:2019,

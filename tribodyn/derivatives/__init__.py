@@ -1,1 +1,1 @@
-"""Derivatives of the figures of a gear pair by the numbers of its scenario, through JAX."""
+"""Derivatives of the quantities of a gear pair by the numbers of its scenario, through JAX."""

@@ -1,4 +1,4 @@
-"""Figures of a case as a differentiable function of some of its numbers: what a search calls.
+"""Quantities of a case as a differentiable function of some of its numbers: what a search calls.
 
     function = Differentiable(case, schema, ["efficiency", "contact_ratio"], ["drive.shape.angles.3"])
     values, slopes = function.jacobian(function.at)
@@ -31,17 +31,17 @@ from tribodyn.numerics.shapes import Array, Float
 
 #: XLA takes a fraction of the time to make a program that it hardly optimises; it runs in milliseconds.
 _HARDLY_OPTIMISED = {"xla_backend_optimization_level": 0}
-#: Tables of a scenario on which no quasi-static figure depends.
+#: Tables of a scenario on which no quasi-static quantity depends.
 _OF_NO_INFLUENCE = ("title", "name", "output", "solver", "bearings")
-#: One figure by more keys than this is differentiated backwards: in a time that does not depend on their
+#: One quantity by more keys than this is differentiated backwards: in a time that does not depend on their
 #: number, by a program that takes longer to make.
 FORWARDS = 6
-#: Keys by which several figures are differentiated at once.
+#: Keys by which several quantities are differentiated at once.
 _TOGETHER = 8
 
 
 class Differentiable:
-    """Figures of a case as a function of some of its numbers.
+    """Quantities of a case as a function of some of its numbers.
 
     Parameters
     ----------
@@ -53,13 +53,13 @@ class Differentiable:
     Raises
     ------
     InputError
-        For an unknown figure or key, and a figure that this case does not have.
+        For an unknown quantity or key, and a quantity that this case does not have.
 
     Attributes
     ----------
-    of, wrt : names of the figures, and keys
+    of, wrt : names of the quantities, and keys
     at : the numbers of the case, SI
-    units, key_units : SI units of figures and keys
+    units, key_units : SI units of quantities and keys
     """
 
     def __init__(self, case: Any, schema: type[BaseModel], of: Sequence[str], wrt: Sequence[str]) -> None:
@@ -75,15 +75,15 @@ class Differentiable:
         places = {key: place for place, key in enumerate(self._numbers)}
         self._places = np.array([places[key] for key in self.wrt])
 
-    def values(self, x: Float[Array, " key"]) -> Float[Array, " figure"]:
-        """Figures where the keys have the values x (SI); NaN where there is no such mesh."""
+    def values(self, x: Float[Array, " key"]) -> Float[Array, " value"]:
+        """Quantities where the keys have the values x (SI); NaN where there is no such mesh."""
         values = self._values(x)
         return self._finite(self._run("values", values))[0]
 
-    def jacobian(self, x: Float[Array, " key"]) -> tuple[Float[Array, " figure"], Float[Array, "figure key"]]:
-        """Figures, and their derivatives by the keys, SI, where the keys have the values x.
+    def jacobian(self, x: Float[Array, " key"]) -> tuple[Float[Array, " value"], Float[Array, "value key"]]:
+        """Quantities, and their derivatives by the keys, SI, where the keys have the values x.
 
-        Beyond the limits of existence figures of the mesh may be NaN; distances from the limits never are.
+        Beyond the limits of existence quantities of the mesh may be NaN; distances from the limits never are.
         """
         values = self._values(x)
         keys = len(self.wrt)
@@ -101,7 +101,7 @@ class Differentiable:
         return self._finite((parts[0][0], np.concatenate([part[1] for part in parts], axis=1)[:, :keys]))
 
     def gradient(self, x: Float[Array, " key"]) -> tuple[float, Float[Array, " key"]]:
-        """The first figure and its derivatives by the keys, SI."""
+        """The first quantity and its derivatives by the keys, SI."""
         values, slopes = self.jacobian(x)
         return float(values[0]), slopes[0]
 
@@ -203,20 +203,20 @@ def _program(structure: _Structure, of: tuple[str, ...], fixed: Fixed) -> _Progr
     import jax
     import jax.numpy as jnp
 
-    def figures(values: Any) -> Any:
+    def quantities(values: Any) -> Any:
         at = PairEvaluation(_put(structure.case, structure.numbers, list(values)), fixed)
         return jnp.stack([QUANTITIES[name].function(at) for name in of])
 
     def forwards(values: Any, directions: Any) -> Any:
         def along(direction: Any) -> Any:
-            return jax.jvp(figures, (values,), (direction,))
+            return jax.jvp(quantities, (values,), (direction,))
 
         found, slopes = jax.vmap(along, out_axes=(None, 1))(directions)
         return found, slopes
 
     def backwards(values: Any) -> Any:
-        found, slopes = jax.value_and_grad(lambda x: figures(x)[0])(values)
+        found, slopes = jax.value_and_grad(lambda x: quantities(x)[0])(values)
         return found[None], slopes
 
-    functions = (figures, forwards, backwards)
+    functions = (quantities, forwards, backwards)
     return _Program(*(jax.jit(function, compiler_options=_HARDLY_OPTIMISED) for function in functions))

@@ -1,4 +1,4 @@
-"""The numbers of a case by which its figures can be differentiated: their keys, units, and places."""
+"""The numbers of a case by which its quantities can be differentiated: their keys, units, and places."""
 
 import tomllib
 from collections.abc import Callable, Iterable, Iterator

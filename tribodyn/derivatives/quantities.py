@@ -1,4 +1,4 @@
-"""Figures of a gear pair as functions of its case, whose numbers may be traced: what can be differentiated.
+"""Quantities of a gear pair as functions of its case, whose numbers may be traced: to be differentiated.
 
 They are quasi-static: of the teeth alone, or of the mesh in slow rotation under the gear's torque, of elastic
 load sharing.
@@ -33,7 +33,7 @@ class Fixed(NamedTuple):
 
 
 class PairEvaluation:
-    """A case on the way to its figures; each step is made once, when a figure needs it.
+    """A case on the way to its quantities; each step is made once, when a quantity needs it.
 
     Parameters
     ----------
@@ -93,13 +93,13 @@ class PairEvaluation:
 
 
 class Differentiated(NamedTuple):
-    """A figure."""
+    """A quantity."""
 
     about: str  # what it is
     unit: str  # SI
     function: Callable[[PairEvaluation], Any]  # evaluation -> its value
     needs: tuple[str, ...] = ()  # what the case must have beside its gears: "mesh", "operating", "friction"
-    #: whether it is a figure of the contact at the pitch point, which must then be a contact
+    #: whether it is a quantity of the contact at the pitch point, which must then be a contact
     at_pitch_point: bool = False
     limit: bool = False  # whether it is a distance from a limit of existence, positive where gears exist
 
@@ -233,13 +233,13 @@ QUANTITIES: dict[str, Differentiated] = {
 
 
 def quantity_of(case: Any, name: str) -> Differentiated:
-    """The figure of that name; raises InputError where there is none, or the case lacks what it depends on.
+    """The quantity of that name; raises InputError where there is none, or the case lacks what it depends on.
 
     Whether the gears can be made is not looked at.
     """
     name = ALSO.get(name, name)
     if name not in QUANTITIES:
-        raise unknown_name("of", name, QUANTITIES, "figure that can be differentiated")
+        raise unknown_name("of", name, QUANTITIES, "quantity that can be differentiated")
     quantity = QUANTITIES[name]
     if not isinstance(getattr(case, "drive", None), Drive):
         raise InputError(

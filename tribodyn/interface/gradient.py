@@ -1,4 +1,4 @@
-"""Derivatives of a gear pair's figures by the numbers of its scenario, through JAX."""
+"""Derivatives of a gear pair's quantities by the numbers of its scenario, through JAX."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -18,18 +18,18 @@ from tribodyn.tribology.closure import closure_of
 
 @dataclass(frozen=True)
 class Gradient:
-    """A figure and its derivatives; `gradient` makes one.
+    """A quantity and its derivatives; `gradient` makes one.
 
     Attributes
     ----------
     of : str
-        Name of the figure.
+        Name of the quantity.
     about, unit : str
         What it is, and its SI unit.
     value : float
         SI.
     gradient : dict
-        Key to derivative, SI: the figure's unit over the key's.
+        Key to derivative, SI: the quantity's unit over the key's.
     at : dict
         Key to the value that it has in the scenario, SI.
     units : dict
@@ -49,7 +49,7 @@ class Gradient:
 
     @property
     def sensitivity(self) -> dict[str, float]:
-        """Key to x/f df/dx: by how many per cent the figure changes where the key's value grows by one.
+        """Key to x/f df/dx: by how many per cent the quantity changes where the key's value grows by one.
 
         0 for a value of 0, which has no per cent.
         """
@@ -83,12 +83,12 @@ def _with_unit(value: float, unit: str) -> str:
 def gradient(
     source: Source, of: str, wrt: str | Sequence[str], overrides: Mapping[str, Any] | None = None
 ) -> Gradient:
-    """Differentiate a figure of a gear pair by numbers of its scenario, exactly, through JAX.
+    """Differentiate a quantity of a gear pair by numbers of its scenario, exactly, through JAX.
 
     Parameters
     ----------
     source, overrides
-        As `scenario` takes them; any scenario of a gear pair with the tables that the figure needs.
+        As `scenario` takes them; any scenario of a gear pair with the tables that the quantity needs.
     of : str
         "contact_ratio", "centre_distance", "pressure_angle", "equivalent_radius", "hertz_pressure",
         "mean_stiffness", "stiffness_swing", "transmission_error_swing", "loss_factor", "efficiency",
@@ -110,12 +110,12 @@ def gradient(
     Raises
     ------
     InputError
-        For a figure or a key that cannot be differentiated, with those that can; and as `scenario`.
+        For a quantity or a key that cannot be differentiated, with those that can; and as `scenario`.
 
     Notes
     -----
-    The first gradient of a figure and a tooth family takes seconds to tens of seconds, in which XLA makes its
-    program; that is kept in the cache folder, and the next ones take a fraction of a second. Where the
+    The first gradient of a quantity and a tooth family takes seconds to tens of seconds, in which XLA makes
+    its program; that is kept in the cache folder, and the next ones take a fraction of a second. Where the
     set of pairs in contact is about to change, at a whole contact ratio, derivatives are one-sided.
     """
     keys = [wrt] if isinstance(wrt, str) else list(wrt)
@@ -142,12 +142,12 @@ def differentiable(
     wrt: str | Sequence[str],
     overrides: Mapping[str, Any] | None = None,
 ) -> Differentiable:
-    """Make figures of a gear pair a differentiable function of numbers of its scenario: what a search calls.
+    """Make quantities of a gear pair a differentiable function of numbers of its scenario, for a search.
 
     Parameters
     ----------
     source, overrides, of, wrt
-        As `gradient` takes them; `of` may be several figures, which one program then evaluates together.
+        As `gradient` takes them; `of` may be several quantities, which one program then evaluates together.
 
     Returns
     -------
@@ -166,11 +166,11 @@ def differentiable(
 
 
 def _check(case: Any, of: str) -> None:
-    """Refuse figures that the case does not have, gears that cannot be made, laws that do not fit."""
+    """Refuse quantities that the case does not have, gears that cannot be made, laws that do not fit."""
     quantity = quantity_of(case, of)
     gears = check(family(case.family), case.drive)
     if quantity.at_pitch_point and float(gears.path.pressure_angle(0.0)) < 1e-9:
         rule = f"{of} has no meaning: curvature is infinite at the pitch point of this family"
-        raise InputError("drive.family", quoted(case.family), rule, "differentiate another figure")
+        raise InputError("drive.family", quoted(case.family), rule, "differentiate another quantity")
     if "friction" in quantity.needs:
         closure_of(case)  # raises where the laws do not fit

@@ -34,7 +34,7 @@ def of_run(record: Record) -> "Dataset":
 
 
 def of_sweep(record: SweepRecord) -> "Dataset":
-    """All figures of a sweep over its parameters, in SI units; NaN where a case is not done."""
+    """All quantities of a sweep over its parameters, in SI units; NaN where a case is not done."""
     from xarray import Dataset
 
     names = (*record, *(name for name in ("status", "message") if name not in set(record)))
@@ -132,7 +132,7 @@ def picture_of_run(record: Record, study: Study) -> str:
 
 
 def picture_of_sweep(data: "xarray.Dataset", study: Study) -> str:
-    """Draw the first figure of a sweep over its first key; nothing, where there are no numbers to draw."""
+    """Draw the first quantity of a sweep over its first key; nothing, where there are no numbers to draw."""
     from tribodyn.post.style import literal
 
     quantity = next((swept for swept in study.sweep_table() if swept.name in data), None)

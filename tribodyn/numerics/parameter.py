@@ -23,7 +23,7 @@ class Parameter(NamedTuple):
     listed : whether the key takes a list of such values; the family or law receives an array
     optional : whether the scenario may leave out a key without a default; the family or law then receives
         None
-    fixed : whether figures cannot be differentiated by it, because it says where the other values stand
+    fixed : whether quantities cannot be differentiated by it, because it says where the other values stand
     """
 
     name: str

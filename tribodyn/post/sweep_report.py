@@ -28,7 +28,7 @@ def sweep_table(record: SweepRecord, quantities: Sequence[Quantity]) -> Group:
     """
     # a record of an older version lacks figures that have been added since
     columns = [one for one in quantities if one.name in record]
-    columns = columns or [described(record, name) for name in record.figures]
+    columns = columns or [described(record, name) for name in record.quantities]
     parts: list[Any] = [Text(str(record.scenario.get("title", record.label)), style="bold")]
     if record.status != "complete":
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))

@@ -78,7 +78,7 @@ class Record(OpenRecord):
     def summary(self) -> dict[str, Any]:
         """Results of the run; names that hold `/` become nested dictionaries.
 
-        A figure that is withheld is None, see `record.withheld`.
+        A quantity that is withheld is None, see `record.withheld`.
         """
         nested: dict[str, Any] = {}
         for name, value in self._attributes["summary"].items():

@@ -1,4 +1,4 @@
-"""Reads the record of a sweep: figures over the varied parameters, windows of single cases."""
+"""Reads the record of a sweep: quantities over the varied parameters, windows of single cases."""
 
 import tomllib
 from collections.abc import Iterator
@@ -67,7 +67,7 @@ class SweepRecord(OpenRecord):
         )
 
     @cached_property
-    def figures(self) -> tuple[str, ...]:
+    def quantities(self) -> tuple[str, ...]:
         """Names of the datasets that hold one number per case."""
         one_each = (name for name in self if self._file[name].ndim == len(self.dims))
         return tuple(name for name in one_each if self._file[name].dtype.kind == "f")

@@ -61,7 +61,7 @@ class VariedKey(NamedTuple):
 class SweepLayout(NamedTuple):
     """What a sweep records of every case of a study."""
 
-    figures: Mapping[str, Variable]  # datasets by name; their dimensions are those after the cases'
+    quantities: Mapping[str, Variable]  # datasets by name; their dimensions are those after the cases'
     #: name of such a dimension -> its scale and the values along it
     scales: Mapping[str, tuple[Variable, Any]] = MappingProxyType({})
     attributes: Mapping[str, Any] = MappingProxyType({})  # what else the root says
@@ -69,7 +69,7 @@ class SweepLayout(NamedTuple):
     @property
     def variables(self) -> dict[str, Variable]:
         """All datasets of the cases, `status` last."""
-        return {**self.figures, **OF_EVERY_SWEEP}
+        return {**self.quantities, **OF_EVERY_SWEEP}
 
     def empty_rows(self, count: int) -> dict[str, Any]:
         """Rows of `count` cases without results."""

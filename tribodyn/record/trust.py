@@ -168,17 +168,17 @@ class Judge:
         return {TRUST: EXTRAPOLATED if extrapolated else OUTSIDE, REASONS: reasons}
 
 
-def judge_tribology(judge: Judge, figures: Mapping[str, Any]) -> None:
+def judge_tribology(judge: Judge, summary: Mapping[str, Any]) -> None:
     """Judge films by their minimum, and ranges of laws, of a summary.
 
     Not by their maximum: where the load vanishes, laws give a film without bound.
     """
     given = {
-        "film_thickness": figures.get("film_min"),
-        "film_parameter": figures.get("film_parameter_min"),
+        "film_thickness": summary.get("film_min"),
+        "film_parameter": summary.get("film_parameter_min"),
     }
     for name, law in (("film_law_range", "closure"), ("friction_law_range", "friction")):
-        inside = figures.get(f"{law}_in_range_fraction")
+        inside = summary.get(f"{law}_in_range_fraction")
         given[name] = None if inside is None else 1.0 - inside
     judge.take({name: value for name, value in given.items() if value is not None})
 

@@ -1,7 +1,7 @@
 """Efficiencies are shares of a power: one outside 0 … 1 is wrong, and is withheld with the reason.
 
 One rule for all studies. The writers apply it to what goes into a file, the readers to what older versions
-wrote, `protocol.study.Study` to the figures that it hands out; what is shown comes from one of these.
+wrote, `protocol.study.Study` to the quantities that it hands out; what is shown comes from one of these.
 """
 
 import math
@@ -15,7 +15,7 @@ from tribodyn.record import trust
 
 #: Figures and datasets of this name, and those whose names begin with it and an underscore, are efficiencies.
 EFFICIENCY = "efficiency"
-#: Added to a figure's name: why it is withheld.
+#: Added to a quantity's name: why it is withheld.
 WITHHELD = "_withheld"
 #: What marks a remark on a case of a sweep as a warning, see `warned`.
 WARNING = "warning: "
@@ -24,7 +24,7 @@ ROUNDING = 1e-12
 
 
 def is_efficiency(name: str) -> bool:
-    """Whether a figure or a dataset of that name is an efficiency."""
+    """Whether a quantity or a dataset of that name is an efficiency."""
     named = name == EFFICIENCY or name.startswith(f"{EFFICIENCY}_")
     return named and not name.endswith(WITHHELD)
 
@@ -51,13 +51,13 @@ def withheld(summary: Mapping[str, Any]) -> dict[str, Any]:
             reason = reason_to_withhold(float(value))
             if reason:
                 result |= {name: None, name + WITHHELD: reason}
-        elif name.endswith(WITHHELD):  # from a file, which has no attribute for a figure without a value
+        elif name.endswith(WITHHELD):  # from a file, which has no attribute for a quantity without a value
             result.setdefault(name.removesuffix(WITHHELD), None)
     return result
 
 
 def reasons(summary: Mapping[str, Any]) -> dict[str, str]:
-    """Name of every figure that is withheld -> why; names in nested summaries joined by `/`."""
+    """Name of every quantity that is withheld -> why; names in nested summaries joined by `/`."""
     found = {}
     for name, value in summary.items():
         if isinstance(value, Mapping):
@@ -88,7 +88,7 @@ def cases_withheld(block: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def warnings(summary: Mapping[str, Any]) -> list[str]:
-    """What to warn of: what lies outside the model, what the study says, and figures that are withheld."""
+    """What to warn of: what lies outside the model, what the study says, and quantities that are withheld."""
     return trust.warnings(summary) + _own_remarks(summary)
 
 

@@ -118,11 +118,11 @@ def csv_or_record(*columns: str, record: RecordReader) -> Reference:
 
 
 class Draws:
-    """Marks a field that numbers samples drawn at random: over many of them figures have a scatter."""
+    """Marks a field that numbers samples drawn at random: over many of them quantities have a scatter."""
 
 
 class Weighed:
-    """Marks a field that numbers the tables of a list, each of which has a weight: figures have a mean.
+    """Marks a field that numbers the tables of a list, each of which has a weight: quantities have a mean.
 
     Parameters
     ----------

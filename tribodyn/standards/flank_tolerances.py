@@ -1,7 +1,7 @@
 """Flank tolerances of cylindrical gears by ISO 1328-1:2013, clause 5: class 5, and √2 from class to class.
 
 The formulas are written from knowledge, without the standard at hand. Lengths are in m here, in mm and µm
-there; figures are unrounded, `rounded` gives them as the standard prints them.
+there; values are unrounded, `rounded` gives them as the standard prints them.
 """
 
 import math

@@ -8,7 +8,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies import STUDIES
-from tribodyn.studies.protocol.evaluated import ByFigures
+from tribodyn.studies.protocol.evaluated import OneByOne
 from tribodyn.studies.sweeping.batch import Chunk
 from tribodyn.studies.sweeping.cluster import client_of, workers_of
 
@@ -19,7 +19,7 @@ JAX, DASK = "jax", "dask"
 def evaluate(kind: str, chunk: Chunk, settings: Any, workers: int | None = None) -> Block:
     """Evaluate a chunk of cases of a kind: here, or in another process that has the same packages."""
     study = STUDIES[kind]
-    return (study.batch() or ByFigures(study)).evaluate(chunk, settings, workers)
+    return (study.batch() or OneByOne(study)).evaluate(chunk, settings, workers)
 
 
 class Engine(Protocol):

@@ -13,7 +13,7 @@ from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.scenario.sources import find_scenario, read_toml
 from tribodyn.scenario.vary import VARY, Axis, axes_of
 from tribodyn.studies import study_of
-from tribodyn.studies.protocol.evaluated import ByFigures
+from tribodyn.studies.protocol.evaluated import OneByOne
 from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.sweeping.batch import Batch
 
@@ -45,7 +45,7 @@ class Grid:
         # texts may name files, which have to be read before anything inside them is set
         self._texts = [i for i, axis in enumerate(self.axes) if not axis.numeric]
         self._resolved = lru_cache(maxsize=16)(self._resolve)
-        self.batch: Batch = self.study.batch() or ByFigures(self.study)
+        self.batch: Batch = self.study.batch() or OneByOne(self.study)
         self._check()
         self.base = self.case((0,) * len(self.axes))
 

@@ -23,7 +23,7 @@ Follow = Callable[[int, int], None]
 
 
 class SweepResult(NamedTuple):
-    """How a sweep ended: the record's path, "complete" or "failed", how many cases failed, its figures."""
+    """How a sweep ended: the record's path, "complete" or "failed", how many cases failed, its summary."""
 
     path: Path
     status: str

@@ -139,7 +139,7 @@ def with_laws(
     return replace(case, **changed)  # pyright: ignore[reportArgumentType]  (cases are dataclasses)
 
 
-def law_figures(case: Lubricated) -> dict[str, Any]:
+def law_quantities(case: Lubricated) -> dict[str, Any]:
     """Names of the laws in use, their ranges and the errors of their tables, for a summary.
 
     `film_judged` and `friction_judged`: their ratios to the solved contact, where they were compared.

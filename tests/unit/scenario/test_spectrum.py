@@ -6,7 +6,7 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.post.sweep_report import weighted_mean
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.studies.efficiency.run import figures, spectrum_figures
+from tribodyn.studies.efficiency.run import quantities_of, spectrum_quantities
 from tribodyn.studies.protocol.load import load
 from tribodyn.sweep.engines import engine_of
 from tribodyn.sweep.grid import Grid
@@ -41,11 +41,11 @@ def test_a_duty_takes_the_place_of_speed_and_load():
 
 
 def test_the_spectrum_is_the_energy_of_its_duties():
-    found = spectrum_figures(loaded())
+    found = spectrum_quantities(loaded())
     alone = [
-        figures(load(EFFICIENCY, {"operating.gear_torque": "300 N*m"}).case),
-        figures(loaded(operating__duty=2)),
-        figures(load(EFFICIENCY, {"operating.pinion_speed": "3000 rpm"}).case),
+        quantities_of(load(EFFICIENCY, {"operating.gear_torque": "300 N*m"}).case),
+        quantities_of(loaded(operating__duty=2)),
+        quantities_of(load(EFFICIENCY, {"operating.pinion_speed": "3000 rpm"}).case),
     ]
     assert found["duty_efficiency"] == pytest.approx([one["efficiency"] for one in alone], rel=1e-12)
     shares = np.array([0.6, 0.2, 0.2])
@@ -53,7 +53,7 @@ def test_the_spectrum_is_the_energy_of_its_duties():
     lost = shares @ [one["power_friction_mean"] for one in alone]
     assert found["spectrum_power_friction_mean"] == pytest.approx(lost)
     assert found["spectrum_efficiency"] == pytest.approx(1 - lost / put_in, rel=1e-9)
-    assert figures(load(EFFICIENCY).case).keys().isdisjoint(found)
+    assert quantities_of(load(EFFICIENCY).case).keys().isdisjoint(found)
 
 
 @pytest.mark.parametrize("name", ["involute-18-36", "load-contact-18-36"])

@@ -158,7 +158,7 @@ def test_a_quantity_has_one_value(kind: str, short_runs):
 @pytest.mark.parametrize("kind", [kind for kind in RUNS if kind != "gear-pair"])
 def test_quantities_without_a_record_are_those_of_the_run(kind: str, short_runs, tmp_path: Path):
     study, summary = STUDIES[kind], short_runs(kind).summary
-    figures = study.figures(short_case(kind, tmp_path))
+    figures = study.quantities_of(short_case(kind, tmp_path))
     missing = {name for name in study.swept() if summary.get(name) is None}
     assert missing < set(study.swept())
     for name in set(study.swept()) - missing:

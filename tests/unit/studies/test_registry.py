@@ -67,7 +67,7 @@ def check(case):
     return CheckResult({"period": case.period}, [table])
 
 
-def figures(case):
+def quantities_of(case):
     return {"period": case.period}
 
 
@@ -77,7 +77,7 @@ def run(case, output, *, force, progress):
     with writer(case, path, layout, 3, force=force) as record:
         times = [part * case.period for part in (0.0, 0.25, 0.5)]
         record.write(0, {"time": times, "angle": [0.1, 0.0, -0.1]})
-        summary = figures(case)
+        summary = quantities_of(case)
         return RunResult(record.finish(summary), "complete", "", summary)
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tribodyn.studies.gears.prepare import _heat, contact_figures, thermal_figures
+from tribodyn.studies.gears.prepare import _heat, contact_quantities, thermal_quantities
 from tribodyn.tribology.losses import Loss
 
 LOSSES = {"churning": Loss(30.0, ("too fast",)), "windage": Loss(5.0, ()), "bearings": Loss(15.0, ())}
@@ -19,7 +19,7 @@ def settled(given_off=None) -> Any:
 
 def test_output_over_what_the_motor_gives():
     """1000 W into the mesh and 50 W beside it; 970 W come out."""
-    figures = thermal_figures(settled(240.0), 1000.0, 0.97)
+    figures = thermal_quantities(settled(240.0), 1000.0, 0.97)
     assert figures["power_load_independent"] == pytest.approx(50.0)
     assert figures["efficiency_with_losses"] == pytest.approx(970.0 / 1050.0)
     assert figures["heat_generated"] == pytest.approx(250.0)
@@ -27,8 +27,8 @@ def test_output_over_what_the_motor_gives():
     assert figures["power_windage"] == 5.0
     assert (figures["bulk_temperature_pinion"], figures["bulk_temperature_gear"]) == (352.0, 348.0)
     assert figures["losses_outside"] == "churning: too fast"
-    assert "housing_temperature" not in thermal_figures(settled(), 1000.0, 0.97)
-    assert thermal_figures(None, 1000.0, 0.97) == {}
+    assert "housing_temperature" not in thermal_quantities(settled(), 1000.0, 0.97)
+    assert thermal_quantities(None, 1000.0, 0.97) == {}
 
 
 @pytest.mark.parametrize("housing", [True, False])
@@ -42,8 +42,8 @@ def test_heat_arises_where_it_is_lost(housing):
 def test_contact_temperature_is_bulk_and_flash():
     oil: Any = SimpleNamespace(temperature=340.0)
     unknown: Any = SimpleNamespace(temperature=None)
-    assert contact_figures(oil, {"bulk_temperature": 350.0, "flash_temperature_max": 40.0}) == {
+    assert contact_quantities(oil, {"bulk_temperature": 350.0, "flash_temperature_max": 40.0}) == {
         "contact_temperature_max": 390.0
     }
-    assert contact_figures(oil, {"flash_temperature_max": 40.0})["contact_temperature_max"] == 380.0
-    assert contact_figures(unknown, {"flash_temperature_max": 40.0}) == {}
+    assert contact_quantities(oil, {"flash_temperature_max": 40.0})["contact_temperature_max"] == 380.0
+    assert contact_quantities(unknown, {"flash_temperature_max": 40.0}) == {}

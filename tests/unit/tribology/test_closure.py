@@ -12,7 +12,7 @@ from tribodyn.errors import InputError
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import (
     duty_range,
-    law_figures,
+    law_quantities,
     laws_of,
     nominal_conditions,
     nominal_line_load,
@@ -143,10 +143,10 @@ def test_laws_of_a_case(case):
 
 
 def test_a_summary_names_laws_and_ratios(case):
-    found = law_figures(with_laws(case, "moes", "coulomb"))
+    found = law_quantities(with_laws(case, "moes", "coulomb"))
     assert (found["film_law"], found["film_thickness"]) == ("moes", "central")
     assert found["friction_range"] == "none stated"
     assert found["film_judged"] == {"low": 1.11, "median": 1.17, "high": 1.23, "limits": 6}
     assert not {"friction_judged", "film_table_error", "friction_table_error"} & set(found)
-    assert law_figures(with_laws(case, "dowson-higginson", "coulomb"))["film_thickness"] == "minimum"
+    assert law_quantities(with_laws(case, "dowson-higginson", "coulomb"))["film_thickness"] == "minimum"
     assert LIU_NI.lubricant.supply is None

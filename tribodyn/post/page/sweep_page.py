@@ -39,7 +39,7 @@ def sweep_page(
         If the first key is no number.
     """
     known = [quantity for quantity in quantities if quantity.name in record]
-    known = known or [described(record, name) for name in record.figures]
+    known = known or [described(record, name) for name in record.quantities]
     drawn = branches([record])
     if not drawn or not len(drawn[0].x):
         raise InputError("record", str(record.path), "holds no cases to draw", "run the sweep again")

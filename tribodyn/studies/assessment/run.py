@@ -72,7 +72,7 @@ def run(
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def figures(case: AssessmentCase) -> dict[str, Any]:
+def quantities_of(case: AssessmentCase) -> dict[str, Any]:
     """Figures of a case without a record; nothing is kept of its parts."""
     with TemporaryDirectory(prefix="tribodyn-") as folder:
         _, summary = assessed(case, Path(folder))
@@ -98,7 +98,7 @@ def assessed(
     along: dict[str, Any] = {}
     spread: dict[str, dict[str, float]] = {}
     for _, answer in parts.answers(taking_part, request, done):
-        found_there |= answer.figures
+        found_there |= answer.quantities
         along |= answer.along
         spread |= {name: _scatter(values) for name, values in answer.spread.items()}
     local = local_of(case, assembly, along, found_there)

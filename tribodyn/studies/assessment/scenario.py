@@ -72,7 +72,8 @@ class AssessmentAsked(Table):
     )
     speeds: Speeds = Field(46, description="steady states over that range, besides the duty's")
     samples: Samples = Field(
-        16, description="of the deviations that the tolerance class allows: scatter of the figures; 0: none"
+        16,
+        description="of the deviations that the tolerance class allows, for their scatter; 0: none",
     )
     friction_laws: tuple[Text, ...] = Field(
         ("masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),

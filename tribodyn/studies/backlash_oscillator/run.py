@@ -67,8 +67,8 @@ def run(
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def figures(case: BacklashOscillatorCase) -> dict[str, Any]:
-    """Figures of a case without a record."""
+def quantities_of(case: BacklashOscillatorCase) -> dict[str, Any]:
+    """Quantities of a case without a record."""
     response = frequency_response(case)
     if np.all(response.kind == FAILED):
         raise SimulationError(response.messages[0][2])

@@ -169,7 +169,7 @@ def run(
         return RunResult(record.finish(summary, trim=True), "complete", "", summary)
 
 
-def figures(case: DesignCase) -> dict[str, Any]:
+def quantities_of(case: DesignCase) -> dict[str, Any]:
     """Quantities of a search without a record; raises SimulationError where nothing is feasible."""
     name, _ = method_of(case)
     with _pool(case) as pool:

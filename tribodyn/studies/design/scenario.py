@@ -77,7 +77,7 @@ class ToleranceTable(Table):
 
 
 class RobustTable(Table):
-    """How figures are taken over the samples of the tolerances."""
+    """How quantities are taken over the samples of the tolerances."""
 
     over: Literal["mean", "worst", "quantile"] = "mean"
     quantile: Annotated[float, Field(strict=True, gt=0, lt=1)] = 0.9
@@ -90,16 +90,16 @@ class DesignTable(Table):
 
     free: tuple[FreeKey, ...] = Field(description="keys that the search may change", min_length=0)
     minimise: Any = Field(
-        None, description="a figure; a list of { figure, weight }; or two figures for a front"
+        None, description="a quantity; a list of { figure, weight }; or two quantities for a front"
     )
-    maximise: Text | None = Field(None, description="a figure, in place of minimise")
+    maximise: Text | None = Field(None, description="a quantity, in place of minimise")
     subject_to: tuple[Text, ...] = Field(
         (), description="what must hold", examples=[["contact_ratio >= 1.3"]]
     )
     part: dict[str, Any] | None = Field(
         None, description="further scenarios by a name, evaluated with the drive of the first"
     )
-    duty: tuple[DesignDuty, ...] = Field((), description="figures are means over these")
+    duty: tuple[DesignDuty, ...] = Field((), description="quantities are means over these")
     over_duties: Literal["mean", "worst"] = "mean"
     tolerance: tuple[ToleranceTable, ...] = ()
     robust: RobustTable = written({})
@@ -260,7 +260,7 @@ def _of_scenario(place: str, scenario: Any) -> Iterator[InputError]:
         return
     study = study_of({"kind": kind})
     if not evaluated_quantities(study):
-        rule = f"a {kind} study names no figures that could be sought"
+        rule = f"a {kind} study names no quantities that could be sought"
         yield InputError(f"{place}.kind", quoted(kind), rule, "name a scenario of another kind")
         return
     for error in study.broken_rules(scenario):

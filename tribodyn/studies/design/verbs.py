@@ -33,7 +33,7 @@ class Design:
 
     @property
     def objective_start(self) -> Any:
-        """The objective at the start, SI: a number, or a list of two; None where the start has no figures."""
+        """The objective at the start, SI: a number, or a list of two; None where it has none."""
         return self.summary.get("objective_start")
 
     @property
@@ -59,17 +59,17 @@ def design(
         Option("A key that the search may change, see below.", "KEY=FROM:TO", type=Texts),
     ] = None,
     minimise: Annotated[
-        Any, Option("A figure of the summary; two make a front.", "FIGURE", type=Texts)
+        Any, Option("A quantity of the summary; two make a front.", "QUANTITY", type=Texts)
     ] = None,
     subject_to: Annotated[
         Sequence[str] | None,
         Option('What must hold: "contact_ratio >= 1.3", or "… >= start".', "CONSTRAINT", type=Texts),
     ] = None,
     *,
-    maximise: Annotated[str | None, Option("A figure, in place of --minimise.", "FIGURE")] = None,
+    maximise: Annotated[str | None, Option("A quantity, in place of --minimise.", "QUANTITY")] = None,
     part: Annotated[
         Mapping[str, Any] | Sequence[str] | None,
-        Option("A further scenario; its figures are NAME.FIGURE.", "NAME=SCENARIO", type=Texts),
+        Option("A further scenario; its quantities are NAME.QUANTITY.", "NAME=SCENARIO", type=Texts),
     ] = None,
     method: Annotated[str | None, Option("As design.method; default: chosen by the problem.")] = None,
     evaluations: Annotated[int | None, Option("At most; default: 200.", min=2, max=10**6)] = None,
@@ -86,7 +86,7 @@ def design(
         Key to bounds, ``{"drive.pinion.profile_shift": (-0.2, 0.4)}``, or to a list of texts to choose among;
         or entries as the scenario has them.
     minimise : str or list, optional
-        Name of a figure; two of them; or a list of ``{"figure": …, "weight": …}``.
+        Name of a quantity; two of them; or a list of ``{"figure": …, "weight": …}``.
     subject_to : sequence of str
         ``"contact_ratio >= 1.3"``.
     maximise, part, method, evaluations, **more

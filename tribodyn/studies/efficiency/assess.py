@@ -8,7 +8,7 @@ from tribodyn.studies.efficiency import STUDY
 from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult
 
 _TASK = "efficiency-"
-_FIGURES = (
+_QUANTITIES = (
     "efficiency",
     "power_in_mean",
     "power_friction_mean",
@@ -46,21 +46,21 @@ def tasks(request: Request) -> tuple[Task, ...]:
 
 
 def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
-    """Figures by the first law, and the losses by all of them."""
+    """Quantities by the first law, and the losses by all of them."""
     first = done[f"{_TASK}{request.laws[0]}"].summary
     summaries = {law: done[f"{_TASK}{law}"].summary for law in request.laws}
     losses = {law: float(found["power_friction_mean"]) for law, found in summaries.items() if found}
     values = np.array(list(losses.values()))
     power = float(first["power_in_mean"])
-    figures = {name: first[name] for name in _FIGURES if first.get(name) is not None}
-    figures |= {
+    quantities = {name: first[name] for name in _QUANTITIES if first.get(name) is not None}
+    quantities |= {
         "loss_by_law": losses,
         "loss_lowest": float(values.min()),
         "loss_highest": float(values.max()),
         "efficiency_lowest": 1.0 - float(values.max()) / power,
         "efficiency_highest": 1.0 - float(values.min()) / power,
     }
-    return Findings(figures)
+    return Findings(quantities)
 
 
 ROLE = Contribution(3, "Film, friction and losses", tasks, answer)

@@ -46,18 +46,18 @@ from tribodyn.studies.gears.prepare import (
     PreparedGears,
     assembled,
     at_tooth_temperature,
-    contact_figures,
-    thermal_figures,
+    contact_quantities,
+    thermal_quantities,
 )
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
-from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
+from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities
 from tribodyn.tribology.friction.coulomb import constant
 from tribodyn.tribology.surface_state import fraction_in_range
 
 #: By how much of a pitch the mesh is looked at before and behind a jump.
 _BESIDE = 1e-9
-#: Figures of every duty of a load spectrum that the summary has.
+#: Quantities of every duty of a load spectrum that the summary has.
 SPECTRUM = (
     "efficiency",
     "power_in_mean",
@@ -132,7 +132,7 @@ def run(
     begun = perf_counter()
     study = prepare(case)
     over, mesh, state = _sampled(study)
-    summary = _figures(study, over, mesh, state) | spectrum_figures(case)
+    summary = _quantities(study, over, mesh, state) | spectrum_quantities(case)
     summary["wall_time"] = perf_counter() - begun
     groups = {
         "mesh_cycle": as_arrays(study.cycle),
@@ -146,21 +146,21 @@ def run(
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def figures(case: EfficiencyCase) -> dict[str, Any]:
-    """Figures of a case without a record."""
+def quantities_of(case: EfficiencyCase) -> dict[str, Any]:
+    """Quantities of a case without a record."""
     study = prepare(case)
-    return _figures(study, *_sampled(study)) | spectrum_figures(case)
+    return _quantities(study, *_sampled(study)) | spectrum_quantities(case)
 
 
-def spectrum_figures(case: EfficiencyCase) -> dict[str, Any]:
-    """Figures of every duty of a load spectrum, by number, and their means over time; none without one.
+def spectrum_quantities(case: EfficiencyCase) -> dict[str, Any]:
+    """Quantities of every duty of a load spectrum, by number, and their means over time; none without one.
 
     Efficiency over the spectrum is the energy put out over the energy put in.
     """
     if not case.spectrum:
         return {}
     shares = np.array([share for share, _ in case.spectrum])
-    every = [figures(duty) for _, duty in case.spectrum]
+    every = [quantities_of(duty) for _, duty in case.spectrum]
     each = {name: np.array([found[name] for found in every]) for name in SPECTRUM}
     means = {name: float(shares @ each[name]) for name in ("power_in_mean", "power_friction_mean")}
     return {
@@ -242,7 +242,7 @@ def _effective_contact_ratio(mesh: Places, state: PathState, duty: MeshDuty) -> 
     return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
 
 
-def _figures(study: PreparedEfficiency, over: Samples, mesh: Places, state: PathState) -> dict[str, Any]:
+def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: PathState) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
     means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
     loaded = state.normal_load > 0
@@ -258,8 +258,8 @@ def _figures(study: PreparedEfficiency, over: Samples, mesh: Places, state: Path
 
     film = along("central_film_thickness")
     flash = float(np.max(along("flash_temperature_rise")))
-    thermal = thermal_figures(study.thermal, put_in, means.efficiency)
-    figures = {
+    thermal = thermal_quantities(study.thermal, put_in, means.efficiency)
+    summary = {
         "contact_ratio": float(cycle.contact_ratio),
         "specific_sliding_max": specific_sliding_max(study.assembly),
         **_effective_contact_ratio(mesh, state, duty),
@@ -276,7 +276,7 @@ def _figures(study: PreparedEfficiency, over: Samples, mesh: Places, state: Path
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
         "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
-        **law_figures(study.case),
+        **law_quantities(study.case),
         "lubricant": oil_data(study.case.lubricant),
         **exceeded_limits(study.case, state.closure_shares[loaded], state.friction_shares[loaded]),
         "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
@@ -286,16 +286,16 @@ def _figures(study: PreparedEfficiency, over: Samples, mesh: Places, state: Path
         "power_friction_mean": means.power_friction,
         "efficiency": means.efficiency,
         **thermal,
-        **contact_figures(study.case.lubricant, {"flash_temperature_max": flash, **thermal}),
+        **contact_quantities(study.case.lubricant, {"flash_temperature_max": flash, **thermal}),
         "energy_residual": balance / put_in,
         "averaging_cycles": 1,
         **efficiencies(study, {duty.sharing: means}),
     }
-    return figures | _judged(study, mesh, state, figures)
+    return summary | _judged(study, mesh, state, summary)
 
 
 def _judged(
-    study: PreparedEfficiency, mesh: Places, state: PathState, figures: dict[str, Any]
+    study: PreparedEfficiency, mesh: Places, state: PathState, summary: dict[str, Any]
 ) -> dict[str, Any]:
     """Whether the study lies within its model, see `record.trust`."""
     quantities = {
@@ -307,7 +307,7 @@ def _judged(
     loaded = state.normal_load > 0
     judge = Judge()
     judge.take({name: np.where(loaded, values, np.nan) for name, values in quantities.items()})
-    judge.take({"efficiency": figures["efficiency"]})
-    judge.take(heat_of(figures["flash_temperature_max"], study.case.lubricant.temperature))
-    judge_tribology(judge, figures)
+    judge.take({"efficiency": summary["efficiency"]})
+    judge.take(heat_of(summary["flash_temperature_max"], study.case.lubricant.temperature))
+    judge_tribology(judge, summary)
     return judge.summary()

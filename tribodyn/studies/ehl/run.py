@@ -72,7 +72,7 @@ def check(case: EhlCase) -> CheckResult:
     return check_gears(prepare(case))
 
 
-def figures(case: EhlCase) -> dict[str, Any]:
+def quantities_of(case: EhlCase) -> dict[str, Any]:
     """Summary of a case without a record."""
     study = prepare(case)
     over = way(study)

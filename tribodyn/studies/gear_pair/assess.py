@@ -50,7 +50,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     speeds, factor = np.asarray(request.speeds), rows["dynamic_factor"]
     at_duty = int(np.argmin(np.abs(speeds - request.pinion_speed)))
     lost = np.nan_to_num(rows["contact_loss_fraction"]) > _LOST
-    figures: dict[str, Any] = {
+    quantities: dict[str, Any] = {
         "dynamic_factor": float(factor[at_duty]),
         "contact_loss_fraction": float(rows["contact_loss_fraction"][at_duty]),
         "transmission_error_peak_to_peak": float(rows["transmission_error_peak_to_peak"][at_duty]),
@@ -59,12 +59,12 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     }
     if np.any(np.isfinite(factor)):
         worst = int(np.nanargmax(factor))
-        figures |= {
+        quantities |= {
             "dynamic_factor_max": float(factor[worst]),
             "dynamic_factor_max_speed": float(speeds[worst]),
         }
     if np.any(lost):
-        figures |= {
+        quantities |= {
             "contact_loss_speed_from": float(speeds[lost][0]),
             "contact_loss_speed_to": float(speeds[lost][-1]),
             "contact_loss_fraction_max": float(np.nanmax(rows["contact_loss_fraction"])),
@@ -80,7 +80,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     )
     samples = done[_SAMPLES].rows if _SAMPLES in done else {}
     names = ("dynamic_factor", "transmission_error_peak_to_peak") if samples else ()
-    return Findings(figures, curves=(curve,), spread={name: samples[name] for name in names})
+    return Findings(quantities, curves=(curve,), spread={name: samples[name] for name in names})
 
 
 def maxima(values: np.ndarray) -> list[int]:

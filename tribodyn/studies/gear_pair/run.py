@@ -25,7 +25,7 @@ from tribodyn.studies.gear_pair.summary import (
     energy_residual,
     judge_balance,
     judge_block,
-    steady_figures,
+    steady_quantities,
     warning_of,
 )
 from tribodyn.studies.gears.by_standard import rated
@@ -34,12 +34,12 @@ from tribodyn.studies.gears.check import check_gears, oil_data
 from tribodyn.studies.gears.prepare import (
     MOST_MOTIONS,
     at_own_temperature,
-    contact_figures,
-    thermal_figures,
+    contact_quantities,
+    thermal_quantities,
 )
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
-from tribodyn.tribology.closure import exceeded_limits, law_figures
+from tribodyn.tribology.closure import exceeded_limits, law_quantities
 
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
 REGULAR = "regular"
@@ -95,7 +95,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
         "compliance_remark": compliance_remark(prepared.assembly, case.materials, case.mesh) or None,
         **_by_standard(prepared),
-        **law_figures(case),
+        **law_quantities(case),
         "lubricant": oil_data(case.lubricant),
     }
     groups = {
@@ -131,7 +131,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
                 statistics.add(part, block, extreme, at)
                 if progress:
                     progress(min(1.0, statistics.written / (cycles * samples)))
-        summary |= statistics.figures(complete=not stop.reason) | {
+        summary |= statistics.summary(complete=not stop.reason) | {
             "steps": stop.steps,
             "rhs_evaluations": stop.evaluations,
             "wall_time": perf_counter() - begun,
@@ -146,7 +146,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         last = statistics.window()
         touching = last["normal_load"] > 0.0
         summary |= exceeded_limits(case, *(last[name][touching] for name in UNRECORDED))
-        summary |= steady_figures(
+        summary |= steady_quantities(
             last,
             statistics.window_work(),
             cycle,
@@ -154,8 +154,8 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
             case.operating.pinion_speed,
             statistics.in_window,
         )
-        summary |= thermal_figures(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
-        summary |= contact_figures(case.lubricant, summary)
+        summary |= thermal_quantities(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
+        summary |= contact_quantities(case.lubricant, summary)
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
         statistics.judge.take({"efficiency": summary["efficiency"]})
         judge_tribology(statistics.judge, summary)
@@ -217,7 +217,7 @@ class RunStatistics:
         """Whether means are of some of these samples; the last of a run is a cycle after the first."""
         return bool(np.any((cycles >= self.start - 1e-9) & (cycles < self.stop - 1e-9)))
 
-    def figures(self, complete: bool) -> dict[str, Any]:
+    def summary(self, complete: bool) -> dict[str, Any]:
         """Extremes of the last cycles, of an incomplete run of all; residual of the energy balance."""
         if not self.ends:
             return {}

@@ -168,7 +168,7 @@ def warning_of(share: float | None, sliding: str) -> str | None:
     )
 
 
-def steady_figures(
+def steady_quantities(
     window: dict[str, np.ndarray],
     work: np.ndarray,
     cycle: MeshCycle,
@@ -176,7 +176,7 @@ def steady_figures(
     nominal_speed: float,
     extremes: RunningExtremes,
 ) -> dict[str, Any]:
-    """Figures of the last whole mesh cycles of a run.
+    """Quantities of the last whole mesh cycles of a run.
 
     Those of loads and of single pairs are of the working flanks: the back flanks where the gear drives.
 

@@ -18,7 +18,7 @@ from tribodyn.tribology.closure import (
     Lubricated,
     duty_range,
     exceeded_limits,
-    law_figures,
+    law_quantities,
     laws_of,
     nominal_line_load,
 )
@@ -161,7 +161,7 @@ def _with_laws(checked: CheckResult, case: Lubricated, closure: Closure) -> Chec
     rows = [(law.table, law.name, law.stated or "none stated") for law in laws_of(case)]
     remarks = [remark for name, law in _NAMES.items() for remark in exceeded(outside, name, law)]
     return checked._replace(
-        data={**checked.data, "laws": {**law_figures(case), **outside}},
+        data={**checked.data, "laws": {**law_quantities(case), **outside}},
         tables=(*checked.tables, TextTable("Laws and their ranges", ("", "law", "range"), rows)),
         remarks=(*checked.remarks, *remarks),
     )

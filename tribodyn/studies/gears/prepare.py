@@ -138,8 +138,8 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
     return losses_of_pair(asked, (pinion, gear), float(oil.inlet_viscosity), float(oil.density))
 
 
-def thermal_figures(thermal: Thermal | None, power_in: float, efficiency: float) -> dict[str, Any]:
-    """Figures of temperatures and load-independent losses for a summary; SI, temperatures in K.
+def thermal_quantities(thermal: Thermal | None, power_in: float, efficiency: float) -> dict[str, Any]:
+    """Quantities of temperatures and load-independent losses for a summary; SI, temperatures in K.
 
     Parameters
     ----------
@@ -148,9 +148,9 @@ def thermal_figures(thermal: Thermal | None, power_in: float, efficiency: float)
     """
     if thermal is None:
         return {}
-    figures: dict[str, Any] = {}
+    quantities: dict[str, Any] = {}
     if (found := thermal.temperatures) is not None:
-        figures |= {
+        quantities |= {
             "bulk_temperature": found.bulk,
             "bulk_temperature_pinion": found.pinion,
             "bulk_temperature_gear": found.gear,
@@ -158,27 +158,29 @@ def thermal_figures(thermal: Thermal | None, power_in: float, efficiency: float)
             "heat_generated": thermal.heat.total,
         }
         if thermal.given_off is not None:
-            figures |= {"housing_temperature": found.housing, "heat_given_off": thermal.given_off}
+            quantities |= {"housing_temperature": found.housing, "heat_given_off": thermal.given_off}
     if thermal.losses:
         idle = sum(one.power for one in thermal.losses.values())
-        figures |= {f"power_{name}": one.power for name, one in thermal.losses.items()}
-        figures |= {
+        quantities |= {f"power_{name}": one.power for name, one in thermal.losses.items()}
+        quantities |= {
             "power_load_independent": idle,
             "efficiency_with_losses": efficiency * power_in / (power_in + idle),
         }
         outside = [f"{name}: {limit}" for name, one in thermal.losses.items() for limit in one.exceeded]
         if outside:
-            figures["losses_outside"] = "; ".join(outside)
-    return figures
+            quantities["losses_outside"] = "; ".join(outside)
+    return quantities
 
 
-def contact_figures(lubricant: LubricantData, figures: Mapping[str, Any]) -> dict[str, float]:
+def contact_quantities(lubricant: LubricantData, quantities: Mapping[str, Any]) -> dict[str, float]:
     """Maximum contact temperature, K: bulk of the teeth, else of the oil, and the maximum flash temperature.
 
     Nothing where neither temperature is known.
     """
-    warm = figures.get("bulk_temperature", lubricant.temperature)
-    return {} if warm is None else {"contact_temperature_max": float(warm + figures["flash_temperature_max"])}
+    warm = quantities.get("bulk_temperature", lubricant.temperature)
+    return (
+        {} if warm is None else {"contact_temperature_max": float(warm + quantities["flash_temperature_max"])}
+    )
 
 
 def _heat(mesh_loss: float, losses: dict[str, Loss], housing: bool) -> Heat:

@@ -10,7 +10,7 @@ from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
+from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities
 from tribodyn.tribology.surface_state import contact_friction, fraction_in_range, range_shares
 
 
@@ -48,7 +48,7 @@ def film_over_face(assembly: Assembly, loaded: LoadedContact, case: LubricatedCa
     thickness, in_range = (np.full(carries.shape, np.nan) for _ in range(2))
     thickness[carries], in_range[carries] = film, inside
     least = int(np.argmin(film))
-    laws = {name: value for name, value in law_figures(case).items() if name.startswith("film")}
+    laws = {name: value for name, value in law_quantities(case).items() if name.startswith("film")}
     outside = exceeded_limits(case, *range_shares(contact.contact, closure))
     return FaceFilm(
         {"central_film_thickness": thickness, "closure_in_range": in_range},

@@ -107,7 +107,7 @@ def run(
             return RunResult(record.fail(failure, summary), "failed", failure, summary)
         film = film_of(study, loaded)
         record.write(0, record_arrays(study, loaded) | film.arrays)
-        summary |= loaded_figures(study, loaded) | film.figures | _judged(study, loaded, film.figures)
+        summary |= loaded_quantities(study, loaded) | film.figures | _judged(study, loaded, film.figures)
         report(1 / steps)
         spread = []
         for row, torque in enumerate(case.gear_torques):
@@ -135,13 +135,13 @@ def check(case: LoadContactCase) -> CheckResult:
     return sheet_and_stiffness(assembly, case.materials, "finite elements", pair)
 
 
-def figures(case: LoadContactCase) -> dict[str, Any]:
+def quantities_of(case: LoadContactCase) -> dict[str, Any]:
     """Figures of a case at its own torque, without a record."""
     study = prepare(case)
     contact_ratio = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
     loaded = roll(study, case.operating.gear_torque)
     film = film_of(study, loaded).figures
-    return contact_ratio | loaded_figures(study, loaded) | film | _judged(study, loaded, film)
+    return contact_ratio | loaded_quantities(study, loaded) | film | _judged(study, loaded, film)
 
 
 def film_of(study: PreparedTeeth, loaded: LoadedContact) -> FaceFilm:
@@ -180,7 +180,7 @@ def torque_residual(study: PreparedTeeth, loaded: LoadedContact) -> Float[Array,
     return np.sum(loaded.normal_load * lever, axis=1) / study.case.operating.gear_torque - 1.0
 
 
-def loaded_figures(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Any]:
+def loaded_quantities(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Any]:
     """Figures of the summary, SI units."""
     worst = np.unravel_index(np.argmax(loaded.line_load), loaded.line_load.shape)
     position, pair = np.unravel_index(np.argmin(np.abs(loaded.roll)), loaded.roll.shape)

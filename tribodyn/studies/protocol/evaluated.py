@@ -71,7 +71,7 @@ def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) ->
 def alone(study: Study, case: Any) -> dict[str, Any] | str:
     """Quantities of one case of a study without a `batch`; a text instead where it fails: why."""
     try:
-        return case if isinstance(case, str) else study.figures(case)
+        return case if isinstance(case, str) else study.quantities_of(case)
     except InputError as error:
         return str(error)
     except SimulationError as error:
@@ -104,12 +104,12 @@ class NoSettings(NamedTuple):
     """Nothing can be chosen."""
 
 
-class ByFigures:
+class OneByOne:
     """See `sweeping.batch.Batch`.
 
     Parameters
     ----------
-    study : one with `swept` figures
+    study : one with `swept` quantities
     """
 
     states = 0
@@ -144,7 +144,7 @@ class ByFigures:
         return 1
 
     def estimate(self, case: Any, settings: NoSettings, total: int, width: int) -> Estimate:
-        """What the study says of a run; the record holds its figures."""
+        """What the study says of a run; the record holds its quantities."""
         row = variable_bytes(self.layout(settings).variables.values(), {})
         return self.study.estimate(case)._replace(record=row)
 
@@ -157,18 +157,18 @@ class ByFigures:
         self.study.check(case)
 
     def evaluate(self, chunk: Chunk, settings: NoSettings, workers: int | None) -> dict[str, np.ndarray]:
-        """Work out the figures of every case."""
+        """Work out the quantities of every case."""
         layout = self.layout(settings)
         rows = layout.empty_rows(len(chunk.cases))
         for i, case in enumerate(chunk.cases):
-            figures = alone(self.study, case)
-            if isinstance(figures, str):
-                rows["message"][i], rows["status"][i] = figures, FAILED
+            found = alone(self.study, case)
+            if isinstance(found, str):
+                rows["message"][i], rows["status"][i] = found, FAILED
                 continue
-            for name in layout.figures:
-                if figures.get(name) is not None:
-                    rows[name][i] = figures[name]
-            rows["message"][i] = remarked(*map(warned, [*remarks(figures), *remarks_in_brief(case.toml)]))
-            rows[TRUST][i] = number(figures)
+            for name in layout.quantities:
+                if found.get(name) is not None:
+                    rows[name][i] = found[name]
+            rows["message"][i] = remarked(*map(warned, [*remarks(found), *remarks_in_brief(case.toml)]))
+            rows[TRUST][i] = number(found)
             rows["status"][i] = DONE
         return rows

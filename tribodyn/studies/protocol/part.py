@@ -44,7 +44,7 @@ class Task(NamedTuple):
     name: str  # of its file
     about: str  # what it finds, in a few words: shown while it runs
     scenario: Mapping[str, Any]  # as a file has it, with its kind
-    #: key, values: what is varied: then only figures are kept, one row per value. None: one run, with its
+    #: key, values: what is varied: then only quantities are kept, one row per value. None: one run, with its
     #: record.
     key: str = ""
     values: Sequence[str] = ()
@@ -56,7 +56,7 @@ class TaskResult(NamedTuple):
 
     path: Path  # the record of a run, or the file with the rows
     summary: Mapping[str, Any] = MappingProxyType({})  # of a run
-    #: figure -> values (n,) over what was varied; NaN where a case failed
+    #: quantity -> values (n,) over what was varied; NaN where a case failed
     rows: Mapping[str, np.ndarray] = MappingProxyType({})
     #: what could not be computed, and why; of a run that is not needed there is no summary then
     failures: Sequence[str] = ()
@@ -76,11 +76,11 @@ class ReportCurve(NamedTuple):
 class Findings(NamedTuple):
     """What a study found."""
 
-    figures: Mapping[str, Any]  # numbers by name, SI units, see `docs/assessment.md`
+    quantities: Mapping[str, Any]  # numbers by name, SI units, see `docs/assessment.md`
     #: arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch point)
     along: Mapping[str, Any] = MappingProxyType({})
     curves: Sequence[ReportCurve] = ()
-    #: values (samples,) of figures by name, over the samples of deviations; NaN where one failed
+    #: values (samples,) of quantities by name, over the samples of deviations; NaN where one failed
     spread: Mapping[str, np.ndarray] = MappingProxyType({})
 
 

@@ -25,7 +25,7 @@ class CaseHead:
 
 
 class RunResult(NamedTuple):
-    """How a run ended: the record's path, "complete" or "failed", why, and its figures."""
+    """How a run ended: the record's path, "complete" or "failed", why, and its summary."""
 
     path: Path
     status: str

@@ -62,7 +62,8 @@ class Study:
     rules         ``broken_rules(scenario)``, errors for the rules that tie keys together (optional; scenario)
     check         ``check(case) -> CheckResult``; raises InputError where the case cannot be run (run)
     run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; and
-                  ``figures(case) -> dict``, its figures without a record (optional: to be swept)
+                  ``quantities_of(case) -> dict``, those of a case without a record (optional: to be
+                  swept)
     report        ``REPORTED``, heading -> quantities of the summary; ``sentences(record)``, how far it is
                   to be trusted; ``SWEPT``, quantities that a sweep keeps, and ``SWEEP_TABLE``, those that
                   it prints (both optional); ``SHORT``, short names of quantities (optional); ``PANELS``,
@@ -183,14 +184,14 @@ class Study:
 
         return result._replace(summary=withheld(result.summary))
 
-    def figures(self, case: Any) -> dict[str, Any]:
-        """Work out the figures of a case without a record, those of `swept` among them.
+    def quantities_of(self, case: Any) -> dict[str, Any]:
+        """Work out the quantities of a case without a record, those of `swept` among them.
 
         An efficiency that cannot be is None, see `record.withheld`. Raises InputError or SimulationError.
         """
         from tribodyn.record.withheld import withheld
 
-        return withheld(self._part("run", "figures")(case))
+        return withheld(self._part("run", "quantities_of")(case))
 
     def drawings(self) -> "Mapping[str, Drawing]":
         """Its pictures by name, in the order `tribodyn plot` draws them."""
@@ -215,7 +216,7 @@ class Study:
         return next((quantity for quantity in every if quantity.name == name), None)
 
     def short_names(self) -> "Mapping[str, str]":
-        """Short names of figures to their full ones."""
+        """Short names of quantities to their full ones."""
         return self._part("report", "SHORT", optional=True) or {}
 
     def sweep_table(self) -> "Sequence[Quantity]":
@@ -232,7 +233,7 @@ class Study:
         return own or response_drawings(self.sweep_table())
 
     def top(self) -> tuple[str, ...]:
-        """Figures of its summary that stand at the top of what `run --json` prints, too."""
+        """Quantities of its summary that stand at the top of what `run --json` prints, too."""
         return self._part("report", "TOP", optional=True) or ()
 
     def panels(self) -> tuple[str, ...]:
@@ -250,7 +251,7 @@ class Study:
         return found(record) if found else None
 
     def batch(self) -> "Batch | None":
-        """How many cases are evaluated together; None: one after the other, by `figures`."""
+        """How many cases are evaluated together; None: one after the other, by `quantities_of`."""
         return self._part("batch", "BATCH", optional=True)
 
     def role(self) -> "Contribution | None":

@@ -76,8 +76,8 @@ def run(
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def figures(case: RollingCase) -> dict[str, Any]:
-    """Figures of a case without a record."""
+def quantities_of(case: RollingCase) -> dict[str, Any]:
+    """Quantities of a case without a record."""
     prepare(case)
     angles, statistics = _shaft_angles(case), RevolutionStatistics()
     for start, part, state in _blocks(case, angles):

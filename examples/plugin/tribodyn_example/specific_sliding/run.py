@@ -9,7 +9,7 @@ from tribodyn.record.schema import Layout
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
 from tribodyn_example.specific_sliding.scenario import SlidingCase
-from tribodyn_example.specific_sliding.sliding import figures_of, sliding_of
+from tribodyn_example.specific_sliding.sliding import sliding_of, summary_of
 
 _ALONG = ("signed_distance",)
 LAYOUT = Layout(
@@ -44,10 +44,10 @@ def run(
                 "gear_specific_sliding": sliding.gear,
             },
         )
-        summary = figures_of(sliding)
+        summary = summary_of(sliding)
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def figures(case: SlidingCase) -> dict[str, Any]:
-    """Figures of a case without a record: what a sweep asks for."""
-    return figures_of(sliding_of(case))
+def quantities_of(case: SlidingCase) -> dict[str, Any]:
+    """Quantities of a case without a record: what a sweep asks for."""
+    return summary_of(sliding_of(case))

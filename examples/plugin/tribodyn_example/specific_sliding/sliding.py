@@ -38,8 +38,8 @@ def sliding_of(case: SlidingCase) -> Sliding:
     return Sliding(assembly, r, case.pinion_speed * (u_p - u_g), 1.0 - u_g / u_p, 1.0 - u_p / u_g)
 
 
-def figures_of(sliding: Sliding) -> dict[str, Any]:
-    """Figures of the summary; specific sliding is most negative where a flank is near its root."""
+def summary_of(sliding: Sliding) -> dict[str, Any]:
+    """Quantities of the summary; specific sliding is most negative where a flank is near its root."""
     return {
         "contact_ratio": sliding.assembly.contact_ratio,
         "pinion_specific_sliding_min": float(np.min(sliding.pinion)),

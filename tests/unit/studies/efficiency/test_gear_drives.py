@@ -10,7 +10,7 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import SHARINGS, places
 from tribodyn.studies.efficiency.published import torque_ratio
-from tribodyn.studies.efficiency.run import efficiencies, figures, prepare
+from tribodyn.studies.efficiency.run import efficiencies, prepare, quantities_of
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.validation.veciana_study import involute_contact
@@ -125,7 +125,7 @@ def test_friction_makes_the_difference_of_both_ways():
     """Without friction they are one; with it the loss is the same but for its square."""
     both = []
     for torque in ("500 N*m", "-500 N*m"):
-        both.append(figures(load_scenario(DRIVES[0], {"operating.gear_torque": torque})))
+        both.append(quantities_of(load_scenario(DRIVES[0], {"operating.gear_torque": torque})))
     forward, backward = both
     loss = 1.0 - forward["efficiency"]
     assert backward["efficiency"] == pytest.approx(forward["efficiency"], abs=2.0 * loss**2)

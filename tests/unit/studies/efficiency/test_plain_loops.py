@@ -1,4 +1,4 @@
-"""A mesh cycle of two involutes in plain loops: mesh at a phase, samples, datasets, figures."""
+"""A mesh cycle of two involutes in plain loops: mesh at a phase, samples, datasets, quantities."""
 
 import math
 from dataclasses import replace
@@ -17,7 +17,7 @@ from tribodyn.studies.efficiency.published import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.run import (
     PreparedEfficiency,
     _at_jumps,
-    _figures,
+    _quantities,
     _sampled,
     efficiencies,
     prepare,
@@ -160,10 +160,10 @@ def test_datasets_of_a_mesh_cycle_in_plain_loops(study: PreparedEfficiency):
                 assert found[name][k, slot] == pytest.approx(wanted, rel=1e-12, nan_ok=True), name
 
 
-def test_figures_of_a_mesh_cycle_in_plain_loops(study: PreparedEfficiency):
+def test_quantities_of_a_mesh_cycle_in_plain_loops(study: PreparedEfficiency):
     """Extremes of samples and of both sides of every jump; means over one cycle, the last sample left out."""
     over, mesh, state = _sampled(study)
-    found = _figures(study, over, mesh, state)
+    found = _quantities(study, over, mesh, state)
     phases = [
         min(max(float(one) + off, 1e-9), 1.0 - 1e-9) for one in study.cycle.boundary for off in (-1e-9, 1e-9)
     ]

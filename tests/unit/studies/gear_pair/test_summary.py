@@ -21,7 +21,7 @@ from tribodyn.studies.gear_pair.summary import (
     Extreme,
     RunningExtremes,
     energy_residual,
-    steady_figures,
+    steady_quantities,
 )
 
 SAMPLES, CYCLES, SPEED, PITCH, RADIUS = 50, 4, 100.0, 0.27, 0.07
@@ -72,20 +72,20 @@ def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
     }, work
 
 
-def figures(block, work):
+def quantities_of(block, work):
     """Of a window whose extremes its samples meet."""
     cycles = np.arange(SAMPLES * CYCLES) / SAMPLES
     count = (len(cycles), 4)
     none = {name: np.full(count, np.nan) for name, _ in RECORDED.values() if name not in block}
     extremes = RunningExtremes(CYCLE)
     extremes.add(cycles, {**block, **none, "time": cycles})
-    return steady_figures(block, work, CYCLE, SAMPLES, SPEED, extremes)
+    return steady_quantities(block, work, CYCLE, SAMPLES, SPEED, extremes)
 
 
 @pytest.mark.parametrize("way", [1, -1], ids=["pinion", "gear"])
-def test_figures_of_a_known_window(way):
+def test_quantities_of_a_known_window(way):
     torque = 300.0
-    found = figures(*window(way, torque))
+    found = quantities_of(*window(way, torque))
     assert found["averaging_cycles"] == CYCLES
     assert found["mesh_frequency"] == pytest.approx(MEAN_SPEED / PITCH, rel=1e-12)
     assert found["dynamic_factor"] == pytest.approx(1.25, rel=1e-12)
@@ -122,10 +122,10 @@ def test_figures_of_a_known_window(way):
 def test_time_without_contact_and_without_load():
     block, work = window(1, 300.0)
     block["normal_load"][: SAMPLES // 2] = 0.0
-    found = figures(block, work)
+    found = quantities_of(block, work)
     assert found["contact_loss_fraction"] == pytest.approx(0.5 / CYCLES, rel=1e-12)
     block["normal_load"][:] = 0.0
-    found = figures(block, 0.0 * work)
+    found = quantities_of(block, 0.0 * work)
     assert np.isnan(found["dynamic_factor"])
     assert np.isnan(found["friction_coefficient_mean"])
     assert np.isnan(found["efficiency"])

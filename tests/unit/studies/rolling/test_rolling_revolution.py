@@ -74,7 +74,7 @@ def test_the_summary_of_a_revolution_in_plain_loops(case: RollingCase):
         engage(drive, element_angles(drive, np.array([one])), 900.0, 70.0, case.friction) for one in turn
     ]
     count = len(states) - 1
-    found = run.figures(case)
+    found = run.quantities_of(case)
 
     def mean(values: list[float]) -> float:
         return sum(values[:count]) / count
@@ -118,7 +118,7 @@ def test_a_record_is_the_revolution(case: RollingCase, made: tuple[Path, list[fl
         np.testing.assert_array_equal(record["element"], np.arange(1, 12))
         sizes = record.geometry
         assert sizes["centre_circle_radius"] == pytest.approx(0.065)
-        assert record.summary["efficiency"] == pytest.approx(run.figures(case)["efficiency"])
+        assert record.summary["efficiency"] == pytest.approx(run.quantities_of(case)["efficiency"])
 
 
 @pytest.mark.parametrize(

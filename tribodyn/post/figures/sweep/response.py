@@ -46,7 +46,7 @@ def panels_of(records: Sequence[SweepRecord], quantities: Sequence[Quantity]) ->
     ----------
     quantities : those that may be drawn; none: all, as the first record describes them
     """
-    quantities = quantities or [described(records[0], name) for name in records[0].figures]
+    quantities = quantities or [described(records[0], name) for name in records[0].quantities]
     known = [one for one in quantities if all(one.name in record for record in records)]
     varying = [one for one in known if _varies(records, one.name)]
     return [Panel(one) for one in (varying or known)[:MOST_PANELS]]

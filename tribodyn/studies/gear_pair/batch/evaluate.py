@@ -34,9 +34,9 @@ from tribodyn.studies.gear_pair.batch.steady import (
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import PreparedPair, Tabulated, prepare, table_key, tables
 from tribodyn.studies.gear_pair.report import SWEPT, UNSTABLE_QUANTITIES, layout_of
-from tribodyn.studies.gear_pair.summary import RunningExtremes, judge_block, steady_figures, warning_of
+from tribodyn.studies.gear_pair.summary import RunningExtremes, judge_block, steady_quantities, warning_of
 from tribodyn.studies.gears.check import remarks_in_brief
-from tribodyn.studies.gears.prepare import MOST_MOTIONS, at_own_temperature, thermal_figures
+from tribodyn.studies.gears.prepare import MOST_MOTIONS, at_own_temperature, thermal_quantities
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
 
@@ -44,10 +44,10 @@ if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch
 
 
-def window_figures(
+def window_quantities(
     prepared: PreparedPair, window: CaseWindow, samples: int
 ) -> tuple[dict[str, float], dict[str, Any]]:
-    """Return the figures of `report.SWEPT` over a window, SI units, and what is said of their trust.
+    """Return the quantities of `report.SWEPT` over a window, SI units, and what is said of their trust.
 
     `samples` are those in a mesh cycle of the window.
     """
@@ -62,15 +62,15 @@ def window_figures(
     speed = prepared.case.operating.pinion_speed
     work = window.end - window.start
     inside = {name: values[:count] for name, values in block.items()}
-    figures = steady_figures(inside, work, prepared.cycle, samples, speed, extremes)
-    figures |= extremes.values()
-    figures |= thermal_figures(prepared.thermal, figures["power_in_mean"], figures["efficiency"])
+    quantities = steady_quantities(inside, work, prepared.cycle, samples, speed, extremes)
+    quantities |= extremes.values()
+    quantities |= thermal_quantities(prepared.thermal, quantities["power_in_mean"], quantities["efficiency"])
     judge = Judge()
     judge_block(judge, cycles, block, prepared)
     judge_block(judge, at, extreme, prepared, between_samples=True)
-    judge.take({"efficiency": figures["efficiency"]})
-    judge_tribology(judge, figures)
-    values = ((quantity.name, figures.get(quantity.name)) for quantity in SWEPT)
+    judge.take({"efficiency": quantities["efficiency"]})
+    judge_tribology(judge, quantities)
+    values = ((quantity.name, quantities.get(quantity.name)) for quantity in SWEPT)
     return {name: float("nan") if value is None else value for name, value in values}, judge.summary()
 
 
@@ -81,7 +81,7 @@ def fill_unstable(
     prepared_at: Callable[[float], PreparedPair],
     samples: int,
 ) -> None:
-    """Put branches into the row of a case, with the figures of their motions over one period each.
+    """Put branches into the row of a case, with the quantities of their motions over one period each.
 
     `prepared_at` gives the prepared case at a value of the first parameter.
     """
@@ -93,9 +93,9 @@ def fill_unstable(
             if not len(motion.samples):  # it cannot be integrated over its period once more
                 continue
             window = CaseWindow(0, motion.samples, motion.state, motion.end, motion.extremes)
-            figures, _ = window_figures(prepared_at(value), window, samples)
+            quantities, _ = window_quantities(prepared_at(value), window, samples)
             for name in UNSTABLE_QUANTITIES:
-                rows[PREFIX + name][i, end, m] = figures[name]
+                rows[PREFIX + name][i, end, m] = quantities[name]
             section = motion.samples[::samples, XI]
             rows["unstable_poincare_error"][i, end, m, : len(section)] = section
 
@@ -111,7 +111,7 @@ class SweepSettings(NamedTuple):
 
     steady: bool  # whether the periodic motion is sought; otherwise `cycles` mesh cycles are marched
     cycles: int  # mesh cycles to march, or at most to march in search of the steady state
-    window: int  # mesh cycles that the figures are taken from
+    window: int  # mesh cycles that the quantities are taken from
     points: int  # points of the Poincaré section, one per mesh cycle
     samples: int  # samples in a mesh cycle
     modes: int
@@ -234,10 +234,10 @@ def _fill(
     if outcome.window is None:
         rows["status"][i] = FAILED
         return
-    figures, trust = window_figures(prepared, outcome.window, settings.samples)
-    for name, value in figures.items():
+    quantities, trust = window_quantities(prepared, outcome.window, settings.samples)
+    for name, value in quantities.items():
         rows[name][i] = value
-    warning = warning_of(figures["friction_work_on_vibration"], prepared.case.friction.sliding)
+    warning = warning_of(quantities["friction_work_on_vibration"], prepared.case.friction.sliding)
     texts = [*remarks(trust | {"warning": warning}), *remarks_in_brief(prepared.case.toml)]
     rows["message"][i] = remarked(rows["message"][i], *map(warned, texts))
     rows[TRUST][i] = number(trust)
