@@ -21,7 +21,7 @@ from skfem.helpers import ddot, div, sym_grad
 from tribodyn.compliance.fem.free_ends import openings
 from tribodyn.compliance.fem.ring_mesh import sector_mesh
 from tribodyn.compliance.fem.strips import curved_basis, strip_stiffness
-from tribodyn.compliance.local import hertz_half_width, weber_banaschek_slope
+from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.geometry.path import kinematics
 from tribodyn.validation.jia import ARC_MINUTE, PINION_TORQUE, elastic
 
@@ -159,7 +159,7 @@ def main() -> None:
     load, material = PINION_TORQUE / float(at.pinion_normal_arm), sector.material
     curvature = float(at.relative_curvature)
     half = hertz_half_width(load / sector.width, curvature, material, material)
-    above = weber_banaschek_slope(load / sector.width, half, depth, material) * slices / sector.width
+    above = weber_banaschek(load / sector.width, half, depth, material)[1] * slices / sector.width
     place = (np.arange(slices) + 0.5) * sector.width / slices - sector.width / 2
     print("maximum over mean line load: ends free, symmetric; slices apart; by harmonics as the first two")
     columns = free, symmetric, apart, *sector.by_harmonics()

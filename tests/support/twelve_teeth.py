@@ -3,6 +3,7 @@
 import numpy as np
 
 from tribodyn.compliance.fem import ring_mesh
+from tribodyn.compliance.fem.gear_compliance import ElasticGear
 from tribodyn.compliance.fem.ring_mesh import sector_mesh
 from tribodyn.compliance.fem.strips import curved_basis
 from tribodyn.geometry.drive import Drive, GearBody
@@ -12,6 +13,7 @@ from tribodyn.geometry.tooth import cut_tooth
 POISSON = 0.3
 BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
 TOOTH = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), BODY, BODY), "pinion")
+GEAR = ElasticGear(TOOTH, 12, BODY.bore_radius, POISSON, 0.75e-3, 1)
 
 
 def whole_ring(level: int, teeth: int = 12):

@@ -71,18 +71,11 @@ class ToothCompliance(NamedTuple):
 def section_integrals(
     x: Float[Array, " point"], y: Float[Array, " point"], origin: Any
 ) -> Float[Array, "series 4"]:
-    """Series of the beam's integrals from the start of a piece of outline up to a point of it.
+    """Series (26, 4) of the beam's integrals from the start of a piece of outline up to a point of it.
 
-    Parameters
-    ----------
-    x, y : (25,), position along the tooth's axis and half thickness at the piece's Chebyshev points, m
-    origin : where s = x − origin is counted from
-
-    Returns
-    -------
-    array, (26, 4)
-        Chebyshev coefficients of ∫ (1, s, s²)/(2y³/3) dx and ∫ dx/(2y): second moment and area of the section
-        per width. Their sum is the integral over the whole piece.
+    Chebyshev coefficients of ∫ (1, s, s²)/(2y³/3) dx and ∫ dx/(2y), s = x − origin: second moment and area of
+    the section per width. Their sum is the integral over the whole piece. x and y (25,) are the position
+    along the tooth's axis and the half thickness at the piece's Chebyshev points, m.
     """
     xp = namespace(x, y)
     s = x - origin
@@ -96,14 +89,9 @@ def beam_compliance(
 ) -> tuple[Any, Any, Any]:
     """Bending, shear and axial compliance of a tooth, times Young's modulus and width.
 
-    The bending moment at s is F cos α_1 (u − s): the line of the load cuts the tooth's axis at u.
-
-    Parameters
-    ----------
-    integrals : (..., 4), see `section_integrals`, from the root to the contact
-    lever : u, m, from the same origin as s
-    load_angle : α_1 between load and the perpendicular of the axis, rad
-    poisson_ratio : ν
+    The bending moment at s is F cos α_1 (u − s): the line of the load cuts the tooth's axis at u, the lever,
+    from the same origin as s, under the angle α_1 (rad) to the perpendicular of the axis. The integrals
+    (..., 4) of `section_integrals` are those from the root to the contact.
     """
     across, along = cos(load_angle) ** 2, sin(load_angle) ** 2
     area = integrals[..., 3]
@@ -144,16 +132,9 @@ def tooth_compliance(
     r: PerContact,
     body: Foundation = "sainsot-velex",
 ) -> ToothCompliance:
-    """Compliance of one tooth that is loaded at the signed distances r of the drive.
+    """Compliance of one tooth that is loaded at the signed distances r (m) of the drive.
 
-    Parameters
-    ----------
-    loaded : the tooth of the pinion or the gear
-    material : its E (Pa) and ν
-    width : width over which the teeth touch, m
-    r : signed distance of the contact from the pitch point, m
-    body : {"sainsot-velex", "ring"}
-        What the compliance of the body comes from.
+    `width` (m) is that over which the teeth touch.
     """
     tooth, path, root = loaded.tooth, loaded.path, loaded.tooth.root_radius
     unit = 0.5 + 0.5 * _POINTS

@@ -33,32 +33,18 @@ ROOT_HALF_ANGLE_RANGE = (0.01, 0.12)
 #: Where the compliance of a body under its own tooth comes from: the polynomials, or the ring that they fit.
 Foundation = Literal["sainsot-velex", "ring"]
 SELF_HARMONICS = 2048  # a tooth's own compliance: error below 0.3 % for up to 250 teeth (test_foundation)
-HARMONICS = (
-    256  # neighbours: error below 1e-3 of a tooth's own compliance for up to 150 teeth (test_foundation)
-)
+HARMONICS = 256  # neighbours: error below 1e-3 of the own compliance for up to 150 teeth (test_foundation)
 
 
 def sainsot_velex(
     radius_ratio: Float[Array, "..."], root_half_angle: Float[Array, "..."]
 ) -> tuple[Float[Array, "..."], Float[Array, "..."], Float[Array, "..."], Float[Array, "..."]]:
-    """Coefficients L*, M*, P*, Q* of the fillet-foundation deflection.
+    """Coefficients L*, M*, P*, Q* of the fillet-foundation deflection, dimensionless.
 
-    Fitted for 1.4 ≤ radius_ratio ≤ 7 and 0.01 ≤ root_half_angle ≤ 0.12.
-
-    Parameters
-    ----------
-    radius_ratio : h = root radius/bore radius
-    root_half_angle : θ, half the angle that the tooth's root takes up on the root circle, rad
-
-    Returns
-    -------
-    tuple of array
-        L*, M*, P*, Q*, dimensionless.
-
-    References
-    ----------
-    P. Sainsot, P. Velex, O. Duverger, "Contribution of gear body to tooth deflections: a new bidimensional
-    analytical formula", J. Mech. Des. 126 (2004) 748-752, eq. (5) and table 1.
+    Of h, root radius over bore radius, and θ (rad), half the angle that the tooth's root takes up on the root
+    circle. Fitted for 1.4 ≤ h ≤ 7 and 0.01 ≤ θ ≤ 0.12: P. Sainsot, P. Velex, O. Duverger, "Contribution of
+    gear body to tooth deflections: a new bidimensional analytical formula", J. Mech. Des. 126 (2004) 748-752,
+    eq. (5) and table 1.
     """
     h, angle = radius_ratio, root_half_angle
     terms = (1.0 / angle**2, h**2, h / angle, 1.0 / angle, h, 1.0)
@@ -88,19 +74,11 @@ def foundation_compliance(
     youngs_modulus: Float[Array, ""],
     width: Float[Array, ""],
 ) -> Float[Array, "*contact"]:
-    """Deflection of the loaded tooth along the load, from its body's elasticity, per newton.
+    """Deflection of the loaded tooth along the load, from its body's elasticity, m/N: the polynomials.
 
-    Parameters
-    ----------
-    load_angle : angle between the force and the perpendicular of the tooth's axis, rad
-    lever : u, distance along the tooth's axis from the root circle to the line of the force, m
-    root_radius, bore_radius, root_half_angle : the ring, m, and half the angle of the tooth's root, rad
-    youngs_modulus, width : Pa, m
-
-    Returns
-    -------
-    array
-        m/N; Sainsot & Velex (2004), eq. (4), with S = 2 θ r_root.
+    Sainsot & Velex (2004), eq. (4), with S = 2 θ r_root. The load angle (rad) is that between the force and
+    the perpendicular of the tooth's axis, the lever u (m) the distance along this axis from the root circle
+    to the line of the force.
     """
     l_star, m_star, p_star, q_star = sainsot_velex(root_radius / bore_radius, root_half_angle)
     ratio = lever / (2.0 * root_half_angle * root_radius)
@@ -118,15 +96,9 @@ def ring_foundation(
     poisson_ratio: Float[Array, ""],
     width: Float[Array, ""],
 ) -> Float[Array, "*contact"]:
-    """Deflection of the loaded tooth along the load, from its body's elasticity, per newton: the exact ring.
+    """Return what `foundation_compliance` does, by the exact ring; for any 0 < bore radius < root radius.
 
-    Valid for any 0 < bore radius < root radius; the rest as for `foundation_compliance`.
-
-    Parameters
-    ----------
-    root_load : (..., 3), (N, T, M/root radius) per unit normal load
-    root_radius, bore_radius, root_half_angle : the ring, m, and half the angle of the tooth's root, rad
-    youngs_modulus, poisson_ratio, width : Pa, ν, m
+    The root load (..., 3) is (N, T, M/root radius) per unit normal load.
     """
     ring = ring_compliance(0.0, root_half_angle, root_radius / bore_radius, poisson_ratio, SELF_HARMONICS)
     shape = namespace(root_load, ring).einsum("...i,ij,...j->...", root_load, ring, root_load)
@@ -148,21 +120,10 @@ def ring_compliance(
     (harmonics · root_half_angle)^−2 and needs about 40/root_half_angle of them, the term between two teeth
     converges faster.
 
-    Parameters
-    ----------
-    angle : (), angle of the loaded tooth, counter-clockwise from the one whose displacement is wanted, rad
-    root_half_angle, radius_ratio, poisson_ratio : array, shape ()
-        Half the angle of a tooth's root, rad; root radius/bore radius; Poisson's ratio.
+    c[i, j] E b is displacement i of the tooth at 0 from load j on the tooth at `angle` (rad, counter-
+    clockwise), times Young's modulus and width, in units of the root radius: loads (N, T, M/r_root),
+    displacements (m, m, rad · r_root). The transpose is the compliance at −angle (reciprocity).
 
-    Returns
-    -------
-    array, shape (3, 3)
-        c[i, j] E b: displacement i of the tooth at 0 from load j on the tooth at `angle`, times Young's
-        modulus and width, in units of the root radius: loads (N, T, M/r_root), displacements (m, m,
-        rad · r_root). The transpose is the compliance at −angle (reciprocity).
-
-    References
-    ----------
     N. I. Muskhelishvili, Some Basic Problems of the Mathematical Theory of Elasticity, §§ 41, 59 (potentials
     φ, ψ; the ring); J. R. Barber, Elasticity, ch. 8 (the same as Michell's series).
     """

@@ -70,16 +70,8 @@ def theoretical_stiffness(
 ) -> float:
     """Maximum stiffness c'_th of one pair of steel teeth, solid discs, standard rack, per face width, Pa.
 
-    Valid for x1 ≥ x2, −0.5 ≤ x1 + x2 ≤ 2 and line loads from 100 to 1600 N/mm.
-
-    Parameters
-    ----------
-    teeth, profile_shift : z and x of the gear with fewer teeth and of its mate
-    pressure_angle, helix_angle : α_n and β, rad: of helical gears the virtual numbers of teeth z/(cos² β_b
-        cos β) count
-
-    References
-    ----------
+    Of z and x of the gear with fewer teeth and of its mate; valid for x1 ≥ x2, −0.5 ≤ x1 + x2 ≤ 2 and line
+    loads from 100 to 1600 N/mm. Of helical gears the virtual numbers of teeth z/(cos² β_b cos β) count.
     ISO 6336-1:2019, 9.3.2: c'_th = 1/q', q' the series (82).
     """
     base = math.asin(math.sin(helix_angle) * math.cos(pressure_angle))
@@ -102,13 +94,6 @@ def theoretical_stiffness(
 def rack_factor(dedendum: tuple[float, float], pressure_angle: float) -> float:
     """C_B = mean of 1 + 0.5 (1.2 − h_fP/m_n), times 1 − 0.02 (20° − α_n): another rack than the standard one.
 
-    Parameters
-    ----------
-    dedendum : h_fP/m_n of both racks
-    pressure_angle : α_n, rad
-
-    References
-    ----------
     ISO 6336-1, 9.3.2.5; from memory of the standard.
     """
     deep = sum(1.0 + 0.5 * (1.2 - depth) for depth in dedendum) / 2.0
@@ -118,16 +103,9 @@ def rack_factor(dedendum: tuple[float, float], pressure_angle: float) -> float:
 def blank_factor(web: float, rim: float) -> float:
     """C_R = 1 + ln(b_s/b)/(5 exp(s_R/(5 m_n))) of a gear with rim and web; a solid disc has 1.
 
-    A mean for mating gears of similar or stiffer bodies: the softer body counts.
-
-    Parameters
-    ----------
-    web : b_s/b, thickness of the web over the face width; counts as 0.2 … 1.2
-    rim : s_R/m_n, thickness of the rim under the teeth in modules; counts as at least 1
-
-    References
-    ----------
-    ISO 6336-1, 9.3.2.4; from memory of the standard.
+    A mean for mating gears of similar or stiffer bodies: the softer body counts. The web b_s/b, its thickness
+    over the face width, counts as 0.2 … 1.2, the rim s_R/m_n, its thickness under the teeth in modules, as at
+    least 1. ISO 6336-1, 9.3.2.4; from memory of the standard.
     """
     return 1.0 + math.log(min(max(web, 0.2), 1.2)) / (5.0 * math.exp(max(rim, 1.0) / 5.0))
 
@@ -136,11 +114,7 @@ def reference_stiffness(pair: ReferencePair) -> ReferenceStiffness:
     """Stiffness of one pair of teeth and of the mesh, within the limits that `outside` goes through.
 
     c' = c'_th C_M C_R C_B cos β E/E_St, below 100 N/mm times (F_t K_A/b/(100 N/mm))^0.25; E is the harmonic
-    mean. c_γα = c' (0.75 ε_α + 0.25), c_γβ = 0.85 c_γα.
-
-    References
-    ----------
-    ISO 6336-1:2019, 9.3.2 and 9.3.3.
+    mean. c_γα = c' (0.75 ε_α + 0.25), c_γβ = 0.85 c_γα. ISO 6336-1:2019, 9.3.2 and 9.3.3.
     """
     theoretical = theoretical_stiffness(pair.teeth, pair.profile_shift, pair.pressure_angle, pair.helix_angle)
     rack = rack_factor(pair.dedendum, pair.pressure_angle)

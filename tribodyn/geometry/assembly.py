@@ -28,10 +28,8 @@ _SAMPLES = 400
 class Assembly:
     """Path, teeth and contact limits of a drive, each worked out once, when it is first needed."""
 
-    #: family, drive: What is put together; the drive's numbers may be traced. Lengths and angles are then
-    #: tracers too.
     family: Family
-    drive: Drive
+    drive: Drive  # its numbers may be traced; lengths and angles are then tracers too
 
     @cached_property
     def path(self) -> Path:

@@ -12,13 +12,7 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
 from tribodyn.geometry.path import PerContact, position
-from tribodyn.geometry.tooth import (
-    Tooth,
-    fillet_point,
-    flank_point,
-    tangent_distance,
-    thickness_half_angle,
-)
+from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point, tangent_distance, thickness_half_angle
 from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt
 from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.shapes import Array, Float
@@ -153,14 +147,7 @@ def body_masses(
     given: Sequence[tuple[float | None, float | None]],
     densities: Sequence[float],
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Mass (kg) and moment of inertia (kg m²) of pinion and gear: those given, the others from the section.
-
-    Parameters
-    ----------
-    assembly : of plain numbers
-    given : (mass, inertia); None where it is to be computed
-    densities : of both bodies, kg/m³
-    """
+    """Mass (kg) and inertia (kg m²) of pinion and gear: those given, the others from section and density."""
     masses = []
     for side, known, density in zip(SIDES, given, densities, strict=True):
         computed = (0.0, 0.0) if None not in known else mass_and_inertia(assembly, side, density)
@@ -226,22 +213,20 @@ def rack_outline(assembly: Assembly, side: Side, flank_points: int = 60) -> Rack
 
 #: Curves and radii.
 GEOMETRY: dict[str, Variable] = {
-    "pinion_outline": Variable(
-        ("pinion_point", "axis"),
-        "m",
-        "outline of the pinion about its axis, turned as when a pair touches at the pitch point",
-    ),
-    "gear_outline": Variable(
-        ("gear_point", "axis"),
-        "m",
-        "outline of the gear about its axis, turned as when a pair touches at the pitch point",
-    ),
+    **{
+        f"{side}_outline": Variable(
+            (f"{side}_point", "axis"),
+            "m",
+            f"outline of the {side} about its axis, turned as when a pair touches at the pitch point",
+        )
+        for side in SIDES
+    },
     "path_of_contact": Variable(
         ("path_point", "axis"), "m", "path of contact, origin at the pitch point, x along the pitch tangent"
     ),
     **{
         f"{side}_{circle}_radius": Variable((), "m", f"radius of the {side}'s {what}")
-        for side in ("pinion", "gear")
+        for side in SIDES
         for circle, what in (
             ("tip", "tip circle"),
             ("root", "root circle"),

@@ -77,6 +77,11 @@ def reference_radius(drive: Drive, side: Side) -> Number:
     return drive.module * body_of(drive, side).teeth / 2
 
 
+def reference_radii(drive: Drive) -> tuple[Number, Number]:
+    """Reference radii of pinion and gear, m."""
+    return reference_radius(drive, "pinion"), reference_radius(drive, "gear")
+
+
 def tip_radius(drive: Drive, side: Side) -> Number:
     """Radius at which the flank ends, m: of the tip circle, less what a rounding of the tip takes."""
     return tip_circle_radius(drive, side) - body_of(drive, side).tip_break

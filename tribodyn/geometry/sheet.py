@@ -109,10 +109,10 @@ USUAL_PIN = 1.728
 
 
 class Gauge(NamedTuple):
-    """What a tooth thickness is measured with: teeth of the span, diameter of the pins, m; None: usual."""
+    """What a tooth thickness is measured with; None: usual."""
 
     span_teeth: int | None = None
-    pin_diameter: float | None = None
+    pin_diameter: float | None = None  # m
 
 
 def backlash_lines(assembly: Assembly) -> dict[str, Quantity]:
@@ -120,12 +120,12 @@ def backlash_lines(assembly: Assembly) -> dict[str, Quantity]:
     lines: dict[str, Quantity] = {}
     if assembly.family.involute:
         lines["centre distance without backlash"] = 1e3 * float(tight_centre_distance(assembly.drive)), "mm"
-    rounding = 1e-12 * float(assembly.drive.module)
+    rounding = 1e-9 * float(assembly.drive.module)
     for name, backlash in (
         ("normal backlash", normal_backlash(assembly)),
         ("circumferential backlash", circumferential_backlash(assembly)),
     ):
-        lines[name] = 1e3 * (float(backlash) if abs(backlash) > 1e3 * rounding else 0.0), "mm"
+        lines[name] = 1e3 * (float(backlash) if abs(backlash) > rounding else 0.0), "mm"
     return lines
 
 
@@ -166,20 +166,10 @@ def geometry_sheet(
     masses: Sequence[tuple[float, float]] | None = None,
     gauges: tuple[Gauge, Gauge] = (Gauge(), Gauge()),
 ) -> dict[str, Any]:
-    """Summarise a drive that has passed `checks.check`.
+    """Summarise a drive that has passed `checks.check`; lengths in mm, angles in degrees.
 
-    Parameters
-    ----------
-    assembly : of plain numbers
-    masses : sequence of (mass kg, inertia kg m²), optional
-        Of pinion and gear, where they are to stand in the sheet.
-    gauges : what the tooth thickness of pinion and gear is measured with
-
-    Returns
-    -------
-    dict
-        Name -> (value, unit) for the pair, in reading order, and under "pinion" and "gear" the same for
-        each body. Lengths in mm, angles in degrees.
+    Name -> (value, unit) for the pair, in reading order, and under "pinion" and "gear" the same for each
+    body. Masses (kg) and inertias (kg m²) of pinion and gear stand there where they are given.
     """
     path, drive = assembly.path, assembly.drive
     at_pitch, at_start, at_end = (kinematics(path, r) for r in (0.0, assembly.r_start, assembly.r_end))
@@ -188,7 +178,11 @@ def geometry_sheet(
         "module": _millimetres(drive.module),
         "gear ratio": (float(drive.gear.teeth / drive.pinion.teeth), ""),
         "centre distance": _millimetres(path.pinion_pitch_radius + path.gear_pitch_radius),
-        **_operating_angle(assembly),
+        **(
+            {"operating pressure angle": _degrees(at_pitch.pressure_angle)}
+            if assembly.family.involute
+            else {}
+        ),
         **backlash_lines(assembly),
         "pressure angle of the rack on its rolling line": _degrees(assembly.pinion.path.pressure_angle(0.0)),
         "contact ratio": (assembly.contact_ratio, ""),
@@ -215,7 +209,7 @@ def geometry_sheet(
             "working pitch diameter": _millimetres(2 * working),
             **_base_diameter(assembly, side),
             "tip diameter": _millimetres(2 * tip_circle_radius(drive, side)),
-            **_tip_form_diameter(assembly, side),
+            **({"tip form diameter": _millimetres(2 * tooth.tip_radius)} if body.tip_break > 0 else {}),
             "lowest contact diameter": _millimetres(2 * lowest_contact_radius(assembly, side)),
             "form diameter": _millimetres(2 * tooth.form_radius),
             "active flank above form circle": _millimetres(
@@ -279,19 +273,6 @@ def _base_diameter(assembly: Assembly, side: Side) -> dict[str, Quantity]:
     along = kinematics(assembly.path, np.linspace(assembly.r_start, assembly.r_end, 5))
     arm = getattr(along, f"{side}_normal_arm")
     return {"base diameter": _millimetres(2 * arm[0])} if np.ptp(arm) <= 1e-12 * arm[0] else {}
-
-
-def _operating_angle(assembly: Assembly) -> dict[str, Quantity]:
-    """Return the pressure angle at which involutes work, the same along their path."""
-    if not assembly.family.involute:
-        return {}
-    return {"operating pressure angle": _degrees(assembly.path.pressure_angle(0.0))}
-
-
-def _tip_form_diameter(assembly: Assembly, side: Side) -> dict[str, Quantity]:
-    """Return the diameter at which the flank ends where a rounding of the tip ends it."""
-    rounded = body_of(assembly.drive, side).tip_break > 0
-    return {"tip form diameter": _millimetres(2 * assembly.tooth(side).tip_radius)} if rounded else {}
 
 
 def _millimetres(length: Any) -> Quantity:

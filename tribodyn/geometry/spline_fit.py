@@ -3,7 +3,7 @@
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius
-from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_radius
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, body_of, tip_radius
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.spline import FEWEST, SplineShape, working_path
 from tribodyn.geometry.path import Path, distance_at_radius
@@ -19,19 +19,10 @@ _SAMPLES = 400
 def fit_spline(assembly: Assembly, values: int) -> Assembly:
     """Fit a free-form path to the path of contact of a pair; teeth of its heights and thicknesses.
 
-    The angles are the linear least squares over the contact; at P the angle is the path's own. Paths that
-    may have a corner at P are fitted with one.
-
-    Parameters
-    ----------
-    assembly : of plain numbers and any family. A pair at a centre distance of its own becomes one of the
-        module 2 r_w/z; the thickness of its teeth, and so its backlash, stays
-    values : number of angles, at least `spline.FEWEST`
-
-    Returns
-    -------
-    Assembly
-        Of the family "spline", with knots; `flank_deviation` says how near it comes.
+    The angles, at least `spline.FEWEST` of them, are the linear least squares over the contact; at P the
+    angle is the path's own. Paths that may have a corner at P are fitted with one. A pair of any family at a
+    centre distance of its own becomes one of the module 2 r_w/z; the thickness of its teeth, and so its
+    backlash, stays. `flank_deviation` says how near it comes.
     """
     path, contact = assembly.path, (float(assembly.r_start), float(assembly.r_end))
     start = max(min(contact[0], float(assembly.pinion.form_distance)), _FURTHEST * contact[0])
@@ -81,31 +72,26 @@ def _bodies(assembly: Assembly, module: float, angle: float) -> list[GearBody]:
         radius = module * body_of(assembly.drive, side).teeth / 2
         half = float(thickness_half_angle(assembly.tooth(side), radius)) * radius
         surplus.append(0.0 if abs(half / module - np.pi / 4) < 1e-9 else half - np.pi / 4 * module)
-    if angle < 1e-9:
-        return [
-            _body(assembly, side, module, 0.0, 2 * height)
-            for side, height in zip(SIDES, surplus, strict=True)
-        ]
-    shift = (surplus[0] - surplus[1]) / (2 * module * np.tan(angle))
-    allowance = surplus[0] + surplus[1]
-    return [
-        _body(assembly, side, module, sign * shift, allowance)
-        for side, sign in zip(SIDES, (1.0, -1.0), strict=True)
-    ]
-
-
-def _body(assembly: Assembly, side: Side, module: float, shift: float, allowance: float) -> GearBody:
-    body, drive, tooth = body_of(assembly.drive, side), assembly.drive, assembly.tooth(side)
-    radius = module * body.teeth / 2
-    return body._replace(
-        profile_shift=shift,
-        addendum=(float(tip_radius(drive, side)) - radius) / module - shift,
-        dedendum=(radius - float(tooth.root_radius)) / module + shift,
-        fillet_radius=float(body.fillet_radius * drive.module / module),
-        tip_radius=None,
-        thickness_allowance=allowance,
-        tip_break=0.0,
-    )
+    shifts, allowances = [0.0, 0.0], [2 * height for height in surplus]
+    if angle >= 1e-9:
+        shift = (surplus[0] - surplus[1]) / (2 * module * np.tan(angle))
+        shifts, allowances = [shift, -shift], [surplus[0] + surplus[1]] * 2
+    bodies = []
+    for side, shift, allowance in zip(SIDES, shifts, allowances, strict=True):
+        body, drive = body_of(assembly.drive, side), assembly.drive
+        radius = module * body.teeth / 2
+        bodies.append(
+            body._replace(
+                profile_shift=shift,
+                addendum=(float(tip_radius(drive, side)) - radius) / module - shift,
+                dedendum=(radius - float(assembly.tooth(side).root_radius)) / module + shift,
+                fillet_radius=float(body.fillet_radius * drive.module / module),
+                tip_radius=None,
+                thickness_allowance=allowance,
+                tip_break=0.0,
+            )
+        )
+    return bodies
 
 
 def flank_deviation(first: Assembly, second: Assembly) -> float:

@@ -228,12 +228,8 @@ def thickness_half_angle(tooth: Tooth, at_radius: PerContact) -> PerContact:
 def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact) -> ToothContact:
     """Contact point and direction of the normal load on a tooth, while it works with its mate.
 
-    Parameters
-    ----------
-    body_path : working path seen from the body: `path.seen_from(family.working_path(drive), side)`
-    pitch_half_angle : half thickness angle on the working pitch circle, rad: `thickness_half_angle(tooth,
-        body_path.pinion_pitch_radius)`
-    r : signed distance in the body's own view, m: r of the drive for the pinion, −r for the gear
+    Path and signed distance r (m) are in the body's own view, r of the drive for the pinion, −r for the gear;
+    the half thickness angle (rad) is that on the working pitch circle.
     """
     pitch_radius = body_path.pinion_pitch_radius
     x, y = position(body_path, r)

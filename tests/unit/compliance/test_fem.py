@@ -5,9 +5,9 @@ import pytest
 from scipy.sparse.linalg import spsolve
 from scipy.spatial import KDTree
 
-from tests.support.twelve_teeth import POISSON, TOOTH, few_cells, whole_ring
+from tests.support.twelve_teeth import GEAR, POISSON, TOOTH, few_cells, whole_ring
 from tribodyn.compliance.fem.gear import gear_compliance, gear_model
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, ElasticGear
 from tribodyn.compliance.fem.ring_mesh import graded, sector_mesh
 from tribodyn.compliance.fem.strips import curved_basis, plane_stiffness
 from tribodyn.errors import InputError
@@ -130,12 +130,12 @@ def test_rim_too_thin_for_the_mesh_is_refused():
     body = GearBody(8, -0.3, 1.0, 1.25, 0.05, 0.02, 1e-3)  # deeply undercut
     tooth = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), body, body), "pinion")
     with pytest.raises(InputError, match="too thin"):
-        gear_compliance(tooth, 8, 0.97 * tooth.root_radius, POISSON, 0.75e-3, 1)
+        gear_compliance(ElasticGear(tooth, 8, 0.97 * tooth.root_radius, POISSON, 0.75e-3, 1))
 
 
 def solved_ring(teeth):
     """A gear, a basis of its whole ring, loaded at the middle of the flank, and all displacements."""
-    gear = gear_compliance(TOOTH, teeth, 8e-3, POISSON, DEEP, 1)
+    gear = gear_compliance(GEAR._replace(teeth=teeth, depth=DEEP))
     basis, mesh = whole_ring(1, teeth)
     place = basis.doflocs
     flank = mesh.nodes[:, mesh.flank]
@@ -161,7 +161,7 @@ def solved_ring(teeth):
 def few():
     with pytest.MonkeyPatch.context() as patch:
         few_cells(patch)
-        return 5, gear_model(TOOTH, 5, 8e-3, DEEP, 1), *solved_ring(5)
+        return 5, gear_model(GEAR._replace(teeth=5, depth=DEEP)), *solved_ring(5)
 
 
 def test_a_ring_is_held_at_its_bore_and_gives_way_to_the_load(few):
@@ -205,7 +205,7 @@ def check_inside(_, model, gear, place, u, flank, __):
 
 
 def test_compliances_are_reciprocal_and_fall_with_distance():
-    gear = gear_compliance(TOOTH, 12, 8e-3, POISSON, 0.75e-3, 1)
+    gear = gear_compliance(GEAR)
     for k in range(NEIGHBOURS + 1):
         np.testing.assert_allclose(
             gear.between[NEIGHBOURS + k], gear.between[NEIGHBOURS - k].T, rtol=1e-9, atol=1e-12

@@ -5,21 +5,14 @@ import multiprocessing
 import numpy as np
 import pytest
 
-from tests.support.twelve_teeth import few_cells
+from tests.support.twelve_teeth import GEAR, few_cells
 from tribodyn.compliance.fem.cache import cached_gear_compliance
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
-from tribodyn.geometry.drive import Drive, GearBody
-from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth import cut_tooth
 from tribodyn.numerics.cache import cache_folder
-
-BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
-DRIVE = Drive(3e-3, np.radians(20.0), BODY, BODY)
 
 
 def solve(poisson_ratio: float = 0.3, bore: float = 8e-3, width: float | None = None) -> GearCompliance:
-    tooth = cut_tooth(FAMILY, DRIVE, "pinion")
-    return cached_gear_compliance(tooth, 12, bore, poisson_ratio, 0.75e-3, 1, width)
+    return cached_gear_compliance(GEAR._replace(bore_radius=bore, poisson_ratio=poisson_ratio), width)
 
 
 @pytest.fixture
@@ -30,8 +23,8 @@ def folder(tmp_path, monkeypatch):
     return tmp_path / "fem"
 
 
-def same(one: GearCompliance, other: GearCompliance) -> bool:
-    both = [[*gear[:-2], *(gear.lead or ()), *(gear.ends or ())] for gear in (one, other)]
+def same(first: GearCompliance, second: GearCompliance) -> bool:
+    both = [[*gear[:-2], *(gear.lead or ()), *(gear.ends or ())] for gear in (first, second)]
     return all(np.array_equal(a, b) for a, b in zip(*both, strict=True))
 
 

@@ -142,7 +142,7 @@ def test_ring_follows_finite_elements_down_to_thin_rims(teeth, ratio):
     depth = float(contact.y[0] / np.cos(contact.load_angle[0]))
     curvature = kinematics(path, np.zeros(1)).relative_curvature
     half_width = hertz_half_width(np.array([line_load]), curvature, steel, steel)
-    local = float(weber_banaschek(np.array([line_load]), half_width, depth, steel)[0]) / line_load
+    local = float(weber_banaschek(line_load, half_width, depth, steel)[0][0]) / line_load
     elements = (float(loaded.deflection[0] * cosine) / line_load / 2.0 - local) / (1.0 - NU**2)
     ring = tooth_compliance(tooth, steel, 1.0, np.zeros(1), "ring")
     own = float((ring.total - ring.foundation)[0]) + float(ring.foundation[0]) * 0.02

@@ -7,7 +7,7 @@ from scipy.sparse import csc_matrix, diags, kron
 from scipy.sparse.linalg import splu
 from scipy.spatial import KDTree
 
-from tests.support.twelve_teeth import BODY, TOOTH, few_cells
+from tests.support.twelve_teeth import BODY, GEAR, TOOTH, few_cells
 from tribodyn.compliance.fem.free_ends import (
     at_phase,
     face_of,
@@ -88,7 +88,7 @@ class Sector:
 
 def half_and_whole():
     """Model, face, matrices and whole sector of one mesh."""
-    model = gear_model(TOOTH, TEETH, BODY.bore_radius, 0.75e-3, 1)
+    model = gear_model(GEAR._replace(teeth=TEETH))
     face = face_of(model, openings(model.basis, POISSON))
     return model, face, strip_stiffness(model.basis, POISSON), Sector()
 
@@ -127,8 +127,7 @@ def test_a_load_on_one_tooth_is_all_harmonics_around_the_ring(monkeypatch, few):
     """Every harmonic by itself, none by its conjugate; openings that leave the ends free on the whole."""
     few_cells(monkeypatch)
     width, waves = 20e-3, np.array([0.0, 90.0, 600.0, 1900.0])
-    arguments = TOOTH, TEETH, BODY.bore_radius, POISSON, 0.75e-3
-    found = free_ends(*arguments, 2, waves, width)
+    found = free_ends(GEAR._replace(teeth=TEETH, level=2), waves, width)
     model, face, matrices, _ = few
     harmonics = [harmonic_of(model, face.openings, matrices, POISSON, k) for k in waves]
     count, flank, roots = len(waves), len(found.radius), harmonics[0].on_root.shape[0]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.support.twelve_teeth import TOOTH
+from tests.support.twelve_teeth import GEAR, TOOTH
 from tribodyn.compliance.fem.gear import gear_model
 from tribodyn.geometry.tooth import flank_point
 
@@ -17,7 +17,7 @@ def straight(matrix, shift, place):
 
 @DEPTHS
 def test_displacements_inside_are_read_along_the_load_at_both_depths(rng, depth):
-    model = gear_model(TOOTH, 12, 8e-3, depth, 1)
+    model = gear_model(GEAR._replace(depth=depth))
     count = model.position.shape[1]
     assert not np.any(model.position[1] <= 0)
     nodes = model.basis.doflocs
@@ -52,7 +52,7 @@ def test_displacements_inside_are_read_along_the_load_at_both_depths(rng, depth)
 @DEPTHS
 def test_a_quadratic_field_is_read_almost(depth):
     """Exactly so where the cells are straight."""
-    model = gear_model(TOOTH, 12, 8e-3, depth, 1)
+    model = gear_model(GEAR._replace(depth=depth))
     count = model.position.shape[1]
     direction = model.loads.reshape(-1, 2, count)
     direction = np.sum(direction, axis=0)

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.sparse.linalg import spsolve
 
-from tests.support.twelve_teeth import BODY, POISSON, TOOTH, few_cells, whole_ring
+from tests.support.twelve_teeth import BODY, GEAR, POISSON, TOOTH, few_cells, whole_ring
 from tribodyn.compliance.fem.gear import gear_compliance, gear_model, lead_harmonics
 from tribodyn.compliance.fem.gear_compliance import (
     LARGEST,
@@ -26,8 +26,8 @@ MODULE, DEPTH = 3e-3, 0.75e-3
 
 
 def solved(waves, depth=DEPTH, level=1) -> GearCompliance:
-    arguments = TOOTH, 12, BODY.bore_radius, POISSON, depth, level
-    return gear_compliance(*arguments)._replace(lead=lead_harmonics(*arguments, np.asarray(waves)))
+    gear = GEAR._replace(depth=depth, level=level)
+    return gear_compliance(gear)._replace(lead=lead_harmonics(gear, np.asarray(waves)))
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +60,7 @@ def test_surface_with_weber_banaschek_does_not_know_the_depth():
     steel = MaterialData("unit", 1.0, POISSON, 7850.0, 45.0, 460.0, 6.5e9)
     k, half_width = np.array([200.0]), 1e-5
     total = [
-        half_space_surface(k, depth, POISSON)[0] + weber_banaschek(1.0, half_width, depth, steel)
+        half_space_surface(k, depth, POISSON)[0] + weber_banaschek(1.0, half_width, depth, steel)[0]
         for depth in (0.5e-3, 1e-3, 2e-3)
     ]
     np.testing.assert_allclose(total, total[0], rtol=1e-4)
@@ -128,10 +128,8 @@ def test_shorter_waves_give_way_less_and_reach_the_neighbours_less(gear):
 def test_compliance_does_not_depend_on_the_depth_of_the_local_region():
     k, width, total = np.array([0.0, 0.5, 1.5]) / MODULE, 0.03, []
     for depth in (0.2, 0.25, 1 / 3):
-        arguments = TOOTH, 12, BODY.bore_radius, POISSON, depth * MODULE, 2
-        gear = GearCompliance(
-            np.empty(0), np.empty(0), np.empty(0), depth * MODULE, lead_harmonics(*arguments, k)
-        )
+        lead = lead_harmonics(GEAR._replace(depth=depth * MODULE, level=2), k)
+        gear = GearCompliance(np.empty(0), np.empty(0), np.empty(0), depth * MODULE, lead)
         # with the contact's own deflection, of a half width of 0.03 modules
         local = 2 * (1 - POISSON**2) / np.pi * np.log(depth / width)
         total.append(own_at_solved(gear, POISSON)[:, 4:17] + local)
@@ -150,7 +148,8 @@ def test_one_sector_is_the_whole_ring_for_waves_too():
 def check_whole_ring(teeth):
     """Load a flank in its middle with a wave, and read flanks and roots of three teeth."""
     k = 0.4 / MODULE
-    lead = lead_harmonics(TOOTH, teeth, BODY.bore_radius, POISSON, DEPTH, 1, np.array([k]))
+    gear = GEAR._replace(teeth=teeth)
+    lead = lead_harmonics(gear, np.array([k]))
     basis, mesh = whole_ring(1, teeth)
     flank, root = mesh.nodes[:, mesh.flank], mesh.nodes[:, mesh.root]
     middle = len(mesh.flank) // 2
@@ -159,7 +158,7 @@ def check_whole_ring(teeth):
     def nodes(points):
         return np.array([np.argmin(np.hypot(*(place - point[:, None]))) for point in points.T])
 
-    model = gear_model(TOOTH, teeth, BODY.bore_radius, DEPTH, 1)
+    model = gear_model(gear)
     inward = model.loads[:, middle].reshape(-1, 2)
     inward = inward[np.any(inward != 0, axis=1)][0]
     constant, linear, square = strip_stiffness(basis, POISSON)
@@ -259,6 +258,6 @@ def test_wave_numbers_are_even_near_zero_and_geometric_at_last(module, root, mos
 
 
 def test_a_gear_solved_in_the_plane_says_so():
-    plane = gear_compliance(TOOTH, 12, BODY.bore_radius, POISSON, DEPTH, 1)
+    plane = gear_compliance(GEAR)
     with pytest.raises(ValueError, match="even along the teeth"):
         at_wave_numbers(plane, np.array([0.0]), POISSON)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.twelve_teeth import TOOTH
+from tests.support.twelve_teeth import GEAR, TOOTH
 from tribodyn.compliance.fem import gear as mesh_memory
 from tribodyn.compliance.fem.cyclic_symmetry import half_sector
 from tribodyn.compliance.fem.gear import check_level, gear_compliance, lead_harmonics, memory_needed
@@ -19,18 +19,17 @@ STATUS = Path("/proc/self/status")
 SOLVE = """
 import sys
 from pathlib import Path
-from tests.support.twelve_teeth import TOOTH
-from tribodyn.compliance.fem.cyclic_symmetry import half_sector
+from tests.support.twelve_teeth import GEAR
 from tribodyn.compliance.fem.gear import gear_compliance, lead_harmonics
 def peak():
     lines = Path("/proc/self/status").read_text().splitlines()
     return next(1024 * int(s.split()[1]) for s in lines if s.startswith("VmHWM"))
-gear_compliance(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 1)
+gear_compliance(GEAR)
 before = peak()
 if sys.argv[1] == "2":
-    gear_compliance(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 4)
+    gear_compliance(GEAR._replace(level=4))
 else:
-    lead_harmonics(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 3, [100.0])
+    lead_harmonics(GEAR._replace(level=3), [100.0])
 print(peak() - before)
 """
 
@@ -72,10 +71,10 @@ def test_estimate_meets_the_peak_of_a_process(components, level):
 def test_mesh_beyond_the_memory_is_refused_at_once(solve):
     waves = [[100.0]] if solve is lead_harmonics else []
     with pytest.raises(InputError, match=r"level = 100000: .* GiB of memory.*use at most \d+"):
-        solve(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 100_000, *waves)
+        solve(GEAR._replace(level=100_000), *waves)
     needed = memory_needed(100_000, 3 if waves else 2)
     with pytest.raises(InputError, match=f"would need {needed / 2**30:.3g} GiB".replace("+", r"\+")):
-        solve(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 100_000, *waves)
+        solve(GEAR._replace(level=100_000), *waves)
 
 
 @pytest.mark.parametrize("components", [2, 3])
@@ -89,8 +88,8 @@ def test_the_level_that_is_named_fits(monkeypatch, components, available):
     assert memory_needed(level, components) <= 0.8 * available
     assert memory_needed(level + 1 + (level // 9 if level > 17 else 0), components) > 0.8 * available
     check_level(level, components)
-    said = f"{memory_needed(5000, components) / 2**30:.3g} GiB of memory, and {available / 2**30:.3g} GiB"
-    assert said in str(refused.value)
+    message = f"{memory_needed(5000, components) / 2**30:.3g} GiB of memory, and {available / 2**30:.3g} GiB"
+    assert message in str(refused.value)
 
 
 def test_level_below_one_is_refused():

@@ -5,6 +5,7 @@ import pytest
 from scipy.sparse.linalg import spsolve
 
 from tribodyn.compliance.fem.gear import lead_harmonics
+from tribodyn.compliance.fem.gear_compliance import ElasticGear
 from tribodyn.compliance.fem.ring_mesh import half_sector_mesh
 from tribodyn.compliance.fem.strips import (
     COMPONENTS,
@@ -87,7 +88,8 @@ def gear(teeth, shift=0.0, fillet=0.25, bore=0.6):
 
 def solved(teeth, level, waves=(0.0,), **options):
     tooth, body = gear(teeth, **options)
-    return lead_harmonics(tooth, teeth, body.bore_radius, POISSON, 0.25 * MODULE, level, np.array(waves))
+    elastic = ElasticGear(tooth, teeth, body.bore_radius, POISSON, 0.25 * MODULE, level)
+    return lead_harmonics(elastic, np.array(waves))
 
 
 def maximum(stress):

@@ -35,9 +35,8 @@ class ReducedSector(NamedTuple):
     """Half a sector of one symmetry as seen from its edge: what loads and edge do to the readers."""
 
     stiffness: Float[Array, "edge edge"]  # (edge, edge)
-    passed_on: Float[
-        Array, "edge load"
-    ]  # (edge, load): forces of the loads on the edge, those that the half passes on included
+    #: (edge, load): forces of the loads on the edge, those that the half passes on included
+    passed_on: Float[Array, "edge load"]
     alone: Float[Array, "reader load"]  # (reader, load) with the edge held
     per_edge: Float[Array, "reader edge"]  # (reader, edge): reading is alone − per_edge @ edge
 
@@ -65,9 +64,8 @@ class Ring(NamedTuple):
     alone: Float[Array, "reader load"]  # (R, L): readings with the edges held
     within: Float[Array, "edge edge"]  # (E, E): stiffness of an edge's two sides
     across: Float[Array, "edge edge"]  # (E, E): of one edge of a sector against the other
-    force_ahead: Float[
-        Array, "edge load"
-    ]  # (E, L): of the loads on the sector's edge at +π/Z, with what it passes on to it
+    #: (E, L): of the loads on the sector's edge at +π/Z, with what it passes on to it
+    force_ahead: Float[Array, "edge load"]
     force_behind: Float[Array, "edge load"]  # (E, L): to that at −π/Z
     read_ahead: Float[Array, "reader edge"]  # (R, E): what the edges take off the readings
     read_behind: Float[Array, "reader edge"]
@@ -90,14 +88,10 @@ def reduced_ring(
 ) -> Ring:
     """Reduce a ring to its sectors' edges.
 
-    Parameters
-    ----------
-    stiffness : (dof, dof); of the half sector; 2 or 3 components of the displacement follow each other at a
-        node: u, v[, w]
-    loads : (dof, load), on the half y > 0 of sector 0
-    readers : (reader, dof), rows that take the half's displacements to what is read
-    mirrored : (reader,), whether the reader looks at the mirror image of the half: reads, at y < 0, what its
-        row says of the reflected displacement
+    The stiffness (dof, dof) is the half sector's; 2 or 3 components of the displacement follow each other at
+    a node: u, v[, w]. Loads (dof, load) are on the half y > 0 of sector 0; readers (reader, dof) take the
+    half's displacements to what is read; those that are mirrored (reader,) look at the mirror image of the
+    half: they read, at y < 0, what their row says of the reflected displacement.
     """
     components = stiffness.shape[0] // half.nodes
     even, odd = (_reduced(half, stiffness, loads, readers, components, symmetry) for symmetry in (1, -1))
@@ -145,9 +139,7 @@ def ring_response(
 ) -> Float[Array, "sector reader load"]:
     """Readings (sector, reader, load) of the ring under loads on one sector; else as `reduced_ring`.
 
-    Parameters
-    ----------
-    sectors : (sector,), pitches from the loaded sector, counted in the sense from x to y
+    Sectors are counted in pitches from the loaded one, in the sense from x to y.
     """
     ring = reduced_ring(half, stiffness, loads, readers, mirrored)
     seen = np.zeros((len(sectors), len(readers), loads.shape[1]))

@@ -34,7 +34,7 @@ from skfem import Basis, BilinearForm, ElementQuad1
 
 from tribodyn.compliance.fem.cyclic_symmetry import Ring, phases, reduced_ring
 from tribodyn.compliance.fem.gear import GearModel, gear_model
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, FreeEnds, spline_weights
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, ElasticGear, FreeEnds, spline_weights
 from tribodyn.compliance.fem.strips import (
     COMPONENTS,
     edge_parameters,
@@ -44,7 +44,6 @@ from tribodyn.compliance.fem.strips import (
     strip_stiffness,
     value_and_gradient,
 )
-from tribodyn.geometry.tooth import Tooth
 from tribodyn.numerics.shapes import Array, Complex, Float
 from tribodyn.numerics.work import part, steps
 
@@ -84,10 +83,7 @@ def openings(basis: Basis, poisson_ratio: float) -> Openings:
 def parity_weights(solved: Float[Array, " wave"], width: float) -> Float[Array, "2 wave"]:
     """Weights (2, K) with which S at the wave numbers solved add up over the even and the odd harmonics.
 
-    Parameters
-    ----------
-    solved : (K,), wave numbers of `gear_compliance.wave_numbers`, rad/m
-    width : b, m
+    The wave numbers (rad/m) are those of `gear_compliance.wave_numbers`, the width b is in m.
     """
     step, largest = np.pi / width, solved[-1]
     number = np.arange(int(_TAIL * largest / step) + 3)
@@ -133,27 +129,13 @@ class Harmonic(NamedTuple):
     on_root: Float[Array, "point opening"]  # (P, J): stress along the root that is theirs alone
 
 
-def free_ends(
-    tooth: Tooth,
-    teeth: int,
-    bore_radius: float,
-    poisson_ratio: float,
-    depth: float,
-    level: int,
-    wave_number: Float[Array, " wave"],
-    width: float,
-) -> FreeEnds:
-    """Solve a gear for its end faces.
+def free_ends(gear: ElasticGear, wave_number: Float[Array, " wave"], width: float) -> FreeEnds:
+    """Solve a gear of the width b (m) for its end faces.
 
-    Parameters
-    ----------
-    tooth, teeth, bore_radius, poisson_ratio, depth
-        As for `fem.gear_compliance`.
-    level : that of the root's points at which the stress is wanted; the elements are those of `LEVEL`
-    wave_number : (K,), of `gear_compliance.wave_numbers` up to `LARGEST_AT_ENDS`/module, rad/m
-    width : b, m
+    `wave_number` (K,) of `gear_compliance.wave_numbers` up to `LARGEST_AT_ENDS`/module, rad/m. The gear's
+    level is that of the root's points at which the stress is wanted; the elements are those of `LEVEL`.
     """
-    model = gear_model(tooth, teeth, bore_radius, depth, LEVEL)
+    model, poisson_ratio = gear_model(gear._replace(level=LEVEL)), gear.poisson_ratio
     face = face_of(model, openings(model.basis, poisson_ratio))
     matrices = strip_stiffness(model.basis, poisson_ratio)
     with part(0.0, 0.4):
@@ -166,7 +148,7 @@ def free_ends(
     flanks = np.zeros((2, len(_SECTORS), count * flank, count * flank))
     stress = np.zeros((2, len(_SECTORS), count * 2 * roots, count * flank))
     with part(0.4, 1.0):
-        for phase, weight in steps(phases(teeth)):
+        for phase, weight in steps(phases(gear.teeth)):
             held, reached, seen = at_phase(harmonics, face, phase)
             turns = weight * phase ** _SECTORS[:, None, None]
             for parity in (0, 1):
@@ -178,7 +160,7 @@ def free_ends(
     stress = stress.reshape(2, -1, count, 2, roots, count, flank).transpose(0, 2, 5, 1, 3, 4, 6)
     edges = roots // (2 * LEVEL)
     between_points = CubicSpline(edge_parameters(edges, LEVEL), np.eye(roots))
-    along = between_points(edge_parameters(edges, level))
+    along = between_points(edge_parameters(edges, gear.level))
     return FreeEnds(
         wave_number=np.asarray(wave_number, dtype=float),
         radius=np.hypot(*model.position),
@@ -192,11 +174,8 @@ def face_of(model: GearModel, opening: Openings) -> EndFace:
     """Openings vanish where the body is held, are one on the axis and follow each other on the edges."""
     half, nodes = model.half, KDTree(model.basis.doflocs.T)
     number = np.asarray(nodes.query(opening.place.T)[1])
-    free, axis, edge = (
-        ~np.isin(number, half.held),
-        np.isin(number, half.axis),
-        np.isin(number, half.edge),
-    )
+    free = ~np.isin(number, half.held)
+    axis, edge = np.isin(number, half.axis), np.isin(number, half.edge)
     unit = np.eye(len(number))
     own, shared = unit[:, free], unit[:, free & ~axis & ~edge]
     none = np.zeros_like(shared)

@@ -13,7 +13,7 @@ from scipy.spatial import KDTree
 from skfem import Basis
 
 from tribodyn.compliance.fem.cyclic_symmetry import HalfSector, half_sector, ring_response
-from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance, LeadHarmonics
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, ElasticGear, GearCompliance, LeadHarmonics
 from tribodyn.compliance.fem.ring_mesh import SectorMesh, half_sector_cells, half_sector_mesh
 from tribodyn.compliance.fem.strips import (
     COMPONENTS,
@@ -52,9 +52,10 @@ class GearModel(NamedTuple):
     root: NDArray[np.int64]
 
 
-def gear_model(tooth: Tooth, teeth: int, bore_radius: float, depth: float, level: int) -> GearModel:
-    """Mesh a gear; arguments and errors as those of `fem.gear_compliance`."""
-    mesh = half_sector_mesh(tooth, teeth, bore_radius, level)
+def gear_model(gear: ElasticGear) -> GearModel:
+    """Mesh a gear; InputError if the cells do not fit into a thin rim."""
+    tooth, bore_radius = gear.tooth, gear.bore_radius
+    mesh = half_sector_mesh(tooth, gear.teeth, bore_radius, gear.level)
     basis = curved_basis(mesh.nodes, mesh.cells)
     mapping: Any = basis.mapping
     if not np.all(mapping.detDF(basis.X) > 0):
@@ -71,12 +72,12 @@ def gear_model(tooth: Tooth, teeth: int, bore_radius: float, depth: float, level
     near = numbers.query(position.T)[1]
     loads = np.zeros((2 * basis.N, position.shape[1]))
     np.put_along_axis(loads, np.stack([2 * near, 2 * near + 1]), direction, axis=0)
-    below = position[:, None] + np.multiply.outer(direction, np.array([depth, 2.0 * depth])).swapaxes(1, 2)
-    below = below.reshape(2, -1)
+    inwards = np.multiply.outer(direction, gear.depth * np.array([1.0, 2.0])).swapaxes(1, 2)
+    below = (position[:, None] + inwards).reshape(2, -1)
     beyond = below[1] < 0.0
     reflected = np.where(beyond, [[1.0], [-1.0]], 1.0)
     inner = _probes(basis, below * reflected, np.tile(direction, 2) * reflected)
-    half = half_sector(basis.doflocs, teeth, bore_radius)
+    half = half_sector(basis.doflocs, gear.teeth, bore_radius)
     along_root = np.asarray(numbers.query(root.T)[1])
     return GearModel(basis, half, position, loads, inner, beyond, root, along_root)
 
@@ -139,11 +140,8 @@ _LIMITS = (Path("/sys/fs/cgroup/memory.max"), Path("/sys/fs/cgroup/memory.curren
 def memory_needed(level: int, components: int) -> float:
     """Bytes that solving a gear takes at its peak.
 
-    Parameters
-    ----------
-    level : refinement of the mesh
-    components : of the displacement: 2 in plane strain, 3 for loads that vary along the teeth, with root
-        stress, and for free end faces after them
+    Components of the displacement are 2 in plane strain, 3 for loads that vary along the teeth, with root
+    stress, and for free end faces after them.
     """
     cells, flank, root, edge = half_sector_cells(level)
     unknowns = components * 4.0 * cells
@@ -197,55 +195,28 @@ def check_level(level: int, components: int) -> None:
 _SECTORS = np.arange(-NEIGHBOURS, NEIGHBOURS + 1)
 
 
-def gear_compliance(
-    tooth: Tooth, teeth: int, bore_radius: float, poisson_ratio: float, depth: float, level: int
-) -> GearCompliance:
-    """Solve a gear of plain numbers in plane strain for unit loads at every vertex of a flank.
+def gear_compliance(gear: ElasticGear) -> GearCompliance:
+    """Solve a gear in plane strain for unit loads at every vertex of a flank.
 
     Raises InputError if the cells do not fit into a thin rim, or the mesh not into the memory.
-
-    Parameters
-    ----------
-    tooth : as cut
-    teeth : number of teeth
-    bore_radius : where the body is held, m
-    poisson_ratio : ν < 0.5
-    depth : depth below the flank at which the loaded tooth's displacement is read, m, as it is at twice that;
-        a cell or more, so that the mesh resolves it
-    level : multiplies the number of cells in both directions
     """
-    check_level(level, 2)
-    model = gear_model(tooth, teeth, bore_radius, depth, level)
+    check_level(gear.level, 2)
+    model = gear_model(gear)
     readers = np.concatenate([model.loads.T, model.inner])
     mirrored = np.concatenate([np.zeros(model.loads.shape[1], dtype=bool), model.beyond])
-    stiffness = plane_stiffness(model.basis, poisson_ratio)
+    stiffness = plane_stiffness(model.basis, gear.poisson_ratio)
     seen = ring_response(model.half, stiffness, model.loads, readers, mirrored, _SECTORS)
     inside, between = _parted(seen)
-    return GearCompliance(np.hypot(*model.position), inside, between, depth)
+    return GearCompliance(np.hypot(*model.position), inside, between, gear.depth)
 
 
-def lead_harmonics(
-    tooth: Tooth,
-    teeth: int,
-    bore_radius: float,
-    poisson_ratio: float,
-    depth: float,
-    level: int,
-    wave_number: Float[Array, " wave"],
-) -> LeadHarmonics:
-    """Solve a gear for unit loads that run like cos kz along the teeth; see `gear_compliance`.
-
-    Parameters
-    ----------
-    tooth, teeth, bore_radius, poisson_ratio, depth, level
-        As for `gear_compliance`.
-    wave_number : (K,), k ≥ 0, rad/m
-    """
-    check_level(level, COMPONENTS)
-    model = gear_model(tooth, teeth, bore_radius, depth, level)
-    constant, linear, square = strip_stiffness(model.basis, poisson_ratio)
+def lead_harmonics(gear: ElasticGear, wave_number: Float[Array, " wave"]) -> LeadHarmonics:
+    """Solve a gear for unit loads that run like cos kz along the teeth, k ≥ 0 in rad/m; errors likewise."""
+    check_level(gear.level, COMPONENTS)
+    model = gear_model(gear)
+    constant, linear, square = strip_stiffness(model.basis, gear.poisson_ratio)
     solved = [
-        _harmonic(model, csr_matrix(constant + k * linear + k**2 * square), poisson_ratio, float(k))
+        _harmonic(model, csr_matrix(constant + k * linear + k**2 * square), gear.poisson_ratio, float(k))
         for k in steps(np.asarray(wave_number).tolist())
     ]
     inside, between, stress = (np.stack(part) for part in zip(*solved, strict=True))

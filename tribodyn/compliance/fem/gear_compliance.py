@@ -22,10 +22,24 @@ from scipy.interpolate import CubicSpline, make_interp_spline
 from scipy.special import k0, k1
 
 from tribodyn.compliance.local import freed_of_depth
+from tribodyn.geometry.tooth import Tooth
 from tribodyn.numerics.shapes import Array, Float
 
 #: Teeth on either side whose compliances are kept: as many pairs as can touch beside the loaded one.
 NEIGHBOURS = 2
+
+
+class ElasticGear(NamedTuple):
+    """What a gear's compliance is solved of: plain numbers."""
+
+    tooth: Tooth  # as cut
+    teeth: int
+    bore_radius: float  # where the body is held, m
+    poisson_ratio: float  # ν < 0.5
+    #: depth below the flank at which the loaded tooth's displacement is read, m, as it is at twice that; a
+    #: cell or more, so that the mesh resolves it
+    depth: float
+    level: int  # multiplies the number of cells in both directions
 
 
 class LeadHarmonics(NamedTuple):
@@ -130,14 +144,9 @@ def wave_numbers(module: float, root_radius: float, most: float = LARGEST) -> Fl
 def at_wave_numbers(
     gear: GearCompliance, wave_number: Float[Array, " wave"], poisson_ratio: float
 ) -> LeadCompliance:
-    """Response of a gear to line loads cos kz.
+    """Response of a gear solved with its `lead` to line loads cos kz, k ≥ 0 in rad/m.
 
-    Parameters
-    ----------
-    gear : solved with its `lead`
-    wave_number : (N,); k ≥ 0, rad/m. Beyond the largest that was solved, `own` follows the half-space and the
-        others are 0.
-    poisson_ratio : ν that the gear was solved with
+    Beyond the largest wave number that was solved, `own` follows the half-space and the others are 0.
     """
     lead = gear.lead
     if lead is None:

@@ -35,20 +35,14 @@ _SEAM_DROP = 0.35
 
 
 class SectorMesh(NamedTuple):
-    """Curved cells of nine nodes over half a sector, or one; x along the tooth's axis, +y the loaded flank.
+    """Curved cells of nine nodes over half a sector, or one; x along the tooth's axis, loaded flank at +y."""
 
-    Attributes
-    ----------
-    nodes : (2, N), m
-    cells : (9, C), node numbers: corners counter-clockwise, middles of the edges that follow them, centre
-    flank : (M,), corner nodes on the flank y > 0, from the fillet to the tip
-    root : (2 R + 1,), corner and middle nodes of R edges on the side y > 0, from the middle of the gap along
-        the root circle and the fillet to the flank's first
-    """
-
-    nodes: Float[Array, "2 node"]
+    nodes: Float[Array, "2 node"]  # m
+    #: (9, C), node numbers: corners counter-clockwise, middles of the edges that follow them, centre
     cells: NDArray[np.int64]
-    flank: NDArray[np.int64]
+    flank: NDArray[np.int64]  # (M,), corner nodes on the flank y > 0, from the fillet to the tip
+    #: (2 R + 1,), corner and middle nodes of R edges on the side y > 0, from the middle of the gap along the
+    #: root circle and the fillet to the flank's first
     root: NDArray[np.int64]
 
 
@@ -136,7 +130,7 @@ def _profile(tooth: Tooth, teeth: int, level: int) -> Float[Array, "column 2"]:
         flank_point(tooth, tooth.form_distance + along * (tooth.tip_distance - tooth.form_distance)), axis=-1
     )
     first = float(np.arctan2(fillet[0, 1], fillet[0, 0]))
-    root = _arc(tooth.root_radius, np.pi / teeth, first, _CURVE_POINTS)
+    root = tooth.root_radius * _unit(np.linspace(np.pi / teeth, first, _CURVE_POINTS))
     lengths = _length(fillet)
     split = int(np.searchsorted(lengths, 0.5 * lengths[-1]))
     parts = [
@@ -156,16 +150,13 @@ def _below(
     """Inner side (columns, 2) of the layer under the profile's nodes."""
     tip_angle = float(np.arctan2(boundary[-1, 1], boundary[-1, 0]))
     share = _length(boundary) / _length(boundary)[-1]
-    foot = tooth.form_radius * np.sin(np.interp(tooth.form_radius, *_radius_and_angle(boundary)))
+    radius, angle = np.hypot(*boundary.T), np.arctan2(boundary[:, 1], boundary[:, 0])
+    order = np.argsort(radius)
+    foot = tooth.form_radius * np.sin(np.interp(tooth.form_radius, radius[order], angle[order]))
     rim = _RIM_SHARE * (tooth.root_radius - bore_radius)
-    thickness = np.interp(
-        share,
-        [0.0, 1.0],
-        [
-            min(_LAYER_ROOT * foot, rim),
-            min(_LAYER_TIP * foot, rim, _TIP_SHARE * tooth.tip_radius * tip_angle),
-        ],
-    )
+    at_root = min(_LAYER_ROOT * foot, rim)
+    at_tip = min(_LAYER_TIP * foot, rim, _TIP_SHARE * tooth.tip_radius * tip_angle)
+    thickness = np.interp(share, [0.0, 1.0], [at_root, at_tip])
     tangent = np.gradient(boundary, axis=0)
     inwards = np.stack([tangent[:, 1], -tangent[:, 0]], axis=-1)
     inwards /= np.linalg.norm(inwards, axis=1, keepdims=True)
@@ -180,14 +171,6 @@ def _below(
     below = boundary + thickness[:, None] * inwards
     below[-1] = tooth.tip_radius * _unit(tip_angle - thickness[-1] / tooth.tip_radius)
     return below
-
-
-def _radius_and_angle(
-    curve: Float[Array, "point 2"],
-) -> tuple[Float[Array, " point"], Float[Array, " point"]]:
-    radius, angle = np.hypot(*curve.T), np.arctan2(curve[:, 1], curve[:, 0])
-    order = np.argsort(radius)
-    return radius[order], angle[order]
 
 
 def _coons(
@@ -230,10 +213,6 @@ def graded(cells: int, ratio: float) -> Float[Array, " point"]:
 
 def _unit(angle: Float[Array, "*point"] | float) -> Float[Array, "*point 2"]:
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-
-
-def _arc(radius: float, start: float, end: float, points: int) -> Float[Array, "point 2"]:
-    return radius * _unit(np.linspace(start, end, points))
 
 
 def _merge(points: Float[Array, "point 2"]) -> tuple[Float[Array, "distinct 2"], NDArray[np.int64]]:

@@ -109,12 +109,13 @@ def _unit(size: int, row: int, column: int) -> Float[Array, "size size"]:
 
 
 _GAUSS = np.array([-1.0, 1.0]) / np.sqrt(3.0)
+# Shape functions of an edge's nodes at these points.
+_SHAPE = np.stack([_GAUSS * (_GAUSS - 1) / 2, 1 - _GAUSS**2, _GAUSS * (_GAUSS + 1) / 2])
 
 
 def edge_points(place: Float[Array, "2 node"]) -> Float[Array, "2 point"]:
     """Points (2, 2 R), m, at which `stress_rows` reads, of the boundary's nodes (2, 2 R + 1)."""
-    shape = np.stack([_GAUSS * (_GAUSS - 1) / 2, 1 - _GAUSS**2, _GAUSS * (_GAUSS + 1) / 2])
-    return np.einsum("dne,ng->deg", _by_edge(place), shape).reshape(2, -1)
+    return np.einsum("dne,ng->deg", _by_edge(place), _SHAPE).reshape(2, -1)
 
 
 def stress_rows(
@@ -122,19 +123,13 @@ def stress_rows(
 ) -> Float[Array, "point dof"]:
     """Rows (2 R, dof) that take amplitudes of the displacement to the stress's, for unit Young's modulus.
 
-    Parameters
-    ----------
-    place : (2, 2 R + 1), corner and middle nodes of R quadratic edges that follow each other, m
-    nodes : (2 R + 1,), their numbers; u, v and w of a node follow each other in the degrees of freedom
-    size : number of degrees of freedom
-    poisson_ratio : ν
-    k : wave number, rad/m
+    `place` (m) and `nodes` are of the corner and middle nodes of R quadratic edges that follow each other;
+    u, v and w of a node follow each other in the `size` degrees of freedom; k is in rad/m.
     """
-    shape = np.stack([_GAUSS * (_GAUSS - 1) / 2, 1 - _GAUSS**2, _GAUSS * (_GAUSS + 1) / 2])
     slope = np.stack([_GAUSS - 0.5, -2 * _GAUSS, _GAUSS + 0.5])
     tangent = np.einsum("dne,ng->deg", _by_edge(place), slope)
     stretch = slope[None, :, None] * (tangent / np.sum(tangent**2, axis=0))[:, None]  # (2, node, edge, point)
-    along = np.broadcast_to(poisson_ratio * k * shape[:, None], stretch.shape[1:])
+    along = np.broadcast_to(poisson_ratio * k * _SHAPE[:, None], stretch.shape[1:])
     values = np.stack([*stretch, along]) / (1.0 - poisson_ratio**2)
     edges = values.shape[2]
     rows = np.zeros((edges, 2, size))

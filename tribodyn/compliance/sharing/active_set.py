@@ -74,18 +74,10 @@ def press(
     gap: Float[Array, "position place"],
     torque: Float[Array, " position"],
 ) -> Pressed:
-    """Find loads that carry a torque; arrays over (position, place) unless said otherwise.
+    """Find the loads that carry the torques T > 0 (N m): Λ = `matrix` (m/N), a = `arm` (1), l = `lever` (m).
 
-    Raises SimulationError if no state of contact is found.
-
-    Parameters
-    ----------
-    matrix : (position, place, place), Λ, m/N
-    local : of positions (indices) and loads of all their places, N: own deflection u, m, and its slope, m/N
-    arm : a: what ξ makes along the normal, 1
-    lever : l, m
-    gap : g, m, of either sign
-    torque : (position,), T > 0, N m
+    `local` gives, of positions (indices) and the loads of all their places (N), the own deflection u (m) and
+    its slope (m/N). The gaps g (m) are of either sign. SimulationError if no state of contact is found.
     """
     positions, places = gap.shape
     mean = torque / np.max(lever, axis=-1)

@@ -47,16 +47,10 @@ def condense(
     minimum_load: float,
     coupled: bool = True,
 ) -> Condensed:
-    """Condense the state of the mesh to pairs.
+    """Condense the state of the mesh to pairs; the gap (m) is all of it.
 
-    Parameters
-    ----------
-    geometry : of the pairs (position, pair)
-    gap : (position, pair, slice), all of it, m
-    shared : the state
-    minimum_load : load, N, with which a pair is linearised that carries less or nothing: pressed alone, as
-        the others' loads leave its flank
-    coupled : whether slices hold each other
+    A pair that carries less than `minimum_load` (N), or nothing, is linearised with that: pressed alone, as
+    the others' loads leave its flank. `coupled`: whether slices hold each other.
     """
     parts = [
         _condensed(

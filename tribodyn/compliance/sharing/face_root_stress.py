@@ -19,23 +19,12 @@ def root_stress(
     line_load: Float[Array, "position pair slice"],
     coupled: bool = True,
 ) -> tuple[Float[Array, "2 position pair slice"], Float[Array, "2 position pair slice"]]:
-    """Maximum tension and maximum compression along the root of every tooth.
+    """Maximum tension (positive) and compression (negative) along the root of every tooth, Pa.
 
-    Stresses along the profile, of both fillets, from the middle of one gap to the middle of the next; those
-    that the neighbours' loads make in the rim add to the tooth's own.
-
-    Parameters
-    ----------
-    flexible : solved with `lead`
-    geometry : of the pairs (position, pair), one pitch apart, the one that entered first in front
-    line_load : (position, pair, slice), N/m
-    coupled : whether a slice's load strains the others' roots too; else each slice is in plane strain by
-        itself
-
-    Returns
-    -------
-    (2, position, pair, slice), (2, position, pair, slice)
-        Of pinion and gear; tension positive, compression negative, Pa.
+    Of pinion and gear, (2, position, pair, slice). Stresses along the profile, of both fillets, from the
+    middle of one gap to the middle of the next; those that the neighbours' loads make in the rim add to the
+    tooth's own. Pairs stand one pitch apart, the one that entered first in front; line loads are in N/m. Not
+    `coupled` each slice is in plane strain by itself.
     """
     positions, _, slices = line_load.shape
     wave_number = wave_numbers(flexible.width, slices, coupled)

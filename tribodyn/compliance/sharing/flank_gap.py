@@ -41,10 +41,7 @@ def flank_gap(
 ) -> Float[Array, "*pair slice"]:
     """Gap (…, slice) beside that of the corners, m; pitch errors apart (`pitch_gap`).
 
-    Parameters
-    ----------
-    geometry : of the pairs, any shape
-    face_position : (slice,), places along the axis from the middle of the faces, which stand symmetrically, m
+    The places along the axis (slice,), m, are from the middle of the faces, which stand symmetrically.
     """
     profile = profile_gap(assembly, modifications, geometry)
     along = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
@@ -106,10 +103,7 @@ def misalignment_gap(
 def pitch_gap(modifications: Modifications, tooth: Int[Array, "*pair"]) -> Float[Array, "*pair"]:
     """Pitch errors of both flanks, m, of pairs that are counted: pair n joins tooth n of both gears.
 
-    Parameters
-    ----------
-    tooth : number n of each pair, increasing in the order in which they enter; taken modulo the number of
-        errors
+    Numbers increase in the order in which pairs enter; they are taken modulo the number of errors.
     """
     total = np.zeros(np.shape(tooth))
     for side in SIDES:

@@ -17,17 +17,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.fem.cache import cached_gear_compliance
-from tribodyn.compliance.local import (
-    ElasticMaterial,
-    hertz_half_width,
-    weber_banaschek,
-    weber_banaschek_slope,
-)
+from tribodyn.compliance.fem.gear_compliance import ElasticGear
+from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.compliance.sharing.active_set import press
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions, slice_compliance
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, body_of
+from tribodyn.geometry.drive import SIDES, MaterialData, body_of
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
 from tribodyn.geometry.pitch_point import pitch_point
@@ -64,31 +60,28 @@ class SharedLoad(NamedTuple):
 
 def flexibility(
     assembly: Assembly,
-    materials: tuple[ElasticMaterial, ElasticMaterial],
+    materials: tuple[MaterialData, MaterialData],
     depth: float = DEPTH,
     level: int = LEVEL,
     lead: bool = False,
 ) -> PairFlexibility:
     """Finite elements of both gears, from the cache where they have been solved before.
 
-    Parameters
-    ----------
-    assembly : the drive put together; checked (`limits.checks`), bores > 0
-    materials : of pinion and gear
-    depth : of the local region, modules
-    level : refinement of the mesh
-    lead : also for loads that vary along the teeth, with free end faces, and with root stress
+    The assembly is checked (`limits.checks`), bores > 0; the depth of the local region is in modules. With
+    `lead` also for loads that vary along the teeth, with free end faces, and with root stress.
     """
     drive = assembly.drive
     width = float(assembly.common_width)
     gears = [
         cached_gear_compliance(
-            assembly.tooth(side),
-            round(float(body_of(drive, side).teeth)),
-            float(body_of(drive, side).bore_radius),
-            material.poisson_ratio,
-            depth * float(drive.module),
-            level,
+            ElasticGear(
+                assembly.tooth(side),
+                round(float(body_of(drive, side).teeth)),
+                float(body_of(drive, side).bore_radius),
+                material.poisson_ratio,
+                depth * float(drive.module),
+                level,
+            ),
             width if lead else None,
         )
         for side, material in steps(list(zip(SIDES, materials, strict=True)))
@@ -101,15 +94,13 @@ def contact_deflection(
 ) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
     """Local deflection u_1 + u_2 (m) under line loads (N/m, ≥ 0), and its derivative, m per N/m.
 
-    Parameters
-    ----------
-    curvature : relative curvature of the flanks, 1/m; broadcasts with the loads
+    The relative curvature of the flanks (1/m) broadcasts with the loads.
     """
     half = half_width(flexible, curvature, line_load)
     total, slope = np.zeros_like(half), np.zeros_like(half)
     for gear, material in zip(flexible.gears, flexible.materials, strict=True):
-        total += weber_banaschek(line_load, half, gear.depth, material)
-        slope += weber_banaschek_slope(line_load, half, gear.depth, material)
+        value, rate = weber_banaschek(line_load, half, gear.depth, material)
+        total, slope = total + value, slope + rate
     return total, slope
 
 
@@ -141,15 +132,11 @@ def share_load(
 
     Parameters
     ----------
-    roll : (position, pair); pinion angles of the pairs from the pitch point, rad, one pitch apart, the pair
-        that entered first in front; enough of them on either side of the path for all that the load can make
-        touch
+    roll : pinion angles of the pairs from the pitch point, rad, one pitch apart, the pair that entered first
+        in front; enough of them on either side of the path for all that the load can make touch
     gear_torque : T_g > 0, N m
-    friction_coefficient : (position, pair); μ of the pairs; < 0 where the gear drives, for the flanks then
-        slide the other way
-    gap : (position, pair); what is missing between the flanks beside the corners' gap, m: errors and
-        modifications
-    slices : equal slices of the face
+    friction_coefficient : μ of the pairs; < 0 where the gear drives, for the flanks then slide the other way
+    gap : what is missing between the flanks beside the corners' gap, m: errors and modifications
     coupled : whether slices hold each other through the teeth and bodies
     """
     geometry = pair_geometry(flexible.assembly, roll)

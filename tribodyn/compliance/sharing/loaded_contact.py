@@ -84,40 +84,26 @@ _PHASES = 60
 
 
 class LoadedContact(NamedTuple):
-    """Slow rotation under load over (T positions, P pairs, S slices); the pair that entered first in front.
+    """Slow rotation under load; the pair that entered first in front."""
 
-    Attributes
-    ----------
-    phase : (T,), mesh cycles since a pair passed the beginning of its path of contact
-    roll : (T, P), pinion angle of each pair from the pitch point, rad
-    slice_position : (S,), middle of each slice from the middle of the face, m
-    deflection : (T,), ξ = r_p θ_p − r_g θ_g, m: the loaded static transmission error, on the pitch circles
-    unloaded : (T,), the same without load: the kinematic error, m; the load's deflection is the difference
-    normal_load : (T, P), N
-    line_load : (T, P, S), N/m
-    pressure, half_width : (T, P, S), maximum Hertz pressure, Pa, and half width, m, of each slice's line load
-    root_tension, root_compression : (2, T, P, S), maximum stress along the root of each pair's tooth of
-        pinion and gear, tension positive and compression negative, Pa (`face_root_stress`)
-    face_load_factor : (T, P); K_Hβ, maximum over mean line load along the face (ISO 6336-1); NaN where a pair
-        carries nothing
-    mesh_stiffness : (T,), dF/dξ of the force on the pitch circles, N/m: of what touches, tangent
-    contact_ratio : mean number of pairs that carry load
-    """
-
-    phase: Float[Array, " position"]
-    roll: Float[Array, "position pair"]
-    slice_position: Float[Array, " slice"]
-    deflection: Float[Array, " position"]
+    phase: Float[Array, " position"]  # mesh cycles since a pair passed the beginning of its path of contact
+    roll: Float[Array, "position pair"]  # pinion angle of each pair from the pitch point, rad
+    slice_position: Float[Array, " slice"]  # middle of each slice from the middle of the face, m
+    deflection: Float[Array, " position"]  # ξ = r_p θ_p − r_g θ_g, m: loaded static transmission error
+    #: the same without load: the kinematic error, m; the load's deflection is the difference
     unloaded: Float[Array, " position"]
-    normal_load: Float[Array, "position pair"]
-    line_load: Float[Array, "position pair slice"]
-    pressure: Float[Array, "position pair slice"]
-    half_width: Float[Array, "position pair slice"]
+    normal_load: Float[Array, "position pair"]  # N
+    line_load: Float[Array, "position pair slice"]  # N/m
+    pressure: Float[Array, "position pair slice"]  # maximum Hertz pressure, Pa
+    half_width: Float[Array, "position pair slice"]  # of the contact, m
+    #: root_tension, root_compression: maximum stress along the root of each pair's tooth of pinion and gear,
+    #: tension positive and compression negative, Pa (`face_root_stress`)
     root_tension: Float[Array, "2 position pair slice"]
     root_compression: Float[Array, "2 position pair slice"]
+    #: K_Hβ, maximum over mean line load along the face (ISO 6336-1); NaN where a pair carries nothing
     face_load_factor: Float[Array, "position pair"]
-    mesh_stiffness: Float[Array, " position"]
-    contact_ratio: float
+    mesh_stiffness: Float[Array, " position"]  # dF/dξ on the pitch circles, N/m: of what touches, tangent
+    contact_ratio: float  # mean number of pairs that carry load
 
     @property
     def peak_to_peak(self) -> float:
@@ -133,23 +119,17 @@ def roll_through(
     cycles: int = 1,
     friction_coefficient: float = 0.0,
 ) -> LoadedContact:
-    """Roll a pair of gears slowly through some mesh cycles.
+    """Roll a pair of gears slowly through some mesh cycles under a constant torque T_g > 0 (N m).
+
+    Raises InputError if the torque drives nothing, a modification is none (`check_modifications`), or slices
+    do not resolve what carries; SimulationError if no state of contact is found.
 
     Parameters
     ----------
     flanks : with `lead` in their `load_sharing.flexibility`
-    gear_torque : T_g > 0, N m, constant
     positions : equal steps of a mesh cycle
-    cycles : mesh cycles: more than one where pitch errors make teeth differ
+    cycles : more than one where pitch errors make teeth differ
     friction_coefficient : μ, the same for all
-
-    Raises
-    ------
-    InputError
-        If the torque drives nothing, a modification is none (`check_modifications`), or slices do not resolve
-        what carries.
-    SimulationError
-        If no state of contact is found.
     """
     phase, roll, geometry, gap, shared = _rolled(flanks, gear_torque, positions, cycles, friction_coefficient)
     flexible, _, slices, coupled = flanks
@@ -189,22 +169,19 @@ def loaded_error(
 
     At several torques it makes Harris' map (S. L. Harris, Proc. IMechE 172 (1958) 87).
     """
-    return _rolled(flanks, gear_torque, positions, cycles, friction_coefficient).shared.deflection
-
-
-class _Rolled(NamedTuple):
-    """Pairs at all positions, and the state of their contact."""
-
-    phase: Float[Array, " position"]
-    roll: Float[Array, "position pair"]
-    geometry: PairGeometry
-    gap: Float[Array, "position pair slice"]
-    shared: SharedLoad
+    return _rolled(flanks, gear_torque, positions, cycles, friction_coefficient)[-1].deflection
 
 
 def _rolled(
     flanks: LoadedFlanks, gear_torque: float, positions: int, cycles: int, friction_coefficient: float
-) -> _Rolled:
+) -> tuple[
+    Float[Array, " position"],
+    Float[Array, "position pair"],
+    PairGeometry,
+    Float[Array, "position pair slice"],
+    SharedLoad,
+]:
+    """Phase, roll, geometry and gap of the pairs at all positions, and the state of their contact."""
     check_contact(flanks, gear_torque)
     limits = reach(flanks, gear_torque)
     assembly = flanks.flexible.assembly
@@ -218,7 +195,7 @@ def _rolled(
     gap = flanks.gap(geometry) + pitch_gap(flanks.modifications, cycle[:, None] - ages)[..., None]
     shared = flanks.share(roll, gear_torque, friction_coefficient, gap)
     check_resolved(flanks, shared, gear_torque)
-    return _Rolled(phase, roll, geometry, gap, shared)
+    return phase, roll, geometry, gap, shared
 
 
 def reach(flanks: LoadedFlanks, gear_torque: float, factor: float = REACH) -> tuple[float, float]:

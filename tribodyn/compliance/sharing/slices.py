@@ -30,8 +30,9 @@ from tribodyn.compliance.fem.gear_compliance import (
     at_wave_numbers,
     spline_weights,
 )
-from tribodyn.compliance.local import ElasticMaterial, freed_of_depth
+from tribodyn.compliance.local import freed_of_depth
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import MaterialData
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
 from tribodyn.numerics.shapes import Array, Float
 
@@ -40,7 +41,7 @@ class PairFlexibility(NamedTuple):
     """Elasticity of both gears of a drive; see `load_sharing.flexibility`."""
 
     assembly: Assembly
-    materials: tuple[ElasticMaterial, ElasticMaterial]
+    materials: tuple[MaterialData, MaterialData]
     width: float  # common face width, m
     gears: tuple[GearCompliance, GearCompliance]
 
@@ -154,12 +155,9 @@ def slice_compliance(
 ) -> Float[Array, "position pair slice pair slice"]:
     """Λ (position, pair, slice, pair, slice), m/N, without the slices' own local deflection.
 
-    Parameters
-    ----------
-    geometry : of the pairs (position, pair), one pitch apart, the one that entered first in front
-    slices : one is plane strain
-    coupled : whether slices hold each other through the teeth and bodies, and the end faces are free; else
-        each slice is in plane strain by itself
+    Pairs (position, pair) stand one pitch apart, the one that entered first in front. One slice is plane
+    strain. `coupled`: whether slices hold each other through the teeth and bodies, and the end faces are
+    free; else each slice is in plane strain by itself.
     """
     matrix = by_slices(pair_harmonics(flexible, geometry, slices, coupled), slices)
     if coupled and slices > 1:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, reference_radius
+from tribodyn.geometry.drive import Drive, reference_radii
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact
@@ -84,8 +84,7 @@ class ArcShape(NamedTuple):
 
 def working_path(drive: Drive) -> ArcPath:
     """Two arcs of the drive's diameters and pressure angle."""
-    pitch_radii = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
-    return ArcPath(*pitch_radii, drive.pressure_angle, *drive.shape)
+    return ArcPath(*reference_radii(drive), drive.pressure_angle, *drive.shape)
 
 
 def arc_ends(path: ArcPath) -> tuple[float, float]:

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, reference_radius, tip_radius
+from tribodyn.geometry.drive import Drive, reference_radii, tip_radius
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift
 from tribodyn.geometry.path import Path, PerContact, integrated_rotation, inverted_rotation
@@ -75,13 +75,8 @@ class CRCPath(NamedTuple):
         sine, slope = self._sine(r)
         return slope / sqrt(1 - sine**2)
 
-    def rotation(self, r: PerContact) -> PerContact:
-        """Pinion angle φ, rad."""
-        return integrated_rotation(self, r)
-
-    def signed_distance(self, rotation: PerContact) -> PerContact:
-        """Signed distance r (m) at the pinion angle φ."""
-        return inverted_rotation(self, rotation)
+    rotation = integrated_rotation
+    signed_distance = inverted_rotation
 
 
 def solve(ratio: Any, lower: Any, upper: Any) -> Float[Array, " degree"]:
@@ -134,7 +129,7 @@ def reach(ratio: Any, height: Any) -> Any:
 def working_path(drive: Drive) -> Path:
     """Path of contact from the depth of the pinion's rack to the depth of the gear's."""
     xp = namespace(drive)
-    r_p, r_g = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
+    r_p, r_g = reference_radii(drive)
     sine = sin(drive.pressure_angle)
     arm = r_p * sine
     ratio = r_p / r_g

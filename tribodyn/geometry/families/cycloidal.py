@@ -9,7 +9,7 @@ where the pinion's hypocycloid meets the gear's epicycloid, and r = +d_g2 sin α
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, Side, reference_radius
+from tribodyn.geometry.drive import Drive, Side, reference_radii, reference_radius
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.families.circular_arc import ArcPath, arc_ends
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
@@ -25,8 +25,7 @@ class CycloidShape(NamedTuple):
 
 def working_path(drive: Drive) -> ArcPath:
     """Arcs of both generating circles, tangent to the line of centres' perpendicular at P."""
-    pitch_radii = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
-    return ArcPath(*pitch_radii, 0.0, *drive.shape)
+    return ArcPath(*reference_radii(drive), 0.0, *drive.shape)
 
 
 def check(drive: Drive) -> None:

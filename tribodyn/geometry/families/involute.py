@@ -4,7 +4,7 @@ import math
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius
+from tribodyn.geometry.drive import Drive, Side, body_of, reference_radii, reference_radius
 from tribodyn.geometry.families import Family
 from tribodyn.geometry.path import Path, PerContact
 from tribodyn.numerics.elementary import arctan2, cos, maximum, namespace, sin, sqrt, tan
@@ -61,8 +61,7 @@ def working_pressure_angle(drive: Drive) -> Any:
     """
     if drive.centre_distance is None:
         return tight_pressure_angle(drive)
-    reference = reference_radius(drive, "pinion") + reference_radius(drive, "gear")
-    cosine = reference * cos(drive.pressure_angle) / drive.centre_distance
+    cosine = sum(reference_radii(drive)) * cos(drive.pressure_angle) / drive.centre_distance
     return arctan2(sqrt(maximum(1.0 - cosine**2, 0.0)), cosine)  # closer than the base circles: refused
 
 
@@ -81,25 +80,21 @@ def working_path(drive: Drive) -> Path:
     """Path of contact of the pair at its working centre distance a cos α/cos α_w."""
     working = working_pressure_angle(drive)
     stretch = cos(drive.pressure_angle) / cos(working)
-    return InvolutePath(
-        reference_radius(drive, "pinion") * stretch, reference_radius(drive, "gear") * stretch, working
-    )
+    r_p, r_g = reference_radii(drive)
+    return InvolutePath(r_p * stretch, r_g * stretch, working)
 
 
 def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
     """Path of contact of one body with the standard rack, and the rack's shift (m).
 
-    The rack has no pitch radius, the other body's stands in for it and nothing depends on it.
+    The rack has no pitch radius, the other body's stands in for it and nothing depends on it. The shift
+    leaves the tooth its thickness: x_E m = x m + A_sn/(2 tan α) (ISO 21771).
     """
     other: Side = "gear" if side == "pinion" else "pinion"
     path = InvolutePath(reference_radius(drive, side), reference_radius(drive, other), drive.pressure_angle)
-    return path, _generating_shift(drive, side)
-
-
-def _generating_shift(drive: Drive, side: Side) -> Any:
-    """Shift of the rack that leaves the tooth its thickness, m: x_E m = x m + A_sn/(2 tan α) (ISO 21771)."""
     body = body_of(drive, side)
-    return drive.module * body.profile_shift + body.thickness_allowance / (2 * tan(drive.pressure_angle))
+    shift = drive.module * body.profile_shift + body.thickness_allowance / (2 * tan(drive.pressure_angle))
+    return path, shift
 
 
 def normal_backlash(drive: Drive) -> Any:
@@ -121,7 +116,7 @@ def tight_centre_distance(drive: Drive) -> Any:
     alpha = drive.pressure_angle
     shift = 2 * drive.module * (drive.pinion.profile_shift + drive.gear.profile_shift) * tan(alpha)
     thicker = shift + drive.pinion.thickness_allowance + drive.gear.thickness_allowance
-    reference = reference_radius(drive, "pinion") + reference_radius(drive, "gear")
+    reference = sum(reference_radii(drive))
     tight = inverse_involute(involute_function(alpha) + thicker / (2 * reference))
     return reference * cos(alpha) / cos(tight)
 
@@ -132,8 +127,7 @@ def shift_sensitivity(drive: Drive) -> Any:
     a_t = a_0 cos α/cos α_t gives da_t = a_t tan α_t dα_t, and inv α_t gives tan² α_t dα_t = m tan α dΣx/a_0.
     """
     alpha = drive.pressure_angle
-    reference = reference_radius(drive, "pinion") + reference_radius(drive, "gear")
-    cosine = reference * cos(alpha) / tight_centre_distance(drive)
+    cosine = sum(reference_radii(drive)) * cos(alpha) / tight_centre_distance(drive)
     return drive.module * sin(alpha) / sqrt(1.0 - cosine**2)
 
 

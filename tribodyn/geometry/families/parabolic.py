@@ -9,7 +9,7 @@ import math
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius
+from tribodyn.geometry.drive import Drive, Side, body_of, reference_radii, reference_radius
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact
@@ -70,7 +70,7 @@ class ParabolaShape(NamedTuple):
 
 def working_path(drive: Drive) -> ParabolaPath:
     """Parabolas of the drive's coefficients."""
-    r_p, r_g = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
+    r_p, r_g = reference_radii(drive)
     return ParabolaPath(r_p, r_g, 2 * drive.shape.k2 * r_p, 2 * drive.shape.k1 * r_g)
 
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, reference_radius
+from tribodyn.geometry.drive import Drive, reference_radii
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact, inverted_rotation
@@ -99,9 +99,7 @@ class PointsPath(NamedTuple):
         angle, _ = self._cubic(between, interval[..., None])
         return at[..., 6] + (r - start) / self.pinion_pitch_radius * ((1 / cos(angle)) @ _WEIGHTS)
 
-    def signed_distance(self, rotation: PerContact) -> PerContact:
-        """Signed distance r (m) at the pinion angle φ."""
-        return inverted_rotation(self, rotation)
+    signed_distance = inverted_rotation
 
 
 def spline_slopes(x: Float[Array, " knot"], y: Float[Array, " knot"]) -> Float[Array, " knot"]:
@@ -147,7 +145,7 @@ def working_path(drive: Drive) -> PointsPath:
     """Spline through the drive's points. Which of them is P must be plain numbers."""
     points = drive.shape.points
     xp = namespace(drive)
-    r_p, r_g = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
+    r_p, r_g = reference_radii(drive)
     knots, angles = polar(points)
     at = int(np.argmin(np.abs(np.asarray(knots))))
     knots = xp.concatenate([knots[:at], 0.0 * knots[:1], knots[at + 1 :]])

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import SIDES, Drive, reference_radius, tip_radius
+from tribodyn.geometry.drive import SIDES, Drive, reference_radii, reference_radius, tip_radius
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact, inverted_rotation
@@ -90,9 +90,7 @@ class PowerRackPath(NamedTuple):
         turned = (y * cotangent + flank) / self.pinion_pitch_radius
         return where(namespace(r).asarray(r) < 0, -turned, turned)
 
-    def signed_distance(self, rotation: PerContact) -> PerContact:
-        """Signed distance r (m) at the pinion angle φ."""
-        return inverted_rotation(self, rotation)
+    signed_distance = inverted_rotation
 
 
 def _step_to_height(y: PerContact, path: PowerRackPath, distance: PerContact) -> PerContact:
@@ -119,8 +117,7 @@ class SGearShape(NamedTuple):
 
 def working_path(drive: Drive) -> PowerRackPath:
     """Path of the drive's rack."""
-    pitch_radii = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
-    return PowerRackPath(*pitch_radii, drive.module, *drive.shape)
+    return PowerRackPath(*reference_radii(drive), drive.module, *drive.shape)
 
 
 def check(drive: Drive) -> None:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radius
+from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radii
 from tribodyn.geometry.families import Family
 from tribodyn.geometry.families.points import PointsPath, spline_slopes, turned_from
 from tribodyn.geometry.limits.sizes import require_reach
@@ -70,8 +70,7 @@ def working_path(drive: Drive) -> PointsPath:
     first, last = knots[1] - knots[0], knots[-1] - knots[-2]
     still = 0.0 * knots[:1]
     path = PointsPath(
-        reference_radius(drive, "pinion"),
-        reference_radius(drive, "gear"),
+        *reference_radii(drive),
         xp.concatenate([knots[:1] - first, knots, knots[-1:] + last]),
         xp.concatenate(
             [angles[:1] - left[:1] * first / 2, angles, angles[-1:] + right[-1:] * last / 2],

@@ -49,11 +49,8 @@ def sampled(limits: Limits, teeth: int, seed: int, gear: int) -> Deviations:
     def drawn(tolerance: float) -> float:
         return tolerance * float(np.clip(random.standard_normal() / SPREAD, -1.0, 1.0))
 
-    slope, form, helix = (
-        drawn(limits.profile_slope),
-        abs(drawn(limits.profile_form)),
-        drawn(limits.helix_slope),
-    )
+    slope, form = drawn(limits.profile_slope), abs(drawn(limits.profile_form))
+    helix = drawn(limits.helix_slope)
     waves, phase = int(random.integers(1, MOST_WAVES + 1)), float(random.uniform(0.0, 2.0 * np.pi))
     steps = np.array([drawn(limits.single_pitch) for _ in range(teeth)])
     steps -= steps.mean()
@@ -67,10 +64,8 @@ def sampled(limits: Limits, teeth: int, seed: int, gear: int) -> Deviations:
 def profile_curve(assembly: Assembly, pinion: Deviations, gear: Deviations, base_pitch: bool) -> Table:
     """Material missing on both profiles over the pinion's roll angle (rad, m).
 
-    Parameters
-    ----------
-    base_pitch : whether the pitch deviations of a pair of teeth count as a deviation of base pitch, which
-        opens or closes the flanks evenly along the path: so that one mesh cycle can stand for all teeth
+    With `base_pitch` the pitch deviations of a pair of teeth count as a deviation of base pitch, which opens
+    or closes the flanks evenly along the path: so that one mesh cycle can stand for all teeth.
     """
     start, end = (float(limit) for limit in assembly.roll_limits)
     share = np.linspace(0.0, 1.0, _POINTS)
@@ -91,20 +86,18 @@ def deviating(
 ) -> Modifications:
     """Add sampled deviations to what is taken off the flanks.
 
-    Parameters
-    ----------
-    every_tooth : whether teeth differ by their pitch deviations; otherwise these count as in `profile_curve`
+    Teeth differ by their pitch deviations if `every_tooth`; otherwise these count as in `profile_curve`.
     """
     curve = profile_curve(assembly, pinion, gear, base_pitch=not every_tooth)
     widths = float(assembly.drive.pinion.face_width), float(assembly.drive.gear.face_width)
     opened = pinion.helix / widths[0] + gear.helix / widths[1]
     stand = modifications.misalignment
-    both = []
-    for flank, drawn in ((modifications.pinion, pinion), (modifications.gear, gear)):
-        both.append(_with_pitch(flank, drawn.pitch) if every_tooth else flank)
-    profile = both[0].profile_error
-    both[0] = both[0]._replace(profile_error=curve if profile is None else summed(profile, curve))
-    return Modifications(both[0], both[1], Misalignment(stand.in_plane + opened, stand.out_of_plane))
+    first, second = modifications.pinion, modifications.gear
+    if every_tooth:
+        first, second = _with_pitch(first, pinion.pitch), _with_pitch(second, gear.pitch)
+    profile = first.profile_error
+    first = first._replace(profile_error=curve if profile is None else summed(profile, curve))
+    return Modifications(first, second, Misalignment(stand.in_plane + opened, stand.out_of_plane))
 
 
 def summed(first: Table, second: Table) -> Table:

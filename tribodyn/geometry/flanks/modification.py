@@ -81,22 +81,18 @@ UNMODIFIED = Modifications()
 def back_flanks(modifications: Modifications, pressure_angle: float) -> Modifications:
     """Return the back flanks as driving ones of the world mirrored about the plane of the axes.
 
-    Pitch errors stay out: they place a tooth, and that of its back flank is another.
-
-    Parameters
-    ----------
-    pressure_angle : α_w at the pitch point, rad. Inclined axes open the driving and the back flanks alike,
-        skew axes open the ones and close the others, so that `Misalignment` changes by the angle 2 α_w
-        between the planes of action
+    Pitch errors stay out: they place a tooth, and that of its back flank is another. Inclined axes open the
+    driving and the back flanks alike, skew axes open the ones and close the others, so that `Misalignment`
+    changes by the angle 2 α_w between the planes of action; α_w (rad) is that at the pitch point.
     """
     within, across = modifications.misalignment
     cosine, sine = math.cos(2.0 * pressure_angle), math.sin(2.0 * pressure_angle)
     misalignment = Misalignment(across * sine - within * cosine, within * sine + across * cosine)
-    return Modifications(_back(modifications.pinion), _back(modifications.gear), misalignment)
-
-
-def _back(flank: FlankModification) -> FlankModification:
-    return flank._replace(pitch_error=()) if flank.both_flanks else FlankModification()
+    pinion, gear = (
+        flank._replace(pitch_error=()) if flank.both_flanks else FlankModification()
+        for flank in (modifications.pinion, modifications.gear)
+    )
+    return Modifications(pinion, gear, misalignment)
 
 
 def vary_along_lead(modifications: Modifications) -> bool:
@@ -118,13 +114,7 @@ def too_few_slices(slices: int, varies: bool) -> InputError | None:
 def broken_flank_rules(
     side: str, flank: FlankModification, teeth: int, face_width: float
 ) -> Iterator[InputError]:
-    """Go through what contradicts in the modification of one gear, whatever the shape of its teeth.
-
-    Parameters
-    ----------
-    side : "pinion" or "gear"
-    face_width : m
-    """
+    """Go through what contradicts in the modification of one gear, whatever the shape of its teeth."""
     key = f"drive.{side}.modification."
     for name, relief in (("tip_relief", flank.tip), ("root_relief", flank.root)):
         if relief.amount and not relief.length:

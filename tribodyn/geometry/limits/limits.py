@@ -45,18 +45,11 @@ LIMITS: dict[str, LimitOfExistence] = {
 
 
 def distances(assembly: Assembly) -> dict[str, Any]:
-    """Distances of a pair from the limits of its existence, by the names of `LIMITS`.
+    """Distances of a pair from the limits of its existence, by the names of `LIMITS`; m, positive: it holds.
 
-    Parameters
-    ----------
-    assembly : of any numbers, traced or plain; they need not pass the checks, and nothing is raised
-
-    Returns
-    -------
-    dict
-        Positive where the rule holds. Lengths in m. What does not exist at all, because the path ends before
-        the teeth do, is NaN. `undercut_…` is a smooth minimum over the contact: at most 0.005 modules below
-        the sharp one.
+    Of any numbers, traced or plain, that need not pass the checks; nothing is raised. What does not exist at
+    all, because the path ends before the teeth do, is NaN. `undercut_…` is a smooth minimum over the contact:
+    at most 0.005 modules below the sharp one.
     """
     with np.errstate(all="ignore"):
         found = {}

@@ -30,13 +30,7 @@ def require_reach(drive: Drive, path: Path, lower: float, upper: float, advice: 
 
     Both bodies: their tip circle must cut the path, their rack's rounding must touch its flank on it, and
     between the tips each flank must move the way it is convex to (u_p, u_g > 0), which is where it exists.
-
-    Parameters
-    ----------
-    drive : plain numbers
-    path : working path
-    lower, upper : signed distances from and to which the path is known, m; lower < 0 < upper
-    advice : what to change for either half
+    The working path is known from the signed distance `lower` < 0 to `upper` > 0, m.
     """
     active = {}
     for side in SIDES:
