@@ -9,7 +9,7 @@ import pytest
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.interface.scenario import scenario
-from tribodyn.studies.efficiency.run import figures, prepare
+from tribodyn.studies.efficiency.run import prepare, quantities_of
 from tribodyn.studies.gear_pair.prepare import prepare as prepare_motion
 from tribodyn.studies.gears.prepare import at_own_temperature
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
@@ -58,7 +58,7 @@ def warm_of(prepared: Any) -> Any:
 
 def test_the_estimate_of_the_standard_holds_at_its_own_temperature():
     """ISO/TR 15144-1 with the loss that the film at that temperature has: 7400 (P_v/(a b))^0.72/1.2."""
-    found = figures(case())
+    found = quantities_of(case())
     loss, centre, width = found["power_friction_mean"], 81.0, 26.7
     rise = 7400 * (1e-3 * loss / (centre * width)) ** 0.72 / 1.2
     assert found["bulk_temperature"] == pytest.approx(353.15 + rise, abs=0.1)
@@ -66,7 +66,7 @@ def test_the_estimate_of_the_standard_holds_at_its_own_temperature():
     at_bulk = case(
         {"operating.oil_temperature": f"{found['bulk_temperature']!r} K", "temperature.model": "oil"}
     )
-    assert figures(at_bulk)["film_min"] == pytest.approx(found["film_min"], rel=1e-4)
+    assert quantities_of(at_bulk)["film_min"] == pytest.approx(found["film_min"], rel=1e-4)
     assert found["lubricant"]["inlet_viscosity"]["value"] == pytest.approx(
         at_bulk.lubricant.inlet_viscosity, rel=1e-4
     )
@@ -74,7 +74,7 @@ def test_the_estimate_of_the_standard_holds_at_its_own_temperature():
 
 def test_how_the_oil_reaches_the_mesh():
     dip, spray, submerged = (
-        figures(case({"temperature.lubrication": one}))["bulk_temperature"] - 353.15
+        quantities_of(case({"temperature.lubrication": one}))["bulk_temperature"] - 353.15
         for one in ("dip", "spray", "submerged")
     )
     assert spray / dip == pytest.approx(1.2, rel=0.02)
@@ -82,7 +82,7 @@ def test_how_the_oil_reaches_the_mesh():
 
 
 def test_a_network_gives_off_all_heat_of_friction_and_losses():
-    found = figures(case(NETWORK | LOSSES))
+    found = quantities_of(case(NETWORK | LOSSES))
     losses = sum(found[f"power_{name}"] for name in ("churning", "windage", "bearings"))
     assert found["power_load_independent"] == pytest.approx(losses)
     heat = found["power_friction_mean"] + losses
@@ -95,14 +95,14 @@ def test_a_network_gives_off_all_heat_of_friction_and_losses():
 
 
 def test_losses_are_off_unless_asked_for():
-    found = figures(case({"temperature.model": "oil"}))
+    found = quantities_of(case({"temperature.model": "oil"}))
     assert not {"power_load_independent", "bulk_temperature", "power_churning"} & set(found)
 
 
 def test_mean_friction_reads_the_oil_around_the_gears():
     """Schlenk's and Niemann's coefficients are of the viscosity at the oil's temperature."""
     warm, cold = (
-        figures(case({"friction.law": "schlenk", "temperature.model": one})) for one in ("iso", "oil")
+        quantities_of(case({"friction.law": "schlenk", "temperature.model": one})) for one in ("iso", "oil")
     )
     assert warm["friction_coefficient_mean"] == pytest.approx(cold["friction_coefficient_mean"], rel=1e-12)
     assert warm["bulk_temperature"] > 353.15
@@ -163,7 +163,7 @@ def test_a_temperature_needs_the_oil_at_others():
 def test_teeth_hotter_than_the_oil_is_known_are_refused():
     hot = {"temperature.pinion_oil": "1 W/K", "temperature.gear_oil": "1 W/K"}
     with pytest.raises(InputError, match="known from -40 to 180 degC"):
-        figures(case(NETWORK | hot))
+        quantities_of(case(NETWORK | hot))
     assert TEMPERATURE_RANGE[1] == 453.15
 
 
