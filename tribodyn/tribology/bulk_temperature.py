@@ -20,28 +20,19 @@ Lubrication = Literal["dip", "spray", "submerged"]
 
 @dataclass(frozen=True)
 class TemperatureData:
-    """How a case finds the bulk temperature of its teeth.
+    """How a case finds the bulk temperature of its teeth."""
 
-    Parameters
-    ----------
-    model : estimate of ISO/TR 15144-1, or a lumped network
-    lubrication : how the oil reaches the mesh, for the estimate
-    tip_relief_factor : X_Ca of the estimate
-    pinion_oil, gear_oil, oil_housing, housing_ambient : conductances of the network, W/K
-    oil_flow : volume flow of the oil that is carried through, m³/s
-    ambient_temperature : K
-    mesh_loss : mean loss to tooth friction, W, where it is known from the motion; None: quasi-static
-    """
-
-    model: Literal["iso", "network"]
-    lubrication: Lubrication = "dip"
-    tip_relief_factor: float = 1.0
+    model: Literal["iso", "network"]  # estimate of ISO/TR 15144-1, or a lumped network
+    lubrication: Lubrication = "dip"  # how the oil reaches the mesh, for the estimate
+    tip_relief_factor: float = 1.0  # X_Ca of the estimate
+    #: conductances of the network, W/K, but for `oil_flow`: volume flow of the oil carried through, m³/s
     pinion_oil: float = 0.0
     gear_oil: float = 0.0
     oil_flow: float = 0.0
     oil_housing: float = 0.0
     housing_ambient: float = 0.0
-    ambient_temperature: float = 293.15
+    ambient_temperature: float = 293.15  # K
+    #: mean loss to tooth friction, W, where it is known from the motion; None: quasi-static
     mesh_loss: float | None = None
 
 
@@ -93,12 +84,7 @@ class Temperatures(NamedTuple):
 
 
 def network_temperatures(network: Network, heat: Heat, oil_temperature: float) -> Temperatures:
-    """Return the temperatures at which all heat leaves.
-
-    Parameters
-    ----------
-    oil_temperature : of the oil that enters; of all oil where the network holds it
-    """
+    """Temperatures at which all heat leaves; the oil's is that which enters, or of all where it is held."""
     oil = oil_temperature
     entering = heat.pinion + heat.gear + heat.oil
     share = 1.0
@@ -141,13 +127,11 @@ def fixed_point(
     step : is called within the bounds only
     bounds : of both, K. Where the step leads out of them from their edge, its result is returned as it is.
 
-    Raises
-    ------
-    SimulationError
-        If there are none: the loss grows with the temperature faster than the heat leaves.
+    Raises SimulationError if there are none: the loss grows with the temperature faster than the heat leaves.
     """
-    here, last, pace = start, (0.0, 0.0), _Pace(1.0, FARTHEST)
-    worst = 0.0
+    here, last, worst = start, (0.0, 0.0), 0.0
+    # share of a change that is taken, and how far at most, K
+    weight, reach = 1.0, FARTHEST
     for number in range(STEPS):
         there = step(here)
         change = (there[0] - here[0], there[1] - here[1])
@@ -155,38 +139,17 @@ def fixed_point(
         if worst < TOLERANCE:
             return there
         if number:
-            pace = _relaxed(pace, change, last)
-        moved = _moved(here, change, pace, bounds)
-        if max(abs(moved[0] - here[0]), abs(moved[1] - here[1])) < LEAST_WEIGHT * TOLERANCE:
+            turned = (change[0] - last[0], change[1] - last[1])
+            length = turned[0] ** 2 + turned[1] ** 2
+            along = last[0] * turned[0] + last[1] * turned[1]
+            back = change[0] * last[0] + change[1] * last[1] < 0.0
+            reach = 0.5 * reach if back else min(1.5 * reach, FARTHEST)
+            weight = min(max(-weight * along / length, LEAST_WEIGHT), 1.0) if length else 1.0
+        bulk, oil = (
+            min(max(old + min(max(weight * by, -reach), reach), bounds[0]), bounds[1])
+            for old, by in zip(here, change, strict=True)
+        )
+        if max(abs(bulk - here[0]), abs(oil - here[1])) < LEAST_WEIGHT * TOLERANCE:
             return there  # held by a bound
-        here, last = moved, change
+        here, last = (bulk, oil), change
     raise SimulationError(f"the bulk temperature does not settle: still moving by {worst:.2g} K")
-
-
-class _Pace(NamedTuple):
-    """Share of a change that is gone, and how far at most, K."""
-
-    weight: float
-    reach: float
-
-
-def _relaxed(pace: _Pace, change: tuple[float, float], last: tuple[float, float]) -> _Pace:
-    """Return the pace after two changes."""
-    turned = (change[0] - last[0], change[1] - last[1])
-    length = turned[0] ** 2 + turned[1] ** 2
-    along = last[0] * turned[0] + last[1] * turned[1]
-    back = change[0] * last[0] + change[1] * last[1] < 0.0
-    reach = 0.5 * pace.reach if back else min(1.5 * pace.reach, FARTHEST)
-    return _Pace(min(max(-pace.weight * along / length, LEAST_WEIGHT), 1.0) if length else 1.0, reach)
-
-
-def _moved(
-    here: tuple[float, float], change: tuple[float, float], pace: _Pace, bounds: tuple[float, float]
-) -> tuple[float, float]:
-    """Return the temperatures a step further, within the bounds."""
-
-    def further(old: float, by: float) -> float:
-        step = min(max(pace.weight * by, -pace.reach), pace.reach)
-        return min(max(old + step, bounds[0]), bounds[1])
-
-    return further(here[0], change[0]), further(here[1], change[1])

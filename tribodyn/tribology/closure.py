@@ -2,11 +2,12 @@
 
 import math
 from dataclasses import replace
+from functools import partial
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.elementary import as_float, is_jax, minimum
@@ -74,11 +75,8 @@ CaseType = TypeVar("CaseType", bound=Lubricated)
 def closure_of(case: Lubricated) -> Closure:
     """Return surfaces and laws of a case's contacts.
 
-    Raises
-    ------
-    InputError
-        If a law is not known, lacks a value, needs a mean over a mesh for which it has no meaning, or comes
-        from outside this package and does not work (`trial.try_laws`).
+    Raises InputError if a law is not known, lacks a value, needs a mean over a mesh for which it has no
+    meaning, or comes from outside this package and does not work (`trial.try_laws`).
     """
     film, friction = laws_of(case)
     made = untried_closure_of(case)
@@ -89,13 +87,8 @@ def closure_of(case: Lubricated) -> Closure:
 def untried_closure_of(case: Lubricated) -> Closure:
     """As `closure_of`, of a case whose numbers may be traced, and whose laws have been tried."""
     film, friction = laws_of(case)
-    given = LawInput(
-        surfaces_of(case),
-        case.lubricant,
-        case.materials,
-        lambda: nominal_conditions(case),
-        lambda: duty_range(case),
-    )
+    nominal, duty = partial(nominal_conditions, case), partial(duty_range, case)
+    given = LawInput(surfaces_of(case), case.lubricant, case.materials, nominal, duty)
     return closure(given, film, friction, dict(case.film.values), dict(case.friction.values))
 
 
@@ -145,37 +138,29 @@ def law_quantities(case: Lubricated) -> dict[str, Any]:
     `film_judged` and `friction_judged`: their ratios to the solved contact, where they were compared.
     """
     film, friction = laws_of(case)
-    errors = {}
-    if film.table_error is not None or friction.table_error is not None:
-        made = untried_closure_of(case)
-        for name, law, active in (("film", film, made.film), ("friction", friction, made.friction)):
-            if law.table_error is not None:
-                errors[f"{name}_table_error"] = law.table_error(active.parameters)
+    judged, errors = {}, {}
+    for law in (film, friction):
+        if law.judged is not None:
+            ratios = dict(zip(("low", "median", "high"), law.judged.ratio, strict=True))
+            judged[f"{law.table}_judged"] = {**ratios, "limits": law.judged.limits}
+        if law.table_error is not None:
+            active: Any = getattr(untried_closure_of(case), law.table)
+            errors[f"{law.table}_table_error"] = law.table_error(active.parameters)
     return {
         "film_law": film.name,
         "film_thickness": film.thickness,
         "film_range": film.stated or "none stated",
         "friction_law": friction.name,
         "friction_range": friction.stated or "none stated",
-        **{f"{law.table}_judged": spread for law in (film, friction) if (spread := _spread(law))},
+        **judged,
         **errors,
     }
-
-
-def _spread(law: FilmLaw | FrictionLaw) -> dict[str, Any]:
-    """5, 50 and 95 % of the ratio to the solved contact, and the number of judged limits."""
-    if law.judged is None:
-        return {}
-    low, median, high = law.judged.ratio
-    return {"low": low, "median": median, "high": high, "limits": law.judged.limits}
 
 
 def exceeded_limits(case: Lubricated, closure_shares: Any, friction_shares: Any) -> dict[str, Any]:
     """Which limits of the laws in use are exceeded, for a summary: `closure_exceeded`, `friction_exceeded`.
 
-    Parameters
-    ----------
-    closure_shares, friction_shares : (contacts, limits), see `surface_state.range_shares`; of loaded contacts
+    The shares are (contacts, limits), see `surface_state.range_shares`, of loaded contacts.
     """
     film, friction = laws_of(case)
     found = {
@@ -213,10 +198,7 @@ def without_nominal_conditions() -> NominalConditions:
 def duty_range(case: Lubricated) -> DutyRange:
     """Loads, speeds and curvatures that the contacts of a case meet at nominal speed and constant torque.
 
-    Raises
-    ------
-    InputError
-        Without a torque; there is no load to tabulate for.
+    Raises InputError without a torque: there is no load to tabulate for.
     """
     from tribodyn.geometry.assembly import assemble
     from tribodyn.geometry.families import family
@@ -258,12 +240,10 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
     angle, torque = path.pressure_angle(0.0), case.operating.gear_torque
     if (not is_jax(angle) and angle < MINIMUM_ANGLE) or (not is_jax(torque) and torque == 0.0):
         law = case.friction.law
-        raise InputError(
-            "friction.law",
-            f'"{law if isinstance(law, str) else law.name}"',
-            "is a mean over the mesh from radius, speed and load at the pitch point, which vanish here",
-            "use a law of the local contact, such as masjedi-khonsari or xu",
-        )
+        name = quoted(law if isinstance(law, str) else law.name)
+        rule = "is a mean over the mesh from radius, speed and load at the pitch point, which vanish here"
+        remedy = "use a law of the local contact, such as masjedi-khonsari or xu"
+        raise InputError("friction.law", name, rule, remedy)
     oil = lubricant_around(case.lubricant)
     return NominalConditions(
         as_float(abs(torque) / path.gear_pitch_radius),

@@ -1,6 +1,7 @@
 """Losses that do not depend on the load: churning, windage, bearings, one published formula a function."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -179,36 +180,30 @@ class LossData:
 def losses_of_pair(
     data: LossData, wheels: tuple[Wheel, Wheel], viscosity: float, density: float
 ) -> dict[str, Loss]:
-    """Return the requested losses by name: `churning`, `windage`, `bearings`.
+    """Return the requested losses of pinion and gear by name: `churning`, `windage`, `bearings`.
 
-    Parameters
-    ----------
-    wheels : pinion and gear, with their immersion
-    viscosity, density : dynamic, of the oil that surrounds the gears, Pa·s; kg/m³
+    Viscosity (dynamic, Pa·s) and density (kg/m³) are those of the oil that surrounds the gears.
     """
     found: dict[str, Loss] = {}
-    if data.churning is not None:
-        dipping = [wheel for wheel in wheels if wheel.immersion > 0.0]
-        if data.churning == "changenet-velex":
-            volume = data.oil_volume or 0.0
-            parts = [changenet_velex(wheel, viscosity, density, volume) for wheel in dipping]
-        else:
-            parts = [iso_14179_1(wheel, viscosity, density) for wheel in dipping]
-        found["churning"] = _sum(parts)
+    dipping = [wheel for wheel in wheels if wheel.immersion > 0.0]
+    if data.churning == "changenet-velex":
+        volume = data.oil_volume or 0.0
+        found["churning"] = _sum(changenet_velex(wheel, viscosity, density, volume) for wheel in dipping)
+    elif data.churning is not None:
+        found["churning"] = _sum(iso_14179_1(wheel, viscosity, density) for wheel in dipping)
     if data.windage is not None:
         windage = {"dawson": dawson, "anderson-loewenthal": anderson_loewenthal}[data.windage]
-        found["windage"] = _sum([windage(wheel) for wheel in wheels])
+        found["windage"] = _sum(map(windage, wheels))
     if data.bearings is not None:
         found["bearings"] = _sum(
-            [
-                palmgren(bearings, wheel.speed, viscosity, density)
-                for wheel, bearings in zip(wheels, data.drag, strict=True)
-                if bearings is not None
-            ]
+            palmgren(bearings, wheel.speed, viscosity, density)
+            for wheel, bearings in zip(wheels, data.drag, strict=True)
+            if bearings is not None
         )
     return found
 
 
-def _sum(parts: list[Loss]) -> Loss:
+def _sum(losses: Iterable[Loss]) -> Loss:
+    parts = list(losses)
     exceeded = dict.fromkeys(limit for part in parts for limit in part.exceeded)
     return Loss(sum(part.power for part in parts), tuple(exceeded))

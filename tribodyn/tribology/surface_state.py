@@ -52,13 +52,6 @@ def _film_and_heat(contact, surfaces, film, friction):
 
 
 @law
-def _pressure(contact, surfaces):
-    """Maximum Hertz pressure, Pa."""
-    half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
-    return MAXIMUM_OVER_MEAN * (contact.line_load / (2.0 * half_width))
-
-
-@law
 def film_and_temperature(contact, surfaces, film, friction):
     """Film thickness (m) and flash temperature rise (K), as `surface_state`."""
     evaluated, _, _, temperature = _film_and_heat(contact, surfaces, film, friction)
@@ -77,6 +70,7 @@ def surface_and_limits(contact: LocalContact, closure: Closure) -> tuple[Surface
     evaluated, known, coefficient, temperature = _film_and_heat(contact, surfaces, film, friction)
     log_smooth, rough, share = evaluated
     zero = 0.0 * log_smooth
+    half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
     of_film = film.functions.in_range(contact, surfaces, film.parameters)
     of_friction = friction.functions.in_range(contact, known, surfaces, friction.parameters)
     state = SurfaceState(
@@ -84,7 +78,7 @@ def surface_and_limits(contact: LocalContact, closure: Closure) -> tuple[Surface
         zero + share,
         exp(log_smooth) * rough,
         zero + temperature,
-        zero + _pressure(contact, surfaces),
+        zero + MAXIMUM_OVER_MEAN * (contact.line_load / (2.0 * half_width)),
         _inside(of_film),
         _inside(of_friction),
     )
@@ -158,18 +152,11 @@ def _inside(shares: Any) -> Any:
 
 
 def exceeded(shares: np.ndarray, limits: Sequence[str]) -> dict[str, dict[str, Any]]:
-    """Which limits of a law are exceeded, by how much and in which share of the contacts.
+    """Which limits (in words) of a law are exceeded, by how much and in which share of the contacts.
 
-    Parameters
-    ----------
-    shares : (contacts, limits), see `range_shares`; of loaded contacts
-    limits : in words; none: the law says only whether it is inside
-
-    Returns
-    -------
-    dict
-        Number as text -> `limit`, `share` of the contacts outside, `factor` by which the limit is exceeded
-        at most; the factor is left out where the law does not say it. The largest factor first.
+    From the shares (contacts, limits) of `range_shares`, of loaded contacts, to number as text -> `limit`,
+    `share` of the contacts outside, `factor` by which the limit is exceeded at most; without the factor where
+    the law does not give it. The largest factor first. None of a law without limits.
     """
     if len(limits) != shares.shape[-1]:
         return {}

@@ -88,20 +88,14 @@ def solve_coupled(
 ) -> CoupledSolution:
     """Solve pressures, film, shear and, with `thermal`, temperatures of a steady contact.
 
-    Raises
-    ------
-    InputError
-        If a value has no meaning.
-    SimulationError
-        If pressures, or all together, do not converge.
+    Raises InputError if a value has no meaning, SimulationError if they do not converge.
     """
     check_rheology(rheology)
     if thermal is not None:
         check_heat(thermal)
-    solution = solve_steady(problem, start, step)
-    surfaces = (
-        surfaces_under(solution.place, problem.surface_speeds, thermal) if thermal is not None else None
-    )
+    solution, surfaces = solve_steady(problem, start, step), None
+    if thermal is not None:
+        surfaces = surfaces_under(solution.place, problem.surface_speeds, thermal)
     mixing, share, last = Mixing(), 1.0, (math.inf,) * 3
     closure, rise = solution.closure, np.zeros((len(solution.place), LAYERS))
     heat: FilmHeat | None = None
@@ -142,13 +136,6 @@ def _rubbing(problem: LineContact) -> float:
     return problem.roughness.friction if problem.roughness is not None else 0.0
 
 
-def _by_asperities(solution: Solution) -> float:
-    """Friction of the asperities, N/m."""
-    problem = solution.problem
-    load = solution.asperity_load_ratio * problem.line_load
-    return math.copysign(_rubbing(problem) * load, problem.sliding_speed) if problem.sliding_speed else 0.0
-
-
 def _packed(closure: FlowCorrection, rise: Array) -> Array:
     """Closure and temperatures of the layers as one vector, of like sizes."""
     return np.concatenate([np.array(closure).ravel(), _KELVIN * rise.ravel()])
@@ -168,23 +155,25 @@ def friction_of(solution: Solution, rheology: Rheology, thermal: HeatProperties 
 
 def _friction(solution: Solution, shear: Shear, rheology: Rheology) -> float:
     """Of fluid and asperities, N/m."""
-    film = slice(0, solution.grid.end + 1)
-    within = solution.fluid_pressure[film], solution.place[film]
-    part = shear._replace(newtonian=shear.newtonian[film])
-    return shear_force(part, *within, rheology) + _by_asperities(solution)
+    film, problem = slice(0, solution.grid.end + 1), solution.problem
+    of_fluid = shear_force(
+        shear.newtonian[film], solution.fluid_pressure[film], solution.place[film], rheology
+    )
+    rubbing = _rubbing(problem) * (solution.asperity_load_ratio * problem.line_load)
+    return of_fluid + (math.copysign(rubbing, problem.sliding_speed) if problem.sliding_speed else 0.0)
 
 
-def shear_force(shear: Shear, pressure: Array, place: Array, rheology: Rheology) -> float:
-    """∫ τ_m dx over the nodes at places, N/m.
+def shear_force(newtonian: Array, pressure: Array, place: Array, rheology: Rheology) -> float:
+    """∫ τ_m dx over the nodes at places, N/m, from the stress of a Newtonian fluid that flows alike.
 
     Between two nodes the viscosity changes by powers of ten, and the stress bends where it comes near to what
     the oil bears: there ln η γ' and the pressure are taken as linear, and the law of shear does the rest.
     """
     at = np.linspace(0.0, len(place) - 1.0, _PARTS * (len(place) - 1) + 1)
     node = np.arange(len(place))
-    equal = np.exp(np.interp(at, node, np.log(np.maximum(np.abs(shear.newtonian), 1e-300))))
+    equal = np.exp(np.interp(at, node, np.log(np.maximum(np.abs(newtonian), 1e-300))))
     stress = thinned(equal, stress_scale(np.interp(at, node, pressure), rheology), rheology)
-    sign = np.sign(np.interp(at, node, np.sign(shear.newtonian)))
+    sign = np.sign(np.interp(at, node, np.sign(newtonian)))
     return float(np.trapezoid(sign * stress, np.interp(at, node, place)))
 
 

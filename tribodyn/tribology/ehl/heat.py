@@ -12,7 +12,6 @@ which for u b/κ → ∞ is Blok's 1/√(π k_s ρ_s c_s u) ∫ q/√(x − x') 
 """
 
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -113,8 +112,11 @@ def heated(
     count = len(film)
     source = (made + feedback * known) * width[:, None]
     taken = feedback * width[:, None]
-    band, wall = _layers_system(film, width, taken, _through(flow), thermal)
-    factor = _factored(band)
+    through = np.concatenate([flow[:1], 0.5 * (flow[1:] + flow[:-1]), flow[-1:]])
+    band, wall = _layers_system(film, width, taken, through, thermal)
+    lower_upper, pivots, failed = _BAND_FACTORS(band, LAYERS, LAYERS)
+    if failed:
+        raise SimulationError("the temperatures of the film have no solution")
     inverse = _coupling(response, _conductances(film, feedback, thermal))
 
     def answered(surface: Array, source: Array | float) -> tuple[Array, Array, Array]:
@@ -122,23 +124,23 @@ def heated(
         right = np.zeros_like(made) + source
         right[:, -1] += wall * width * surface[:count]
         right[:, 0] += wall * width * surface[count:]
-        layers = _solved(factor, right.ravel()).reshape(made.shape)
+        layers = _BAND_SOLVES(lower_upper, LAYERS, LAYERS, right.ravel(), pivots)[0].reshape(made.shape)
         return layers, wall * (layers[:, -1] - surface[:count]), wall * (layers[:, 0] - surface[count:])
 
     def missing(surface: Array, source: Array | float = 0.0) -> Array:
         _, *flux = answered(surface, source)
         return surface - np.concatenate([response[0] @ flux[0], response[1] @ flux[1]])
 
-    size = (2 * count, 2 * count)
-    first = np.zeros(2 * count)
+    operator: Any = LinearOperator
+    size, first = (2 * count, 2 * count), np.zeros(2 * count)
     surface, failed = gmres(
-        _operator(size, missing),
+        operator(size, missing, dtype=float),
         -missing(first, source),
         np.concatenate([guess.surface_1, guess.surface_2]) if guess is not None else first,
         rtol=1e-10,
         restart=_SURFACE_STEPS,
         maxiter=2,
-        M=_operator(size, lambda right: lu_solve(inverse, right, check_finite=False)),
+        M=operator(size, lambda right: lu_solve(inverse, right, check_finite=False), dtype=float),
     )
     layers, *flux = answered(surface, source)
     if failed or not np.all(np.isfinite(layers)):
@@ -153,11 +155,6 @@ def heated(
         float(flux[1] @ width),
         thermal.heat_capacity * float(right - left),
     )
-
-
-def _operator(size: tuple[int, int], product: Callable[[Array], Array]) -> Any:
-    made: Any = LinearOperator
-    return made(size, product, dtype=float)
 
 
 def _conductances(film: Array, feedback: Array, thermal: HeatProperties) -> tuple[Array, Array, Array]:
@@ -190,15 +187,13 @@ def _coupling(response: tuple[Array, Array], conductance: tuple[Array, Array, Ar
     return lu_factor(matrix, overwrite_a=True, check_finite=False)
 
 
-def _through(flow: Array) -> Array:
-    """Flow of the layers through the edges of the cells, (x + 1, layer)."""
-    return np.concatenate([flow[:1], 0.5 * (flow[1:] + flow[:-1]), flow[-1:]])
-
-
 def _layers_system(
     film: Array, width: Array, taken: Array, through: Array, thermal: HeatProperties
 ) -> tuple[Array, Array]:
-    """Matrix of the layers' temperatures in LAPACK's band form, and conductance to the walls, W/(m² K)."""
+    """Matrix of the layers' temperatures in LAPACK's band form, and conductance to the walls, W/(m² K).
+
+    `through` is the flow of the layers through the edges of the cells, (x + 1, layer).
+    """
     capacity = thermal.heat_capacity
     layer = thermal.conductivity * LAYERS / film
     wall = 2.0 * layer
@@ -212,31 +207,11 @@ def _layers_system(
     diagonal[:, 1:] += down
     diagonal[:, 0] += wall * width
     diagonal[:, -1] += wall * width
-    size, reach = diagonal.size, LAYERS
-    band = np.zeros((3 * reach + 1, size))
-    middle = 2 * reach
-    band[middle] = diagonal.ravel()
-    to_next = np.zeros_like(diagonal)
-    to_next[:, 1:] = -down  # from the layer above into this one
-    band[middle - 1] = to_next.ravel()
-    from_last = np.zeros_like(diagonal)
-    from_last[:, :-1] = -up
-    band[middle + 1] = from_last.ravel()
-    forward = np.zeros_like(diagonal)
-    forward[:-1] = -ahead[1:-1]
-    band[middle + reach] = forward.ravel()
-    backward = np.zeros_like(diagonal)
-    backward[1:] = behind[1:-1]
-    band[middle - reach] = backward.ravel()
-    return band, wall
-
-
-def _factored(band: Array) -> tuple[Array, Array]:
-    lower_upper, pivots, failed = _BAND_FACTORS(band, LAYERS, LAYERS)
-    if failed:
-        raise SimulationError("the temperatures of the film have no solution")
-    return lower_upper, pivots
-
-
-def _solved(factor: tuple[Array, Array], right: Array) -> Array:
-    return _BAND_SOLVES(factor[0], LAYERS, LAYERS, right, factor[1])[0]
+    band = np.zeros((3 * LAYERS + 1, *diagonal.shape))
+    middle = 2 * LAYERS
+    band[middle] = diagonal
+    band[middle - 1, :, 1:] = -down  # from the layer above into this one
+    band[middle + 1, :, :-1] = -up
+    band[middle + LAYERS, :-1] = -ahead[1:-1]
+    band[middle - LAYERS, 1:] = behind[1:-1]
+    return band.reshape(len(band), -1), wall

@@ -56,11 +56,7 @@ def sheared(
 ) -> Shear:
     """Solve for the shear.
 
-    Parameters
-    ----------
-    film, pressure, gradient : (x,), h (m), p (Pa), dp/dx (Pa/m)
-    log_viscosity : (x, layer), ln of η in Pa s
-    speeds : u_1 and u_2, m/s
+    At nodes (x,) film h (m), pressure p (Pa), gradient dp/dx (Pa/m); ln of η in Pa s (x, layer); u_1, u_2.
     """
     sliding, entrained = speeds[0] - speeds[1], 0.5 * (speeds[0] + speeds[1])
     thickness = film[:, None] / LAYERS

@@ -83,23 +83,14 @@ def solve_steady(
 ) -> Solution:
     """Solve a steady contact.
 
+    Raises InputError if a value has no meaning, SimulationError if Newton's method does not converge.
+
     Parameters
     ----------
     start : of a similar contact: its grid and its state are taken. Default: by `first_state`, on a new grid.
     step : of a new grid; the errors of the film are of second order in it
     closure : on the nodes of `start` or of `grid`. Default: that of `start`, or a Newtonian isothermal fluid.
     grid : of a contact without `start`. Default: `grid_of` it.
-
-    Returns
-    -------
-    Solution
-
-    Raises
-    ------
-    InputError
-        If a value has no meaning.
-    SimulationError
-        If Newton's method does not converge.
     """
     check(problem)
     reduced = reduced_problem(problem)

@@ -45,19 +45,14 @@ def march(
 ) -> Iterator[Solution]:
     """Go through the solutions at the times after the first, at which the contact is `start`.
 
+    Raises InputError if a value has no meaning, SimulationError where the shortest step does not converge.
+
     Parameters
     ----------
     instant_at : the contact at a time, s. Fluid and roughness must stay the same; load, radius and speeds may
         change. A closure stands on the nodes of `start.grid`.
     times : (K,), s, increasing; the film is steady before the first
     start : at the first time, on a grid that suits the contact at all times (`grid_of`)
-
-    Raises
-    ------
-    InputError
-        If a value has no meaning.
-    SimulationError
-        If an instant could not be solved with the shortest step.
     """
     known, before = [start], [_snapshot(start, float(times[0]))]
     for goal in times[1:]:
@@ -72,7 +67,12 @@ def march(
             if found is None:
                 shorter = 0.5 * step
                 if shorter < _SHORTEST * whole:
-                    raise _stopped(instant_at(before[-1].time + step).problem, before[-1].time)
+                    problem = instant_at(before[-1].time + step).problem
+                    raise SimulationError(
+                        f"the transient line contact did not converge after {before[-1].time:.4g} s (p_H "
+                        f"{problem.hertz_pressure / 1e9:.3g} GPa, line load {problem.line_load:.3g} N/m): "
+                        "its load may rise faster than the oil is drawn in; start again from a steady contact"
+                    )
                 continue
             known = [known[-1], found]
             before = [before[-1], _snapshot(found, before[-1].time + step)]
@@ -131,11 +131,3 @@ def _snapshot(solution: Solution, time: float) -> Snapshot:
     density = relative_density(solution.fluid_pressure[upto], problem.fluid)[0]
     mass = density * solution.mean_gap[upto] * cells(grid) * problem.half_width
     return Snapshot(time, mass, (solution.state.end + faces(grid)) * problem.half_width)
-
-
-def _stopped(problem: LineContact, time: float) -> SimulationError:
-    return SimulationError(
-        f"the transient line contact did not converge after {time:.4g} s (p_H "
-        f"{problem.hertz_pressure / 1e9:.3g} GPa, line load {problem.line_load:.3g} N/m): its load may rise "
-        f"faster than the oil is drawn in; start again from a steady contact"
-    )

@@ -103,8 +103,8 @@ def test_friction_and_heat_of_a_coarse_contact(roughness, sliding):
     heat, solution = found.heat, found.solution
     assert heat is not None
     end = solution.grid.end + 1
-    part = found.shear._replace(newtonian=found.shear.newtonian[:end])
-    fluid = shear_force(part, solution.fluid_pressure[:end], solution.place[:end], Rheology("eyring"))
+    newtonian = found.shear.newtonian[:end]
+    fluid = shear_force(newtonian, solution.fluid_pressure[:end], solution.place[:end], Rheology("eyring"))
     rubbed = np.trapezoid(solution.asperity_pressure, solution.place) * 0.12 * np.sign(sliding)
     assert (rubbed == 0.0) == (roughness is None)
     assert found.friction == pytest.approx(fluid + rubbed, rel=1e-9)

@@ -2,8 +2,6 @@
 
 import math
 from itertools import pairwise
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,8 +14,7 @@ PLACE = np.array([-2e-4, -1.3e-4, -0.9e-4, 0.0, 0.2e-4, 1.1e-4])
 
 
 def force(newtonian, pressure, law):
-    shear: Any = SimpleNamespace(newtonian=newtonian)
-    return shear_force(shear, pressure, PLACE, Rheology(law))
+    return shear_force(newtonian, pressure, PLACE, Rheology(law))
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
