@@ -14,11 +14,7 @@ from tribodyn.dynamics.parameters import (
     VX_P,
     VY_G,
     VY_P,
-    WORK_DAMPING,
-    WORK_FRICTION,
     WORK_IN,
-    WORK_OUT,
-    WORK_PARAMETRIC,
     X_G,
     X_P,
     XI,
@@ -33,6 +29,9 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import LocalContact
 from tribodyn.tribology.surface_state import limits_last, surface_and_limits
 
+#: What `derivatives` returns, in order; the first five have their works in the state, in the same order.
+POWERS = ("power_in", "power_out", "power_friction", "power_damping", "power_parametric", "drive_torque")
+
 
 def segment_of(phase: Float[Array, "*sample"], boundary: Float[Array, " boundary"]) -> Int[Array, "*sample"]:
     """Segment of each phase in [0, 1); a phase on a boundary belongs to the segment that begins there."""
@@ -46,7 +45,10 @@ def outputs(
     segment: Int[Array, " sample"] | None = None,
     shares: bool = False,
 ) -> dict[str, np.ndarray]:
-    """All datasets of a record at the given samples.
+    """All datasets of a record at samples (n,), by name: (n,), (n, pairs) or (n, dof), SI.
+
+    Quantities of a pair that carries no load are NaN where they mean nothing then (film, pressure, …) and 0
+    where the loss of contact itself is the answer (loads, stiffness).
 
     Parameters
     ----------
@@ -54,13 +56,6 @@ def outputs(
     model : with NumPy arrays
     segment : of each sample: on a boundary it says on which side; by default the one that begins there
     shares : whether those of `UNRECORDED` are among them, (n, pairs, limits)
-
-    Returns
-    -------
-    dict
-        Name -> array (n,), (n, pairs) or (n, dof) in SI, as `record.schema` lists them. Quantities of a
-        pair that carries no load are NaN where they mean nothing then (film, pressure, …) and 0 where the
-        loss of contact itself is the answer (loads, stiffness).
     """
     table, mechanics = model.table, model.mechanics
     whole = np.floor(cycles + 1e-12)
@@ -92,9 +87,7 @@ def outputs(
     gear_angle = (table.pinion_pitch_radius * pinion_angle - y[XI]) / table.gear_pitch_radius
     gear_speed = ratio * pinion_speed - y[XI_RATE] / table.gear_pitch_radius
     speed_p, speed_g = per_pair(contact.PINION_SPEED), per_pair(contact.GEAR_SPEED)
-    power_in, power_out, power_friction, power_damping, power_parametric, drive_torque = (
-        np.broadcast_to(power, count) for power in powers
-    )
+    power = dict(zip(POWERS, (np.broadcast_to(power, count) for power in powers), strict=True))
 
     def contacting(values: np.ndarray, mask: np.ndarray = touching) -> np.ndarray:
         return np.where(mask, values, np.nan)
@@ -128,19 +121,10 @@ def outputs(
         "closure_in_range": np.where(
             touching, result["closure_in_range"], 1.0 + 0.0 * surface.closure_in_range
         ),
-        "drive_torque": drive_torque,
-        "power_in": power_in,
-        "power_out": power_out,
-        "power_friction": power_friction,
-        "power_damping": power_damping,
-        "power_parametric": power_parametric,
+        **power,
         "stored_energy": np.broadcast_to(stored_energy(y, model, work), count),
-        "work_in": y[WORK_IN],
-        "work_out": y[WORK_OUT],
-        "work_friction": y[WORK_FRICTION],
-        "work_damping": y[WORK_DAMPING],
-        "work_parametric": y[WORK_PARAMETRIC],
-        "efficiency": efficiency(power_in, power_out, sliding_loss),
+        **{name.replace("power", "work"): y[WORK_IN + i] for i, name in enumerate(POWERS[:5])},
+        "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
     }
     if shares:
         result |= {name: limits_last(law) for name, law in zip(UNRECORDED, limits, strict=True)}

@@ -70,55 +70,35 @@ class Options(NamedTuple):
 
 
 class Mechanics(NamedTuple):
-    """Numbers of the mechanical model, SI; a pytree, so that no number is compiled in.
+    """Numbers of the mechanical model, SI; a pytree, so that no number is compiled in."""
 
-    Attributes
-    ----------
-    pinion_mass, gear_mass : kg
-    pinion_inertia, gear_inertia : kg m², with whatever turns rigidly with the body
-    *_stiffness_x, *_stiffness_y : shaft and bearing stiffness, N/m
-    *_damping_x, *_damping_y : shaft and bearing damping, N s/m
-    mesh_damping : 2 ζ √J_e', so that c_i = mesh_damping √k_i; √kg
-    contact_width : approach over which contact force and damping set in, m
-    reversal_width : distance along the path about the pitch point over which friction reverses, m
-    nominal_speed : pinion, rad/s
-    drive_torque : motor torque at nominal speed, N m
-    speed_regulation : fall of the motor torque per speed above nominal, N m s/rad
-    drive_inertia : motor side of the shaft, kg m² (with `DRIVE_SHAFT`; else part of pinion_inertia)
-    shaft_stiffness, shaft_damping : N m/rad, N m s/rad
-    load_torque : constant part of the torque on the gear, N m
-    load_damping : rise of the load torque per gear speed above nominal, N m s/rad
-    load_times, load_torques, load_slopes : (T,) knots of a C1 load torque over time, added to load_torque
-    load_amplitudes, load_frequencies, load_phases : (H,) harmonics of the load torque, N m, rad/s, rad
-    """
-
-    pinion_mass: Any
+    pinion_mass: Any  # kg
     gear_mass: Any
-    pinion_inertia: Any
+    pinion_inertia: Any  # kg m², with whatever turns rigidly with the body
     gear_inertia: Any
-    pinion_stiffness_x: Any
+    pinion_stiffness_x: Any  # of shaft and bearing, N/m
     pinion_stiffness_y: Any
     gear_stiffness_x: Any
     gear_stiffness_y: Any
-    pinion_damping_x: Any
+    pinion_damping_x: Any  # of shaft and bearing, N s/m
     pinion_damping_y: Any
     gear_damping_x: Any
     gear_damping_y: Any
-    mesh_damping: Any
-    contact_width: Any
-    reversal_width: Any
-    nominal_speed: Any
-    drive_torque: Any
-    speed_regulation: Any
-    drive_inertia: Any
-    shaft_stiffness: Any
-    shaft_damping: Any
-    load_torque: Any
-    load_damping: Any
-    load_times: Any
+    mesh_damping: Any  # 2 ζ √J_e', so that c_i = mesh_damping √k_i; √kg
+    contact_width: Any  # approach over which contact force and damping set in, m
+    reversal_width: Any  # distance along the path about the pitch point over which friction reverses, m
+    nominal_speed: Any  # of the pinion, rad/s
+    drive_torque: Any  # of the motor at nominal speed, N m
+    speed_regulation: Any  # fall of the motor torque per speed above nominal, N m s/rad
+    drive_inertia: Any  # motor side of the shaft, kg m² (with `DRIVE_SHAFT`; else part of pinion_inertia)
+    shaft_stiffness: Any  # N m/rad
+    shaft_damping: Any  # N m s/rad
+    load_torque: Any  # constant part of the torque on the gear, N m
+    load_damping: Any  # rise of the load torque per gear speed above nominal, N m s/rad
+    load_times: Any  # (T,), this and the next two: knots of a C1 torque over time, added to load_torque
     load_torques: Any
     load_slopes: Any
-    load_amplitudes: Any
+    load_amplitudes: Any  # (H,), this and the next two: harmonics of the load torque, N m, rad/s, rad
     load_frequencies: Any
     load_phases: Any
 

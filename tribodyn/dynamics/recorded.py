@@ -17,9 +17,10 @@ DOF_SCALE = Variable(
 
 #: Meanings of flags that say whether a law is inside its range.
 RANGE = "out_of_contact_or_none_stated out_of_range in_range"
+_TIME, _PAIRS = ("time",), ("time", "pair")
 #: What a run records over time. `time` itself is the dimension scale of the first axis.
 SAMPLES: dict[str, Variable] = {
-    "pinion_angle": Variable(("time",), "rad", "rotation of the pinion"),
+    "pinion_angle": Variable(_TIME, "rad", "rotation of the pinion"),
     "displacement": Variable(
         ("time", "dof"),
         "m or rad",
@@ -29,79 +30,67 @@ SAMPLES: dict[str, Variable] = {
         ("time", "dof"), "m/s or rad/s", "generalised velocities, in the order of the coordinates"
     ),
     "transmission_error_normal": Variable(
-        ("time", "pair"),
+        _PAIRS,
         "m",
         "deflection along the pair's normal, gap not subtracted; NaN where the pair is out of contact",
     ),
     "transmission_error_rotational": Variable(
-        ("time",), "m", "rotational dynamic transmission error r_p theta_p - r_g theta_g"
+        _TIME, "m", "rotational dynamic transmission error r_p theta_p - r_g theta_g"
     ),
-    "normal_load": Variable(("time", "pair"), "N", "normal load of the pair"),
+    "normal_load": Variable(_PAIRS, "N", "normal load of the pair"),
     "friction_force": Variable(
-        ("time", "pair"), "N", "sliding friction on the pinion's flank along the tangent, positive in recess"
+        _PAIRS, "N", "sliding friction on the pinion's flank along the tangent, positive in recess"
     ),
-    "friction_coefficient": Variable(
-        ("time", "pair"), "1", "friction coefficient of the pair, its whole face"
-    ),
+    "friction_coefficient": Variable(_PAIRS, "1", "friction coefficient of the pair, its whole face"),
     "asperity_load_ratio": Variable(
-        ("time", "pair"), "1", "share of the load that asperities carry, where the line load is largest"
+        _PAIRS, "1", "share of the load that asperities carry, where the line load is largest"
     ),
     "film_parameter": Variable(
-        ("time", "pair"), "1", "film parameter: central film thickness over composite roughness"
+        _PAIRS, "1", "film parameter: central film thickness over composite roughness"
     ),
-    "central_film_thickness": Variable(
-        ("time", "pair"), "m", "central film thickness where the line load is largest"
-    ),
+    "central_film_thickness": Variable(_PAIRS, "m", "central film thickness where the line load is largest"),
     "equivalent_radius": Variable(
-        ("time", "pair"),
+        _PAIRS,
         "m",
         "equivalent radius of the two flanks; averaged over the contact where it vanishes at the pitch point",
     ),
     "hertz_pressure": Variable(
-        ("time", "pair"), "Pa", "maximum Hertz pressure along the face, at the equivalent radius"
+        _PAIRS, "Pa", "maximum Hertz pressure along the face, at the equivalent radius"
     ),
-    "flash_temperature_rise": Variable(
-        ("time", "pair"), "K", "flash temperature rise where the line load is largest"
-    ),
+    "flash_temperature_rise": Variable(_PAIRS, "K", "flash temperature rise where the line load is largest"),
     "entrainment_speed": Variable(
-        ("time", "pair"),
+        _PAIRS,
         "m/s",
         "entrainment speed, mean of both flanks' rolling speeds; averaged over the contact like the radius",
     ),
     "sliding_speed": Variable(
-        ("time", "pair"), "m/s", "sliding speed that friction has, pinion's less gear's, by friction.sliding"
+        _PAIRS, "m/s", "sliding speed that friction has, pinion's less gear's, by friction.sliding"
     ),
-    "pressure_angle": Variable(
-        ("time", "pair"), "rad", "angle of the pair's common normal to the pitch tangent"
-    ),
-    "mesh_stiffness": Variable(("time", "pair"), "N/m", "stiffness of the pair along its normal"),
+    "pressure_angle": Variable(_PAIRS, "rad", "angle of the pair's common normal to the pitch tangent"),
+    "mesh_stiffness": Variable(_PAIRS, "N/m", "stiffness of the pair along its normal"),
     "closure_in_range": flag(
-        ("time", "pair"), "film law inside its range: 1 yes, 0 no, -1 out of contact or none stated", RANGE
+        _PAIRS, "film law inside its range: 1 yes, 0 no, -1 out of contact or none stated", RANGE
     ),
     "friction_in_range": flag(
-        ("time", "pair"),
-        "friction law inside its range: 1 yes, 0 no, -1 out of contact or none stated",
-        RANGE,
+        _PAIRS, "friction law inside its range: 1 yes, 0 no, -1 out of contact or none stated", RANGE
     ),
     "drive_torque": Variable(
-        ("time",), "N*m", "torque of the drive: on the pinion, with a compliant shaft on its motor side"
+        _TIME, "N*m", "torque of the drive: on the pinion, with a compliant shaft on its motor side"
     ),
-    "power_in": Variable(("time",), "W", "power the motor gives to the pinion"),
-    "power_out": Variable(("time",), "W", "power the gear gives to the load"),
-    "power_friction": Variable(("time",), "W", "power lost to sliding friction"),
-    "power_damping": Variable(("time",), "W", "power lost to mesh and bearing damping"),
+    "power_in": Variable(_TIME, "W", "power the motor gives to the pinion"),
+    "power_out": Variable(_TIME, "W", "power the gear gives to the load"),
+    "power_friction": Variable(_TIME, "W", "power lost to sliding friction"),
+    "power_damping": Variable(_TIME, "W", "power lost to mesh and bearing damping"),
     "power_parametric": Variable(
-        ("time",), "W", "power that enters through the varying stiffness and geometry at fixed coordinates"
+        _TIME, "W", "power that enters through the varying stiffness and geometry at fixed coordinates"
     ),
-    "stored_energy": Variable(("time",), "J", "kinetic and strain energy"),
-    "work_in": Variable(("time",), "J", "work of the drive since the start"),
-    "work_out": Variable(("time",), "J", "work on the load since the start"),
-    "work_friction": Variable(("time",), "J", "work lost to sliding friction since the start"),
-    "work_damping": Variable(("time",), "J", "work lost to mesh and bearing damping since the start"),
-    "work_parametric": Variable(
-        ("time",), "J", "parametric work since the start, jumps at engagement included"
-    ),
-    "efficiency": Variable(("time",), "1", "instantaneous efficiency"),
+    "stored_energy": Variable(_TIME, "J", "kinetic and strain energy"),
+    "work_in": Variable(_TIME, "J", "work of the drive since the start"),
+    "work_out": Variable(_TIME, "J", "work on the load since the start"),
+    "work_friction": Variable(_TIME, "J", "work lost to sliding friction since the start"),
+    "work_damping": Variable(_TIME, "J", "work lost to mesh and bearing damping since the start"),
+    "work_parametric": Variable(_TIME, "J", "parametric work since the start, jumps at engagement included"),
+    "efficiency": Variable(_TIME, "1", "instantaneous efficiency"),
 }
 
 #: What is worked out with them for the summary alone: shares allowed by each limit of film and friction law.

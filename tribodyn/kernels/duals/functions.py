@@ -22,7 +22,8 @@ from tribodyn.kernels.duals.numbers import (
 )
 from tribodyn.kernels.lanes.arrays import ALIGNMENT, Element, elements_of
 from tribodyn.kernels.lanes.vectors import INT64
-from tribodyn.kernels.native.parts import part, part_instead
+from tribodyn.kernels.native.functions import larger, smaller
+from tribodyn.kernels.native.parts import part, part_for, part_instead
 from tribodyn.numerics import elementary
 
 #: Place of the value behind the slopes, and floats that a dual number takes: whole cache lines, so that none
@@ -46,59 +47,60 @@ def _store(context, builder, pointer, number):
 duals_of = elements_of(Element(DUAL, LENGTH, _load, _store))
 
 
-@part
+@part_for(elementary.sqrt, DUAL)
 def sqrt_dual(x):
     """Square root."""
     root = math.sqrt(value_of(x))
     return chained(x, root, 0.5 / root)
 
 
-@part
+@part_for(elementary.exp, DUAL)
 def exp_dual(x):
     """Exponential."""
     value = math.exp(value_of(x))
     return chained(x, value, value)
 
 
-@part
+@part_for(elementary.log, DUAL)
 def log_dual(x):
     """Natural logarithm."""
     return chained(x, math.log(value_of(x)), 1.0 / value_of(x))
 
 
-@part
+@part_for(elementary.log1p, DUAL)
 def log1p_dual(x):
     """log(1 + x)."""
     return chained(x, elementary.log1p(value_of(x)), 1.0 / (1.0 + value_of(x)))
 
 
-@part
+@part_for(elementary.expm1, DUAL)
 def expm1_dual(x):
     """exp(x) − 1."""
     value = elementary.expm1(value_of(x))
     return chained(x, value, 1.0 + value)
 
 
-@part
+@part_for(elementary.sin, DUAL)
 def sin_dual(x):
     """Sine."""
     return chained(x, math.sin(value_of(x)), math.cos(value_of(x)))
 
 
-@part
+@part_for(elementary.cos, DUAL)
 def cos_dual(x):
     """Cosine."""
     return chained(x, math.cos(value_of(x)), -math.sin(value_of(x)))
 
 
-@part
+@part_for(elementary.tan, DUAL)
 def tan_dual(x):
     """Tangent."""
     value = math.tan(value_of(x))
     return chained(x, value, 1.0 + value * value)
 
 
-@part
+@part_for(abs, DUAL)
+@part_for(elementary.absolute, DUAL)
 def absolute_dual(x):
     """Absolute value; its derivative at 0 is taken as 0, the mean of both sides."""
     value = value_of(x)
@@ -118,36 +120,12 @@ def power_of_dual_exponent(x, exponent):
     return elementary.exp(exponent * elementary.log(x))
 
 
-def _for_duals(function, implementation):
-    @part_instead(function)
-    def _(x):
-        return implementation if x is DUAL else None
+part_for(elementary.truncate, DUAL)(lambda x: int(value_of(x)))
+part_for(elementary.plain, DUAL)(lambda x: value_of(x))
+part_for(elementary.largest_slope, DUAL)(lambda x: largest_slope_of(x))
 
 
-for _function, _dual in (
-    (elementary.sqrt, sqrt_dual),
-    (elementary.exp, exp_dual),
-    (elementary.log, log_dual),
-    (elementary.log1p, log1p_dual),
-    (elementary.expm1, expm1_dual),
-    (elementary.sin, sin_dual),
-    (elementary.cos, cos_dual),
-    (elementary.tan, tan_dual),
-    (elementary.absolute, absolute_dual),
-    (abs, absolute_dual),
-):
-    _for_duals(_function, _dual)
-_for_duals(elementary.truncate, lambda x: int(value_of(x)))
-_for_duals(elementary.plain, lambda x: value_of(x))
-_for_duals(elementary.largest_slope, lambda x: largest_slope_of(x))
-
-
-@part_instead(elementary.arctan2)
-def _arctan2(y, x):
-    return arctan2_dual if DUAL in (y, x) else None
-
-
-@part
+@part_for(elementary.arctan2, DUAL)
 def arctan2_dual(y, x):
     """Angle of the point (x, y)."""
     b, a = elementary.plain(y), elementary.plain(x)
@@ -174,15 +152,5 @@ def _where(condition, a, b):
     return None
 
 
-@part_instead(elementary.minimum)
-def _minimum(a, b):
-    if DUAL not in (a, b):
-        return None
-    return lambda a, b: select((b < a) | (b != b), b, a)
-
-
-@part_instead(elementary.maximum)
-def _maximum(a, b):
-    if DUAL not in (a, b):
-        return None
-    return lambda a, b: select((b > a) | (b != b), b, a)
+part_for(elementary.minimum, DUAL)(smaller)
+part_for(elementary.maximum, DUAL)(larger)

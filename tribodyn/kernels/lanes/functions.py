@@ -24,7 +24,8 @@ from tribodyn.kernels.lanes.vectors import (
     square_root,
     to_indices,
 )
-from tribodyn.kernels.native.parts import part, part_instead
+from tribodyn.kernels.native.functions import larger, smaller
+from tribodyn.kernels.native.parts import part, part_for, part_instead
 from tribodyn.numerics import elementary
 
 LOG2_E = 1.4426950408889634
@@ -68,6 +69,7 @@ def power_of_two(n):
     return from_bits(shift_left(n + 1023, 52))
 
 
+@part_for(elementary.exp, LANES)
 @part
 def exp_lanes(x):
     """Exponential."""
@@ -78,6 +80,7 @@ def exp_lanes(x):
     return select(x == x, result, x)
 
 
+@part_for(elementary.expm1, LANES)
 @part
 def expm1_lanes(x):
     """exp(x) − 1, accurate for small x."""
@@ -89,6 +92,7 @@ def expm1_lanes(x):
     return select(x == x, result, x)
 
 
+@part_for(elementary.log, LANES)
 @part
 def log_lanes(x):
     """Natural logarithm."""
@@ -110,6 +114,7 @@ def log_lanes(x):
     return select(x > 0.0, select(x < INFINITE, result, x), select(x == 0.0, -INFINITE, UNDEFINED))
 
 
+@part_for(elementary.log1p, LANES)
 @part
 def log1p_lanes(x):
     """log(1 + x), accurate for small x."""
@@ -157,6 +162,7 @@ def turned(q, r, lost):
     return select(bit_and(q, 2) == 2, -value, value)
 
 
+@part_for(elementary.sin, LANES)
 @part
 def sin_lanes(x):
     """Sine."""
@@ -164,6 +170,7 @@ def sin_lanes(x):
     return turned(q, r, lost)
 
 
+@part_for(elementary.cos, LANES)
 @part
 def cos_lanes(x):
     """Cosine."""
@@ -171,21 +178,9 @@ def cos_lanes(x):
     return turned(q + 1, r, lost)
 
 
-def _for_lanes(function, implementation):
-    @part_instead(function)
-    def _(x):
-        return implementation if x is LANES else None
-
-
-_for_lanes(elementary.sqrt, lambda x: square_root(x))
-_for_lanes(elementary.exp, lambda x: exp_lanes(x))
-_for_lanes(elementary.log, lambda x: log_lanes(x))
-_for_lanes(elementary.log1p, lambda x: log1p_lanes(x))
-_for_lanes(elementary.expm1, lambda x: expm1_lanes(x))
-_for_lanes(elementary.sin, lambda x: sin_lanes(x))
-_for_lanes(elementary.cos, lambda x: cos_lanes(x))
-_for_lanes(elementary.absolute, lambda x: magnitude(x))
-_for_lanes(elementary.truncate, lambda x: to_indices(x))
+part_for(elementary.sqrt, LANES)(lambda x: square_root(x))
+part_for(elementary.absolute, LANES)(lambda x: magnitude(x))
+part_for(elementary.truncate, LANES)(lambda x: to_indices(x))
 
 
 @part_instead(operator.pow)
@@ -195,44 +190,14 @@ def _pow(x, exponent):
     return None
 
 
-@part_instead(elementary.where)
-def _where(condition, a, b):
-    return (lambda condition, a, b: select(condition, a, b)) if condition is MASK else None
-
-
-@part_instead(elementary.skippable)
-def _skippable(condition):
-    # only where no lane needs it: what it leaves out has no weight, so that the other lanes change no bits
-    return (lambda condition: not any_of(~condition)) if condition is MASK else None
-
-
-@part_instead(elementary.anywhere)
-def _anywhere(condition):
-    return (lambda condition: any_of(condition)) if condition is MASK else None
-
-
-@part_instead(elementary.opposite)
-def _opposite(condition):
-    return (lambda condition: ~condition) if condition is MASK else None
-
-
-@part_instead(elementary.plain)
-def _plain(x):
-    return (lambda x: x) if x is LANES else None
-
-
-@part_instead(elementary.minimum)
-def _minimum(a, b):
-    if LANES not in (a, b):
-        return None
-    return lambda a, b: select((b < a) | (b != b), b, a)
-
-
-@part_instead(elementary.maximum)
-def _maximum(a, b):
-    if LANES not in (a, b):
-        return None
-    return lambda a, b: select((b > a) | (b != b), b, a)
+part_for(elementary.where, MASK)(lambda condition, a, b: select(condition, a, b))
+# only where no lane needs it: what it leaves out has no weight, so that the other lanes change no bits
+part_for(elementary.skippable, MASK)(lambda condition: not any_of(~condition))
+part_for(elementary.anywhere, MASK)(lambda condition: any_of(condition))
+part_for(elementary.opposite, MASK)(lambda condition: ~condition)
+part_for(elementary.plain, LANES)(lambda x: x)
+part_for(elementary.minimum, LANES)(smaller)
+part_for(elementary.maximum, LANES)(larger)
 
 
 @part_instead(elementary.last_axis_of_four)

@@ -134,18 +134,6 @@ def _source(file: str) -> bytes:
         raise _UnknownError from None
 
 
-class KernelFunction:
-    """A function for numba; compiled into every kernel that calls it.
-
-    Parameters
-    ----------
-    function : at module level; of positional arguments
-    """
-
-    def __init__(self, function: Callable[..., Any]):
-        self.function = function
-
-
 class Compiled(NamedTuple):
     """A kernel's machine code as it is kept."""
 

@@ -18,9 +18,9 @@ from numba.core.errors import NumbaError
 from numba.core.registry import cpu_target
 
 from tribodyn.errors import InputError
-from tribodyn.kernels.native.arguments import Compiled, KernelFunction, RecordLayout, functions_in
+from tribodyn.kernels.native.arguments import Compiled, RecordLayout, functions_in
 from tribodyn.kernels.native.functions import register_laws
-from tribodyn.kernels.native.parts import FUSE, part_of
+from tribodyn.kernels.native.parts import FUSE, as_part
 from tribodyn.kernels.native.records import WORDS, RecordType, fields_of, letter_of, put
 
 
@@ -44,20 +44,7 @@ class KernelLibrary(JITCodeLibrary):
 
 
 #: What LLVM calls by a name of its own and takes from the C library, unless the processor has it.
-_C_FUNCTIONS = {
-    "exp",
-    "exp2",
-    "log",
-    "log2",
-    "log10",
-    "pow",
-    "sin",
-    "cos",
-    "tan",
-    "memcpy",
-    "memmove",
-    "memset",
-}
+_C_FUNCTIONS = set("exp exp2 log log2 log10 pow sin cos tan memcpy memmove memset".split())
 
 
 # all of it under the lock: a thread that refreshes numba's tables hides types from one that compiles
@@ -65,7 +52,7 @@ _C_FUNCTIONS = {
 def compiled(function: Callable[..., Any], layout: RecordLayout) -> Compiled:
     """Compile a function for arguments of a layout."""
     register_laws()
-    kernel: Any = KernelFunction(function)
+    kernel = as_part(function)
 
     def entry(block, results):
         put(results, kernel(*fields_of(block)))
@@ -92,7 +79,7 @@ def compiled(function: Callable[..., Any], layout: RecordLayout) -> Compiled:
     library.add_ir_module(_c_function(target, lowered.fndesc, symbol))
     library.finalize()
     kinds = tuple(kind for kind, _ in record.fields.values())
-    returned = part_of(kernel).overloads[kinds].signature.return_type
+    returned = kernel.overloads[kinds].signature.return_type
     several = isinstance(returned, types.BaseTuple)
     numbers = list(cast(Any, returned)) if several else () if returned is types.none else (returned,)
     return Compiled(symbol, "".join(map(letter_of, numbers)), not several, library.needs(), library.body)

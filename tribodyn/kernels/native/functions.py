@@ -130,6 +130,16 @@ def last_axis_of_four(table, a, b, c, d):
     return table[a, b, c, d, 0], table[a, b, c, d, 1], table[a, b, c, d, 2], table[a, b, c, d, 3]
 
 
+def smaller(a, b):
+    """The smaller of two numbers that are more than floats; NaN if either is."""
+    return elementary.where((b < a) | (b != b), b, a)
+
+
+def larger(a, b):
+    """The larger of two numbers that are more than floats; NaN if either is."""
+    return elementary.where((b > a) | (b != b), b, a)
+
+
 def _instead(function, implementation, kind):
     """Compile a function of ours where its first argument is of a kind."""
 

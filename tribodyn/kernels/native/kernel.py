@@ -8,12 +8,12 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from tribodyn.kernels.native.arguments import Code, KernelFunction, together
+from tribodyn.kernels.native.arguments import Code, together
 
 _ENTRY = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)
 
 
-class Kernel(KernelFunction):
+class Kernel:
     """A function for numba that Python calls as machine code; other kernels and laws call it as it stands.
 
     Compiled at the first call with arguments of a given layout, once in an installation; threads may call it
@@ -25,12 +25,19 @@ class Kernel(KernelFunction):
     """
 
     def __init__(self, function: Callable[..., Any]):
-        super().__init__(function)
+        self.function = function
         functools.update_wrapper(self, function)
         self._name = function.__name__
         self._names = tuple(inspect.signature(function).parameters)
         self._codes: dict[Any, Callable[[bytes], Any]] = {}
         self._compiling = threading.Lock()
+
+    @functools.cached_property
+    def _numba_type_(self) -> Any:
+        """Inside another kernel it is a part as any other."""
+        from tribodyn.kernels.native.parts import type_of_part
+
+        return type_of_part(self.function)
 
     def __call__(self, *arguments: Any) -> Any:
         """Call the kernel; the results are floats and integers, or None."""

@@ -1,15 +1,14 @@
 """Parts of kernels: functions that numba lowers one by one, optimised within the kernel that calls them."""
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any, cast
 
 import numba
 from numba.core import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
-from numba.extending import overload, typeof_impl
-
-from tribodyn.kernels.native.arguments import KernelFunction
+from numba.extending import overload
 
 #: What LLVM may do with floats: make one rounding of a product and a sum.
 FUSE = {"contract"}
@@ -104,16 +103,25 @@ def part_instead(function: Callable[..., Any]) -> Callable[..., Any]:
     return overload(function, jit_options=_PART, strict=False)
 
 
-@typeof_impl.register(KernelFunction)
-def _typeof_kernel(kernel, c):
-    """Inside another kernel a kernel is a part as any other."""
-    return types.Dispatcher(part_of(kernel))
+@cache
+def as_part(function: Callable[..., Any]) -> Any:
+    """A function as numba's dispatcher of a part; see `part`, which numba looks up by the function itself."""
+    return cast(Any, numba.njit)(**_PART, error_model="numpy", fastmath=FUSE, _nrt=False)(function)
 
 
-def part_of(kernel: Any) -> Any:
-    """The part that a kernel is inside another."""
-    if not hasattr(kernel, "part"):
-        kernel.part = cast(Any, numba.njit)(**_PART, error_model="numpy", fastmath=FUSE, _nrt=False)(
-            kernel.function
-        )
-    return kernel.part
+def type_of_part(function: Callable[..., Any]) -> Any:
+    """The type of that to numba."""
+    return types.Dispatcher(as_part(function))
+
+
+def part_for(function: Callable[..., Any], kind: Any) -> Callable[..., Any]:
+    """Decorator of what to compile in place of `function` wherever one of the arguments is of a type."""
+
+    def given(implementation):
+        @part_instead(function)
+        def _(*arguments):
+            return implementation if kind in arguments else None
+
+        return implementation
+
+    return given

@@ -13,16 +13,7 @@ then is left to the error control, which takes steps by the force.
 
 import numpy as np
 
-from tribodyn.dynamics.contact_forces import (
-    FRICTION_FORCE,
-    RELATIVE_VELOCITY,
-    TURNED,
-    TURNED_BEFORE,
-    TURNING_RATE,
-    approach,
-    out_of_reach,
-    reversals_per_velocity,
-)
+from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES, WORKS, X_G, X_P, XI, Y_G, Y_P
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, plain, where
@@ -140,7 +131,7 @@ UNLIMITED = 1e9
 @law
 def resolves_turns(tolerance, model):
     """Whether a tolerance of the velocities, m/s, is fine enough to see friction turn."""
-    return tolerance * reversals_per_velocity(model) < FINEST
+    return tolerance * contact.reversals_per_velocity(model) < FINEST
 
 
 @law
@@ -158,13 +149,13 @@ def next_share(share, rate):
 def begin_turning(phase, segment, y, model, work):
     """Fill `work` with where the pairs' sliding stands at the start of a segment; `TURNING_RATE` is 0."""
     cell, u, cells_per_radian = locate(phase, segment, model.table)
-    approach(segment, cell, u, cells_per_radian, y, model, work)
-    per_velocity = reversals_per_velocity(model)
+    contact.approach(segment, cell, u, cells_per_radian, y, model, work)
+    per_velocity = contact.reversals_per_velocity(model)
     for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
+        if contact.out_of_reach(segment, i, model):
             continue
-        work[TURNED_BEFORE, i] = plain(work[RELATIVE_VELOCITY, i]) * per_velocity
-        work[TURNING_RATE, i] = 0.0 * plain(work[TURNED_BEFORE, i])
+        work[contact.TURNED_BEFORE, i] = plain(work[contact.RELATIVE_VELOCITY, i]) * per_velocity
+        work[contact.TURNING_RATE, i] = 0.0 * plain(work[contact.TURNED_BEFORE, i])
 
 
 @law
@@ -172,10 +163,10 @@ def longest_step(segment, model, work):
     """Longest step from here at the rates of the last one, mesh cycles."""
     longest = UNLIMITED
     for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
+        if contact.out_of_reach(segment, i, model):
             continue
-        rate = plain(work[TURNING_RATE, i])
-        distance, _ = next_share(plain(work[TURNED_BEFORE, i]), rate)
+        rate = plain(work[contact.TURNING_RATE, i])
+        distance, _ = next_share(plain(work[contact.TURNED_BEFORE, i]), rate)
         longest = minimum(
             longest, where(rate != 0.0, distance / absolute(where(rate != 0.0, rate, 1.0)), UNLIMITED)
         )
@@ -190,12 +181,12 @@ def turn_of(step, segment, model, work):
     """
     shorter = 1.0 * step
     for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
+        if contact.out_of_reach(segment, i, model):
             continue
-        before = plain(work[TURNED_BEFORE, i])
-        change = plain(work[TURNED, i]) - before
+        before = plain(work[contact.TURNED_BEFORE, i])
+        change = plain(work[contact.TURNED, i]) - before
         distance, near = next_share(before, change)
-        far = (absolute(change) > distance + near) & (plain(work[FRICTION_FORCE, i]) != 0.0)
+        far = (absolute(change) > distance + near) & (plain(work[contact.FRICTION_FORCE, i]) != 0.0)
         shorter = minimum(shorter, where(far, step * distance / absolute(where(far, change, 1.0)), step))
     return shorter < step, maximum(shorter, SHORTEST * step)
 
@@ -204,9 +195,9 @@ def turn_of(step, segment, model, work):
 def keep_turned(accepted, step, segment, model, work):
     """Take over where the sliding stands after a step that was accepted."""
     for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
+        if contact.out_of_reach(segment, i, model):
             continue
-        before, after = plain(work[TURNED_BEFORE, i]), plain(work[TURNED, i])
-        rate = plain(work[TURNING_RATE, i])
-        work[TURNING_RATE, i] = where(accepted, (after - before) / step, rate)
-        work[TURNED_BEFORE, i] = where(accepted, after, before)
+        before, after = plain(work[contact.TURNED_BEFORE, i]), plain(work[contact.TURNED, i])
+        rate = plain(work[contact.TURNING_RATE, i])
+        work[contact.TURNING_RATE, i] = where(accepted, (after - before) / step, rate)
+        work[contact.TURNED_BEFORE, i] = where(accepted, after, before)
