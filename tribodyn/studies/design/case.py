@@ -1,12 +1,14 @@
 """A case of a search: everything that one run needs to know, and the names of its keys and duties."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from tribodyn.studies.protocol.study import CaseHead
 
+_NUMBER_AND_UNIT = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(\S.*?)?\s*$", re.ASCII)
 #: What stands for the value of a figure at the start, as the limit of a constraint.
 START = "start"
 #: Distribution of a tolerance whose key numbers samples.
@@ -58,7 +60,7 @@ class Constraint(NamedTuple):
     """A figure that must not be above (sign 1) or below (sign −1) its limit, SI or `START`."""
 
     text: str
-    figure: str
+    quantity: str
     sign: float
     limit: float | str
 
@@ -132,15 +134,21 @@ class DesignCase(CaseHead):
     sensitivities: bool
 
     @property
-    def figures(self) -> tuple[str, ...]:
-        """Names of the figures that objectives and constraints are made of."""
+    def quantities(self) -> tuple[str, ...]:
+        """Names of the quantities that objectives and constraints are made of."""
         of_objectives = (name for objective in self.objectives for name, _ in objective.terms)
-        return (*of_objectives, *(constraint.figure for constraint in self.constraints))
+        return (*of_objectives, *(constraint.quantity for constraint in self.constraints))
 
     @property
     def scenarios(self) -> dict[str, Mapping[str, Any]]:
         """All scenarios that are evaluated, by their names as sources."""
         return {"": self.base, **self.parts}
+
+
+def unit_of(text: str) -> str | None:
+    """The unit behind a number, "" where there is none; None where the text does not begin with a number."""
+    match = _NUMBER_AND_UNIT.match(text)
+    return (match[1] or "") if match else None
 
 
 def naming_key(keys: str | Sequence[str]) -> str:

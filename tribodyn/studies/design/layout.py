@@ -11,17 +11,16 @@ from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.archive import FACTORS, Candidate, Unfinished
 from tribodyn.studies.design.candidates.candidates import Overrides, samples_of, shapes_gears, value_at
-from tribodyn.studies.design.candidates.evaluation import Figures
+from tribodyn.studies.design.candidates.evaluation import Results
 from tribodyn.studies.design.candidates.sources import units_by_figure
 from tribodyn.studies.design.case import DesignCase, Free, Objective
 
-EVALUATION = Variable(("evaluation",), "1", "number of the evaluation")
 #: Bytes kept of a message.
 MESSAGE = 200
 OBJECTIVES = ("objective", "objective_2")
 #: Datasets of what was evaluated about the best.
 LOWER, UPPER = "objective_lower", "objective_upper"
-#: Dataset of the figures of the base scenario as it stands.
+#: Dataset of the quantities of the base scenario as it stands.
 START_FIGURES = "start_figures"
 #: Dataset of the resolution of every evaluation.
 REFINEMENT = "refinement"
@@ -29,78 +28,72 @@ REFINEMENT = "refinement"
 MOVED = 0.02
 
 
-def names_of(case: DesignCase, start: Figures) -> tuple[str, ...]:
-    """Names of the figures that are kept: of objectives and constraints, then all others.
-
-    Parameters
-    ----------
-    start : figures of the base scenario's cases
-    """
+def names_of(case: DesignCase, start: Results) -> tuple[str, ...]:
+    """Names of the quantities that are kept: of objectives and constraints, of the start, then all others."""
     of_start = (name for of in start if not isinstance(of, str) for name in of)
-    known = known_units(case)
-    return tuple(dict.fromkeys((*case.figures, *of_start, *known)))
+    return tuple(dict.fromkeys((*case.quantities, *of_start, *_known_units(case))))
 
 
-def known_units(case: DesignCase) -> dict[str, str]:
-    """SI units of all figures by name."""
+def _known_units(case: DesignCase) -> dict[str, str]:
+    """SI units of all quantities by name."""
     return units_by_figure({name: study_of(data) for name, data in case.scenarios.items()})
 
 
-def objective_units(case: DesignCase, objective: Objective) -> str:
-    """SI unit of an objective; "1" of a sum of relative figures."""
-    units = known_units(case)
-    return "1" if objective.relative else units.get(objective.terms[0][0], "1")
+def _units(case: DesignCase, objective: Objective) -> str:
+    """SI unit of an objective; "1" of a sum of relative quantities."""
+    return "1" if objective.relative else _known_units(case).get(objective.terms[0][0], "1")
 
 
 def layout_of(case: DesignCase) -> Layout:
     """The layout of a search's record."""
-    along = ("evaluation",)
+
+    def along(about: str, units: str = "1", *others: str) -> Variable:
+        return Variable(("evaluation", *others), units, about)
+
     samples: dict[str, Variable] = {}
     for free in case.free:
         about = f"free key {', '.join(free.keys)}"
         if free.choices:
             about += f": number of the choice of {', '.join(map(str, free.choices))}"
-        samples[f"free_{free.name}"] = Variable(along, free.units, about)
+        samples[f"free_{free.name}"] = along(about, free.units)
     for name, objective in zip(OBJECTIVES, case.objectives, strict=False):
         about = f"objective: {objective.name.removeprefix('-')}"
-        samples[name] = Variable(along, objective_units(case, objective), about)
-    units = objective_units(case, case.objectives[0])
-    samples["objective_at_duty"] = Variable((*along, "duty"), units, "first objective at each duty")
+        samples[name] = along(about, _units(case, objective))
+    units = _units(case, case.objectives[0])
+    samples["objective_at_duty"] = along("first objective at each duty", units, "duty")
     if case.constraints:
         about = "how far the constraint holds, over its limit; negative where it does not"
-        samples["margin"] = Variable((*along, "constraint"), "1", about)
-    samples["case_figures"] = Variable(
-        (*along, "case", "figure"), "1", "figures of every duty and sample, SI"
-    )
+        samples["margin"] = along(about, "1", "constraint")
+    samples["case_figures"] = along("figures of every duty and sample, SI", "1", "case", "figure")
     if shapes_gears(case):
-        about = "least distance of the gears from the limits of their existence, in modules"
-        samples["shape"] = Variable(along, "1", about)
-    about = "resolution over that of the scenario: 1 in the search, more in its last stage"
-    samples[REFINEMENT] = Variable(along, "1", about)
-    samples["feasible"] = flag(along, "whether all constraints hold", "not_judged no yes")
-    samples["message"] = Variable(along, "1", "why a candidate has no figures", f"S{MESSAGE}", b"")
+        samples["shape"] = along("least distance of the gears from the limits of their existence, in modules")
+    samples[REFINEMENT] = along(
+        "resolution over that of the scenario: 1 in the search, more in its last stage"
+    )
+    samples["feasible"] = flag(("evaluation",), "whether all constraints hold", "not_judged no yes")
+    samples["message"] = along("why a candidate has no figures")._replace(dtype=f"S{MESSAGE}", fill=b"")
     scales = {
-        "duty": Variable(("duty",), "1", "number of the duty"),
-        "constraint": Variable(("constraint",), "1", "number of the constraint"),
-        "case": Variable(("case",), "1", "number of the case: samples run within duties"),
-        "level": Variable(("level",), "1", "resolutions over that of the scenario"),
-        "figure": Variable(("figure",), "1", "figures: those of objectives and constraints, then others"),
-        "moved": Variable(
-            ("moved",), "1", "number of a free key, and behind them of a tolerance, moved about the best"
-        ),
+        "duty": "number of the duty",
+        "constraint": "number of the constraint",
+        "case": "number of the case: samples run within duties",
+        "level": "resolutions over that of the scenario",
+        "figure": "figures: those of objectives and constraints, then others",
+        "moved": "number of a free key, and behind them of a tolerance, moved about the best",
     }
+    about = "figures of every duty and sample at the start, as in case_figures, on the resolutions asked for"
+    lower = "first objective with one key moved down about the best, the others kept"
+    upper = "first objective with one key moved up about the best"
     others = {
-        START_FIGURES: Variable(
-            ("level", "case", "figure"),
-            "1",
-            "figures of every duty and sample at the start, as in case_figures, on the resolutions asked for",
-        ),
-        LOWER: Variable(
-            ("moved",), units, "first objective with one key moved down about the best, the others kept"
-        ),
-        UPPER: Variable(("moved",), units, "first objective with one key moved up about the best"),
+        START_FIGURES: Variable(("level", "case", "figure"), "1", about),
+        LOWER: Variable(("moved",), units, lower),
+        UPPER: Variable(("moved",), units, upper),
     }
-    return Layout(EVALUATION, samples, scales, others)
+    return Layout(
+        Variable(("evaluation",), "1", "number of the evaluation"),
+        samples,
+        {name: Variable((name,), "1", text) for name, text in scales.items()},
+        others,
+    )
 
 
 def searched(record: Record) -> np.ndarray:
@@ -120,30 +113,28 @@ def scales_of(case: DesignCase, names: Sequence[str]) -> dict[str, np.ndarray]:
     return scales | ({"constraint": np.arange(len(case.constraints))} if case.constraints else {})
 
 
-def rows_of(case: DesignCase, names: Sequence[str], some: Sequence[Candidate], start: int) -> dict[str, Any]:
-    """Rows of the record for evaluations, the first of which has the number `start`."""
-    numbers = np.array([candidate.numbers for candidate in some], dtype=float)
-    numbers = numbers.reshape(len(some), len(case.free))
-    scores = [candidate.score for candidate in some]
-    rows: dict[str, Any] = {"evaluation": np.arange(start, start + len(some), dtype=float)}
-    for place, free in enumerate(case.free):
-        rows[f"free_{free.name}"] = numbers[:, place]
-    for place, name in enumerate(OBJECTIVES[: len(case.objectives)]):
-        rows[name] = np.array([score.objectives[place] for score in scores])
-    rows["objective_at_duty"] = np.array([score.by_duty for score in scores])
+def row_of(case: DesignCase, names: Sequence[str], candidate: Candidate, number: int) -> dict[str, Any]:
+    """The row of the record for an evaluation."""
+    score = candidate.score
+    row: dict[str, Any] = {
+        "evaluation": float(number),
+        "objective_at_duty": score.by_duty,
+        "case_figures": numbers_of_cases(names, candidate.found),
+        REFINEMENT: float(candidate.factor),
+        "feasible": float(score.feasible),
+        "message": np.array(_cut(score.message), dtype=f"S{MESSAGE}"),
+    }
+    row |= {f"free_{free.name}": value for free, value in zip(case.free, candidate.numbers, strict=True)}
+    row |= zip(OBJECTIVES, score.objectives, strict=False)
     if case.constraints:
-        rows["margin"] = np.array([score.margins for score in scores])
-    rows["case_figures"] = np.array([figure_rows(names, candidate.found) for candidate in some])
+        row["margin"] = score.margins
     if shapes_gears(case):
-        rows["shape"] = np.array([np.nan if score.shape is None else score.shape for score in scores])
-    rows[REFINEMENT] = np.array([float(candidate.factor) for candidate in some])
-    rows["feasible"] = np.array([float(score.feasible) for score in scores])
-    rows["message"] = np.array([_cut(score.message) for score in scores], dtype=f"S{MESSAGE}")
-    return rows
+        row["shape"] = np.nan if score.shape is None else score.shape
+    return {name: np.array([values]) for name, values in row.items()}
 
 
-def figure_rows(names: Sequence[str], found: Figures) -> np.ndarray:
-    """Figures of cases as numbers, (case, figure); NaN where there is none."""
+def numbers_of_cases(names: Sequence[str], found: Results) -> np.ndarray:
+    """Quantities of cases as numbers, (case, quantity); NaN where there is none."""
     return np.array(
         [[np.nan if isinstance(of, str) else of.get(name, np.nan) for name in names] for of in found]
     )
@@ -157,20 +148,25 @@ def _cut(text: str) -> bytes:
 def unfinished_in(case: DesignCase, record: Record) -> Unfinished:
     """Read what a record of the same search holds."""
     names = [str(name) for name in record["figure"]]
+
+    def quantities(numbers: Sequence[float]) -> dict[str, float]:
+        pairs = zip(names, map(float, numbers), strict=True)
+        return {name: number for name, number in pairs if not np.isnan(number)}
+
     columns = [record[f"free_{free.name}"] for free in case.free]
-    known: dict[int, list[tuple[Overrides, Figures]]] = {}
+    known: dict[int, list[tuple[Overrides, Results]]] = {}
     for row, (cases, message) in enumerate(zip(record["case_figures"], record["message"], strict=True)):
-        values: Overrides = {}
-        for free, column in zip(case.free, columns, strict=True):
-            values |= dict.fromkeys(free.keys, _value(free, float(column[row])))
-        found: Figures = [_figures_in(names, numbers) or str(message) for numbers in cases]
-        if not any(isinstance(of, str) and not of for of in found):
+        found: Results = [quantities(numbers) or str(message) for numbers in cases]
+        if all(found):
+            values: Overrides = {}
+            for free, column in zip(case.free, columns, strict=True):
+                values |= dict.fromkeys(free.keys, _value(free, float(column[row])))
             known.setdefault(int(record[REFINEMENT][row]), []).append((values, found))
-    start: dict[int, Figures] = {}
+    start: dict[int, Results] = {}
     for factor, cases in zip(record["level"], record[START_FIGURES], strict=True):
-        of_start = [of for numbers in cases if (of := _figures_in(names, numbers))]
-        if len(of_start) == len(cases):
-            start[int(factor)] = list(of_start)
+        of_start: Results = [quantities(numbers) for numbers in cases]
+        if all(of_start):
+            start[int(factor)] = of_start
     moved = {
         (place, name): float(value)
         for name in (LOWER, UPPER)
@@ -185,9 +181,3 @@ def _value(free: Free, number: float) -> object:
     if free.choices:
         return free.choices[int(number)]
     return value_at(free, (number / free.si - free.low) / (free.high - free.low))
-
-
-def _figures_in(names: Sequence[str], numbers: Sequence[float]) -> dict[str, float] | None:
-    if np.all(np.isnan(numbers)):
-        return None
-    return {name: float(value) for name, value in zip(names, numbers, strict=True) if not np.isnan(value)}

@@ -56,7 +56,7 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force:
 
 
 def headline(case: DesignCase, archive: Archive, searched: Archive | None = None) -> dict[str, Any]:
-    """Figures of the summary that say what was found: at the start and at the best.
+    """Quantities of the summary that say what was found: at the start and at the best.
 
     They are those of an archive; what was evaluated is that of the one that was searched, if it is another.
     """
@@ -96,7 +96,7 @@ def headline(case: DesignCase, archive: Archive, searched: Archive | None = None
         summary["constraints_start"] = scoring.constrained(scoring.start)
         summary["constraints_best"] = scoring.constrained(best.found)
     summary["figures_start"] = dict(scoring.at_start)
-    summary["figures_best"] = dict(best.score.figures)
+    summary["figures_best"] = dict(best.score.quantities)
     if len(case.objectives) > 1:
         points = archive.front()
         summary["front"] = {

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from itertools import product
 from math import isfinite
 from typing import Any, NamedTuple
 
@@ -28,10 +29,10 @@ from tribodyn.studies.design.case import (
     apart,
     flat,
     naming_key,
+    unit_of,
 )
 from tribodyn.studies.protocol.study import Study
 
-_NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*?)?\s*$", re.ASCII)
 _CONSTRAINT = re.compile(r"\s*([A-Za-z][\w.-]*)\s*(<=|>=|≤|≥|<|>)\s*(\S.*?)\s*$")
 
 
@@ -111,21 +112,20 @@ def _free(place: str, table: Any, sources: Sources) -> Free:
             raise InputError(f"{place}.{name}", None, "missing", f'add {name} = "…" with its unit')
     kind = kind_at(schema, key)
     kind = kind if isinstance(kind, Kind) else None
-    numbers = [_number(f"{place}.{name}", value, kind) for name, value in (("from", low), ("to", high))]
-    (first, _, units), (last, unit, other) = numbers
-    if units != other:
-        raise InputError(
-            f"{place}.to", quoted(high), f"not of the same kind as {quoted(low)}", "use one unit"
-        )
-    if first >= last:
-        rule = "the bounds are reversed" if first > last else "the bounds are equal: nothing is free"
+    first, last = _number(f"{place}.from", low, kind), _number(f"{place}.to", high, kind)
+    if first.units != last.units:
+        rule = f"not of the same kind as {quoted(low)}"
+        raise InputError(f"{place}.to", quoted(high), rule, "use one unit")
+    if first.value >= last.value:
+        is_more = first.value > last.value
+        rule = "the bounds are reversed" if is_more else "the bounds are equal: nothing is free"
         raise InputError(place, f"{quoted(low)} … {quoted(high)}", rule, "let from be less than to")
     _require(f"{place}.to", keys, (high, low), sources)
-    si = _factor(unit, kind)
     whole = is_whole(schema, key)
     if whole and not all(isinstance(value, int) for value in (low, high)):
         raise InputError(place, f"{quoted(low)} … {quoted(high)}", "not whole numbers", "write such as 17")
-    return Free(tuple(keys), "", first / si, last / si, unit, si, units, whole)
+    low, high = first.value / last.si, last.value / last.si
+    return Free(tuple(keys), "", low, high, last.unit, last.si, last.units, whole)
 
 
 def _varied(place: str, key: str, sources: Sources) -> None:
@@ -145,36 +145,33 @@ def _require(place: str, keys: Sequence[str], values: Sequence[Any], sources: So
             raise first
 
 
-def _number(place: str, value: Any, kind: Kind | None) -> tuple[float, str, str]:
-    """Number in SI, unit as written, SI unit."""
+class _Number(NamedTuple):
+    """A number as it is written."""
+
+    value: float  # SI
+    unit: str = ""  # as it is written
+    units: str = "1"  # SI unit
+    si: float = 1.0  # factor from the one unit to the other
+
+
+def _number(place: str, value: Any, kind: Kind | None) -> _Number:
     if kind is not None:
         try:
-            found = to_si(value, kind), _unit_of(value), kind.si.replace("**", "")
+            number, unit = to_si(value, kind), unit_of(value) or ""
         except NotAQuantity as error:
             raise InputError(place, quoted(value), error.rule, error.remedy) from None
+        found = _Number(number, unit, kind.si.replace("**", ""), factor_to_si(unit, kind) if unit else 1.0)
     elif isinstance(value, (int, float)) and not isinstance(value, bool):
-        found = float(value), "", "1"
+        found = _Number(float(value))
     elif (base := base_units(value)) is not None:
-        found = base[0], _unit_of(str(value)), base[1]
+        unit = unit_of(str(value)) or ""
+        one = base_units(f"1 {unit}")
+        found = _Number(base[0], unit, base[1], one[0] if one else 1.0)
     else:
         raise InputError(place, quoted(value), "neither a number nor a quantity", 'write 0.3 or "3 mm"')
-    if not isfinite(found[0]):
+    if not isfinite(found.value):
         raise InputError(place, quoted(value), "not a finite number", 'write such as 0.3 or "3 mm"')
     return found
-
-
-def _unit_of(value: str) -> str:
-    match = _NUMBER_AND_UNIT.match(value)
-    return (match[2] or "") if match else ""
-
-
-def _factor(unit: str, kind: Kind | None) -> float:
-    if not unit:
-        return 1.0
-    if kind is not None:
-        return factor_to_si(unit, kind)
-    base = base_units(f"1 {unit}")
-    return base[0] if base else 1.0
 
 
 def _twice(free: Sequence[Free]) -> list[InputError]:
@@ -259,16 +256,19 @@ def _constraint(place: str, text: str, studies: Mapping[str, Study]) -> Constrai
 
 
 def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
-    errors = []
-    for lower in constraints:
-        for upper in constraints:
-            if lower.figure != upper.figure or lower.sign > 0 or upper.sign < 0:
-                continue
-            if isinstance(lower.limit, str) or isinstance(upper.limit, str) or lower.limit <= upper.limit:
-                continue
-            rule = f"contradict each other: {quoted(lower.text)} and {quoted(upper.text)}"
-            errors.append(InputError("design.subject_to", None, rule, "remove one, or move its limit"))
-    return errors
+    numbers = [constraint for constraint in constraints if not isinstance(constraint.limit, str)]
+    return [
+        InputError(
+            "design.subject_to",
+            None,
+            f"contradict each other: {quoted(lower.text)} and {quoted(upper.text)}",
+            "remove one, or move its limit",
+        )
+        for lower, upper in product(numbers, numbers)
+        if lower.quantity == upper.quantity
+        and lower.sign < 0 < upper.sign
+        and float(lower.limit) > float(upper.limit)
+    ]
 
 
 def _duty(place: str, table: Any, free: Sequence[Free], sources: Sources) -> WeightedDuty:
@@ -295,10 +295,9 @@ def _tolerance(place: str, table: Any, sources: Sources) -> Tolerance:
     is_curve = table.key.endswith((PITCH_ERRORS, PROFILE_ERROR))
     if kind is None and not is_curve:
         _require(f"{place}.key", (table.key,), (table.plus_minus,), sources)
-    size, unit, units = _number(f"{place}.plus_minus", table.plus_minus, kind)
-    written = quoted(table.plus_minus)
-    if is_curve and units != "m":
+    size, written = _number(f"{place}.plus_minus", table.plus_minus, kind), quoted(table.plus_minus)
+    if is_curve and size.units != "m":
         raise InputError(f"{place}.plus_minus", written, "not a length", "write such as 3 um")
-    if size <= 0:
+    if size.value <= 0:
         raise InputError(f"{place}.plus_minus", written, "not positive", "write such as 1 um")
-    return Tolerance(table.key, "", size / _factor(unit, kind), unit, table.distribution)
+    return Tolerance(table.key, "", size.value / size.si, size.unit, table.distribution)

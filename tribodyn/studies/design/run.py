@@ -28,8 +28,8 @@ from tribodyn.studies.design.candidates.evaluation import (
     Answer,
     Cluster,
     Evaluators,
-    Figures,
     Pool,
+    Results,
     workers_for,
 )
 from tribodyn.studies.design.candidates.scoring import SLACK
@@ -40,10 +40,10 @@ from tribodyn.studies.design.layout import (
     MOVED,
     START_FIGURES,
     UPPER,
-    figure_rows,
     layout_of,
     names_of,
-    rows_of,
+    numbers_of_cases,
+    row_of,
     scales_of,
     unfinished_in,
 )
@@ -127,19 +127,20 @@ def run(
         record = stack.enter_context(writer(case, path, layout_of(case), room, **how))
 
         def keep(candidate: Candidate) -> None:
-            record.write(record.written, rows_of(case, names, [candidate], record.written))
+            record.write(record.written, row_of(case, names, candidate, record.written))
             if progress:
                 progress(min(1.0, record.written / case.search.evaluations))
 
         @cache
         def at(factor: int) -> Archive:
             archive = Archive(case, pool, keep, factor, before)
-            record.put(FACTORS.index(factor), {START_FIGURES: figure_rows(names, archive.scoring.start)})
+            record.put(FACTORS.index(factor), {START_FIGURES: numbers_of_cases(names, archive.scoring.start)})
             return archive
 
         archive = at(1)
         for factor in sorted(before.known):
-            record.write(record.written, rows_of(case, names, at(factor).recorded, record.written))
+            for candidate in at(factor).recorded:
+                keep(candidate)
 
         def so_far(**more: Any) -> dict[str, Any]:
             where = {"method": name, "method_reason": reason, "engine": pool.name, "workers": pool.workers}
@@ -257,7 +258,7 @@ def _about(
         changed[place] = np.clip(changed[place] + side * MOVED, 0.0, 1.0)
         return archive.found_of(chosen(case, changed))
 
-    def objective(found: Figures) -> float:
+    def objective(found: Results) -> float:
         return archive.scoring.score(found).objectives[0]
 
     places = range(keys + len(case.tolerances)) if case.sensitivities else ()

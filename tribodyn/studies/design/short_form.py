@@ -9,12 +9,12 @@ from typing import Any
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.resolve import resolve_table, toml_value
 from tribodyn.scenario.sources import find_scenario, read_toml
+from tribodyn.studies.design.case import unit_of
 from tribodyn.studies.protocol.load import Loaded, loaded_from, table_of
 from tribodyn.studies.protocol.study import CaseHead
 
 KIND = "design"
 FREE = "--free"
-_UNIT = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(\S.*?)?\s*$", re.ASCII)
 
 
 def entries(free: Mapping[str, Any] | Sequence[Any]) -> list[Any]:
@@ -60,19 +60,17 @@ def free_of(option: str) -> dict[str, Any]:
     named: dict[str, Any] = {"key": keys if len(keys) > 1 else keys[0]}
     if ":" in text:
         low, _, high = text.partition(":")
-        match, own = _UNIT.match(high), _UNIT.match(low)
-        if match is None or own is None:
+        unit, own = unit_of(high), unit_of(low)
+        if unit is None or own is None:
             raise _refusal(option)
-        unit = match[1] or ""
-        if unit and not own[1]:
+        if unit and not own:
             low = f"{low.strip()} {unit}"
         return {**named, "from": toml_value(low.strip()), "to": toml_value(high.strip())}
     values = [value.strip() for value in text.split(",")]
     if len(values) < 2 or not all(values):
         raise _refusal(option)
-    match = _UNIT.match(values[-1])
-    if match and match[1]:
-        values = [f"{value} {match[1]}" if re.fullmatch(r"[\d.eE+-]+", value) else value for value in values]
+    if unit := unit_of(values[-1]):
+        values = [f"{value} {unit}" if re.fullmatch(r"[\d.eE+-]+", value) else value for value in values]
     return {**named, "choices": [toml_value(value) for value in values]}
 
 

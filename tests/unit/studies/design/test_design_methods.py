@@ -87,7 +87,7 @@ def test_a_minimum_on_a_constraint(method: str):
     archive, _ = search(formulas, method=method, evaluations=400, subject_to=[f"{G} >= 3.0"])
     best = archive.best()
     assert best is not None
-    assert best.score.figures[G] >= 3.0 - 1e-8
+    assert best.score.quantities[G] >= 3.0 - 1e-8
     np.testing.assert_allclose(values_of(best), [0.5, 0.5], atol=0.06)
     assert best.score.objectives[0] == pytest.approx(1.5, abs=0.02)
 

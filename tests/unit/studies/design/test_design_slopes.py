@@ -8,7 +8,7 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate
-from tribodyn.studies.design.candidates.scoring import Derivatives, Scoring, margin_slope, objective_slope
+from tribodyn.studies.design.candidates.scoring import Derivatives, Scoring
 from tribodyn.studies.design.short_form import loaded_search
 
 F, G = "efficiency", "contact_ratio"
@@ -43,11 +43,11 @@ def test_the_chain_rule(over: str, over_duties: str, weighted: bool):
     slopes: Any = [[{F: LINEAR[0, i, j, 1:], G: LINEAR[1, i, j, 1:]} for j in range(3)] for i in range(2)]
     around = [(scoring.score(figures(x + e)), scoring.score(figures(x - e))) for e in step * np.eye(2)]
     expected = [(up.objectives[0] - down.objectives[0]) / (2 * step) for up, down in around]
-    found = objective_slope(scoring, case.objectives[0], figures(x), slopes)
+    found = scoring.objective_slope(case.objectives[0], figures(x), slopes)
     np.testing.assert_allclose(found, expected, rtol=1e-6)
     for place, one in enumerate(case.constraints):
         expected = [(up.margins[place] - down.margins[place]) / (2 * step) for up, down in around]
-        np.testing.assert_allclose(margin_slope(scoring, one, figures(x), slopes), expected, rtol=1e-6)
+        np.testing.assert_allclose(scoring.margin_slope(one, figures(x), slopes), expected, rtol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -79,12 +79,12 @@ def test_jax_agrees_with_differences(scenario: str):
     scoring, x, step = Scoring(case, evaluate(case.scenarios, cases_of(case, {}))), np.array([0.5, 0.4]), 2e-3
     slopes = Derivatives(case).at(x)
     around = [(scoring.score(found(x + e)), scoring.score(found(x - e))) for e in step * np.eye(2)]
-    value = objective_slope(scoring, case.objectives[0], found(x), slopes)
+    value = scoring.objective_slope(case.objectives[0], found(x), slopes)
     np.testing.assert_allclose(
         value, [(up.objectives[0] - down.objectives[0]) / (2 * step) for up, down in around], rtol=1e-2
     )
     for place, one in enumerate(case.constraints):
-        margin = margin_slope(scoring, one, found(x), slopes)
+        margin = scoring.margin_slope(one, found(x), slopes)
         expected = [(up.margins[place] - down.margins[place]) / (2 * step) for up, down in around]
         # samples do not meet the narrow peak of a cycloid's pressure at the pitch point to the last digit
         np.testing.assert_allclose(margin, expected, rtol=1e-3, atol=5e-3, err_msg=one.text)

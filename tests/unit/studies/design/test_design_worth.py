@@ -91,7 +91,7 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
     first -= 1.3 * figure(FOUND, "b", -1.0) / figure(START, "b", 1.0)
     assert found.objectives == pytest.approx((first, -2.0 * figure(FOUND, "c", -1.0)))
     assert found.by_duty == pytest.approx([first_at(one) for one in FOUND])
-    assert found.figures == pytest.approx({name: figure(FOUND, name, 1.0) for name in NAMES})
+    assert found.quantities == pytest.approx({name: figure(FOUND, name, 1.0) for name in NAMES})
     assert scoring.at_start == pytest.approx({name: figure(START, name, 1.0) for name in NAMES})
 
     def worst(values: np.ndarray, name: str, sign: float) -> float:

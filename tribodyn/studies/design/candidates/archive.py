@@ -13,7 +13,7 @@ from tribodyn.studies.design.candidates.candidates import Overrides, cases_of, c
 from tribodyn.studies.design.candidates.evaluation import (
     Answer,
     Evaluators,
-    Figures,
+    Results,
     distance_from_limits,
     loaded_source,
 )
@@ -33,7 +33,7 @@ class Candidate(NamedTuple):
 
     values: Overrides  # of the free keys, as TOML has them
     numbers: tuple[float, ...]  # (free,), the same as the record has them
-    found: Figures  # quantities of its cases
+    found: Results  # quantities of its cases
     score: Score
     factor: int = 1  # its resolution over that of the scenario
 
@@ -42,9 +42,9 @@ class Unfinished(NamedTuple):
     """What an unfinished search has in its record; the first two by their factor, one of `FACTORS`."""
 
     #: values and quantities of candidates, in their order
-    known: Mapping[int, Sequence[tuple[Overrides, Figures]]] = MappingProxyType({})
+    known: Mapping[int, Sequence[tuple[Overrides, Results]]] = MappingProxyType({})
     #: quantities of the base scenario's cases; none where they have to be evaluated
-    start: Mapping[int, Figures] = MappingProxyType({})
+    start: Mapping[int, Results] = MappingProxyType({})
     moved: Moved = MappingProxyType({})
 
 
@@ -117,7 +117,7 @@ class Archive:
         """Quantities of the cases of any candidate, evaluated if they are not known."""
         name = identity(values)
         if known := self._requested.get(name) or self._recorded.get(name):
-            ready: Future[Figures] = Future()
+            ready: Future[Results] = Future()
             ready.set_result(known.found)
             return ready
         return self._pool.submit(cases_of(self.case, values, self.more))
@@ -152,7 +152,7 @@ class Archive:
         some = [candidate for candidate in self.evaluations if not candidate.score.message]
         return min(some, key=lambda candidate: candidate.score.violation, default=None)
 
-    def _candidate(self, values: Overrides, found: Figures) -> Candidate:
+    def _candidate(self, values: Overrides, found: Results) -> Candidate:
         numbers = tuple(number_of(free, values[free.keys[0]]) for free in self.case.free)
         score = self.scoring.score(found, self.shape_of(values))
         return Candidate(values, numbers, found, score, self.factor)

@@ -35,7 +35,7 @@ FILE = Path("scenario")
 #: Evaluations that a process of its own is worth.
 WORTH = 24
 
-Figures = list[dict[str, Any] | str]
+Results = list[dict[str, Any] | str]
 """Quantities of cases by name; a text instead where one has none: why."""
 
 
@@ -61,7 +61,7 @@ def evaluate(
     scenarios: Mapping[str, Mapping[str, Any]],
     several: Sequence[Mapping[str, Any]],
     workers: int | None = None,
-) -> Figures:
+) -> Results:
     """Quantities of cases, numbers alone; a text instead where one fails: why.
 
     Parameters
@@ -70,7 +70,7 @@ def evaluate(
     several : overrides of each case
     workers : threads of a study that evaluates cases together
     """
-    found: Figures = [{} for _ in several]
+    found: Results = [{} for _ in several]
     for name, data in scenarios.items():
         schema = study_of(data).table(data)
         requests = [own(name, schema, overrides, scenarios) for overrides in several]
@@ -90,7 +90,7 @@ def _with(known: dict[str, Any] | str, name: str, more: dict[str, Any] | str) ->
     return known | {f"{name}.{figure}" if name else figure: value for figure, value in more.items()}
 
 
-def _figures(data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None) -> Figures:
+def _figures(data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None) -> Results:
     """Quantities of cases of one scenario."""
     cases: list[Any] = []
     for overrides in several:
@@ -168,11 +168,11 @@ class Pool:
         for process in self._processes.values():
             child.end(process)
 
-    def submit(self, several: Sequence[Mapping[str, Any]]) -> "Future[Figures]":
+    def submit(self, several: Sequence[Mapping[str, Any]]) -> "Future[Results]":
         """Evaluate cases by their overrides, as `evaluate` does."""
         return self._threads.submit(self._evaluate, list(several))
 
-    def _evaluate(self, several: list[Mapping[str, Any]]) -> Figures:
+    def _evaluate(self, several: list[Mapping[str, Any]]) -> Results:
         seat = self._seats.get()
         try:
             if seat == 0:
@@ -237,7 +237,7 @@ class _Answer(NamedTuple):
 
     sent: Any
 
-    def result(self) -> Figures:
+    def result(self) -> Results:
         try:
             return self.sent.result()
         except Exception as error:
@@ -245,5 +245,5 @@ class _Answer(NamedTuple):
 
 
 Evaluators = Pool | Cluster
-Answer = Future[Figures] | _Answer
+Answer = Future[Results] | _Answer
 """What they give: it has the quantities of the cases as its ``result()``."""

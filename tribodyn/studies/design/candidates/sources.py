@@ -1,6 +1,6 @@
 """What a search evaluates: the scenario that is searched through, and further ones, its parts, on its drive.
 
-Sources go by name; that of the scenario itself is "". Figures and keys of a part begin with its name:
+Sources go by name; that of the scenario itself is "". Results and keys of a part begin with its name:
 ``efficiency.loss``, ``efficiency.operating.pinion_speed``.
 """
 

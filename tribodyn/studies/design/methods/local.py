@@ -15,12 +15,10 @@ from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.candidates.candidates import chosen, shares_of
 from tribodyn.studies.design.candidates.scoring import (
-    NO_FIGURES,
+    NO_QUANTITIES,
     SLACK,
     Derivatives,
     Score,
-    margin_slope,
-    objective_slope,
 )
 from tribodyn.studies.design.case import DesignCase
 
@@ -64,7 +62,7 @@ class Scalar:
 
         Those of a candidate without quantities are the distance of its shape, if that is known.
         """
-        unknown = -NO_FIGURES if score.shape is None else min(score.shape, 0.0)
+        unknown = -NO_QUANTITIES if score.shape is None else min(score.shape, 0.0)
         margins = [unknown if score.message else margin for margin in score.margins]
         if score.shape is not None:
             margins.append(score.shape)
@@ -214,7 +212,7 @@ def derivatives_of(case: DesignCase) -> Derivatives | None:
 
 def slopes_of(view: Scalar) -> Callable[[tuple[float, ...]], tuple[np.ndarray, np.ndarray]]:
     """Slopes of value and of margins: through JAX, or by differences whose candidates are side by side."""
-    archive, case = view.archive, view.archive.case
+    archive, case, scoring = view.archive, view.archive.case, view.archive.scoring
     derivatives = derivatives_of(case)
 
     @lru_cache(maxsize=1)  # minimisers ask for one after the other
@@ -229,8 +227,8 @@ def slopes_of(view: Scalar) -> Callable[[tuple[float, ...]], tuple[np.ndarray, n
             at_middle = np.array(view.margins(middle))
             return value, np.array([np.array(view.margins(other)) - at_middle for other in others]).T / steps
         found, by_case = archive.found_of(chosen(case, shares)).result(), derivatives.at(shares)
-        value = objective_slope(archive.scoring, case.objectives[0], found, by_case) / view.scales[0]
-        margins = [margin_slope(archive.scoring, limit, found, by_case) for limit in case.constraints]
+        value = scoring.objective_slope(case.objectives[0], found, by_case) / view.scales[0]
+        margins = [scoring.margin_slope(limit, found, by_case) for limit in case.constraints]
         if middle.shape is not None:
             shapes = [archive.shape_of(chosen(case, share)) or 0.0 for share in around]
             margins.append(np.array([shape - middle.shape for shape in shapes]) / steps)
