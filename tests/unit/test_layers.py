@@ -38,6 +38,7 @@ MAY_IMPORT["derivatives"] = {
     "compliance",
     "mesh",
     "solve",
+    "quantities",
     "scenario",
 }
 MAY_IMPORT["studies"] = set(MAY_IMPORT) - {"studies"}

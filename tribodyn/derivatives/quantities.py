@@ -12,7 +12,7 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
-from tribodyn.geometry.limits.limits import LIMITS, distances
+from tribodyn.geometry.limits.limits import distances
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
@@ -20,6 +20,7 @@ from tribodyn.mesh.power_flow import friction_loss, mean_efficiency
 from tribodyn.mesh.quasi_static import QuasiStatic, cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import tabulate
 from tribodyn.numerics.elementary import absolute, cos, minimum, namespace
+from tribodyn.quantities.motion import LIMITS
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.tribology.surface_state import SurfaceState
@@ -228,7 +229,8 @@ QUANTITIES: dict[str, Differentiated] = {
         "maximum flash temperature rise", "K", _largest("flash_temperature_rise"), _RUBBING
     ),
 } | {
-    name: Differentiated(limit.about, limit.unit, _limit(name), limit=True) for name, limit in LIMITS.items()
+    limit.name: Differentiated(limit.definition.rstrip("."), limit.si, _limit(limit.name), limit=True)
+    for limit in LIMITS
 }
 
 

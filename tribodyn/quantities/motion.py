@@ -86,4 +86,24 @@ MOTION = (
         "Share of the samples in which no pair carries load."
     ),
 )
-QUANTITIES = (*GEOMETRY, *MOTION)
+_OF_A_GEAR = {
+    "undercut": "Minimum speed of the contact along the working flank per speed of the pinion: zero at a "
+    "singular point, where the flank ends",
+    "interference": "Depth of the flank below the lowest contact, from the form circle on",
+    "tip_corner": "Gap between the fillet and the corner of the mate's tip, at most a module",
+    "tip_thickness": "Tooth thickness on the tip circle",
+    "clearance": "From the tip circle to the mate's root circle",
+    "rack_tip": "Half width left at the tip of the rack between its rounded corners",
+}
+#: Distances from the limits of existence, positive where gears exist, see `geometry.limits.limits`.
+LIMITS = (
+    *(
+        Quantity(f"{name}_{side}", f"{name.capitalize().replace('_', ' ')}, {side}", "mm").defined_as(
+            f"{about}, of the {side}."
+        )
+        for name, about in _OF_A_GEAR.items()
+        for side in ("pinion", "gear")
+    ),
+    Quantity("contact_ratio_above_1", "Contact ratio above 1").defined_as("Contact ratio less 1."),
+)
+QUANTITIES = (*GEOMETRY, *MOTION, *LIMITS)

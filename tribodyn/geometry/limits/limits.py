@@ -4,7 +4,7 @@
 continuous, and differentiable through JAX. A pair beyond the limits has distances too.
 """
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -20,28 +20,9 @@ _SAMPLES = 129
 _BLENDED = 1e-3
 
 
-class LimitOfExistence(NamedTuple):
-    """What a distance means, and its SI unit."""
-
-    about: str
-    unit: str
-
-
-_OF_BODY = {
-    "undercut": "minimum speed of the contact along the working flank per speed of the pinion: "
-    "zero at a singular point, where the flank ends",
-    "interference": "depth of the flank below the lowest contact, from the form circle on",
-    "tip_corner": "gap between the fillet and the corner of the mate's tip, at most a module",
-    "tip_thickness": "tooth thickness on the tip circle",
-    "clearance": "from the tip circle to the mate's root circle",
-    "rack_tip": "half width left at the tip of the rack between its rounded corners",
-}
-#: Name of every distance -> what it is.
-LIMITS: dict[str, LimitOfExistence] = {
-    f"{name}_{side}": LimitOfExistence(f"{about}, of the {side}", "m")
-    for name, about in _OF_BODY.items()
-    for side in SIDES
-} | {"contact_ratio_above_1": LimitOfExistence("contact ratio less 1", "1")}
+_OF_BODY = ("undercut", "interference", "tip_corner", "tip_thickness", "clearance", "rack_tip")
+#: Name of every distance -> its SI unit; what each is stands in the catalogue of quantities.
+LIMITS = {f"{name}_{side}": "m" for name in _OF_BODY for side in SIDES} | {"contact_ratio_above_1": "1"}
 
 
 def distances(assembly: Assembly) -> dict[str, Any]:
@@ -64,7 +45,7 @@ def plain_distances(assembly: Assembly) -> dict[str, float]:
     """Distances of a pair of plain numbers; `beyond` where one does not exist."""
     found = {name: float(value) for name, value in distances(assembly).items()}
     return {
-        name: value if np.isfinite(value) else beyond(LIMITS[name].unit, assembly.drive)
+        name: value if np.isfinite(value) else beyond(LIMITS[name], assembly.drive)
         for name, value in found.items()
     }
 

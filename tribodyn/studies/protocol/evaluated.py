@@ -8,8 +8,9 @@ import numpy as np
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.geometry.limits.limits import LIMITS, plain_distances
+from tribodyn.geometry.limits.limits import plain_distances
 from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities.motion import LIMITS
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, number
@@ -36,9 +37,7 @@ def evaluated_quantities(study: Study) -> dict[str, Quantity]:
         return found
     if study.has_gears:
         found.setdefault(CONTACT_RATIO, QUANTITIES[CONTACT_RATIO])
-        for name, limit in LIMITS.items():
-            shown = "mm" if limit.unit == "m" else ""
-            found[name] = Quantity(name, name.replace("_", " "), shown, definition=limit.about)
+        found |= {limit.name: limit for limit in LIMITS}
     if not study.batch():
         for heading, some in study.reported().items():
             for quantity in some if heading != "Solver" else ():

@@ -119,7 +119,7 @@ def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) 
     except InputError:
         return -1.0
     found, module = plain_distances(assemble(family(case.family), case.drive)), case.drive.module
-    return min(value / (module if LIMITS[name].unit == "m" else 1.0) for name, value in found.items())
+    return min(value / (module if LIMITS[name] == "m" else 1.0) for name, value in found.items())
 
 
 def numbers(figures: Mapping[str, Any]) -> dict[str, float]:
