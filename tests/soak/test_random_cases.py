@@ -3,8 +3,8 @@
 import pytest
 
 from tools.soak.cases import CASES, GROUP
-from tools.soak.kept import add, read, store
-from tools.soak.outcome import FAULTY, run_one
+from tools.soak.outcome import FAULTY, Outcome, run_one
+from tools.soak.outcomes import add, read, store
 
 #: The cases of `make soak` run group by group: what a stopped one has done is not done again.
 SEED = 1
@@ -12,25 +12,25 @@ SEED = 1
 SHORT_SEED, SHORT_CASES = 7, (1, 3, 5, 10, 11, 14)
 
 
-def said(one, options: str = "") -> str:
-    again = f"python -m tools.soak --seed {one.seed} --case {one.case}{options}"
-    return "\n    ".join([again, *one.faults])
+def written(found: Outcome, options: str = "") -> str:
+    again = f"python -m tools.soak --seed {found.seed} --case {found.case}{options}"
+    return "\n    ".join([again, *found.faults])
 
 
 @pytest.mark.parametrize("number", SHORT_CASES)
 def test_a_few_cases(number: int):
-    one = run_one(SHORT_SEED, number, short=True)
-    assert one.status != FAULTY, said(one, " --short")
+    found = run_one(SHORT_SEED, number, short=True)
+    assert found.status != FAULTY, written(found, " --short")
 
 
 @pytest.mark.soak
 @pytest.mark.parametrize("first", range(0, CASES, GROUP))
 def test_random_cases(first: int):
     path = store(SEED)
-    known = {one.case: one for one in read(path)}
+    known = {found.case: found for found in read(path)}
     for number in range(first, first + GROUP):
         if number not in known:
             known[number] = run_one(SEED, number)
             add(path, known[number])
     faulty = [known[number] for number in range(first, first + GROUP) if known[number].status == FAULTY]
-    assert not faulty, "\n".join(said(one) for one in faulty)
+    assert not faulty, "\n".join(map(written, faulty))

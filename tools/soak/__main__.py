@@ -9,10 +9,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from tools.marked_block import made_by, put
-from tools.soak import kept
+from tools.soak import outcomes
 from tools.soak.cases import CASES
 from tools.soak.outcome import FAULTY, Outcome, outcome, run_one
-from tools.soak.table import table
 
 
 def main() -> None:
@@ -24,42 +23,36 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="number of the first case")
     parser.add_argument("--count", type=int, default=CASES)
     parser.add_argument("--jobs", type=int, default=1, help="processes")
-    parser.add_argument(
-        "--short", action="store_true", help="only dynamics, few laws: quick on a new version"
-    )
-    parser.add_argument(
-        "--so-far", action="store_true", help="run nothing; the table of the outcomes there are"
-    )
+    parser.add_argument("--short", action="store_true", help="dynamics alone, few laws: quick to compile")
+    parser.add_argument("--so-far", action="store_true", help="run nothing; the table of what is done")
     parser.add_argument("--into", type=Path, help="page with the marked block for the table")
     given = parser.parse_args()
     if given.case is not None:
         sys.exit(_again(given.seed, given.case, given.keep, given.short))
-    store = kept.store(given.seed, given.short)
+    store = outcomes.store(given.seed, given.short)
     wanted = range(given.first, given.first + given.count)
-    known = {one.case: one for one in kept.read(store)}
+    known = {known.case: known for known in outcomes.read(store)}
     waiting = [] if given.so_far else [number for number in wanted if number not in known]
     done = sum(number in known for number in wanted)
     print(f"seed {given.seed}: {done} outcomes in {store}, {len(waiting)} to do", flush=True)
     with ProcessPoolExecutor(given.jobs, mp_context=get_context("spawn")) as pool:
         futures = [pool.submit(run_one, given.seed, number, given.short) for number in waiting]
         for done, future in enumerate(as_completed(futures), 1):
-            one = future.result()
-            kept.add(store, one)
-            known[one.case] = one
-            if one.status == FAULTY:
-                print(_said(one), flush=True)
+            found = future.result()
+            outcomes.add(store, found)
+            known[found.case] = found
+            if found.status == FAULTY:
+                print(_written(found), flush=True)
             if done % 50 == 0:
                 print(f"{done} of {len(waiting)}", flush=True)
-    outcomes = [known[number] for number in wanted if number in known]
-    spent = sum(one.seconds for one in outcomes) / 60
-    head = (
-        f"{len(outcomes)} of the {len(wanted)} cases of seed {given.seed}, {spent:.0f} minutes of one core:"
-    )
-    text = f"{made_by()} {head}\n\n{table(outcomes)}"
+    there = [known[number] for number in wanted if number in known]
+    minutes = f"{sum(case.seconds for case in there) / 60:.0f} minutes of one core"
+    head = f"{len(there)} of the {len(wanted)} cases of seed {given.seed}, {minutes}:"
+    text = f"{made_by()} {head}\n\n{outcomes.table(there)}"
     print(text)
     if given.into:
         put(given.into, "soak", text)
-    sys.exit(any(one.status == FAULTY for one in outcomes))
+    sys.exit(any(case.status == FAULTY for case in there))
 
 
 def _again(seed: int, number: int, keep: Path | None, short: bool) -> int:
@@ -68,15 +61,16 @@ def _again(seed: int, number: int, keep: Path | None, short: bool) -> int:
     with TemporaryDirectory() as scratch:
         folder = keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        one = outcome(seed, number, folder, short)
+        found = outcome(seed, number, folder, short)
         print((folder / "case.toml").read_text(encoding="utf-8"))
-    print(_said(one))
-    return int(one.status == FAULTY)
+    print(_written(found))
+    return int(found.status == FAULTY)
 
 
-def _said(one: Outcome) -> str:
-    head = f"seed {one.seed} case {one.case}: {one.sort} {one.family} {one.status} {one.reason}".rstrip()
-    return "\n".join([f"{head} ({one.seconds:.2g} s)", *(f"    {fault}" for fault in one.faults)])
+def _written(found: Outcome) -> str:
+    which = f"seed {found.seed} case {found.case}"
+    head = f"{which}: {found.sort} {found.family} {found.status} {found.reason}".rstrip()
+    return "\n".join([f"{head} ({found.seconds:.2g} s)", *(f"    {fault}" for fault in found.faults)])
 
 
 if __name__ == "__main__":

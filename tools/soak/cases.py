@@ -44,7 +44,7 @@ class Refused(NamedTuple):
 
 
 class SoakCase(NamedTuple):
-    """A case: what sort of one, its scenario, and the drives that were refused on the way to it."""
+    """A case: its sort, its scenario, and the drives that were refused on the way to it."""
 
     sort: str
     scenario: dict[str, Any]
@@ -52,15 +52,9 @@ class SoakCase(NamedTuple):
 
 
 def case(seed: int, number: int, folder: Path, short: bool = False) -> SoakCase:
-    """Make a case.
+    """Make a case; scenarios that are tried are written into the folder.
 
-    Parameters
-    ----------
-    seed, number : int
-    folder : Path
-        For scenarios that are tried.
-    short : bool
-        Only dynamics, under laws whose kernels other tests compile: for tests that have seconds.
+    In short: dynamics alone, under laws whose kernels other tests compile, for tests that have seconds.
     """
     draw = Draw(seed, number)
     sort = "gear-pair" if short else sort_of(number)
@@ -78,7 +72,7 @@ def sort_of(number: int) -> str:
     done = dict.fromkeys(SORTS, 0)
     sort = ""
     for group in range(1, number // GROUP % SHARES + 2):
-        sort = max(SORTS, key=lambda one: SORTS[one] * group - SHARES * done[one])
+        sort = max(SORTS, key=lambda name: SORTS[name] * group - SHARES * done[name])
         done[sort] += 1
     return sort
 

@@ -7,13 +7,7 @@ import numpy as np
 
 
 class Draw:
-    """Draws values of a case.
-
-    Parameters
-    ----------
-    words : int
-        Whatever the values are to follow from: a seed, the case's number.
-    """
+    """Draws values of a case, which follow from some numbers: a seed, the case's own."""
 
     def __init__(self, *words: int) -> None:
         self._random = np.random.default_rng(np.random.SeedSequence(words))
@@ -38,7 +32,7 @@ class Draw:
         """Return a whole number whose logarithm is uniform."""
         return round(np.exp(self._random.uniform(np.log(low), np.log(high))))
 
-    def one(self, choices: Sequence[Any], weights: Sequence[float] | None = None) -> Any:
+    def choice(self, choices: Sequence[Any], weights: Sequence[float] | None = None) -> Any:
         """Return one of several values; the weights need no sum of 1."""
         share = None if weights is None else np.array(weights) / np.sum(weights)
         return choices[int(self._random.choice(len(choices), p=share))]

@@ -72,7 +72,7 @@ def _shape(
     if family == "parabolic":
         return {"k1": draw.between(0.12, 0.45), "k2": draw.between(0.12, 0.45)}
     if family == "circular-arc":
-        sign = draw.one((1.0, 1.0, -1.0))
+        sign = draw.choice((1.0, 1.0, -1.0))
         diameters = (sign * draw.between(10.0, 90.0) * module for _ in range(2))
         keys = "approach_diameter", "recess_diameter"
         return {key: quantity(1e3 * one, "mm") for key, one in zip(keys, diameters, strict=True)}
@@ -109,7 +109,7 @@ def _points(module: float, angle: float, bend: float) -> dict[str, Any]:
 
 def _material(draw: Draw) -> Any:
     if draw.chance(0.8):
-        return draw.one(STEELS)
+        return draw.choice(STEELS)
     return {
         "title": "A random material",
         "source": "random numbers",

@@ -57,20 +57,11 @@ def scale_of(drive: dict[str, Any], speed: float) -> Scale:
 
 
 def gear_pair(draw: Draw, drive: dict[str, Any], known_laws: bool = False) -> dict[str, Any]:
-    """Return the scenario of a gear pair's dynamics.
-
-    Parameters
-    ----------
-    draw : Draw
-    drive : dict
-        From `drives.drive`.
-    known_laws : bool
-        Only laws and methods whose kernels other tests compile.
-    """
+    """Return the scenario of a gear pair's dynamics; known laws: those whose kernels other tests compile."""
     speed = draw.decades(0.01, 3000.0)
     scale = scale_of(drive, speed)
     backlash = draw.chance(0.4)
-    compliance = draw.one(COMPLIANCES, COMPLIANCE_WEIGHTS)
+    compliance = draw.choice(COMPLIANCES, COMPLIANCE_WEIGHTS)
     return {
         "title": "A random duty",
         "kind": "gear-pair",
@@ -81,14 +72,14 @@ def gear_pair(draw: Draw, drive: dict[str, Any], known_laws: bool = False) -> di
         "mesh": _mesh(draw, scale, compliance, backlash),
         **_dynamic(draw, laws(draw, known_laws)),
         "solver": _solver(draw, speed, known_laws),
-        "output": {"samples_per_cycle": draw.one((16, 40, 100))},
+        "output": {"samples_per_cycle": draw.choice((16, 40, 100))},
     }
 
 
 def lubricant(draw: Draw) -> Any:
     """Return a lubricant: a shipped one, or one of random numbers."""
     if draw.chance(0.6):
-        return draw.one(("liu-ni-2022", "75w90-diez-ibarbia"))
+        return draw.choice(("liu-ni-2022", "75w90-diez-ibarbia"))
     return {
         "title": "A random lubricant",
         "source": "random numbers",
@@ -110,7 +101,7 @@ def torque(draw: Draw, scale: Scale) -> float:
 def _operating(draw: Draw, scale: Scale, speed: float, backlash: bool) -> dict[str, Any]:
     load = torque(draw, scale)
     if backlash:
-        load *= draw.one((1.0, 0.0, -1.0), (6, 2, 2))
+        load *= draw.choice((1.0, 0.0, -1.0), (6, 2, 2))
     table: dict[str, Any] = {"pinion_speed": quantity(speed, "rad/s"), "gear_torque": quantity(load, "N*m")}
     size = max(abs(load), 0.01 * scale.torque)
     if draw.chance(0.15):
@@ -118,7 +109,7 @@ def _operating(draw: Draw, scale: Scale, speed: float, backlash: bool) -> dict[s
         frequency = quantity(scale.mesh_frequency * draw.decades(0.05, 3.0), "Hz")
         table["gear_torque_harmonics"] = [{"amplitude": amplitude, "frequency": frequency}]
     if draw.chance(0.1):
-        times = [float(f"{one / scale.mesh_frequency:.5g}") for one in (0.0, 1.0, 2.0, 4.0)]
+        times = [float(f"{cycle / scale.mesh_frequency:.5g}") for cycle in (0.0, 1.0, 2.0, 4.0)]
         torques = [float(f"{size * draw.between(-0.5, 2.0):.5g}") for _ in times]
         table["gear_torque_table"] = {
             "time": {"unit": "s", "values": times},
@@ -152,9 +143,9 @@ def _motor(draw: Draw, scale: Scale, speed: float, size: float) -> dict[str, Any
 def _mesh(draw: Draw, scale: Scale, compliance: str, backlash: bool) -> dict[str, Any]:
     per_width = draw.between(3.0, 25.0)  # GPa: N/m per m of face
     table: dict[str, Any] = {
-        "damping_ratio": draw.one((0.0, draw.decades(1e-3, 0.3), 0.05), (1, 6, 3)),
+        "damping_ratio": draw.choice((0.0, draw.decades(1e-3, 0.3), 0.05), (1, 6, 3)),
         "compliance": compliance,
-        "formulation": draw.one(("classical", "energy-consistent")),
+        "formulation": draw.choice(("classical", "energy-consistent")),
     }
     if compliance == "constant":
         table["stiffness"] = quantity(1e9 * per_width * scale.width, "N/m")
@@ -168,7 +159,7 @@ def _mesh(draw: Draw, scale: Scale, compliance: str, backlash: bool) -> dict[str
         if draw.chance(0.2):
             table["foundation_coupling"] = False
     if compliance == "fem" and draw.chance(0.3):
-        table["slices"] = draw.one((1, 3, 5))
+        table["slices"] = draw.choice((1, 3, 5))
         table["misalignment"] = {"in_plane": quantity(draw.between(-1.0, 1.0), "arcmin")}
         if table["slices"] == 1 and draw.chance(0.8):
             del table["misalignment"]
@@ -177,7 +168,7 @@ def _mesh(draw: Draw, scale: Scale, compliance: str, backlash: bool) -> dict[str
     if backlash:
         table["backlash"] = quantity(1e3 * scale.module * draw.decades(0.005, 0.1), "mm")
     if draw.chance(0.4):
-        table["points"] = draw.one((17, 33, 129))
+        table["points"] = draw.choice((17, 33, 129))
     if draw.chance(0.3):
         table["transmission_error"] = _error(draw)
     return table
@@ -187,7 +178,7 @@ def _error(draw: Draw) -> dict[str, Any]:
     if draw.chance(0.3):
         angles = [-60.0, -10.0, -5.0, 5.0, 10.0, 60.0]
         size = draw.decades(0.3, 20.0)
-        values = [float(f"{size * one:.4g}") for one in (1.0, 1.0, 0.0, 0.0, 1.0, 1.0)]
+        values = [float(f"{size * share:.4g}") for share in (1.0, 1.0, 0.0, 0.0, 1.0, 1.0)]
         return {"table": _curve(angles, "error", "um", values)}
     return {
         "harmonics": [
@@ -207,17 +198,17 @@ def _curve(angles: list[float], name: str, unit: str, values: list[float]) -> di
 
 def laws(draw: Draw, known_laws: bool = False) -> dict[str, Any]:
     """Return the tables of friction and film; every pair of laws needs machine code of its own."""
-    law = draw.one(KNOWN_LAWS) if known_laws else draw.one(FRICTION_LAWS, FRICTION_WEIGHTS)
+    law = draw.choice(KNOWN_LAWS) if known_laws else draw.choice(FRICTION_LAWS, FRICTION_WEIGHTS)
     friction: dict[str, Any] = {"law": law}
     if law == "coulomb":
-        friction["coefficient"] = draw.one((0.0, draw.between(0.01, 0.3), 2.0), (1, 8, 1))
+        friction["coefficient"] = draw.choice((0.0, draw.between(0.01, 0.3), 2.0), (1, 8, 1))
     chosen = law == "coulomb" and not known_laws and draw.chance(0.5)
-    return {"friction": friction, **({"film": {"law": draw.one(FILM_LAWS)}} if chosen else {})}
+    return {"friction": friction, **({"film": {"law": draw.choice(FILM_LAWS)}} if chosen else {})}
 
 
 def _dynamic(draw: Draw, tables: dict[str, Any]) -> dict[str, Any]:
     """Add what dynamics need to know of friction."""
-    friction = {**tables["friction"], "sliding": draw.one(("kinematic", "dynamic"))}
+    friction = {**tables["friction"], "sliding": draw.choice(("kinematic", "dynamic"))}
     if draw.chance(0.4):
         friction["reversal_width"] = quantity(draw.decades(1.0, 100.0), "um")
     return {**tables, "friction": friction}
@@ -225,16 +216,16 @@ def _dynamic(draw: Draw, tables: dict[str, Any]) -> dict[str, Any]:
 
 def _solver(draw: Draw, speed: float, known_laws: bool) -> dict[str, Any]:
     """Any method; below `SLOW` seldom one that stability makes take a hundred thousand steps a mesh cycle."""
-    method = draw.one(METHODS[:3]) if known_laws else draw.one(METHODS, METHOD_WEIGHTS)
+    method = draw.choice(METHODS[:3]) if known_laws else draw.choice(METHODS, METHOD_WEIGHTS)
     if speed < SLOW and method in EXPLICIT and draw.chance(0.9):
         method = "auto"
     native = method == AUTO or runs(method) is Runs.NATIVE
     return {
         "method": method,
-        "rtol": draw.one((1e-6, draw.decades(1e-8, 1e-4))),
-        "cycles": draw.one((1, 2, 4)),
+        "rtol": draw.choice((1e-6, draw.decades(1e-8, 1e-4))),
+        "cycles": draw.choice((1, 2, 4)),
         "max_steps": MOST_STEPS if native else MOST_SLOW_STEPS,
-        "initial": draw.one(("static", "unloaded"), (4, 1)),
+        "initial": draw.choice(("static", "unloaded"), (4, 1)),
     }
 
 
@@ -246,6 +237,6 @@ def _bearings(draw: Draw) -> Any:
         table[name] = {
             "stiffness_x": quantity(draw.decades(1e6, 1e12), "N/m"),
             "stiffness_y": quantity(draw.decades(1e6, 1e12), "N/m"),
-            "damping_ratio": draw.one((0.0, 0.05, draw.decades(1e-3, 0.3))),
+            "damping_ratio": draw.choice((0.0, 0.05, draw.decades(1e-3, 0.3))),
         }
     return table

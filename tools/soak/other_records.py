@@ -36,23 +36,14 @@ def efficiency_faults(record: Record) -> Iterator[str]:
             yield f"summary {key} = {value:.6g}"
     if not abs(summary["energy_residual"]) <= 1e-6:
         yield f"energy residual {summary['energy_residual']:.3g}"
-    load = record["normal_load"]
-    if not np.all(load >= 0):
-        yield f"normal_load falls to {np.nanmin(load):.4g}"
-    for name in (
-        "central_film_thickness",
-        "hertz_pressure",
-        "friction_coefficient",
-        "flash_temperature_rise",
-    ):
-        values = record[name][load > 0]
+    yield from _negative(record, "normal_load")
+    names = "central_film_thickness hertz_pressure friction_coefficient flash_temperature_rise"
+    for name in names.split():
+        values = record[name][record["normal_load"] > 0]
         if not np.all(np.isfinite(values)) or not np.all(values >= 0):
             yield f"{name} is negative or no number under load"
-    for key, name, sign in (
-        ("normal_load_max", "normal_load", 1),
-        ("hertz_pressure_max", "hertz_pressure", 1),
-        ("film_min", "central_film_thickness", -1),
-    ):
+    film = ("film_min", "central_film_thickness", -1)
+    for key, name, sign in (*((f"{of}_max", of, 1) for of in ("normal_load", "hertz_pressure")), film):
         sampled = np.nanmax(sign * record[name])
         if not sign * summary[key] >= sampled - 1e-9 * abs(sampled):
             yield f"summary {key} = {summary[key]:.9g}, a sample of {name} is {sign * sampled:.9g}"
@@ -63,29 +54,20 @@ def efficiency_faults(record: Record) -> Iterator[str]:
 
 def load_contact_faults(record: Record) -> Iterator[str]:
     """Say what is wrong with the record of a load contact study."""
-    for name in record:
-        values = record[name]
-        loaded = record["normal_load"] > 0
-        if name == "face_load_factor":
-            if not np.all(values[loaded] >= 1 - 1e-9):
-                yield f"face_load_factor falls to {np.min(values[loaded]):.6g}"
-        elif values.dtype.kind == "f" and not np.all(np.isfinite(values)):
-            yield f"{name} is not finite"
-    for name in ("normal_load", "line_load", "hertz_pressure", "half_width", "mesh_stiffness"):
-        if not np.all(record[name] >= 0):
-            yield f"{name} falls to {np.min(record[name]):.4g}"
+    yield from _not_finite(record, "face_load_factor")
+    factor = record["face_load_factor"][record["normal_load"] > 0]
+    if not np.all(factor >= 1 - 1e-9):
+        yield f"face_load_factor falls to {np.min(factor):.6g}"
+    yield from _negative(record, "normal_load", "line_load", "hertz_pressure", "half_width", "mesh_stiffness")
     if not np.all(np.any(record["normal_load"] > 0, axis=1)):
         yield "there are positions at which no pair carries"
     residual = np.max(np.abs(record["torque_residual"]))
     if not residual <= TORQUE_RESIDUAL:
         yield f"torque residual {residual:.3g}"
-    for key, name in (
-        ("normal_load_max", "normal_load"),
-        ("hertz_pressure_max", "hertz_pressure"),
-        ("line_load_max", "line_load"),
-    ):
-        if not np.isclose(record.summary[key], np.max(record[name]), rtol=1e-9):
-            yield f"summary {key} = {record.summary[key]:.9g}, the record has {np.max(record[name]):.9g}"
+    for name in ("normal_load", "hertz_pressure", "line_load"):
+        reported = record.summary[f"{name}_max"]
+        if not np.isclose(reported, np.max(record[name]), rtol=1e-9):
+            yield f"summary {name}_max = {reported:.9g}, the record has {np.max(record[name]):.9g}"
     yield from _root_faults(record)
 
 
@@ -122,9 +104,8 @@ def _root_faults(record: Record) -> Iterator[str]:
 def solved_contact_faults(record: Record) -> Iterator[str]:
     """Say what is wrong with the record of a study of the solved contact; NaN where nothing was solved."""
     yield from any_faults(record)
+    yield from _negative(record, "normal_load")
     load = record["normal_load"]
-    if not np.all(load >= 0):
-        yield f"normal_load falls to {np.nanmin(load):.4g}"
     film, least = record["central_film_thickness"], record["minimum_film_thickness"]
     solved = np.isfinite(film)
     if np.count_nonzero(solved) != record.summary["positions_solved"]:
@@ -153,25 +134,18 @@ def assessment_faults(record: Record) -> Iterator[str]:
     lost = summary["power_friction_mean"] / summary["power_in_mean"]
     if not np.isclose(1 - summary["efficiency"], lost, rtol=1e-3):
         yield f"efficiency {summary['efficiency']:.6g}, losses over input {lost:.6g}"
-    for name in (
-        "normal_load",
-        "film_thickness",
-        "flash_temperature_rise",
-        "specific_film",
-        "hertz_pressure",
-    ):
-        if np.any(record[name] < 0):
-            yield f"{name} falls to {np.nanmin(record[name]):.4g}"
+    names = "normal_load film_thickness flash_temperature_rise specific_film hertz_pressure"
+    yield from _negative(record, *names.split(), missing=True)
     warm = record["contact_temperature"] - record["flash_temperature_rise"] - summary["bulk_temperature"]
     if not np.nanmax(np.abs(warm), initial=0.0) <= 1e-6:
         yield "the contact temperature is not that of the bulk and the flash"
-    for name, one in summary.get("margins", {}).get("simulated", {}).items():
-        if name.startswith("S_") and not one >= 0:
-            yield f"margin {name} = {one}"
+    for name, margin in summary.get("margins", {}).get("simulated", {}).items():
+        if name.startswith("S_") and not margin >= 0:
+            yield f"margin {name} = {margin}"
 
 
 def search_faults(record: Record) -> Iterator[str]:
-    """Say what is wrong with the record of a search: its best is none, or alone has other figures."""
+    """Say what is wrong with the record of a search: its best is none, or alone has other results."""
     yield from any_faults(record)
     summary, feasible = record.summary, record["feasible"] > 0.5
     if not np.any(feasible):
@@ -189,10 +163,10 @@ def search_faults(record: Record) -> Iterator[str]:
     study = STUDIES[again.kind]
     if "duties" in summary or study.batch():
         return
-    for name, one in study.quantities_of(again).items():
+    for name, value in study.quantities_of(again).items():
         known = summary["figures_best"].get(name)
-        if name != "wall_time" and known is not None and not np.isclose(one, known, rtol=1e-6):
-            yield f"the best scenario has {name} = {one:.9g}, the search {known:.9g}"
+        if name != "wall_time" and known is not None and not np.isclose(value, known, rtol=1e-6):
+            yield f"the best scenario has {name} = {value:.9g}, the search {known:.9g}"
 
 
 def any_faults(record: Record) -> Iterator[str]:
@@ -209,14 +183,34 @@ def any_faults(record: Record) -> Iterator[str]:
 def rolling_faults(record: Record) -> Iterator[str]:
     """Say what is wrong with the record of a gear with rolling elements."""
     yield from any_faults(record)
-    for name in record:
-        values = record[name]
-        if values.dtype.kind == "f" and name != "time" and not np.all(np.isfinite(values)):
-            yield f"{name} is not finite"
-    if not np.all(record["normal_load"] >= 0):
-        yield "normal_load is negative"
+    yield from _not_finite(record, "time")
+    yield from _negative(record, "normal_load")
     if not 0 <= record.summary["efficiency"] <= 1:
         yield f"efficiency {record.summary['efficiency']:.6g}"
+
+
+def _not_finite(record: Record, but: str) -> Iterator[str]:
+    for name in record:
+        if name != but and record[name].dtype.kind == "f" and not np.all(np.isfinite(record[name])):
+            yield f"{name} is not finite"
+
+
+def _negative(record: Record, *names: str, missing: bool = False) -> Iterator[str]:
+    """What is below zero, or no number unless those may be missing."""
+    for name in names:
+        if np.any(record[name] < 0) or not (missing or np.all(record[name] >= 0)):
+            yield f"{name} falls to {np.nanmin(record[name]):.4g}"
+
+
+#: Sort of case -> what is wrong with a complete record of it.
+FAULTS = {
+    "efficiency": efficiency_faults,
+    "load-contact": load_contact_faults,
+    "ehl": solved_contact_faults,
+    "assessment": assessment_faults,
+    "design": search_faults,
+    "irefc": rolling_faults,
+}
 
 
 def sweep_faults(record: SweepRecord) -> Iterator[str]:
@@ -259,12 +253,9 @@ def sweep_against_run(
             yield "the run by itself is complete, the sweep's first case is not"
         return
     size = abs(summary["power_in_mean"])
-    for name, scale in (
-        ("mesh_frequency", summary["mesh_frequency"]),
-        ("power_in_mean", size),
-        ("power_friction_mean", size),
-    ):
-        one, other = float(record.case(name, place)), float(summary[name])
-        away = 3.0 * abs(float(finer.get(name, other)) - other)
-        if not abs(one - other) <= 1e3 * rtol * scale + away:
-            yield f"{name}: {one:.9g} in the sweep, {other:.9g} in the run by itself"
+    scales = {"mesh_frequency": summary["mesh_frequency"], "power_in_mean": size, "power_friction_mean": size}
+    for name, scale in scales.items():
+        swept, alone = float(record.case(name, place)), float(summary[name])
+        away = 3.0 * abs(float(finer.get(name, alone)) - alone)
+        if not abs(swept - alone) <= 1e3 * rtol * scale + away:
+            yield f"{name}: {swept:.9g} in the sweep, {alone:.9g} in the run by itself"

@@ -16,17 +16,7 @@ from rich.console import Console
 
 from tools.soak.cases import SoakCase, case, written
 from tools.soak.gear_records import faults as gear_faults
-from tools.soak.other_records import (
-    any_faults,
-    assessment_faults,
-    efficiency_faults,
-    load_contact_faults,
-    rolling_faults,
-    search_faults,
-    solved_contact_faults,
-    sweep_against_run,
-    sweep_faults,
-)
+from tools.soak.other_records import FAULTS, any_faults, sweep_against_run, sweep_faults
 from tools.soak.refusals import untrue
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.reader import Record
@@ -49,56 +39,35 @@ COMPLETE, REFUSED, STOPPED, FAULTY = "complete", "refused", "stopped", "faulty"
 
 
 class Outcome(NamedTuple):
-    """What became of a case.
-
-    Attributes
-    ----------
-    seed, case : int
-    sort : str
-        As in `cases.SORTS`.
-    family : str
-        Of its teeth; empty where it has none.
-    status : str
-        "complete", "refused" or "stopped", or "faulty" with what is wrong.
-    reason : str
-        Why it was refused or stopped.
-    faults : tuple of str
-        What must not be.
-    drives_refused : int
-        Drives drawn before one that can be made.
-    residual : float
-        Energy residual over the relative tolerance, of a complete run; else NaN.
-    seconds : float
-        Of processor time.
-    """
+    """What became of a case."""
 
     seed: int
     case: int
-    sort: str
-    family: str
-    status: str
-    reason: str
-    faults: tuple[str, ...]
-    drives_refused: int
-    residual: float
-    seconds: float
+    sort: str  # as in `cases.SORTS`
+    family: str  # of its teeth; empty where it has none
+    status: str  # "complete", "refused" or "stopped", or "faulty" with what is wrong
+    reason: str  # why it was refused or stopped
+    faults: tuple[str, ...]  # what must not be
+    drives_refused: int  # drives drawn before one that can be made
+    residual: float  # energy residual over the relative tolerance, of a complete run; else NaN
+    seconds: float  # of processor time
 
 
 def outcome(seed: int, number: int, folder: Path, short: bool = False) -> Outcome:
     """Make and run a case; its scenario and records stay in the folder."""
     begun = process_time()
     made = case(seed, number, folder, short)
-    said = [fault for one in made.refused for fault in untrue(one, folder)]
+    wrong = [fault for refused in made.refused for fault in untrue(refused, folder)]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         status, reason, faults, residual = _tried(made, folder)
-    said += faults
+    wrong += faults
     searched = made.scenario.get("scenario", made.scenario)
     family = searched.get("drive", {}).get("family", "")
-    status = FAULTY if said else status
+    status = FAULTY if wrong else status
     seconds = round(process_time() - begun, 3)
     return Outcome(
-        seed, number, made.sort, family, status, reason, tuple(said), len(made.refused), residual, seconds
+        seed, number, made.sort, family, status, reason, tuple(wrong), len(made.refused), residual, seconds
     )
 
 
@@ -131,37 +100,18 @@ def _run(made: SoakCase, folder: Path) -> tuple[str, str, list[str], float]:
     with Record(result.path) as written_record:
         faults = list(_faults(made, written_record))
         faults += _printed(summary_table(written_record))
-        samples = written_record.samples
     if result.status == "complete":
         residual = result.summary.get("energy_residual", float("nan"))
         return COMPLETE, "", faults, abs(residual) / _rtol(made)
-    return (
-        STOPPED,
-        result.message,
-        faults + _doubtful(made, result.summary, result.message, samples),
-        float("nan"),
-    )
+    faults += _doubtful(made, result.summary, result.message)
+    return STOPPED, result.message, faults, float("nan")
 
 
 def _faults(made: SoakCase, record: Record) -> Iterator[str]:
     if made.sort == "gear-pair":
         yield from gear_faults(record, _rtol(made))
-    elif record.status != "complete":
-        return
-    elif made.sort == "efficiency":
-        yield from efficiency_faults(record)
-    elif made.sort == "load-contact":
-        yield from load_contact_faults(record)
-    elif made.sort == "ehl":
-        yield from solved_contact_faults(record)
-    elif made.sort == "assessment":
-        yield from assessment_faults(record)
-    elif made.sort == "design":
-        yield from search_faults(record)
-    elif made.sort == "irefc":
-        yield from rolling_faults(record)
-    else:
-        yield from any_faults(record)
+    elif record.status == "complete":
+        yield from FAULTS.get(made.sort, any_faults)(record)
 
 
 def _swept(made: SoakCase, path: Path, target: Path) -> tuple[str, str, list[str], float]:
@@ -202,15 +152,11 @@ def _printed(table: Any) -> list[str]:
 def _unclear(error: InputError) -> list[str]:
     """What is wrong with a refusal as such: key, rule and remedy belong to it."""
     parts = getattr(error, "errors", (error,))
-    return [
-        f"the refusal lacks {name}: {one}"
-        for one in parts
-        for name in ("key", "rule")
-        if not getattr(one, name)
-    ]
+    pairs = ((part, name) for part in parts for name in ("key", "rule"))
+    return [f"the refusal lacks {name}: {part}" for part, name in pairs if not getattr(part, name)]
 
 
-def _doubtful(made: SoakCase, summary: dict[str, Any], message: str, samples: int) -> list[str]:
+def _doubtful(made: SoakCase, summary: dict[str, Any], message: str) -> list[str]:
     """What speaks against the reason that a run was stopped for."""
     limit = made.scenario.get("solver", {}).get("max_steps")
     if "limit of steps" in message and "steps" in summary and not summary["steps"] >= limit:

@@ -19,19 +19,19 @@ FRONTS = ("auto", "epsilon-constraint")
 
 def search(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
     """Return the scenario of a search of a few evaluations."""
-    kind = draw.one(tuple(SEARCHED), [share for share, _ in SEARCHED.values()])
+    kind = draw.choice(tuple(SEARCHED), [share for share, _ in SEARCHED.values()])
     figures = SEARCHED[kind][1]
     two = draw.chance(0.25)
     design: dict[str, Any] = {
         "free": _free(draw, kind, drive),
-        "minimise": list(figures[:2]) if two else draw.one(figures),
-        "method": draw.one(FRONTS if two else METHODS),
+        "minimise": list(figures[:2]) if two else draw.choice(figures),
+        "method": draw.choice(FRONTS if two else METHODS),
         "evaluations": draw.whole(2, 8),
         "starts": 1,
         "sensitivities": draw.chance(0.2),
     }
     if draw.chance(0.6):
-        design["subject_to"] = [draw.one(("contact_ratio >= 1.1", "hertz_pressure_max <= start"))]
+        design["subject_to"] = [draw.choice(("contact_ratio >= 1.1", "hertz_pressure_max <= start"))]
     scenario = _searched(draw, kind, drive)
     if draw.chance(0.2):
         load = float(scenario["operating"]["gear_torque"].split()[0])
@@ -56,10 +56,10 @@ def _searched(draw: Draw, kind: str, drive: dict[str, Any]) -> dict[str, Any]:
 
 def _free(draw: Draw, kind: str, drive: dict[str, Any]) -> list[dict[str, Any]]:
     """One or two keys that may change: of the flanks where new teeth take long, else of the teeth."""
-    side = draw.one(("pinion", "gear"))
+    side = draw.choice(("pinion", "gear"))
     if kind == "load-contact":
         most = quantity(5e3 * size_of(drive)[0], "um")
-        keys = draw.one((("tip_relief",), ("crowning",), ("tip_relief", "crowning")))
+        keys = draw.choice((("tip_relief",), ("crowning",), ("tip_relief", "crowning")))
         return [{"key": f"drive.{side}.modification.{key}", "from": "0 um", "to": most} for key in keys]
     found: list[dict[str, Any]] = []
     if drive["family"] == "involute" and draw.chance(0.5):

@@ -13,7 +13,7 @@ OILS = ("75w90", "atf", "iso-vg-32-mineral", "iso-vg-100-pao", "iso-vg-220-miner
 def efficiency(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
     """Return the scenario of an efficiency study."""
     speed = draw.decades(0.01, 3000.0)
-    mesh: dict[str, Any] = {"load_sharing": draw.one(("elastic", "uniform", "single-pair"))}
+    mesh: dict[str, Any] = {"load_sharing": draw.choice(("elastic", "uniform", "single-pair"))}
     if draw.chance(0.1):
         mesh["compliance"] = "fem"
     elif draw.chance(0.3):
@@ -25,11 +25,11 @@ def efficiency(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
         "lubricant": lubricant(draw),
         "operating": {
             "pinion_speed": quantity(speed, "rad/s"),
-            "gear_torque": quantity(draw.one((1, 1, -1)) * torque(draw, scale_of(drive, speed)), "N*m"),
+            "gear_torque": quantity(draw.choice((1, 1, -1)) * torque(draw, scale_of(drive, speed)), "N*m"),
         },
         "mesh": mesh,
         **laws(draw),
-        "output": {"samples_per_cycle": draw.one((16, 100))},
+        "output": {"samples_per_cycle": draw.choice((16, 100))},
     }
 
 
@@ -46,7 +46,7 @@ def load_contact(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
                     "modification": _modification(draw, drive[name]["teeth"], module, width),
                 },
             }
-    mesh: dict[str, Any] = {"slices": draw.one((1, 3, 7, 15)), "slice_coupling": draw.chance(0.8)}
+    mesh: dict[str, Any] = {"slices": draw.choice((1, 3, 7, 15)), "slice_coupling": draw.chance(0.8)}
     if draw.chance(0.3):
         mesh["friction_coefficient"] = draw.between(0.0, 0.2)
     if mesh["slices"] > 1 and draw.chance(0.5):
@@ -61,7 +61,7 @@ def load_contact(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
         "drive": drive,
         "operating": operating,
         "mesh": mesh,
-        "output": {"positions_per_cycle": draw.one((8, 20)), "cycles": draw.one((1, 1, 2))},
+        "output": {"positions_per_cycle": draw.choice((8, 20)), "cycles": draw.choice((1, 1, 2))},
     }
 
 
@@ -77,7 +77,7 @@ def solved_contact(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
             "pinion_speed": quantity(speed, "rad/s"),
             "gear_torque": quantity(torque(draw, scale_of(drive, speed)), "N*m"),
         },
-        "mesh": {"compliance": draw.one(("energy", "fem"), (9, 1))},
+        "mesh": {"compliance": draw.choice(("energy", "fem"), (9, 1))},
         "contact": {"step": 0.25, "transient": draw.chance(0.2)},
         "output": {"positions": 4},
     }
@@ -91,21 +91,23 @@ def assessment(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
         "title": "A random assessment",
         "kind": "assessment",
         "drive": {**drive, "quality": draw.whole(3, 10)},
-        "lubricant": draw.one(OILS),
-        "bearings": draw.one(("rigid-1e9", "medium-4e8", "soft-1e8")),
+        "lubricant": draw.choice(OILS),
+        "bearings": draw.choice(("rigid-1e9", "medium-4e8", "soft-1e8")),
         "operating": {
             "pinion_speed": quantity(speed, "rad/s"),
             "gear_torque": quantity(torque(draw, scale_of(drive, speed)), "N*m"),
             "oil_temperature": quantity(draw.between(20.0, 120.0), "degC"),
         },
-        "mesh": {"misalignment": {"in_plane": quantity(draw.one((0.0, draw.between(-0.5, 0.5))), "arcmin")}},
+        "mesh": {
+            "misalignment": {"in_plane": quantity(draw.choice((0.0, draw.between(-0.5, 0.5))), "arcmin")}
+        },
         "assessment": {
             "application_factor": draw.between(1.0, 2.0),
-            "lubrication": draw.one(("dip", "spray", "submerged")),
+            "lubrication": draw.choice(("dip", "spray", "submerged")),
             "torque_shares": [0.5, 1.0],
             "speed_range": [0.5, 1.5],
             "speeds": 8,
-            "samples": draw.one((0, 2)),
+            "samples": draw.choice((0, 2)),
             "friction_laws": laws,
         },
     }
@@ -117,7 +119,7 @@ def _modification(draw: Draw, teeth: int, module: float, width: float) -> dict[s
         if draw.chance(0.4):
             table[f"{end}_relief"] = quantity(draw.decades(1.0, 60.0), "um")
             table[f"{end}_relief_length"] = quantity(1e3 * module * draw.between(0.2, 1.5), "mm")
-            table[f"{end}_relief_shape"] = draw.one(("linear", "parabolic"))
+            table[f"{end}_relief_shape"] = draw.choice(("linear", "parabolic"))
     if draw.chance(0.3):
         table["crowning"] = quantity(draw.decades(0.5, 30.0), "um")
     elif draw.chance(0.3):
@@ -135,10 +137,10 @@ def oscillator(draw: Draw) -> dict[str, Any]:
         "title": "A random oscillator",
         "kind": "backlash-oscillator",
         "damping": draw.decades(0.01, 0.5),
-        "mean_force": draw.one((0.0, draw.decades(0.01, 3.0)), (1, 6)),
-        "error_amplitude": draw.one((0.0, draw.decades(0.01, 2.0)), (1, 3)),
-        "stiffness_variation": draw.one((0.0, draw.between(0.0, 1.0)), (1, 3)),
-        "frequency": {"from": low, "to": round(2.0 * low, 6), "step": round(low / draw.one((4, 10)), 6)},
+        "mean_force": draw.choice((0.0, draw.decades(0.01, 3.0)), (1, 6)),
+        "error_amplitude": draw.choice((0.0, draw.decades(0.01, 2.0)), (1, 3)),
+        "stiffness_variation": draw.choice((0.0, draw.between(0.0, 1.0)), (1, 3)),
+        "frequency": {"from": low, "to": round(2.0 * low, 6), "step": round(low / draw.choice((4, 10)), 6)},
         "solver": {"max_periods": 200},
     }
 
@@ -146,7 +148,7 @@ def oscillator(draw: Draw) -> dict[str, Any]:
 def rolling(draw: Draw) -> dict[str, Any]:
     """Return the scenario of a gear with rolling elements."""
     radius, elements, displacement = draw.decades(2e-3, 1.0), draw.whole(3, 60), draw.between(1.02, 3.0)
-    arm = draw.one((0.0, draw.decades(1e-6, 1e-3)))
+    arm = draw.choice((0.0, draw.decades(1e-6, 1e-3)))
     return {
         "title": "A random gear with rolling elements",
         "kind": "irefc",
@@ -163,7 +165,7 @@ def rolling(draw: Draw) -> dict[str, Any]:
             "input_speed": quantity(draw.decades(0.1, 1e4), "rpm"),
         },
         "friction": {"rolling_arm": quantity(1e3 * arm, "mm"), "sliding_coefficient": draw.between(0.0, 0.3)},
-        "output": {"samples_per_cycle": draw.one((8, 24))},
+        "output": {"samples_per_cycle": draw.choice((8, 24))},
     }
 
 
