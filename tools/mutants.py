@@ -29,9 +29,10 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from tools.marked_block import ROOT as HERE
+from tools.marked_block import parser_of
 from tools.package_shape import imports, modules
 
-HERE = Path(__file__).parents[1]
 PACKAGE = "tribodyn"
 PHYSICS = ("geometry", "compliance", "mesh", "tribology", "dynamics", "solve", "studies")
 #: Files that hold no physics; what time and memory are estimated at is right within a factor.
@@ -165,9 +166,9 @@ def _reached(package: Path) -> dict[str, frozenset[str]]:
     """Modules that each module of the package imports, directly or not, or looks up by a name."""
     files = modules(package)
     direct: dict[str, set[str]] = {name: set() for name in files}
-    for one in imports(package):
-        if not one.typing_only and one.imported in direct:
-            direct[one.importer].add(one.imported)
+    for found in imports(package):
+        if not found.typing_only and found.imported in direct:
+            direct[found.importer].add(found.imported)
     for name, file in files.items():
         text = file.read_text(encoding="utf-8")
         direct[name] |= set(re.findall(rf'"({PACKAGE}(?:\.\w+)+)', text)) & direct.keys()
@@ -190,7 +191,7 @@ def _imported(file: Path, tests: Path) -> frozenset[str]:
     text = file.read_text(encoding="utf-8")
     found = set(re.findall(rf"(?:from|import)\s+({PACKAGE}[\w.]*)", text))
     for module, names in re.findall(rf"from ({PACKAGE}[\w.]*) import (\([^)]*\)|.*)", text):
-        found |= {f"{module}.{one.split()[0]}" for one in names.strip("()").split(",") if one.strip()}
+        found |= {f"{module}.{name.split()[0]}" for name in names.strip("()").split(",") if name.strip()}
     for name in re.findall(r"from tests\.support\.(\w+) import", text):
         found |= _imported(tests / "support" / f"{name}.py", tests)
     if re.search(r"\b(prepared|forked)\(", text) and file.name != "conftest.py":
@@ -213,25 +214,19 @@ def tests_of(module: str, package: Path, tests: Path) -> list[list[str]]:
         named = file.is_relative_to(mirrored) and module.rpartition(".")[2] in file.stem
         if named or module in own:
             near.append(file)
-        elif any(module in reached.get(one, ()) for one in own):
+        elif any(module in reached.get(imported, ()) for imported in own):
             far.append(file)
-    stages = [
-        [str(file) for file in some if (file.relative_to(tests).parts[0] == "unit") is unit]
-        for some in (near, far)
+    return [
+        [str(file) for file in files if (file.relative_to(tests).parts[0] == "unit") is unit]
+        for files in (near, far)
         for unit in (True, False)
     ]
-    return stages
 
 
 class Tests:
-    """The tests of a copy of the checkout; one that fails without a change as well is left out.
+    """The tests of a copy of the checkout, with a limit of processor time, s.
 
-    Parameters
-    ----------
-    root : Path
-        Of the copy.
-    limit : int
-        Processor time of one run of tests, s.
+    A test that fails without a change as well is left out.
     """
 
     def __init__(self, root: Path, limit: int) -> None:
@@ -246,14 +241,9 @@ class Tests:
             "TRIBODYN_CACHE": str(root / ".cache"),
             "OPENBLAS_NUM_THREADS": "1",
         }
-        self.server = subprocess.Popen(
-            [sys.executable, "-c", SERVER],
-            cwd=root,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-            env=os.environ | own,
-        )
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+        command = [sys.executable, "-c", SERVER]
+        self.server = subprocess.Popen(command, cwd=root, env=os.environ | own, **pipes)
 
     def noticed(self, change: Change, near: bool = False, every: bool = False) -> str:
         """Make a change and run its tests, or the nearest; what noticed it, or nothing where none did.
@@ -264,7 +254,7 @@ class Tests:
         source = file.read_bytes()
         module = ".".join((PACKAGE, *Path(change.file).with_suffix("").parts)).removesuffix(".__init__")
         stages = tests_of(module, self.root / PACKAGE, self.root / "tests")
-        waiting = [some for some in stages[: 2 if near else 4] if some]
+        waiting = [files for files in stages[: 2 if near else 4] if files]
         while waiting:
             try:
                 file.write_bytes(change.made(source))
@@ -291,8 +281,8 @@ class Tests:
         status = int(self.server.stdout.readline())
         if status in (0, 5):  # all passed, or none was quick
             return ""
-        said = self.out.read_text(encoding="utf-8", errors="replace")
-        failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", said, re.MULTILINE)
+        printed = self.out.read_text(encoding="utf-8", errors="replace")
+        failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", printed, re.MULTILINE)
         return failed[0] if failed else f"exit status {status}"
 
 
@@ -316,13 +306,13 @@ def _chosen(arguments: argparse.Namespace) -> list[Change]:
     known = changes(HERE / PACKAGE, arguments.folders)
     if arguments.at:
         file, _, line = arguments.at.partition(":")
-        return [one for one in known if one.file == file and one.line == int(line)]
+        return [change for change in known if (change.file, change.line) == (file, int(line))]
     return random.Random(arguments.seed).sample(known, min(arguments.count, len(known)))
 
 
 def main() -> None:
     """Read the arguments, go through the changes, and print what survived."""
-    parser = argparse.ArgumentParser(description="see the head of the file")
+    parser = parser_of(__doc__)
     parser.add_argument("--count", type=int, default=20, help="random changes")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--folders", nargs="+", default=PHYSICS, help="or files, below the package")
@@ -330,11 +320,9 @@ def main() -> None:
     parser.add_argument("--again", metavar="FILE", help="the survivors in a file of results instead")
     parser.add_argument("--near", action="store_true", help="only tests of files that name the module")
     parser.add_argument(
-        "--all", action="store_true", help="every test of `make test` in place of the quick ones"
+        "--all", action="store_true", help="every test of `make test`, not the quick ones alone"
     )
-    parser.add_argument(
-        "--part", type=int, nargs=2, default=(0, 1), help="number and count of a share of them"
-    )
+    parser.add_argument("--part", type=int, nargs=2, default=(0, 1), help="number and count of a share")
     parser.add_argument("--out", metavar="FILE", help="file of results, a line each, to go on from")
     parser.add_argument("--limit", type=int, default=LIMIT, help="processor time of one change, s")
     arguments = parser.parse_args()
@@ -354,10 +342,10 @@ def main() -> None:
                 if out:
                     with out.open("a", encoding="utf-8") as stream:
                         stream.write(json.dumps({"change": change, "noticed": done[change]}) + "\n")
-            said = f"noticed by {done[change]}" if done[change] else "SURVIVED"
+            outcome = f"noticed by {done[change]}" if done[change] else "SURVIVED"
             shown = change.shown((root / PACKAGE / change.file).read_bytes())
-            print(f"{number}/{len(chosen)} {said}\n{shown}", flush=True)
-    alive = [one for one in chosen if not done[one]]
+            print(f"{number}/{len(chosen)} {outcome}\n{shown}", flush=True)
+    alive = [change for change in chosen if not done[change]]
     print(f"{len(chosen) - len(alive)} of {len(chosen)} changes noticed")
     if tests.failing:
         print(f"left out, as they fail without a change: {', '.join(sorted(tests.failing))}")

@@ -22,35 +22,23 @@ from tools.compare_versions.difference import Compared, Explained, compare
 from tools.compare_versions.results import read
 from tools.compare_versions.tables import difference_table, shape_table, words_table
 from tools.compare_versions.versions import Version, check_import, opened, run
+from tools.marked_block import ROOT, parser_of
 
 THRESHOLD = 1e-10
 
 
 def options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = parser_of(__doc__)
     parser.add_argument("old", help="revision or folder")
     parser.add_argument("new", nargs="?", help="revision or folder; absent: make the old one's results")
     parser.add_argument("--keep", type=Path, help="folder in which results stay")
-    parser.add_argument(
-        "--repository", type=Path, default=Path(__file__).parents[2], help="knows the revisions"
-    )
+    parser.add_argument("--repository", type=Path, default=ROOT, help="knows the revisions")
     parser.add_argument("--threshold", type=float, default=THRESHOLD)
-    parser.add_argument(
-        "--explained", action="append", default=[], metavar="NAME: REASON", type=Explained.parse
-    )
-    parser.add_argument(
-        "--only", nargs="+", default=["*"], metavar="CASE", help="names of cases, wildcards allowed"
-    )
+    many = {"action": "append", "default": []}
+    parser.add_argument("--explained", **many, metavar="NAME: REASON", type=Explained.parse)
+    parser.add_argument("--only", nargs="+", default=["*"], metavar="CASE", help="cases, wildcards allowed")
     parser.add_argument("--jobs", type=int, default=1, help="cases that run at the same time")
-    parser.add_argument(
-        "--renamed",
-        action="append",
-        default=[],
-        metavar="OLD=>NEW",
-        help="word of the new version's commands",
-    )
+    parser.add_argument("--renamed", **many, metavar="OLD=>NEW", help="word of the new version's commands")
     parser.add_argument("--into", type=Path, help="write the tables to this file, too")
     return parser.parse_args()
 
@@ -59,11 +47,10 @@ def prepare(version: Version, chosen: argparse.Namespace, words: dict[str, list[
     """Run a version's cases, as far as their results are not there already."""
     version.results.mkdir(parents=True, exist_ok=True)
     check_import(version)
-    wanted = [
-        case for case in cases(version.checkout) if any(fnmatchcase(case.name, name) for name in chosen.only)
-    ]
+    every = cases(version.checkout)
+    wanted = [case for case in every if any(fnmatchcase(case.name, name) for name in chosen.only)]
     with ThreadPoolExecutor(chosen.jobs) as pool:
-        list(pool.map(lambda case: run(version, case, words, lambda line: print(line, flush=True)), wanted))
+        list(pool.map(lambda case: run(version, case, words), wanted))
     return wanted
 
 
@@ -87,7 +74,9 @@ def main() -> int:
             wanted = {case.name: case for case in prepare(old, chosen, {})}
             if chosen.new is None:
                 return 0
-            words = {old: new.split() for old, _, new in (one.partition("=>") for one in chosen.renamed)}
+            words = {
+                old: new.split() for old, _, new in (renamed.partition("=>") for renamed in chosen.renamed)
+            }
             with opened(chosen.new, chosen.repository, keep, scratch) as new:
                 wanted |= {case.name: case for case in prepare(new, chosen, words)}
                 results = compared(old, new, list(wanted.values()))

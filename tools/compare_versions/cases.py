@@ -14,14 +14,19 @@ class Case(NamedTuple):
     commands: tuple[tuple[str, ...], ...]
 
 
-def _one(name: str, *words: str) -> Case:
+def _single(name: str, *words: str) -> Case:
     return Case(name, (words,))
 
 
-def _short(name: str, scenario: str, *settings: str, cycles: int = 3) -> Case:
-    """A short run of a shipped scenario with some of its keys changed."""
+def _run(name: str, scenario: str, *settings: str) -> Case:
+    """A run of a shipped scenario with some of its keys changed."""
     chosen = [word for setting in settings for word in ("--set", setting)]
-    return _one(name, "run", scenario, *chosen, "--set", f"solver.cycles={cycles}", "--no-plot", "--json")
+    return _single(name, "run", scenario, *chosen, "--no-plot", "--json")
+
+
+def _short(name: str, scenario: str, *settings: str) -> Case:
+    """A short run of a gear pair."""
+    return _run(name, scenario, *settings, "solver.cycles=3")
 
 
 def _gear_pairs() -> list[Case]:
@@ -50,23 +55,19 @@ def _gear_pairs() -> list[Case]:
 
 
 def _other_studies() -> list[Case]:
-    def run(name: str, scenario: str, *settings: str) -> Case:
-        chosen = [word for setting in settings for word in ("--set", setting)]
-        return _one(name, "run", scenario, *chosen, "--no-plot", "--json")
-
     efficiency, few = "efficiency-involute-18-36", "output.positions_per_cycle=24"
     return [
-        run("efficiency, law xu", efficiency, "friction.law=xu"),
-        run("efficiency, loads of finite elements", efficiency, "mesh.compliance=fem"),
-        run("load contact, 21 slices", "load-contact-18-36", "mesh.slices=21", few),
-        run("rolling, loads of one element", "irefc", "operating.input_power=300 W"),
-        run("oscillator, stiffness varies", "backlash-oscillator", "stiffness_variation=0.2"),
+        _run("efficiency, law xu", efficiency, "friction.law=xu"),
+        _run("efficiency, loads of finite elements", efficiency, "mesh.compliance=fem"),
+        _run("load contact, 21 slices", "load-contact-18-36", "mesh.slices=21", few),
+        _run("rolling, loads of one element", "irefc", "operating.input_power=300 W"),
+        _run("oscillator, stiffness varies", "backlash-oscillator", "stiffness_variation=0.2"),
     ]
 
 
 def _sweeps() -> list[Case]:
     def sweep(name: str, words: str) -> Case:
-        return _one(name, "sweep", *words.split(), "-o", "sweep.h5", "--json")
+        return _single(name, "sweep", *words.split(), "-o", "sweep.h5", "--json")
 
     speeds = "--vary operating.pinion_speed=2000,4000rpm"
     up_and_down = "--vary operating.pinion_speed=400:480:20rad/s --direction both"
@@ -83,19 +84,13 @@ def _printed() -> list[Case]:
     """Verbs that write no record."""
     check = ("crc-23-47", "involute-18-36-fem", "efficiency-crc-23-47", "load-contact-18-36", "irefc")
     gear = ("liu-ni-crc-23-47", "diez-ibarbia-18-36", "s-gear-23-47", "jia-parabolic-17-29")
-    short = ("--set", "solver.cycles=2", "--no-plot")
+    short = ("--set", "solver.cycles=2", "--no-plot", "-o")
+    runs = ("run", "crc-23-47", *short, "a.h5"), ("run", "involute-23-47", *short, "b.h5")
     return [
-        *(_one(f"check {name}", "check", name, "--json") for name in (*check, "backlash-oscillator")),
-        *(_one(f"gear {name}", "gear", name, "--json") for name in gear),
-        Case(
-            "compare",
-            (
-                ("run", "crc-23-47", *short, "-o", "a.h5"),
-                ("run", "involute-23-47", *short, "-o", "b.h5"),
-                ("compare", "a.h5", "b.h5", "--json"),
-            ),
-        ),
-        *(_one(f"validate {paper}", "validate", paper, "-o", ".", "--json") for paper in PAPERS),
+        *(_single(f"check {name}", "check", name, "--json") for name in (*check, "backlash-oscillator")),
+        *(_single(f"gear {name}", "gear", name, "--json") for name in gear),
+        Case("compare", (*runs, ("compare", "a.h5", "b.h5", "--json"))),
+        *(_single(f"validate {paper}", "validate", paper, "-o", ".", "--json") for paper in PAPERS),
     ]
 
 
@@ -103,7 +98,7 @@ def cases(version: Path) -> list[Case]:
     """Return what is run of the version in a folder: its shipped scenarios, then the cases of this file."""
     shipped = sorted(path.stem for path in (version / "scenarios").glob("*.toml"))
     return [
-        *(_one(f"run {name}", "run", name, "--no-plot", "--json") for name in shipped),
+        *(_single(f"run {name}", "run", name, "--no-plot", "--json") for name in shipped),
         *_gear_pairs(),
         *_other_studies(),
         *_sweeps(),

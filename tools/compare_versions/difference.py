@@ -8,17 +8,7 @@ import numpy as np
 from tools.compare_versions.results import Table
 
 #: Ends of the names of texts that say how something is called, not what came out.
-WORDS = (
-    "@units",
-    "_units",
-    "@long_name",
-    "/unit",
-    "/quantity",
-    "/note",
-    "/title",
-    "@flag_meanings",
-    "message",
-)
+WORDS = tuple("@units _units @long_name /unit /quantity /note /title @flag_meanings message".split())
 
 
 class Difference(NamedTuple):
@@ -50,10 +40,10 @@ def compare(case: str, file: str, old: Table, new: Table) -> Compared:
     common = [name for name in old if name in new]
     differences, words = [], []
     for name in common:
-        one = _difference(name, old[name], new[name])
-        if one.how or one.relative:
-            (words if name.endswith(WORDS) and isinstance(old[name], str) else differences).append(one)
-    differences.sort(key=lambda one: -np.inf if one.how else -one.relative)
+        found = _difference(name, old[name], new[name])
+        if found.how or found.relative:
+            (words if name.endswith(WORDS) and isinstance(old[name], str) else differences).append(found)
+    differences.sort(key=lambda difference: -np.inf if difference.how else -difference.relative)
     only_old = [name for name in old if name not in new]
     return Compared(case, file, len(common), differences, words, only_old, [n for n in new if n not in old])
 

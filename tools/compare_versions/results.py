@@ -91,6 +91,8 @@ def _values(value: Any) -> "np.ndarray | str":
         return str(array.tolist())
     if array.dtype.kind in "SOU":
         # a record that a failed run left holds bytes that nobody wrote
-        texts = (one.decode(errors="replace") if isinstance(one, bytes) else str(one) for one in array.flat)
+        texts = (
+            text.decode(errors="replace") if isinstance(text, bytes) else str(text) for text in array.flat
+        )
         return "\n".join(texts)
     return array

@@ -7,7 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from time import perf_counter
@@ -39,16 +39,7 @@ class Version(NamedTuple):
 def opened(name: str, repository: Path, keep: Path, scratch: Path) -> Iterator[Version]:
     """Open a version: a folder that holds the package, or a revision, checked out into `scratch`.
 
-    Parameters
-    ----------
-    name : str
-        A folder, or a revision of the repository.
-    repository : Path
-        A checkout that knows the revision.
-    keep : Path
-        Where results stay; versions with equal files share them.
-    scratch : Path
-        A folder for checkouts, caches and the like.
+    The repository knows the revision; results stay in `keep`, where versions with equal files share them.
     """
     checkout = Path(name).resolve()
     if not (checkout / "tribodyn").is_dir():
@@ -77,19 +68,10 @@ def _digest(checkout: Path) -> str:
     return total.hexdigest()
 
 
-def run(version: Version, case: Case, words: dict[str, list[str]], say: Callable[[str], None]) -> None:
+def run(version: Version, case: Case, words: dict[str, list[str]]) -> None:
     """Run a case, unless its results are there already: status, output and records go to its folder.
 
-    Parameters
-    ----------
-    version : Version
-        What to run.
-    case : Case
-        Its commands.
-    words : dict
-        Words of the commands that this version wants written otherwise: old word -> new words.
-    say : callable
-        Takes one line about what was done.
+    `words` are those of the commands that this version wants written otherwise: old word -> new words.
     """
     folder = version.folder(case)
     commands = [[new for word in command for new in words.get(word, [word])] for command in case.commands]
@@ -102,21 +84,13 @@ def run(version: Version, case: Case, words: dict[str, list[str]], say: Callable
     status: list[int] = []
     for command in commands:
         with (folder / "stdout").open("w") as out, (folder / "stderr").open("w") as err:
-            status.append(
-                subprocess.run(
-                    [sys.executable, "-m", "tribodyn", *command],
-                    cwd=folder,
-                    stdout=out,
-                    stderr=err,
-                    stdin=subprocess.DEVNULL,
-                    env=_environment(version),
-                    check=False,
-                ).returncode
-            )
+            streams = {"stdin": subprocess.DEVNULL, "stdout": out, "stderr": err}
+            command = [sys.executable, "-m", "tribodyn", *command]
+            status.append(subprocess.call(command, cwd=folder, env=_environment(version), **streams))
     seconds = perf_counter() - start
-    said = {"commands": commands, "status": status, "seconds": round(seconds, 1)}
-    made.write_text(json.dumps(said), encoding="utf-8")
-    say(f"{version.name}: {case.name}: {seconds:.0f} s, status {status[-1]}")
+    how = {"commands": commands, "status": status, "seconds": round(seconds, 1)}
+    made.write_text(json.dumps(how), encoding="utf-8")
+    print(f"{version.name}: {case.name}: {seconds:.0f} s, status {status[-1]}", flush=True)
 
 
 def _environment(version: Version) -> dict[str, str]:
@@ -131,13 +105,8 @@ def _environment(version: Version) -> dict[str, str]:
 
 def check_import(version: Version) -> None:
     """Make sure that a process of this version imports the package from its checkout."""
-    shown = subprocess.run(
-        [sys.executable, "-c", "import tribodyn; print(tribodyn.__file__)"],
-        cwd=version.results,
-        capture_output=True,
-        text=True,
-        env=_environment(version),
-        check=True,
-    )
-    if version.checkout not in Path(shown.stdout.strip()).resolve().parents:
-        raise SystemExit(f"{version.name}: imports {shown.stdout.strip()}, not {version.checkout}")
+    command = [sys.executable, "-c", "import tribodyn; print(tribodyn.__file__)"]
+    where = {"cwd": version.results, "env": _environment(version)}
+    shown = subprocess.check_output(command, text=True, **where).strip()
+    if version.checkout not in Path(shown).resolve().parents:
+        raise SystemExit(f"{version.name}: imports {shown}, not {version.checkout}")

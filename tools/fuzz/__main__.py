@@ -11,6 +11,7 @@ from pathlib import Path
 from tools.fuzz.inputs import SHARES, drawn
 from tools.fuzz.runs import Result, run_corpus, run_numbers
 from tools.marked_block import made_by, put
+from tools.marked_block import table as table_of
 
 #: Inputs between two reports.
 BLOCK = 1000
@@ -32,39 +33,35 @@ def main() -> None:
         return
     begun = time.perf_counter()
     results = [run_corpus()]
-    _say(results[0])
+    print(*results[0].faults, sep="\n", flush=True)
     numbers = range(given.first, given.first + given.count)
     blocks = [numbers[i : i + BLOCK] for i in range(0, len(numbers), BLOCK)]
     with ProcessPoolExecutor(given.jobs, mp_context=get_context("spawn")) as pool:
         futures = [pool.submit(run_numbers, given.seed, block) for block in blocks]
         for block, future in zip(blocks, futures, strict=True):
             results.append(future.result())
-            _say(results[-1])
-            print(f"{block.stop} done, {time.perf_counter() - begun:.0f} s", flush=True)
+            seconds = time.perf_counter() - begun
+            print(*results[-1].faults, f"{block.stop} done, {seconds:.0f} s", sep="\n", flush=True)
     text = f"{made_by()} Seed {given.seed}:\n\n{table(results)}"
     print(text)
     if given.into:
         put(given.into, "fuzz", text)
-    sys.exit(any(one.faults for one in results))
+    sys.exit(any(result.faults for result in results))
 
 
 def table(results: list[Result]) -> str:
     """What became of all inputs, by target."""
-    counts = sum((one.counts for one in results), Counter[tuple[str, str]]())
-    rows = ["| target | inputs | taken | refused | faults |", "|---|---:|---:|---:|---:|"]
+    counts = sum((result.counts for result in results), Counter[tuple[str, str]]())
+    rows = []
     for target in (*SHARES, "all"):
         numbers = [
-            sum(count for (one, how), count in counts.items() if target in (one, "all") and how == way)
+            sum(count for (own, how), count in counts.items() if target in (own, "all") and how == way)
             for way in ("taken", "refused", "fault")
         ]
-        rows.append(f"| {target} | {sum(numbers)} | {' | '.join(map(str, numbers))} |")
-    seconds, which = max(one.slowest for one in results)
-    return "\n".join([*rows, "", f"Longest by processor time: {seconds:.2g} s ({which})."])
-
-
-def _say(result: Result) -> None:
-    for fault in result.faults:
-        print(fault, flush=True)
+        rows.append([target, sum(numbers), *numbers])
+    seconds, which = max(result.slowest for result in results)
+    lines = table_of(["target", "inputs", "taken", "refused", "faults"], rows, "lrrrr")
+    return f"{lines}\n\nLongest by processor time: {seconds:.2g} s ({which})."
 
 
 if __name__ == "__main__":

@@ -31,21 +31,11 @@ MOST_CHANGES = 8
 
 
 class Input(NamedTuple):
-    """One input: its target, what it is based on, and what is handed over.
+    """An input: its target, what it is based on, and what is handed over."""
 
-    Attributes
-    ----------
-    target : str
-        One of `SHARES`.
-    base : str
-        Name of a scenario or of a record.
-    content : bytes
-        Of a file, or a text for the command line.
-    """
-
-    target: str
-    base: str
-    content: bytes
+    target: str  # of `SHARES`
+    base: str  # name of a scenario or of a record
+    content: bytes  # of a file, or a text for the command line
 
 
 def drawn(seed: int, number: int) -> Input:
@@ -68,10 +58,7 @@ def of_corpus() -> list[Input]:
     found += [Input("curve", "load-step", text.encode()) for text in corpus.CURVES]
     whole = scenarios()["crc-23-47"]
     for piece in corpus.PIECES:
-        found += [
-            Input("toml", "crc-23-47", whole + piece.encode()),
-            Input("toml", "crc-23-47", piece.encode()),
-        ]
+        found += [Input("toml", "crc-23-47", before + piece.encode()) for before in (whole, b"")]
     return found
 
 
@@ -92,16 +79,8 @@ def keys(kind: str) -> tuple[str, ...]:
     """All dotted keys of the scenarios of a kind, and some that are none."""
     table = STUDIES[kind].table()
     named = (".".join(map(str, key)) for key in references(table))
-    return (
-        *keys_of(table),
-        *named,
-        "nonsense",
-        "mesh.nonsense.more",
-        "a..b",
-        "",
-        "operating.0",
-        "solver.cycles.1",
-    )
+    none = "nonsense", "mesh.nonsense.more", "a..b", "", "operating.0", "solver.cycles.1"
+    return *keys_of(table), *named, *none
 
 
 def keys_of(table: type[Table], above: str = "") -> list[str]:
@@ -141,8 +120,8 @@ def mutated(random: Random, content: bytes, pieces: list[bytes]) -> bytes:
 
 
 def _pieces() -> list[bytes]:
-    texts = (*corpus.PIECES, *corpus.NUMBERS, *corpus.NAMES, *(f'"{one}"' for one in corpus.QUANTITIES))
-    return [one.encode() for one in texts]
+    texts = (*corpus.PIECES, *corpus.NUMBERS, *corpus.NAMES, *(f'"{text}"' for text in corpus.QUANTITIES))
+    return [text.encode() for text in texts]
 
 
 def _toml(random: Random) -> Input:
@@ -170,9 +149,8 @@ def _curve(random: Random) -> Input:
 def _vary(random: Random) -> Input:
     text = random.choice(corpus.RANGES)
     if random.random() < 0.7:
-        text = mutated(random, text.encode()[:200], [b":", b",", b"/", b"e9", b" rpm"]).decode(
-            errors="replace"
-        )
+        pieces = [b":", b",", b"/", b"e9", b" rpm"]
+        text = mutated(random, text.encode()[:200], pieces).decode(errors="replace")
     name = random.choice(SWEPT)
     return Input("vary", name, f"{random.choice(keys(kind_of(name)))}={text}".encode())
 
@@ -193,9 +171,8 @@ def _cache(random: Random) -> Input:
 def _check(random: Random) -> Input:
     name = random.choice(CHECKED)
     key = random.choice([key for key in keys(kind_of(name)) if key.startswith("drive.")] + shapes())
-    value = random.choice(
-        ("0", "1", "-1", "0.5", "1e3", "1e-9", "7", "1e308", '"3 mm"', '"1e-9 m"', '"1 km"', '"20 deg"')
-    )
+    values = "0", "1", "-1", "0.5", "1e3", "1e-9", "7", "1e308", '"3 mm"', '"1e-9 m"', '"1 km"', '"20 deg"'
+    value = random.choice(values)
     return Input("check", name, f"{key}={value}".encode())
 
 
@@ -208,5 +185,5 @@ def kind_of(name: str) -> str:
 @cache
 def shapes() -> list[str]:
     """Keys of the paths of contact, of every family; of lists the first."""
-    found = {one.name for family in FAMILIES for one in FAMILIES[family].parameters}
+    found = {key.name for family in FAMILIES for key in FAMILIES[family].parameters}
     return [key for name in sorted(found) for key in (f"drive.shape.{name}", f"drive.shape.{name}.0")]

@@ -21,25 +21,16 @@ TOGETHER = 250
 
 
 class Result(NamedTuple):
-    """What became of inputs.
+    """What became of inputs."""
 
-    Attributes
-    ----------
-    counts : Counter
-        (target, "taken", "refused" or "fault") -> how many.
-    faults : list of str
-    slowest : (seconds, str)
-        Of the processor, and which.
-    """
-
-    counts: Counter[tuple[str, str]]
+    counts: Counter[tuple[str, str]]  # (target, "taken", "refused" or "fault") -> how many
     faults: list[str]
-    slowest: tuple[float, str]
+    slowest: tuple[float, str]  # seconds of the processor, and which input
 
 
 def run_corpus() -> Result:
     """Run everything of the corpus."""
-    return run_all([(f"corpus {i}", one) for i, one in enumerate(of_corpus())])
+    return run_all([(f"corpus {i}", given) for i, given in enumerate(of_corpus())])
 
 
 def run_numbers(seed: int, numbers: Iterable[int]) -> Result:
@@ -82,8 +73,8 @@ def _in_a_child(part: Sequence[tuple[str, Input]]) -> tuple[list[str], int]:
         if child == 0:
             _work(part, scratch)
         _, status = os.waitpid(child, 0)
-        said = (scratch / "said").read_text(encoding="utf-8", errors="replace")
-        return said.splitlines(), os.waitstatus_to_exitcode(status)
+        results = (scratch / "results").read_text(encoding="utf-8", errors="replace")
+        return results.splitlines(), os.waitstatus_to_exitcode(status)
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
 
@@ -98,7 +89,7 @@ def _work(part: Sequence[tuple[str, Input]], scratch: Path) -> NoReturn:
         for number in (0, 1, 2):
             os.dup2(devnull, number)
         warnings.simplefilter("error")
-        with (scratch / "said").open("w", encoding="utf-8", buffering=1) as said:
+        with (scratch / "results").open("w", encoding="utf-8", buffering=1) as results:
             for i, (_, given) in enumerate(part):
                 folder = scratch / str(i)
                 folder.mkdir()
@@ -113,7 +104,7 @@ def _work(part: Sequence[tuple[str, Input]], scratch: Path) -> NoReturn:
                 signal.alarm(0)
                 signal.setitimer(signal.ITIMER_PROF, 0.0)
                 seconds = time.process_time() - begun
-                said.write(f"{how}\t{seconds:.4f}\t{text[:400]!a}\n")
+                results.write(f"{how}\t{seconds:.4f}\t{text[:400]!a}\n")
                 os.chdir(scratch)
                 shutil.rmtree(folder, ignore_errors=True)
     finally:

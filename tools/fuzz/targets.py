@@ -37,33 +37,19 @@ class Fault(Exception):
 @cache
 def warm_up() -> None:
     """Import, before processes are forked, what all of them would import on first use."""
-    for name in (
-        "crc-23-47",
-        "efficiency-involute-18-36",
-        "load-contact-18-36",
-        "ehl-crc-23-47",
-        "design-shift-23-47",
-        "irefc",
-        "backlash-oscillator",
-    ):
+    names = "crc-23-47 efficiency-involute-18-36 load-contact-18-36 ehl-crc-23-47 design-shift-23-47"
+    for name in (*names.split(), "irefc", "backlash-oscillator"):
         load_scenario(name)
     Grid("crc-23-47", ["operating.pinion_speed=1,2 rad/s"], {})
 
 
 def outcome(given: Input, folder: Path) -> str:
-    """`TAKEN` or `REFUSED`; whatever else is raised is a fault.
-
-    Parameters
-    ----------
-    given : Input
-    folder : Path
-        An empty folder for its files; the process's cache lies beside it.
-    """
+    """`TAKEN` or `REFUSED`; whatever else is raised is a fault. The folder is empty, the cache beside it."""
     try:
         _TARGETS[given.target](given, folder)
     except InputErrors as error:
-        for one in error.errors:
-            _readable(one)
+        for part in error.errors:
+            _readable(part)
         return REFUSED
     except InputError as error:
         _readable(error)
@@ -72,11 +58,11 @@ def outcome(given: Input, folder: Path) -> str:
 
 
 def _readable(error: InputError) -> None:
-    said = str(error)
+    text = str(error)
     if not error.key or not error.rule:
-        raise Fault(f"a message without key or rule: {said[:200]}")
-    if len(said.splitlines()) != 1 or len(said) > LONGEST:
-        raise Fault(f"a message of {len(said.splitlines())} lines, {len(said)} characters: {said[:200]}")
+        raise Fault(f"a message without key or rule: {text[:200]}")
+    if len(text.splitlines()) != 1 or len(text) > LONGEST:
+        raise Fault(f"a message of {len(text.splitlines())} lines, {len(text)} characters: {text[:200]}")
 
 
 def _toml(given: Input, folder: Path) -> None:
@@ -114,13 +100,12 @@ def _record(given: Input, folder: Path) -> None:
     with open_any(path) as record:
         if isinstance(record, SweepRecord):
             sweep_table(record)
-            shown = sweep_as_json(record)
+            sweep_as_json(record)
         else:
             summary_table(record)
-            shown = as_json(record)
+            as_json(record)
             for name in record:
                 _ = record[name]
-        del shown
 
 
 def _cache(given: Input, folder: Path) -> None:
@@ -151,7 +136,7 @@ def _look_up(base: str) -> bool:
     if base == "kernel":
         return kept_or_made("fuzz", base, compiled_in, lambda: (_CODE, content_of(_CODE))) == _CODE
     arrays = arrays_kept_or_made("fuzz", base, _ARRAYS[base])
-    return all(np.array_equal(arrays[name], one) for name, one in _ARRAYS[base]().items())
+    return all(np.array_equal(arrays[name], array) for name, array in _ARRAYS[base]().items())
 
 
 _TARGETS = {
