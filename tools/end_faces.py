@@ -115,7 +115,7 @@ class Sector:
         more = np.zeros_like(symmetric)
         for part in (slice(0, None, 2), slice(1, None, 2)):
             load, read = (
-                np.stack([one[:, column] for one in reached[part]]).T @ (count[part] * wave[:, part]).T
+                np.stack([moved[:, column] for moved in reached[part]]).T @ (count[part] * wave[:, part]).T
                 for column in (0, 1)
             )
             more += read.T @ np.linalg.solve(np.sum(stiffness[part], axis=0), load)

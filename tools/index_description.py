@@ -23,14 +23,9 @@ ADDRESSES = {
 
 
 def long_description(readme: str, repository: str) -> str:
-    """Return the README with relative links made absolute, or without them where there is no repository.
+    """Return the README with relative links made absolute, or without them where there is no address.
 
-    Parameters
-    ----------
-    readme : str
-        Markdown.
-    repository : str
-        Its address; empty: none. Files are below `/blob/main`, pictures below `/raw/main`.
+    Files are below the repository's `/blob/main`, pictures below `/raw/main`.
     """
 
     def absolute(link: re.Match[str]) -> str:

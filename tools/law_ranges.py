@@ -2,19 +2,18 @@
 
 python -m tools.law_ranges            # writes the tables into docs/ehl.md: two minutes of one core
 
-The figures of `JudgedRange` in the laws are those that this prints.
+The numbers of `JudgedRange` in the laws are those that this prints.
 """
 
 import math
 import tomllib
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tools.marked_block import put
+from tools.marked_block import DOCS, ROOT, put, table
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.scenario.tables.lubricant import lubricant_of
@@ -32,8 +31,7 @@ from tribodyn.tribology.surface_state import range_shares, surface_state
 
 Array = Any
 
-ROOT = Path(__file__).parents[1]
-PAGE = ROOT / "docs" / "ehl.md"
+PAGE = DOCS / "ehl.md"
 #: Pairs of teeth of the tables, and where their random numbers begin.
 PAIRS, SEED = 98, 1
 #: Shipped oils, and the temperatures between which one is drawn, °C; one is known at one temperature only.
@@ -200,7 +198,7 @@ def solved(pair: Pair, at: int, smooth: bool) -> CoupledSolution | None:
         slope=contact.roughness.slope * factors["slope"],
     )
     rheology = contact.rheology._replace(limiting_floor=contact.rheology.limiting_floor * factors["floor"])
-    speeds = [float(one[at]) for one in pair.speeds]
+    speeds = [float(speed[at]) for speed in pair.speeds]
     problem = LineContact(
         float(pair.line_load[at]),
         1.0 / float(pair.curvature[at]),
@@ -259,11 +257,13 @@ def ratios(seed: int, count: int) -> dict[tuple[str, str], Ratios]:
                 if what == "friction" and name in MEANS:
                     weight = pair.line_load * np.abs(sliding)
                     mean = np.sum(weight * inside[0]) / np.sum(weight * against)
-                    rows = (np.array([mean]), *(one[:1] for one in inside[1:]))
+                    rows = (np.array([mean]), *(limits[:1] for limits in inside[1:]))
                 whose = np.full(len(rows[0]), pair.oil), np.full(len(rows[0]), pair.drawn)
                 found.setdefault((what, name), []).append((*rows, *whose))
-    joined = {key: [np.concatenate(one) for one in zip(*rows, strict=True)] for key, rows in found.items()}
-    return {key: Ratios(*(one[np.isfinite(rows[0])] for one in rows)) for key, rows in joined.items()}
+    joined = {
+        key: [np.concatenate(parts) for parts in zip(*rows, strict=True)] for key, rows in found.items()
+    }
+    return {key: Ratios(*(row[np.isfinite(rows[0])] for row in rows)) for key, rows in joined.items()}
 
 
 def _by_law(law: FilmLaw | FrictionLaw, contact: Any, given: LawInput) -> tuple[Array, Array, Array]:
@@ -290,27 +290,21 @@ def right(law: FilmLaw | FrictionLaw, ratio: Array) -> Array:
 
 def quantiles(ratio: Array) -> tuple[float, float, float]:
     """5, 50 and 95 %, to three digits."""
-    low, median, high = (float(f"{one:.3g}") for one in np.quantile(ratio, (0.05, 0.5, 0.95)))
+    low, median, high = (float(f"{value:.3g}") for value in np.quantile(ratio, (0.05, 0.5, 0.95)))
     return low, median, high
 
 
 def tables(found: dict[tuple[str, str], Ratios]) -> str:
     """Return both tables as Markdown."""
-    lines = [
-        "| law | stands for | right | limits by the solved contact | contacts inside: all, those right | "
-        "ratio there: 5, 50, 95 % | right with constants of the judge, drawn | right anywhere "
-        "| anywhere: 5, 50, 95 % |",
-        "|---|---|---|---|--:|---|---|--:|---|",
-    ]
-    oils = [
-        f"| law | {' | '.join(OILS)} |",
-        f"|---|{'---|' * len(OILS)}",
-    ]
-    for (what, name), one in found.items():
+    head = ["law", "stands for", "right", "limits by the solved contact", "contacts inside: all, those right"]
+    head += ["ratio there: 5, 50, 95 %", "right with constants of the judge, drawn", "right anywhere"]
+    head += ["anywhere: 5, 50, 95 %"]
+    rows, by_oil = [], []
+    for (what, name), ratios in found.items():
         law = FILM_LAWS[name] if what == "film" else FRICTION_LAWS[name]
         assert law.judged is not None
         limits = law.limits[len(law.limits) - law.judged.limits :]
-        inside = one.ratio[one.judged]
+        inside = ratios.ratio[ratios.judged]
         low, high = law.judged.right
         stands = STANDS_FOR[name] if what == "film" else "mean of the mesh" if name in MEANS else "friction"
         cells = (
@@ -318,20 +312,21 @@ def tables(found: dict[tuple[str, str], Ratios]) -> str:
             stands,
             f"{low:g} … {high:g}",
             ", ".join(limits) or "none found",
-            f"{len(inside)} of {len(one.ratio)}, {_share(right(law, inside))}",
+            f"{len(inside)} of {len(ratios.ratio)}, {_share(right(law, inside))}",
             ", ".join(f"{value:.3g}" for value in quantiles(inside)),
-            ", ".join(_share(right(law, one.ratio[one.judged & (one.drawn == drawn)])) for drawn in (0, 1)),
-            _share(right(law, one.ratio)),
-            ", ".join(f"{value:.3g}" for value in quantiles(one.ratio)),
+            ", ".join(_share(right(law, ratios.ratio[ratios.judged & (ratios.drawn == d)])) for d in (0, 1)),
+            _share(right(law, ratios.ratio)),
+            ", ".join(f"{value:.3g}" for value in quantiles(ratios.ratio)),
         )
-        lines.append(f"| {' | '.join(cells)} |")
+        rows.append(cells)
         spread = []
         for oil in OILS:
-            ratio = one.ratio[one.judged & (one.oil == oil)]
+            ratio = ratios.ratio[ratios.judged & (ratios.oil == oil)]
             low, median, high = quantiles(ratio) if len(ratio) else (math.nan,) * 3
             spread.append(f"{median:.2f} ({low:.2f} … {high:.2f})" if len(ratio) > 1 else "–")
-        oils.append(f"| {what} `{name}` | {' | '.join(spread)} |")
-    return "\n".join([*lines, "", "By oil, inside the same limits (median, 5 and 95 %):", "", *oils])
+        by_oil.append([f"{what} `{name}`", *spread])
+    parts = table(head, rows, "llllrllr"), "By oil, inside the same limits (median, 5 and 95 %):"
+    return "\n\n".join([*parts, table(["law", *OILS], by_oil)])
 
 
 def _share(hits: Array) -> str:

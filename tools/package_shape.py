@@ -1,4 +1,4 @@
-"""The shape of a package, read from its files: imports, circles, lengths, files that name a kind of study.
+"""The shape of a package, read from its files: imports, circles, lengths.
 
 python -m tools.package_shape            # of this checkout
 python -m tools.package_shape FOLDER     # of another one
@@ -7,27 +7,25 @@ Nothing is imported: files are parsed. An import inside a function counts like a
 checker sees (under ``if TYPE_CHECKING``) is marked. What a registry looks up by a string is no import here.
 """
 
-import argparse
 import ast
-import re
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
+import numpy as np
+from scipy.sparse.csgraph import connected_components
+
+from tools.marked_block import ROOT, parser_of
+
 PACKAGE = "tribodyn"
 #: What lies in the package's root itself; everything else has a folder.
 ROOT_FILES = frozenset({"__init__.py", "__main__.py", "errors.py", "py.typed"})
-#: A kind of study, named as a string or by a class that only its folder should define.
-KIND_NAMES = re.compile(
-    r"[\"'](irefc|load-contact|backlash-oscillator)[\"']"
-    r"|\b(Rolling|LoadContact|BacklashOscillator|Efficiency)(Case|Scenario)\b"
-)
 
 
 class Import(NamedTuple):
-    """One import: which module imports which, in which line, and whether a type checker alone sees it.
+    """An import: which module imports which, in which line, and whether a type checker alone sees it.
 
     `imported` is the full dotted name of a module of the package; other modules as they are written.
     """
@@ -51,7 +49,7 @@ def modules(package: Path) -> dict[str, Path]:
 def imports(package: Path) -> tuple[Import, ...]:
     """Return every import in every file of the package in folder `package`."""
     known = modules(package)
-    return tuple(one for name, path in known.items() for one in _imports_of(name, path, known))
+    return tuple(found for name, path in known.items() for found in _imports_of(name, path, known))
 
 
 def _imports_of(name: str, path: Path, known: dict[str, Path]) -> Iterator[Import]:
@@ -90,9 +88,9 @@ def by_file(package: Path, *, typing_too: bool = False) -> dict[str, set[str]]:
     """Return which module imports which others of the package."""
     known = modules(package)
     edges: dict[str, set[str]] = {name: set() for name in known}
-    for one in imports(package):
-        if one.imported in known and (typing_too or not one.typing_only):
-            edges[one.importer].add(one.imported)
+    for found in imports(package):
+        if found.imported in known and (typing_too or not found.typing_only):
+            edges[found.importer].add(found.imported)
     return {name: targets - {name, package.name} for name, targets in edges.items()}
 
 
@@ -105,32 +103,17 @@ def by_folder(package: Path, *, typing_too: bool = False) -> dict[str, set[str]]
 
 
 def circles(edges: dict[str, set[str]]) -> list[list[str]]:
-    """Return the groups whose members all reach each other, by Tarjan's algorithm."""
-    index: dict[str, int] = {}
-    low: dict[str, int] = {}
-    stack: list[str] = []
-    rings = []
-
-    def visit(node: str) -> None:
-        index[node] = low[node] = len(index)
-        stack.append(node)
-        for target in sorted(edges.get(node, ())):
-            if target not in index:
-                visit(target)
-                low[node] = min(low[node], low[target])
-            elif target in stack:
-                low[node] = min(low[node], index[target])
-        if low[node] == index[node]:
-            place = stack.index(node)
-            ring = stack[place:]
-            del stack[place:]
-            if len(ring) > 1:
-                rings.append(sorted(ring))
-
-    for node in sorted(edges):
-        if node not in index:
-            visit(node)
-    return rings
+    """Return the groups whose members all reach each other."""
+    nodes = sorted({*edges, *(target for targets in edges.values() for target in targets)})
+    number = {node: place for place, node in enumerate(nodes)}
+    reaches = np.zeros((len(nodes), len(nodes)), dtype=bool)
+    for node, targets in edges.items():
+        reaches[number[node], [number[target] for target in targets]] = True
+    _, group = connected_components(reaches, connection="strong")
+    rings: dict[int, list[str]] = {}
+    for node in nodes:
+        rings.setdefault(group[number[node]], []).append(node)
+    return [ring for ring in rings.values() if len(ring) > 1]
 
 
 def lines(path: Path) -> int:
@@ -138,18 +121,8 @@ def lines(path: Path) -> int:
     return len(path.read_text(encoding="utf-8").splitlines())
 
 
-def naming_kinds(package: Path) -> list[Path]:
-    """Return the files outside `studies` and `validation` that name a kind of study."""
-    return [
-        path
-        for name, path in modules(package).items()
-        if folder(name) not in ("studies", "validation")
-        and KIND_NAMES.search(path.read_text(encoding="utf-8"))
-    ]
-
-
 def shape(checkout: Path) -> dict[str, int | str]:
-    """Return the figures of a checkout: title -> number, or number and names."""
+    """Return the numbers of a checkout: title -> number, or number and names."""
     package = checkout / PACKAGE
     files = modules(package)
     lengths = {path: lines(path) for path in files.values()}
@@ -159,11 +132,8 @@ def shape(checkout: Path) -> dict[str, int | str]:
     return {
         "files of the package": len(files),
         "modules in the package's root, besides " + ", ".join(sorted(ROOT_FILES)): len(loose),
-        "files outside studies/ and validation/ that name a kind": len(naming_kinds(package)),
         "import circles by file": len(circles(by_file(package))),
-        "import circles by file, imports for type checkers included": len(
-            circles(by_file(package, typing_too=True))
-        ),
+        "the same, imports for type checkers included": len(circles(by_file(package, typing_too=True))),
         "import circles by folder": len(circles(by_folder(package))),
         "lines of the median file": round(median(lengths.values())),
         "lines of the longest file": f"{lengths[longest]} ({longest.relative_to(checkout).as_posix()})",
@@ -174,16 +144,14 @@ def shape(checkout: Path) -> dict[str, int | str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("checkout", nargs="?", type=Path, default=Path(__file__).parents[1])
+    parser = parser_of(__doc__)
+    parser.add_argument("checkout", nargs="?", type=Path, default=ROOT)
     checkout = parser.parse_args().checkout
-    for title, figure in shape(checkout).items():
-        print(f"{title}: {figure}")
+    for title, number in shape(checkout).items():
+        print(f"{title}: {number}")
     package = checkout / PACKAGE
     for ring in circles(by_file(package)) + circles(by_folder(package)):
         print(f"circle: {', '.join(ring)}")
-    for path in naming_kinds(package):
-        print(f"names a kind: {path.relative_to(checkout).as_posix()}")
 
 
 if __name__ == "__main__":

@@ -187,9 +187,7 @@ def written(values: list[float]) -> list[str]:
 
 def published_row() -> list[str]:
     rows = published("liu-ni-2022")
-    cells = []
-    for _, key, code in COLUMNS:
-        cells.append("" if key is None else format(rows[f"liu-ni/{key}"]["published"], code))
+    cells = [format(rows[f"liu-ni/{key}"]["published"], code) if key else "" for _, key, code in COLUMNS]
     inverse = [1 - rows[f"liu-ni/efficiency-{drive}"]["published"] for drive in ("involute", "crc")]
     cells[-2:] = [f"{inverse[0] / inverse[1]:.2f}", "> 0"]
     return cells

@@ -16,26 +16,14 @@ import tribodyn as td
 
 Array = Any
 
+KEYS = "line_load radius entrainment_speed viscosity pressure_viscosity viscosity_pressure_index"
 #: As `td.line_contact` takes them.
-CONTACTS: tuple[dict[str, Any], ...] = (
-    {
-        "line_load": 384.7e3,
-        "radius": 8.98025e-3,
-        "entrainment_speed": 0.1355,
-        "viscosity": 0.35,
-        "pressure_viscosity": 25e-9,
-        "viscosity_pressure_index": 0.57,
-        "effective_modulus": 226.37e9,
-    },
-    {
-        "line_load": 200e3,
-        "radius": 10e-3,
-        "entrainment_speed": 1.0,
-        "viscosity": 0.04,
-        "pressure_viscosity": 22e-9,
-        "viscosity_pressure_index": 0.6,
-        "effective_modulus": 226.37e9,
-    },
+CONTACTS: tuple[dict[str, Any], ...] = tuple(
+    dict(zip(KEYS.split(), values, strict=True), effective_modulus=226.37e9)
+    for values in (
+        (384.7e3, 8.98025e-3, 0.1355, 0.35, 25e-9, 0.57),
+        (200e3, 10e-3, 1.0, 0.04, 22e-9, 0.6),
+    )
 )
 _MOST_STEPS = 100
 

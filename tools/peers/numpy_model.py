@@ -24,20 +24,14 @@ NEEDED = CHANNELS.index("sine") + 1
 
 
 class NumpyModel:
-    """Right-hand side over mesh phase; `segment` says which pairs are in contact.
-
-    Parameters
-    ----------
-    model : Model
-    """
+    """Right-hand side over mesh phase; `segment` says which pairs are in contact."""
 
     def __init__(self, model: Model):
         self.m, self.t = model.mechanics, model.table
         self.s, self.c = model.surfaces, model.friction
         self.boundary = np.asarray(self.t.boundary)
         self.pairs = [np.flatnonzero(row) for row in np.asarray(self.t.in_contact)]
-        cells = self.t.channel.shape[1]
-        self.cells = cells
+        self.cells = self.t.channel.shape[1]
         self.channel, self.stiffness = [], []
         for segment, pairs in enumerate(self.pairs):
             # (cell, power, channel, pair): one row of coefficients per look-up
@@ -142,26 +136,16 @@ class NumpyModel:
 def numpy_rates(model: Model, phases: Array, states: Array) -> Array:
     """Derivatives of the ten moving states at given phases: (time, 10)."""
     function = NumpyModel(model)
-    return np.array(
-        [
-            function(float(phase), state, function.segment(phase))
-            for phase, state in zip(phases, states, strict=True)
-        ]
-    )
+    pairs = zip(phases, states, strict=True)
+    return np.array([function(float(phase), state, function.segment(phase)) for phase, state in pairs])
 
 
 def difference(
     model: Model, phases: Array, states: Array, rates: Callable[[Model, Array, Array], Array] = numpy_rates
 ) -> float:
-    """Maximum difference from tribodyn's right-hand side, over each rate's range at the given states.
+    """Maximum difference from tribodyn's right-hand side, over each rate's range at states (time, 10).
 
-    Parameters
-    ----------
-    model : Model
-    phases : (time,)
-    states : (time, 10)
-    rates : callable
-        Another program's right-hand side: model, phases and states to derivatives (time, 10).
+    `rates` is another program's right-hand side: model, phases and states to derivatives (time, 10).
     """
     segment_at = NumpyModel(model).segment
     ours = []

@@ -49,15 +49,10 @@ Runner = Callable[[Problem, float], Array]
 
 
 class Program(NamedTuple):
-    """A program of the comparison.
+    """A program of the comparison: how it runs, and the right-hand side that it brings along, or None.
 
-    Attributes
-    ----------
-    run : callable
-        Problem and relative tolerance to samples of the transmission error, m; raises RuntimeError where it
-        gives up.
-    rates : callable or None
-        The right-hand side it brings along, as of `numpy_model.difference`; None: tribodyn's.
+    `run` takes problem and relative tolerance and returns samples of the transmission error, m; it raises
+    RuntimeError where it gives up. `rates` are as of `numpy_model.difference`.
     """
 
     run: Runner
@@ -87,16 +82,8 @@ def scipy_on_numpy(method: str) -> Runner:
         samples = []
         for _ in range(problem.cycles):
             for segment, start, end, at in problem.segments():
-                solution = solve_ivp(
-                    function,
-                    (start, end),
-                    y,
-                    method=method,
-                    rtol=rtol,
-                    atol=atol,
-                    t_eval=np.append(at, end),
-                    args=(segment,),
-                )
+                given = {"rtol": rtol, "atol": atol, "t_eval": np.append(at, end), "args": (segment,)}
+                solution = solve_ivp(function, (start, end), y, method=method, **given)
                 if not solution.success:
                     raise RuntimeError(f"{method}: {solution.message}")
                 samples.append(solution.y[4, :-1])
@@ -131,7 +118,7 @@ def cvode(problem: Problem, rtol: float) -> Array:
 
 def _right_hand_side(model: Model, work: Array, cycle: float, segment: int) -> Callable[..., None]:
     full, rates = np.zeros(STATES), np.zeros(STATES)
-    items = [packed(one) for one in (full, model, work, rates)]
+    items = [packed(item) for item in (full, model, work, rates)]
 
     def function(t: float, y: Array, out: Array) -> None:
         full[MOVING] = y
@@ -148,16 +135,14 @@ def octave(problem: Problem, rtol: float) -> Array:
 
 def octave_timed(problem: Problem, rtol: float) -> tuple[Array, float]:
     """Samples, and the seconds that Octave took for the integration alone."""
-    output = _in_octave(
-        problem.model,
-        {
-            "y0": problem.state[MOVING][:, None],
-            "rtol": rtol,
-            "atol": problem.tolerances(rtol).atol[MOVING],
-            "cycles": float(problem.cycles),
-            "samples": float(problem.samples),
-        },
-    )
+    given = {
+        "y0": problem.state[MOVING][:, None],
+        "rtol": rtol,
+        "atol": problem.tolerances(rtol).atol[MOVING],
+        "cycles": float(problem.cycles),
+        "samples": float(problem.samples),
+    }
+    output = _in_octave(problem.model, given)
     return output["xi"].ravel(), float(output["seconds"].item())
 
 
@@ -175,20 +160,10 @@ def _in_octave(model: Model, given: dict[str, Any]) -> dict[str, Any]:
         for name, value in part._asdict().items()
         if np.ndim(value) == 0
     }
-    table = model.table
-    numbers |= {
-        "face_width": float(table.face_width),
-        "gear_pitch_radius": float(table.gear_pitch_radius),
-        "pitch_angle": float(table.pitch_angle),
-        "w": numpy_model.w,
-        "omega": numpy_model.omega,
-        "rate": numpy_model.rate,
-        "dynamic": float(numpy_model.dynamic),
-        "reversed_at": numpy_model.reversed_at,
-        "material": numpy_model.material,
-        "asperity": numpy_model.asperity,
-        "rough": numpy_model.rough,
-    }
+    tabulated = "face_width gear_pitch_radius pitch_angle"
+    numbers |= {name: float(getattr(model.table, name)) for name in tabulated.split()}
+    derived = "w omega rate dynamic reversed_at material asperity rough"
+    numbers |= {name: float(getattr(numpy_model, name)) for name in derived.split()}
     channel, stiffness = (np.empty(len(numpy_model.pairs), dtype=object) for _ in range(2))
     for segment in range(len(numpy_model.pairs)):
         channel[segment], stiffness[segment] = numpy_model.channel[segment], numpy_model.stiffness[segment]
@@ -197,29 +172,20 @@ def _in_octave(model: Model, given: dict[str, Any]) -> dict[str, Any]:
         folder = Path(name)
         savemat(folder / "case.mat", case | given)
         script = Path(__file__).with_name("gear_pair.m")
-        subprocess.run(
-            ["octave-cli", "--quiet", "--no-init-file", str(script), str(folder)],
-            check=True,
-            capture_output=True,
-            text=True,
-        )
+        command = ["octave-cli", "--quiet", "--no-init-file", str(script), str(folder)]
+        subprocess.run(command, check=True, capture_output=True, text=True)
         return loadmat(folder / "found.mat")
 
 
 def peers() -> dict[str, Program]:
     """All programs that can be run here, ours first."""
-    programs = {
-        "tribodyn dopri5": Program(tribodyn_engine("dopri5")),
-        "tribodyn rodas4": Program(tribodyn_engine("rodas4")),
-        "SciPy BDF, NumPy": Program(scipy_on_numpy("BDF"), numpy_rates),
-        "SciPy LSODA, NumPy": Program(scipy_on_numpy("LSODA"), numpy_rates),
-        "SciPy BDF, numba": Program(tribodyn_engine("bdf")),
-        "SciPy LSODA, numba": Program(tribodyn_engine("lsoda")),
-        "SciPy DOP853, numba": Program(tribodyn_engine("dop853")),
-        "diffrax Tsit5": Program(tribodyn_engine("tsit5")),
-        "diffrax Dopri8": Program(tribodyn_engine("dopri8")),
-        "diffrax Kvaerno5": Program(tribodyn_engine("kvaerno5")),
-    }
+    programs = {f"tribodyn {name}": Program(tribodyn_engine(name)) for name in ("dopri5", "rodas4")}
+    for name in ("BDF", "LSODA"):
+        programs[f"SciPy {name}, NumPy"] = Program(scipy_on_numpy(name), numpy_rates)
+    for name in ("BDF", "LSODA", "DOP853"):
+        programs[f"SciPy {name}, numba"] = Program(tribodyn_engine(name.lower()))
+    for name in ("Tsit5", "Dopri8", "Kvaerno5"):
+        programs[f"diffrax {name}"] = Program(tribodyn_engine(name.lower()))
     if find_spec("sksundae"):
         programs["CVODE BDF, numba"] = Program(cvode)
     if shutil.which("octave-cli"):

@@ -75,7 +75,7 @@ def _shape(
         sign = draw.choice((1.0, 1.0, -1.0))
         diameters = (sign * draw.between(10.0, 90.0) * module for _ in range(2))
         keys = "approach_diameter", "recess_diameter"
-        return {key: quantity(1e3 * one, "mm") for key, one in zip(keys, diameters, strict=True)}
+        return {key: quantity(1e3 * diameter, "mm") for key, diameter in zip(keys, diameters, strict=True)}
     if family == "s-gear":
         return {"form_factor": draw.between(1.3, 1.9), "exponent": draw.between(1.5, 2.0)}
     if family == "points":
@@ -104,7 +104,7 @@ def _points(module: float, angle: float, bend: float) -> dict[str, Any]:
     r = 1e3 * module * np.linspace(-6.0, 6.0, 17)
     alpha = angle + bend * np.tanh(r / (3e3 * module))
     values = {"x": r * np.cos(alpha), "y": r * np.sin(alpha)}
-    return {name: {"unit": "mm", "values": [_digits(v, 9) for v in one]} for name, one in values.items()}
+    return {name: {"unit": "mm", "values": [_digits(v, 9) for v in row]} for name, row in values.items()}
 
 
 def _material(draw: Draw) -> Any:

@@ -16,11 +16,8 @@ ALWAYS = (
 )
 #: Numbers wherever a pair carries, and not elsewhere (the first four: on the whole path of contact).
 ON_PATH = (
-    "transmission_error_normal",
-    "pressure_angle",
-    "equivalent_radius",
-    "entrainment_speed",
-    "sliding_speed",
+    *("transmission_error_normal", "pressure_angle", "equivalent_radius"),
+    *("entrainment_speed", "sliding_speed"),
 )
 LOADED = (
     *("friction_coefficient", "asperity_load_ratio", "central_film_thickness", "film_parameter"),
@@ -98,14 +95,12 @@ def _summary(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
         known = summary.get("extremes", {}).get("run", {}).get(key)
         if not values.size or known is None:
             continue
-        sampled, said = float(values.max() if greatest else values.min()), float(known["value"])
-        beyond = said - sampled if greatest else sampled - said
+        sampled, reported = float(values.max() if greatest else values.min()), float(known["value"])
+        beyond = reported - sampled if greatest else sampled - reported
         if not beyond >= -1e-9 * abs(sampled):
-            yield f"summary {key} = {said:.9g}, a sample of {name} is {sampled:.9g}"
+            yield f"summary {key} = {reported:.9g}, a sample of {name} is {sampled:.9g}"
     for key, value in _plain(summary):
-        if isinstance(value, str):
-            continue
-        if np.any(np.isinf(np.asarray(value, dtype=float))):
+        if not isinstance(value, str) and np.any(np.isinf(np.asarray(value, dtype=float))):
             yield f"summary {key} is infinite"
 
 
@@ -129,16 +124,13 @@ def _means(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
     if record.samples != samples * cycles + 1:
         yield f"{record.samples} samples of {cycles} cycles"
     window = slice(record.samples - 1 - samples * summary["averaging_cycles"], record.samples)
-    work = {
-        name: float(np.diff(data[f"work_{name}"][[window.start, -1]])[0])
-        for name in ("in", "out", "friction")
-    }
-    time = float(np.diff(data["time"][[window.start, -1]])[0])
+    names = "work_in", "work_out", "work_friction", "time"
+    work_in, out, friction, time = (float(data[name][-1] - data[name][window.start]) for name in names)
     efficiency = summary.get("efficiency")
     if efficiency is not None and np.isfinite(efficiency) and not 0 <= efficiency <= 1:
         yield f"efficiency {efficiency:.6g}"
-    put_in = (max(work["in"], 0.0) + max(-work["out"], 0.0)) / time
-    for key, value in (("power_in_mean", put_in), ("power_friction_mean", work["friction"] / time)):
+    put_in = (max(work_in, 0.0) + max(-out, 0.0)) / time
+    for key, value in (("power_in_mean", put_in), ("power_friction_mean", friction / time)):
         if not np.isclose(summary[key], value, rtol=1e-6, atol=1e-9 * put_in):
             yield f"summary {key} = {summary[key]:.9g}, the record's works give {value:.9g}"
     error = data["transmission_error_rotational"][window.start : -1]

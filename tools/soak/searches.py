@@ -36,7 +36,7 @@ def search(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
     if draw.chance(0.2):
         load = float(scenario["operating"]["gear_torque"].split()[0])
         torques = [{"operating.gear_torque": quantity(share * load, "N*m")} for share in (0.8, 1.0)]
-        design["duty"] = [{"set": one} for one in torques]
+        design["duty"] = [{"set": torque} for torque in torques]
     return {"title": "A random search", "kind": "design", "scenario": scenario, "design": design}
 
 
