@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from matplotlib.figure import Figure
 
+from tribodyn.errors import InputError
 from tribodyn.post.figures.panel import View
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
@@ -23,6 +24,36 @@ class Drawing(NamedTuple):
     draw: Callable[[Sequence[Record], View], Figure]
     #: whether a record holds enough; what does not fit is drawn only when asked for by name
     fits: Callable[[Record], bool] = always
+
+
+def drawing(
+    about: str,
+    draw: Callable[[Sequence[Record], View], Figure],
+    fits: Callable[[Record], bool] = always,
+    missing: tuple[str, str, str] = ("", "", ""),
+    *,
+    samples: int = 1,
+    timeless: str = "",
+) -> Drawing:
+    """A figure that refuses what it cannot show: records of fewer samples, or that do not fit.
+
+    `missing` is its name, what is wrong with a record that does not fit ("{path}" stands for its path), and
+    the remedy; `timeless` is what knows no time, where its records have none.
+    """
+
+    def checked(records: Sequence[Record], view: View) -> Figure:
+        if timeless and view.against == "time":
+            raise InputError("against", "time", f"{timeless} knows no time", "phase")
+        for record in records:
+            if record.samples < samples:
+                rule = "holds no samples to draw"
+                raise InputError("record", str(record.path), rule, "run the scenario again")
+            if not fits(record):
+                name, rule, remedy = missing
+                raise InputError("plot", name, rule.replace("{path}", str(record.path)), remedy)
+        return draw(records, view)
+
+    return Drawing(about, checked, fits)
 
 
 class SweepDrawing(NamedTuple):

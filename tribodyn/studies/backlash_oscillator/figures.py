@@ -8,9 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tribodyn.errors import InputError
-from tribodyn.post.figures.drawing import Drawing
-from tribodyn.post.figures.panel import View, record_label, record_title
+from tribodyn.post.figures.drawing import Drawing, drawing
+from tribodyn.post.figures.panel import record_label, record_title
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
@@ -169,16 +168,7 @@ def _finish(
 
 
 def _drawing(about: str, draw: Callable[[Sequence[Record]], Figure]) -> Drawing:
-    def checked(records: Sequence[Record], view: View) -> Figure:
-        if view.against == "time":
-            raise InputError("against", "time", "a frequency sweep knows no time", "phase")
-        for record in records:
-            if record.samples < 1:
-                rule = "holds no samples to draw"
-                raise InputError("record", str(record.path), rule, "run the scenario again")
-        return draw(records)
-
-    return Drawing(about, checked)
+    return drawing(about, lambda records, _: draw(records), timeless="a frequency sweep")
 
 
 DRAWINGS: dict[str, Drawing] = {

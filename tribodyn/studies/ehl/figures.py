@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.drawing import Drawing, always
+from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.style import GRID, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
@@ -19,14 +19,10 @@ _PLACE = "Place over half width of the Hertz contact"
 _SHOWN = 5
 
 
-def _drawing(
-    about: str, draw: Callable[[Record, Figure], None], height: float, fits: Callable[[Record], bool] = always
-) -> Drawing:
+def _drawing(about: str, draw: Callable[[Record, Figure], None], height: float, *fits: Any) -> Drawing:
     """A figure of one record, so many panels high."""
 
-    def figure(records: Sequence[Record], view: View) -> Figure:
-        if view.against == "time":
-            raise InputError("against", "time", "a study of the solved contact knows no time", "phase")
+    def figure(records: Sequence[Record], _view: View) -> Figure:
         if len(records) != 1:
             raise InputError("plot", "records", "this figure shows one record", "give one")
         drawn = new_figure(WIDTH, height * PANEL_HEIGHT)
@@ -34,7 +30,7 @@ def _drawing(
         drawn.suptitle(record_title(records[0]))
         return drawn
 
-    return Drawing(about, figure, fits)
+    return drawing(about, figure, *fits, samples=0, timeless="a study of the solved contact")
 
 
 def _overview(record: Record, drawn: Figure) -> None:
@@ -128,10 +124,6 @@ def _traction(record: Record, drawn: Figure) -> None:
 
 
 def _transient(record: Record, drawn: Figure) -> None:
-    if not _with_squeeze(record):
-        raise InputError(
-            "plot", "transient", "the record has no film with squeeze", "set contact.transient = true"
-        )
     film, departure, friction = drawn.subplots(3, 1, sharex=True)
     roll = np.degrees(record["roll_angle"])
     for number, (name, label) in enumerate((("central", "central"), ("minimum", "minimum"))):
@@ -158,7 +150,11 @@ DRAWINGS: dict[str, Drawing] = {
     "maps": _drawing("the same over the way of the pair", _maps, 2.2),
     "moes": _drawing("Moes' chart with the drive's duty", _moes, 1.6),
     "transient": _drawing(
-        "film and friction with squeeze beside the steady ones", _transient, 3.0, _with_squeeze
+        "film and friction with squeeze beside the steady ones",
+        _transient,
+        3.0,
+        _with_squeeze,
+        ("transient", "the record has no film with squeeze", "set contact.transient = true"),
     ),
     "traction": _drawing("friction over slide-to-roll ratio, where the load is highest", _traction, 1.4),
 }

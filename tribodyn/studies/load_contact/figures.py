@@ -1,6 +1,7 @@
 """Figures of load contact studies: transmission error, load sharing, stiffness, root stress, Harris map."""
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -8,9 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from tribodyn.errors import InputError
-from tribodyn.post.figures.drawing import Drawing, always
-from tribodyn.post.figures.panel import View, record_label, record_title
+from tribodyn.post.figures.drawing import Drawing, drawing
+from tribodyn.post.figures.panel import record_label, record_title
 from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact.case import BODIES
@@ -24,29 +24,13 @@ from tribodyn.studies.load_contact.maps import (
     over_phase,
     over_roll,
     pair_over_phase,
-    require_positions,
 )
 
-HARRIS, FILM_MAP = "harris", "film-map"
 MAP_CURVES = "Transmission error over the mesh cycle, less its mean, at every torque"
 PHASE = "Phase (mesh cycles)"
 ROLL = "Roll angle from the pitch point (°)"
 #: Peak to peak below which an unloaded transmission error is none, m.
 _NO_ERROR = 1e-12
-
-
-def _checked(name: str, records: Sequence[Record], view: View) -> None:
-    """Refuse what a figure cannot show."""
-    if view.against == "time":
-        raise InputError("against", "time", "a load contact study knows no time", "phase")
-    for record in records:
-        require_positions(record)
-        if name == HARRIS and not has_map(record):
-            rule = f"{record.path} holds a single torque"
-            raise InputError("plot", name, rule, "run the scenario with operating.gear_torques")
-        if name == FILM_MAP and not has_film(record):
-            rule = f"{record.path} holds no film"
-            raise InputError("plot", name, rule, "run the scenario with a lubricant and a speed")
 
 
 def has_map(record: Record) -> bool:
@@ -279,37 +263,30 @@ def _finish(
     return drawn
 
 
-def _drawing(
-    name: str,
-    about: str,
-    draw: Callable[[Sequence[Record]], Figure],
-    fits: Callable[[Record], bool] = always,
-) -> Drawing:
-    def checked(records: Sequence[Record], view: View) -> Figure:
-        _checked(name, records, view)
-        return draw(records)
-
-    return Drawing(about, checked, fits)
+def _drawing(about: str, draw: Callable[[Sequence[Record]], Figure], *fits: Any) -> Drawing:
+    timeless = "a load contact study"
+    return drawing(about, lambda records, _: draw(records), *fits, samples=2, timeless=timeless)
 
 
+_NO_MAP = "harris", "{path} holds a single torque", "run the scenario with operating.gear_torques"
+_NO_FILM = "film-map", "{path} holds no film", "run the scenario with a lubricant and a speed"
 DRAWINGS: dict[str, Drawing] = {
-    name: _drawing(name, *one)
-    for name, one in {
-        "overview": ("transmission error, loads, stiffness or Harris map, pressure, root stress", _overview),
-        "loaded-error": ("loaded and unloaded transmission error", _loaded_error),
-        "load-sharing": ("load of every pair, and its share", _load_sharing),
-        "line-load": ("line load over roll angle and face", line_load_figure),
-        "pressure-map": (
-            "Hertz pressure over roll angle and face",
-            lambda records: face_map_figure(records, PRESSURE),
-        ),
-        FILM_MAP: (
-            "film thickness over roll angle and face, with a lubricant",
-            lambda records: face_map_figure(records, FILM),
-            has_film,
-        ),
-        "root-stress": ("root stress on both sides of the tooth", _root_stress),
-        "mesh-stiffness": ("mesh stiffness", _mesh_stiffness),
-        HARRIS: ("Harris map: loaded transmission error over torque", _harris, has_map),
-    }.items()
+    "overview": _drawing(
+        "transmission error, loads, stiffness or Harris map, pressure, root stress", _overview
+    ),
+    "loaded-error": _drawing("loaded and unloaded transmission error", _loaded_error),
+    "load-sharing": _drawing("load of every pair, and its share", _load_sharing),
+    "line-load": _drawing("line load over roll angle and face", line_load_figure),
+    "pressure-map": _drawing(
+        "Hertz pressure over roll angle and face", lambda records: face_map_figure(records, PRESSURE)
+    ),
+    "film-map": _drawing(
+        "film thickness over roll angle and face, with a lubricant",
+        lambda records: face_map_figure(records, FILM),
+        has_film,
+        _NO_FILM,
+    ),
+    "root-stress": _drawing("root stress on both sides of the tooth", _root_stress),
+    "mesh-stiffness": _drawing("mesh stiffness", _mesh_stiffness),
+    "harris": _drawing("Harris map: loaded transmission error over torque", _harris, has_map, _NO_MAP),
 }

@@ -8,7 +8,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.post.figures.panel import record_label, record_title
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
@@ -22,12 +21,6 @@ class FaceMap(NamedTuple):
     roll: Float[Array, " position"]
     face: Float[Array, " slice"]  # (slices,); middles of the slices from the middle of the face, m
     values: Float[Array, "position slice"]  # (positions, slices)
-
-
-def require_positions(record: Record) -> None:
-    """Refuse a record that holds nothing to draw."""
-    if record.samples < 2:
-        raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
 
 
 def over_phase(record: Record, name: str) -> tuple[Float[Array, " position"], Float[Array, "position ..."]]:

@@ -127,12 +127,9 @@ def engage(
     friction: RollingFriction,
     mode: Mode = "corrected",
 ) -> ElementStates:
-    """Resolve loads, speeds and losses.
+    """Resolve loads, speeds and losses at input power (W) and speed (rad/s) of the shaft.
 
-    Parameters
-    ----------
-    angle : (time, element), from `element_angles`, or `published_angles` for the paper's table
-    input_power, input_speed : W and rad/s of the shaft
+    Angles (time, element) are those of `element_angles`, or `published_angles` for the paper's table.
     """
     load = normal_loads(drive, angle, input_power / input_speed)
     slip = slip_speed(drive, angle, input_speed, mode)

@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from tribodyn.errors import InputError
-from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import View, abscissa_label, record_label, record_title
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, mark_panel, new_figure
@@ -250,43 +249,25 @@ def _finish(drawn: Figure, records: Sequence[Record], lines: Sequence[tuple[str,
     drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6)
 
 
-def _of_a_position(draw: Callable[[Sequence[Record], View], Figure], about: str) -> Drawing:
-    """A figure of every record."""
-
-    def checked(records: Sequence[Record], view: View) -> Figure:
-        for record in records:
-            if record.samples < 1:
-                rule = "holds no samples to draw"
-                raise InputError("record", str(record.path), rule, "run the scenario again")
-        return draw(records, view)
-
-    return Drawing(about, checked)
+OF_A_POSITION: dict[str, Drawing] = {
+    "overview": drawing("loads, slip and losses of the elements, and the gear", _overview),
+    "elements": drawing(
+        "loads, slip and losses by element", lambda records, _: _four_panels(records, by_number)
+    ),
+    "element-angle": drawing(
+        "the same over an element's way", lambda records, _: _four_panels(records, by_angle)
+    ),
+    "gear": drawing("cam, elements and crown", lambda records, _: _gears(records)),
+}
 
 
 def _of_a_motion(name: str, about: str, draw: Any) -> Drawing:
     """A figure over time."""
-
-    def checked(records: Sequence[Record], view: View) -> Figure:
-        for record in records:
-            if not moves(record):
-                always_there = ", ".join(other for other in OF_A_POSITION if other != "overview")
-                rule = f"{record.path} holds a single position"
-                raise InputError("plot", name, rule, f"draw {always_there}")
-        return _over_time(records, view, draw)
-
-    return Drawing(about, checked, moves)
+    remedy = f"draw {', '.join(other for other in OF_A_POSITION if other != 'overview')}"
+    missing = name, "{path} holds a single position", remedy
+    return drawing(about, lambda records, view: _over_time(records, view, draw), moves, missing, samples=0)
 
 
-OF_A_POSITION: dict[str, Drawing] = {
-    "overview": _of_a_position(_overview, "loads, slip and losses of the elements, and the gear"),
-    "elements": _of_a_position(
-        lambda records, _: _four_panels(records, by_number), "loads, slip and losses by element"
-    ),
-    "element-angle": _of_a_position(
-        lambda records, _: _four_panels(records, by_angle), "the same over an element's way"
-    ),
-    "gear": _of_a_position(lambda records, _: _gears(records), "cam, elements and crown"),
-}
 DRAWINGS: dict[str, Drawing] = {
     **OF_A_POSITION,
     "normal-load": _of_a_motion("normal-load", "normal load of the elements over time", _draw_loads),

@@ -32,9 +32,8 @@ def draw_gear(axes: Axes, record: Record) -> None:
         (offset / 2, "pitch_radius", QUIET),
         (offset, "cam_pitch_radius", PALETTE[0]),
     ):
-        axes.add_patch(
-            Circle((centre, 0.0), sizes[name], fill=False, edgecolor=color, linewidth=0.6, linestyle="-.")
-        )
+        style = {"fill": False, "edgecolor": color, "linewidth": 0.6, "linestyle": "-."}
+        axes.add_patch(Circle((centre, 0.0), sizes[name], **style))
     _draw_elements(axes, record, sizes, np.array([offset / 2, 0.0]), np.array([pitch_point, 0.0]))
     # beside the points, and the pitch point's name where no load points
     for place, name, shift in (
@@ -46,12 +45,12 @@ def draw_gear(axes: Axes, record: Record) -> None:
             place, 0.0, marker="o", markersize=3.5, markerfacecolor="white", markeredgecolor="black", zorder=4
         )
         axes.annotate(name, (place, 0.0), xytext=shift, textcoords="offset points", fontsize=8)
-    axes.set_xlim(-1.02 * rim, 1.02 * rim)
-    axes.set_ylim(-1.02 * rim, 1.02 * rim)
+    label = "From the shaft's axis, through the pitch point (mm)"
+    axes.set(
+        xlim=(-1.02 * rim, 1.02 * rim), ylim=(-1.02 * rim, 1.02 * rim), xlabel=label, ylabel="Across (mm)"
+    )
     axes.set_aspect("equal")
     axes.grid(False)
-    axes.set_xlabel("From the shaft's axis, through the pitch point (mm)")
-    axes.set_ylabel("Across (mm)")
     axes.annotate("crown", (0.02, 0.97), xycoords="axes fraction", va="top", color=PALETTE[1])
     axes.annotate("cam", (0.02, 0.02), xycoords="axes fraction", color=PALETTE[0])
 
@@ -63,11 +62,8 @@ def _draw_elements(
     count = int(record.scenario["drive"]["elements"])
     for angle in 2 * np.pi * np.arange(count) / count:
         centre = cage + sizes["centre_circle_radius"] * np.array([np.cos(angle), np.sin(angle)])
-        axes.add_patch(
-            Circle(
-                tuple(centre), sizes["element_radius"], facecolor=ELEMENT_FILL, edgecolor=INK, linewidth=0.8
-            )
-        )
+        style = {"facecolor": ELEMENT_FILL, "edgecolor": INK, "linewidth": 0.8}
+        axes.add_patch(Circle(tuple(centre), sizes["element_radius"], **style))
     load, angles = record["normal_load"][0], record["element_angle"][0]
     centres = cage + sizes["centre_circle_radius"] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     normal = centres - pitch_point
@@ -76,9 +72,5 @@ def _draw_elements(
     lengths = LONGEST_ARROW * sizes["element_radius"] * load / load.max()
     for contact, along, length in zip(contacts, normal, lengths, strict=True):
         if length > 0.02 * sizes["element_radius"]:
-            axes.annotate(
-                "",
-                tuple(contact - length * along),
-                tuple(contact),
-                arrowprops={"arrowstyle": "-|>", "color": PALETTE[2], "linewidth": 0.9, "mutation_scale": 6},
-            )
+            arrow = {"arrowstyle": "-|>", "color": PALETTE[2], "linewidth": 0.9, "mutation_scale": 6}
+            axes.annotate("", tuple(contact - length * along), tuple(contact), arrowprops=arrow)

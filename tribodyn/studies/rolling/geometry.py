@@ -121,23 +121,20 @@ def centre_path_curvature(drive: RollingDrive, angle: ArrayLike) -> tuple[Array,
 
 def cam_outline(drive: RollingDrive, points: int = 60) -> Array:
     """Closed profile of the cam about its centre, (points · (Z2 − 1) + 1, 2), m, as it stands at φ_1 = 0."""
-    teeth = drive.elements - 1
-    angle = np.linspace(0.0, 2.0 * np.pi * teeth, points * teeth + 1)
-    contact, _ = contact_points(drive, angle)
-    return _turned(contact - np.array([drive.eccentricity, 0.0]), -angle * drive.elements / teeth)
+    return _outline(drive, drive.elements - 1, points)
 
 
 def crown_outline(drive: RollingDrive, points: int = 60) -> Array:
     """Closed profile of the crown about its centre, (points · (Z2 + 1) + 1, 2), m; it does not move."""
-    teeth = drive.elements + 1
+    return _outline(drive, drive.elements + 1, points)
+
+
+def _outline(drive: RollingDrive, teeth: int, points: int) -> Array:
     angle = np.linspace(0.0, 2.0 * np.pi * teeth, points * teeth + 1)
-    _, contact = contact_points(drive, angle)
-    return _turned(contact, -angle * drive.elements / teeth)
-
-
-def _turned(points: Array, angle: Array) -> Array:
-    cosine, sine = np.cos(angle), np.sin(angle)
-    x, y = points[..., 0], points[..., 1]
+    on_cam, on_crown = contact_points(drive, angle)
+    x, y = (on_cam - np.array([drive.eccentricity, 0.0]) if teeth < drive.elements else on_crown).T
+    turn = -angle * drive.elements / teeth
+    cosine, sine = np.cos(turn), np.sin(turn)
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
 
 
@@ -153,27 +150,13 @@ def element_radius_limits(drive: RollingDrive) -> dict[str, float]:
 
 
 def check_drive(drive: RollingDrive) -> None:
-    """Refuse a gear that cannot be made or cannot carry a torque.
-
-    Raises
-    ------
-    InputError
-        With a key below ``drive`` and a remedy.
-    """
+    """Refuse a gear that cannot be made or cannot carry a torque: InputError with a key below ``drive``."""
     if drive.elements < MINIMUM_ELEMENTS:
-        raise InputError(
-            "drive.elements",
-            drive.elements,
-            "too few: all of them stand at dead points at the same time and carry no torque",
-            f"use {MINIMUM_ELEMENTS} or more",
-        )
+        rule = "too few: all of them stand at dead points at the same time and carry no torque"
+        raise InputError("drive.elements", drive.elements, rule, f"use {MINIMUM_ELEMENTS} or more")
     if drive.displacement <= 1.0:
-        raise InputError(
-            "drive.displacement",
-            drive.displacement,
-            "the elements' centres lie on or inside the pitch circle, and the profiles have cusps or loops",
-            "use more than 1, such as 1.4",
-        )
+        rule = "the elements' centres lie on or inside the pitch circle, and the profiles have cusps or loops"
+        raise InputError("drive.displacement", drive.displacement, rule, "use more than 1, such as 1.4")
     limits = element_radius_limits(drive)
     smallest = min(limits.values())
     if drive.element_radius >= smallest:
@@ -182,12 +165,8 @@ def check_drive(drive: RollingDrive) -> None:
             for what, limit in limits.items()
             if drive.element_radius >= limit
         )
-        raise InputError(
-            "drive.element_radius",
-            f"{drive.element_radius * 1e3:g} mm",
-            broken,
-            f"use less than {_millimetres(smallest)}, fewer elements or a larger pitch_radius",
-        )
+        remedy = f"use less than {_millimetres(smallest)}, fewer elements or a larger pitch_radius"
+        raise InputError("drive.element_radius", f"{drive.element_radius * 1e3:g} mm", broken, remedy)
 
 
 def _millimetres(length: float) -> str:

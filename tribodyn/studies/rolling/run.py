@@ -36,10 +36,7 @@ UNLOADED = 1e-9
 def prepare(case: RollingCase) -> ElementStates:
     """Check the gear and resolve one cycle: an element takes its neighbour's place.
 
-    Raises
-    ------
-    InputError
-        Where the gear cannot be made, or its friction would take all the power and lock it.
+    Raises InputError where the gear cannot be made, or its friction would take all the power and lock it.
     """
     check_drive(case.drive)
     cycle = _engage(case, _shaft_angles(case)[: case.samples_per_cycle])
@@ -66,10 +63,9 @@ def run(
     scales = {"element": np.arange(1, first.element_angle.shape[-1] + 1)}
     groups = {"geometry": geometry_arrays(case)}
     with writer(case, path, LAYOUT, len(angles), groups=groups, scales=scales, force=force) as record:
-        for start, part, state in _blocks(case, angles):
+        for start, part, state in _blocks(case, angles, statistics):
             over_time = {"time": part / case.input_speed, "input_angle": part}
             record.write(start, over_time | state._asdict() | {"power_friction": state.power_friction})
-            statistics.add(state, whole=_whole(start + len(part), angles))
             if progress:
                 progress((start + len(part)) / len(angles))
         summary = statistics.summary(case) | {"wall_time": perf_counter() - begun}
@@ -79,15 +75,10 @@ def run(
 def quantities_of(case: RollingCase) -> dict[str, Any]:
     """Quantities of a case without a record."""
     prepare(case)
-    angles, statistics = _shaft_angles(case), RevolutionStatistics()
-    for start, part, state in _blocks(case, angles):
-        statistics.add(state, whole=_whole(start + len(part), angles))
+    statistics = RevolutionStatistics()
+    for _ in _blocks(case, _shaft_angles(case), statistics):
+        pass
     return statistics.summary(case)
-
-
-def _whole(done: int, angles: Array) -> bool:
-    """Whether all samples of a block count: of a whole revolution the last sample is the first one again."""
-    return done < len(angles) or len(angles) == 1
 
 
 def geometry_arrays(case: RollingCase) -> dict[str, Any]:
@@ -118,11 +109,16 @@ def _engage(case: RollingCase, angles: Array) -> ElementStates:
     return engage(case.drive, elements, case.input_power, case.input_speed, case.friction, case.mode)
 
 
-def _blocks(case: RollingCase, angles: Array) -> Iterator[tuple[int, Array, ElementStates]]:
+def _blocks(
+    case: RollingCase, angles: Array, statistics: "RevolutionStatistics"
+) -> Iterator[tuple[int, Array, ElementStates]]:
     """Go through the cycles: number of the first sample, rotations of the shaft, state."""
     for start in range(0, len(angles), case.samples_per_cycle):
         part = angles[start : start + case.samples_per_cycle]
-        yield start, part, _engage(case, part)
+        state = _engage(case, part)
+        # of a whole revolution the last sample is the first one again
+        statistics.add(state, whole=start + len(part) < len(angles) or len(angles) == 1)
+        yield start, part, state
 
 
 def _refuse_locking(case: RollingCase, cycle: ElementStates) -> None:
@@ -134,17 +130,12 @@ def _refuse_locking(case: RollingCase, cycle: ElementStates) -> None:
     friction, power = case.friction, float(cycle.power_in[worst])
     rule = f"friction takes {rolling + sliding:.4g} W of the {power:.4g} W put in: the gear locks"
     if sliding < power:
-        limit = friction.rolling_arm * (power - sliding) / rolling
-        raise InputError(
-            "friction.rolling_arm",
-            f"{friction.rolling_arm * 1e3:g} mm",
-            rule,
-            f"use less than {limit * 1e3:.3g} mm",
-        )
-    limit = friction.sliding_coefficient * power / sliding
-    raise InputError(
-        "friction.sliding_coefficient", friction.sliding_coefficient, rule, f"use less than {limit:.3g}"
-    )
+        limit, arm = friction.rolling_arm * (power - sliding) / rolling, friction.rolling_arm
+        remedy = f"use less than {limit * 1e3:.3g} mm"
+        raise InputError("friction.rolling_arm", f"{arm * 1e3:g} mm", rule, remedy)
+    coefficient = friction.sliding_coefficient
+    remedy = f"use less than {coefficient * power / sliding:.3g}"
+    raise InputError("friction.sliding_coefficient", coefficient, rule, remedy)
 
 
 class RevolutionStatistics:
@@ -183,6 +174,7 @@ class RevolutionStatistics:
         """Return the figures of the run."""
         mean = {name: total / self.count for name, total in self.sums.items()}
         by_energy = mean["power_out"] / mean["power_in"]
+        lost = mean["power_in"] - mean["power_out"] - mean["power_friction"]
         torque = np.concatenate(self.power_out) * case.drive.ratio / case.input_speed
         published = case.mode == "as_published"
         efficiency = float(self.efficiency[0][0]) if published else by_energy
@@ -196,9 +188,7 @@ class RevolutionStatistics:
             "mesh_frequency": 1.0 / pattern_period(case.drive, case.input_speed),
             "elements_loaded_min": min(self.loaded),
             "elements_loaded_max": max(self.loaded),
-            "normal_load_max": self.maximum["normal_load"],
-            "slip_speed_max": self.maximum["slip_speed"],
-            "spin_speed_max": self.maximum["spin_speed"],
+            **{f"{name}_max": value for name, value in self.maximum.items()},
             "output_torque_mean": float(np.mean(torque)),
             "output_torque_peak_to_peak": float(np.ptp(torque)),
             "power_in_mean": mean["power_in"],
@@ -207,8 +197,7 @@ class RevolutionStatistics:
             "power_crown_mean": mean["power_crown"],
             "efficiency": efficiency,
             "efficiency_by_energy": by_energy,
-            "energy_residual": (mean["power_in"] - mean["power_out"] - mean["power_friction"])
-            / mean["power_in"],
+            "energy_residual": lost / mean["power_in"],
         }
 
 
