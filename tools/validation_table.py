@@ -11,7 +11,7 @@ import re
 
 from tools.marked_block import DOCS, ROOT, parser_of, put
 from tools.marked_block import table as table_of
-from tribodyn.validation import ABOUT, CHOICES, PAPERS, validate
+from tribodyn.validation import PAPERS, validate
 from tribodyn.validation.rows import Otherwise, Row, counted, of_part, per_cent
 
 VALIDATION = DOCS / "validation.md"
@@ -76,8 +76,8 @@ def table(paper: str, rows: list[Row]) -> str:
             other(row, row.otherwise),
         ]
         lines.append(cells)
-    parts = f"Computed {CHOICES[paper]}.", table_of(head, lines, "lrrrlll"), f"In all: {counted(rows)}."
-    return "\n\n".join(parts)
+    body = table_of(head, lines, "lrrrlll")
+    return f"Computed {PAPERS[paper].choices}.\n\n{body}\n\nIn all: {counted(rows)}."
 
 
 def counts() -> str:
@@ -87,7 +87,7 @@ def counts() -> str:
         page = PAGES.get(paper, VALIDATION).read_text(encoding="utf-8")
         block = page.partition(f"<!-- begin {paper} -->")[2].partition(f"<!-- end {paper} -->")[0]
         found = re.search(r"^In all: (.*)\.$", block, re.MULTILINE)
-        lines.append([ABOUT[paper].partition(": ")[0], found[1] if found else ""])
+        lines.append([PAPERS[paper].about.partition(": ")[0], found[1] if found else ""])
     return table_of(["paper", "rows"], lines)
 
 

@@ -5,7 +5,7 @@ import pytest
 from tribodyn.record.reader import open_record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.validation import CHOICES, validate
+from tribodyn.validation import PAPERS, validate
 from tribodyn.validation.rows import PASS, published
 
 
@@ -44,7 +44,7 @@ def test_figures_agree_with_an_independent_prototype(rows, key):
 
 
 def test_every_row_holds_as_published_only_and_the_head_says_so(rows):
-    assert CHOICES["efremenkov-2024"].startswith("as published")
+    assert PAPERS["efremenkov-2024"].choices.startswith("as published")
     assert all(row.hangs_on_choice for row in rows.values())
     assert rows["efremenkov/efficiency"].otherwise.computed == pytest.approx(0.039, abs=5e-4)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tools.validation_table import COUNTING, PAGES, VALIDATION, counts, other, tolerance
-from tribodyn.validation import CHOICES, PAPERS, validate
+from tribodyn.validation import PAPERS, validate
 from tribodyn.validation.rows import counted
 
 
@@ -25,19 +25,19 @@ def printed(paper: str) -> tuple[str, dict[str, list[str]]]:
 
 def numbers(value) -> list[float]:
     if isinstance(value, str):
-        return [float(one) for one in value.split()]
+        return [float(number) for number in value.split()]
     return value if isinstance(value, list) else [value]
 
 
 @pytest.mark.parametrize(
-    "paper", [pytest.param(one, marks=pytest.mark.soak) if one == "jia-2022" else one for one in PAPERS]
+    "paper", [pytest.param(name, marks=pytest.mark.soak) if name == "jia-2022" else name for name in PAPERS]
 )
 def test_the_table_of_the_page_is_up_to_date(paper: str, tmp_path: Path):
     """If this fails: python -m tools.validation_table PAPER --write, and read what it says."""
     rows = {row.id: row for row in validate(paper, folder=tmp_path)}
     text, page = printed(paper)
     assert set(page) == set(rows)
-    assert f"Computed {CHOICES[paper]}." in text
+    assert f"Computed {PAPERS[paper].choices}." in text
     assert f"In all: {counted(rows.values())}." in text
     for key, row in rows.items():
         published, ours, _, tolerated, verdict, otherwise = page[key]

@@ -95,9 +95,9 @@ def _about(what: What) -> dict[str, str]:
 
             return _drawn(dict(STUDIES.each(lambda study: study.sweep_drawings() if study.swept() else {})))
         case What.papers:
-            from tribodyn.validation import ABOUT
+            from tribodyn.validation import PAPERS
 
-            return dict(ABOUT)
+            return {name: paper.about for name, paper in PAPERS.items()}
         case What.plots:
             from tribodyn.studies import STUDIES
 

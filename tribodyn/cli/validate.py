@@ -62,10 +62,10 @@ def validate(
                 pictures = validation.draw(paper, plots, records, progress, force=force)
     if json:
         drawn = {"pictures": [str(picture) for picture in pictures]} if plots is not None else {}
-        head = {"choices": validation.CHOICES.get(paper, ""), "counts": counts(rows)}
+        head = {"choices": validation.PAPERS[paper].choices, "counts": counts(rows)}
         print_json({**head, "rows": [row.plain() for row in rows], **drawn})
     else:
-        title = f"{paper}: {validation.CHOICES.get(paper, '')}"
+        title = f"{paper}: {validation.PAPERS[paper].choices}"
         print_table(title, SHOWN, [[row.written(name) for name in SHOWN] for row in rows])
         typer.echo(counted(rows))
         for picture in pictures:

@@ -57,5 +57,5 @@ def validate(
         If one of the runs fails.
     """
     compared = PaperComparison(validation.validate(paper, progress, folder))
-    compared.choices = validation.CHOICES.get(paper, "")
+    compared.choices = validation.PAPERS[paper].choices
     return compared

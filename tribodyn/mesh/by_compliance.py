@@ -24,17 +24,10 @@ def mesh_cycle_of(
     gear_torque: float,
     back: bool = False,
 ) -> MeshCycle:
-    """Tabulate the mesh cycle of a pair of plain numbers.
+    """Tabulate the mesh cycle of a checked pair of plain numbers; `back`: whether back flanks can touch.
 
-    Raises InputError as `tabulate.tabulate` and `tabulate_loaded.tabulate_loaded`.
-
-    Parameters
-    ----------
-    assembly : checked (`limits.checks`)
-    materials : of pinion and gear
-    mesh : what the compliance is, errors, backlash
-    gear_torque : T_g, N m; matters where `mesh.at_load` only
-    back : whether back flanks can touch
+    The torque T_g (N m) matters where `mesh.at_load` only. Raises InputError as `tabulate.tabulate` and
+    `tabulate_loaded.tabulate_loaded`.
     """
     if mesh.at_load:
         from tribodyn.mesh.tabulate_loaded import tabulate_loaded

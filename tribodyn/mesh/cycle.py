@@ -128,17 +128,22 @@ MESH_CYCLE: dict[str, Variable] = {
         "m/N",
         "deflection of a pair per load on the other pair, through the gear bodies",
     ),
-    "hertz_coefficient": Variable((), "m/N^0.9", "hertz coefficient"),
-    "pinion_pitch_radius": Variable((), "m", "pinion pitch radius"),
-    "gear_pitch_radius": Variable((), "m", "gear pitch radius"),
-    "pinion_teeth": Variable((), "1", "pinion teeth"),
-    "face_width": Variable((), "m", "face width"),
-    "contact_ratio": Variable((), "1", "contact ratio"),
-    "pitch_point_phase": Variable((), "1", "pitch point phase"),
-    "roll_start": Variable((), "rad", "roll start"),
-    "roll_end": Variable((), "rad", "roll end"),
-    "pitch_point_length": Variable((), "m", "pitch point length"),
-    "pitch_point_rate": Variable((), "1/rad", "pitch point rate"),
+    **{
+        name: Variable((), unit, name.replace("_", " "))
+        for name, unit in {
+            "hertz_coefficient": "m/N^0.9",
+            "pinion_pitch_radius": "m",
+            "gear_pitch_radius": "m",
+            "pinion_teeth": "1",
+            "face_width": "m",
+            "contact_ratio": "1",
+            "pitch_point_phase": "1",
+            "roll_start": "rad",
+            "roll_end": "rad",
+            "pitch_point_length": "m",
+            "pitch_point_rate": "1/rad",
+        }.items()
+    },
 }
 
 #: Channels of `Polynomials.channel`, in order; cosine and sine of the pressure angle.
@@ -226,21 +231,9 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     columns = [angle[name] if name in angle else getattr(cycle, name) for name in CHANNELS]
     columns = [xp.broadcast_to(values, cycle.compliance.shape) for values in columns]
     channels = xp.stack(columns, axis=-1)
-    return Polynomials(
-        boundary=cycle.boundary,
-        in_contact=cycle.in_contact,
-        side=cycle.side,
-        channel=_cubic(channels),
-        coupling=_cubic(cycle.coupling),
-        stiffness=_cubic(_stiffness(cycle, xp)),
-        hertz_coefficient=cycle.hertz_coefficient,
-        pinion_pitch_radius=cycle.pinion_pitch_radius,
-        gear_pitch_radius=cycle.gear_pitch_radius,
-        pitch_angle=cycle.pitch_angle,
-        face_width=cycle.face_width,
-        pitch_point_length=cycle.pitch_point_length,
-        pitch_point_rate=cycle.pitch_point_rate,
-    )
+    kept = {name: getattr(cycle, name) for name in Polynomials._fields if hasattr(cycle, name)}
+    cubics = {"coupling": _cubic(cycle.coupling), "stiffness": _cubic(_stiffness(cycle, xp))}
+    return Polynomials(**kept | cubics, channel=_cubic(channels))
 
 
 # 1 wherever the load is even along the face, and then a number may stand for the table.

@@ -77,12 +77,9 @@ def contacts(
 ) -> Contacts:
     """Contacts at the nodes of a table of driving flanks, (S, N, Q); may be traced.
 
-    Parameters
-    ----------
-    cycle : A segment begins wherever a pair passes the pitch point, as for a family with a corner there
-    gear_torque, pinion_speed : N m and rad/s; a negative torque where the gear drives, on back flanks that
-        are like the driving ones
-    averaged : average radius and entrainment over the contact where they vanish at the pitch point
+    A segment begins wherever a pair passes the pitch point, as for a family with a corner there. The torque
+    (N m) is negative where the gear drives, on back flanks that are like the driving ones. `averaged`: radius
+    and entrainment are averaged over the contact where they vanish at the pitch point.
     """
     xp = namespace(*cycle, gear_torque, pinion_speed, *closure.surfaces)
     way = xp.sign(gear_torque)
@@ -110,11 +107,9 @@ def elastic(cycle: MeshCycle, gear_torque: Any) -> Share:
 
 
 def equilibrium(seen: Contacts, share: Share) -> Equilibrium:
-    """Solve load sharing and friction together.
+    """Solve load sharing and friction together; may be traced.
 
-    Parameters
-    ----------
-    share : friction force over normal load, with the sign of the sliding -> `Loads`, which may be traced
+    `share` takes friction force over normal load, with the sign of the sliding, to `Loads`.
     """
     return _solved(seen, share)[0]
 

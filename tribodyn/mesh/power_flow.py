@@ -17,13 +17,7 @@ from tribodyn.numerics.shapes import Array, Float
 
 
 def power_put_in(pinion: Any, gear: Any) -> Any:
-    """What the mesh is given, ≥ 0: the pinion's power where that drives, the gear's where that does.
-
-    Parameters
-    ----------
-    pinion, gear : float or array of one shape
-        Power from the pinion to the mesh and from the mesh to the gear, W, or works, J.
-    """
+    """What the mesh is given, ≥ 0: the pinion's power where that drives, the gear's where that does."""
     xp = namespace(pinion, gear)
     return xp.maximum(pinion, 0.0) + xp.maximum(-gear, 0.0)
 
@@ -31,11 +25,7 @@ def power_put_in(pinion: Any, gear: Any) -> Any:
 def efficiency(pinion: Any, gear: Any, loss: Any) -> Any:
     """1 − loss over what the driving gear puts in; NaN where power does not pass from one to the other.
 
-    Parameters
-    ----------
-    pinion, gear
-        As for `power_put_in`.
-    loss : power or work lost to tooth friction
+    The loss is the power or work lost to tooth friction.
     """
     xp = namespace(pinion, gear, loss)
     through = pinion * gear > 0.0
@@ -58,13 +48,7 @@ def friction_loss(
     """Mean friction power over a mesh cycle per pinion speed, N m: Σ μ F |v_s|/ω_p.
 
     Sliding changes sign at the pitch point; the integral is split there, exactly, so that it is smooth in
-    the drive's parameters.
-
-    Parameters
-    ----------
-    cycle : the table; its `side` must not be traced
-    normal_load : (S, N, Q), load of each pair at the nodes, N; smooth in every segment
-    friction_coefficient : (); μ ≥ 0
+    the drive's parameters. The table's `side` must not be traced; the loads (N) are smooth in every segment.
     """
     xp = namespace(*cycle, normal_load, friction_coefficient)
     pairs = cycle.front_pairs
@@ -80,15 +64,11 @@ def mean_efficiency(
     friction_coefficient: Float[Array, "*#table"],
     normal_load: Float[Array, "segment node pair"] | None = None,
 ) -> Any:
-    """Quasi-static efficiency over a mesh cycle, by energy, with a given friction coefficient.
+    """Quasi-static efficiency over a mesh cycle, by energy, with a given friction coefficient μ ≥ 0.
 
-    Parameters
-    ----------
-    cycle : the table; may be traced, but for `side`
-    gear_torque : N m, ≠ 0; negative where the gear drives, on back flanks that are like the driving ones
-    friction_coefficient : (); μ ≥ 0
-    normal_load : (S, N, Q), optional; of `equilibrium`, N; default: loads of `quasi_static` without friction:
-        the error is of the order of the loss squared
+    The table may be traced, but for `side`. The torque (N m) is negative where the gear drives, on back
+    flanks that are like the driving ones. Without loads of `equilibrium` (N) those of `quasi_static` without
+    friction count: the error is of the order of the loss squared.
     """
     loads = normal_load
     if loads is None:

@@ -38,15 +38,9 @@ def quasi_static(
     """Share the gear's torque among the driving pairs by their compliances and gaps.
 
     With h_i = cos α_i every loaded pair has Δ h_i − e_i = Σ_j C_ij F_j (+ A F_i^0.9), and r_g Σ F_i h_i is
-    the torque, to which friction adds Σ μ_i F_i (r_g sin α_i − r_i). Bearings are rigid, and a back flank
-    carries nothing.
-
-    Parameters
-    ----------
-    cycle : the table; may be traced
-    gear_torque : N m, > 0
-    friction : array, (S, N, Q), optional
-        Friction force over normal load, with the sign of the sliding: negative in approach.
+    the torque (N m, > 0), to which friction adds Σ μ_i F_i (r_g sin α_i − r_i); `friction` is its force over
+    the normal load, with the sign of the sliding: negative in approach. Bearings are rigid, and a back flank
+    carries nothing. The table may be traced.
     """
     xp = namespace(*cycle, gear_torque, friction)
     present = (cycle.in_contact * (cycle.side > 0))[:, None, :] + 0.0 * cycle.compliance
@@ -88,18 +82,9 @@ def cycle_mean(cycle: MeshCycle, values: Float[Array, "segment node *pair"]) -> 
 def cycle_integral(
     cycle: MeshCycle, values: Float[Array, "segment node *pair"], upto: Float[Array, "..."]
 ) -> Float[Array, "*pair"]:
-    """Integral over the phase from 0 up to a phase, for several such phases at once.
+    """Integral of values at the nodes, (S, N) or (S, N, Q), over the phase from 0 up to a phase, () or (Q,).
 
-    Parameters
-    ----------
-    cycle : for boundaries
-    values : (S, N); at the nodes
-    upto : array, broadcasts with (S, Q)
-        Phases; in a segment that ends before, the whole segment counts.
-
-    Returns
-    -------
-    array, () or (Q,)
+    Several such phases `upto` at once, broadcast with (S, Q); a segment that ends before counts whole.
     """
     xp = namespace(*cycle, values, upto)
     flat = values.ndim == 2

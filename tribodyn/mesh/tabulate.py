@@ -61,16 +61,9 @@ def tabulate(
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a drive.
 
-    Raises InputError if a table does not cover the contact, an option lacks its numbers, or options
-    contradict each other.
-
-    Parameters
-    ----------
-    assembly : the gear pair; every number of the drive may be traced
-    materials : of pinion and gear
-    mesh : source of the compliance, transmission error, backlash and number of nodes
-    pairs : front slots, `pair_slots(assembly)`
-    back : whether to add as many slots for the back flanks, `mesh.backlash` away
+    Every number of the drive may be traced. There are `pair_slots(assembly)` front slots and, with `back`,
+    as many for the back flanks, `mesh.backlash` away. Raises InputError if a table does not cover the
+    contact, an option lacks its numbers, or options contradict each other.
     """
     path, corner = assembly.path, assembly.family.corner
     _check_options(assembly, mesh, back)

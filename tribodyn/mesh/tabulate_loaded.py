@@ -47,15 +47,9 @@ def tabulate_loaded(
     gear_torque: float,
     back: bool = False,
 ) -> MeshCycle:
-    """Tabulate the mesh cycle of a drive at an operating torque.
+    """Tabulate the mesh cycle of a drive of plain numbers at an operating torque T_g ≠ 0, N m.
 
-    Raises InputError if a body has no bore, or the torque drives nothing.
-
-    Parameters
-    ----------
-    assembly, materials, mesh, back
-        As in `tabulate.tabulate`, of plain numbers.
-    gear_torque : T_g ≠ 0 at whose magnitude the compliances are taken, N m
+    Raises InputError if a body has no bore, or the torque drives nothing; else as `tabulate.tabulate`.
     """
     check_bores(assembly.drive)
     torque = abs(gear_torque)
@@ -84,14 +78,13 @@ def tabulate_loaded(
     geometry = pair_geometry(assembly, roll)
     motion = geometry.motion._make(field.reshape(shape) for field in geometry.motion)
     error = unloaded_gap(assembly, mesh, at, motion.pressure_angle, begin=marks[2]).reshape(roll.shape)
-    pressed = []
+    pressed, coupling = [], np.zeros((*shape, shape[-1]))
     for number, flanks in enumerate(sides):
-        own = np.s_[:, number * pairs : (number + 1) * pairs]
-        pressed.append(_pressed(flanks, torque, part_of(geometry, own), roll[own], error[own]))
-    coupling = np.zeros((*shape, shape[-1]))
-    for number, part in enumerate(pressed):
-        own = slice(number * pairs, (number + 1) * pairs)
-        coupling[..., own, own] = part.coupling.reshape(*shape[:2], pairs, pairs)
+        slot = slice(number * pairs, (number + 1) * pairs)
+        own = np.s_[:, slot]
+        part = _pressed(flanks, torque, part_of(geometry, own), roll[own], error[own])
+        coupling[..., slot, slot] = part.coupling.reshape(*shape[:2], pairs, pairs)
+        pressed.append(part)
     fields = {
         name: np.concatenate([getattr(part, name) for part in pressed], axis=1).reshape(shape)
         for name in ("compliance", "gap", "line_load_friction", "line_load_peak")

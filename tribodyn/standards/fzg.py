@@ -46,9 +46,8 @@ def permissible_specific_film(
 ) -> float:
     """Permissible λ_GFP of an oil that fails the micropitting test C-GF/8,3/90 at a load stage.
 
-    `oil_temperature` is that of the test, K. The minimum specific film of the test gears at that stage, oil
-    sprayed, K factors 1, times 1.4: ISO/TR 15144-1:2014, annex A, which shows the same as curves over the
-    viscosity of mineral oils.
+    The minimum specific film of the test gears at that stage and oil temperature (K), oil sprayed, K factors
+    1, times 1.4: ISO/TR 15144-1:2014, annex A, which shows it as curves over the viscosity of mineral oils.
     """
     path = test_path()
     load = Load(
@@ -69,12 +68,8 @@ def scuffing_torque(load_stage: float) -> float:
 def scuffing_temperature(load_stage: float, lubricant: float, structure: float = 1.0) -> float:
     """Scuffing temperature θ_S, K, of an oil that fails A/8,3/90 at a load stage: ISO/TS 6336-20:2017, (99).
 
-    80 + (0.85 + 1.4 X_W) X_L S_FZG² in °C.
-
-    Parameters
-    ----------
-    lubricant : X_L of `scuffing.lubricant_factor`, with the viscosity
-    structure : X_W: 1 case-hardened with usual austenite, 1.5 nitrided (table 2)
+    80 + (0.85 + 1.4 X_W) X_L S_FZG² in °C, X_L of `scuffing.lubricant_factor`, with the viscosity; the
+    structure X_W is 1 case-hardened with usual austenite, 1.5 nitrided (table 2).
     """
     return 273.15 + 80.0 + (0.85 + 1.4 * structure) * lubricant * load_stage**2
 
@@ -85,12 +80,7 @@ def scuffing_integral_temperature(
     """Scuffing integral temperature θ_intS, K, of such an oil: ISO/TS 6336-21:2017, (94) to (97).
 
     θ_MT + 1.5 X_W θ_flaintT with θ_MT = 80 + 0.23 T_1T X_L and θ_flaintT = 0.2 T_1T (100/ν_40)^0.02 X_L, in
-    °C, N m and mm²/s.
-
-    Parameters
-    ----------
-    lubricant : X_L of `scuffing.ScuffingMesh`, without the viscosity
-    viscosity_40 : kinematic viscosity at 40 °C, m²/s
+    °C, N m and mm²/s; X_L of `scuffing.ScuffingMesh`, without the viscosity. ν_40 is given in m²/s.
     """
     torque = scuffing_torque(load_stage)
     bulk = 80.0 + 0.23 * torque * lubricant

@@ -64,22 +64,15 @@ def run_in_relief(allowable_stress: float) -> float:
 def coefficients(total_contact_ratio: float) -> tuple[float, float, float, float, float, float, float]:
     """C_v1 to C_v7 over ε_γ: table 4."""
     total = total_contact_ratio
-    if total <= 2.0:
-        first = (0.32, 0.34, 0.23, 0.90, 0.47, 0.47)
-    else:
-        first = (
-            0.32,
-            0.57 / (total - 0.3),
-            0.096 / (total - 1.56),
-            (0.57 - 0.05 * total) / (total - 1.44),
-            0.47,
-            0.12 / (total - 1.74),
-        )
+    c2, c3, c4, c6 = 0.34, 0.23, 0.90, 0.47
+    if total > 2.0:
+        c2, c3 = 0.57 / (total - 0.3), 0.096 / (total - 1.56)
+        c4, c6 = (0.57 - 0.05 * total) / (total - 1.44), 0.12 / (total - 1.74)
     if total <= 1.5:
         last = 0.75
     else:
         last = 0.125 * math.sin(math.pi * (total - 2.0)) + 0.875 if total <= 2.5 else 1.0
-    return (*first, last)
+    return 0.32, c2, c3, c4, 0.47, c6, last
 
 
 def dynamic_factor(mesh: DynamicMesh) -> DynamicFactor:
@@ -121,10 +114,6 @@ def transverse_load_factor(load: float, accurate_load: float) -> float:
     stay. Both loads are those of `shared_load`: in the middle of the path of spur gears with ε_α < 2 one pair
     carries everything, with deviations as without, and the ratio of the maxima over the whole path would
     always be 1. It is at most the whole load over `accurate_load`, reached where deviations leave one pair.
-
-    Parameters
-    ----------
-    load, accurate_load : with the deviations and without, N
     """
     return max(1.0, load / accurate_load)
 
@@ -134,12 +123,7 @@ def shared_load(
 ) -> float:
     """Maximum load of a pair, N, over the positions at which two pairs or more are on their path of contact.
 
-    NaN where there is no such position.
-
-    Parameters
-    ----------
-    load, roll : (positions, pairs), N and rad
-    limits : (first, last), roll angles of the path's ends without load, rad
+    The limits are the roll angles (rad) of the path's ends without load. NaN where there is no such position.
     """
     first, last = limits
     room = 1e-9 * (last - first)
@@ -153,14 +137,8 @@ def transverse_factor_b(
     """K_Hα by method B: 1 where the deflection exceeds the deviations by far: (73) to (77).
 
     0.9 + 0.4 c_γα (f_pb − y_α)/(F_tH/b), times ε_γ/2 up to ε_γ = 2, the second term times √(2 (ε_γ − 1)/ε_γ)
-    above; at least 1, at most ε_γ/(ε_α Z_ε²).
-
-    Parameters
-    ----------
-    contact_ratios : (ε_α, ε_β)
-    mesh_stiffness : c_γα per face width, Pa
-    pitch_deviation : f_pb − y_α, m
-    line_load : F_tH/b = F_t K_A K_v K_Hβ/b, N/m
+    above; at least 1, at most ε_γ/(ε_α Z_ε²). Of (ε_α, ε_β), c_γα per face width (Pa), f_pb − y_α (m) and
+    F_tH/b = F_t K_A K_v K_Hβ/b (N/m).
     """
     transverse, overlap = contact_ratios
     total = transverse + overlap

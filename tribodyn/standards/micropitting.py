@@ -87,15 +87,8 @@ def mean_friction(
 ) -> float:
     """Mean friction coefficient μ_m of method B: (86).
 
-    0.045 (w/(v_ΣC ρ_n,C))^0.2 (10³ η)^−0.05 X_R X_L in N/mm, m/s, mm, Pa·s.
-
-    Parameters
-    ----------
-    line_load : K F_bt K_Bγ/b, N/m
-    speed_sum : v_ΣC = 2 v_t sin α_wt, m/s
-    pitch_radius : ρ_n,C, m
-    viscosity : η at the oil's temperature, Pa·s
-    roughness, oil : X_R and X_L
+    0.045 (w/(v_ΣC ρ_n,C))^0.2 (10³ η)^−0.05 X_R X_L in N/mm, m/s, mm, Pa·s, η at the oil's temperature, of
+    w = K F_bt K_Bγ/b (N/m), v_ΣC = 2 v_t sin α_wt (m/s) and ρ_n,C (m).
     """
     load = 1e-3 * line_load / (speed_sum * 1e3 * pitch_radius)
     return 0.045 * load**0.2 * (1e3 * viscosity) ** -0.05 * roughness * oil
@@ -145,14 +138,8 @@ def film_thickness(
     """Film thickness h_Y, m: (4) to (33).
 
     1600 ρ_n G^0.6 U^0.7 W^−0.13 S^0.22 in µm and mm, with G = α(θ_M) E_r, U = η(θ_M) Σv/(2 E_r ρ_n),
-    W = 2π p²/E_r² and S = α(θ_B) η(θ_B)/(α(θ_M) η(θ_M)). Above a contact of 783 K the standard's α(θ) is
-    negative: there S, and with it the film, is zero.
-
-    Parameters
-    ----------
-    pressure, radius, speed_sum : p_dyn,Y (Pa), ρ_n,Y (m), v_r1 + v_r2 (m/s)
-    temperatures : (bulk, contact), θ_M and θ_B,Y, K
-    reduced_modulus : E_r, Pa
+    W = 2π p²/E_r² and S = α(θ_B) η(θ_B)/(α(θ_M) η(θ_M)); temperatures are (θ_M, θ_B,Y), bulk and contact, K.
+    Above a contact of 783 K the standard's α(θ) is negative: there S, and with it the film, is zero.
     """
     bulk, contact = temperatures
     stiffening = oil.pressure_viscosity(bulk) * oil.viscosity(bulk)

@@ -26,14 +26,9 @@ def flash_friction(
 ) -> float:
     """Mean friction coefficient μ_m: (25) to (28).
 
-    0.060 (w_Bt/(v_ΣC ρ_relC))^0.2 X_L Ra^0.25 in N/mm, m/s, mm, µm, with X_L of `lubricant_factor`.
-
-    Parameters
-    ----------
-    line_load : w_Bt = K_A K_v K_Hβ K_Hα F_t/b, N/m
-    speed_sum : v_ΣC = 2 v_t sin α_wt, m/s
-    pitch_radius : radius of relative curvature at the pitch point, m
-    roughness : (Ra_1 + Ra_2)/2, m
+    0.060 (w_Bt/(v_ΣC ρ_relC))^0.2 X_L Ra^0.25 in N/mm, m/s, mm, µm, with X_L of `lubricant_factor`, of
+    w_Bt = K_A K_v K_Hβ K_Hα F_t/b (N/m), v_ΣC = 2 v_t sin α_wt (m/s), the radius of relative curvature at the
+    pitch point (m) and Ra = (Ra_1 + Ra_2)/2 (m).
     """
     load = 1e-3 * line_load / (speed_sum * 1e3 * pitch_radius)
     return 0.060 * load**0.2 * lubricant * (1e6 * roughness) ** 0.25
@@ -45,25 +40,17 @@ def flash_rise(
     half_width: Any,
     speeds: tuple[Any, Any],
     thermal_contact: tuple[float, float],
-    approach: Any = 1.0,
 ) -> Any:
     """Flash temperature rise after Blok, K: (3).
 
-    1.11 μ_m X_J w |v_g1 − v_g2|/(√(2 b_H)(B_M1 √v_g1 + B_M2 √v_g2)).
-
-    Parameters
-    ----------
-    friction : μ_m
-    line_load : normal load per length of the contact line, N/m
-    half_width : b_H of the Hertz contact, m
-    speeds : v_g1, v_g2, m/s
-    thermal_contact : B_M of pinion and gear, W s^½/(m² K)
+    1.11 μ_m w |v_g1 − v_g2|/(√(2 b_H)(B_M1 √v_g1 + B_M2 √v_g2)), w the normal load per length of the
+    contact line (N/m), b_H the half width of the Hertz contact (m), B_M in W s^½/(m² K);
+    the approach factor X_J is 1.
     """
     first, second = speeds
     share = thermal_contact[0] * np.sqrt(first) + thermal_contact[1] * np.sqrt(second)
-    return (
-        1.11 * friction * approach * line_load * np.abs(first - second) / (np.sqrt(2.0 * half_width) * share)
-    )
+    heat = 1.11 * friction * line_load * np.abs(first - second)
+    return heat / (np.sqrt(2.0 * half_width) * share)
 
 
 def bulk_temperature(oil_temperature: float, mean_flash: float, lubrication: float = 1.0) -> float:

@@ -3,73 +3,68 @@
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
+from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.validation.rows import Row
 
-#: Paper's name on the command line -> module that computes its rows.
+
+class Paper(NamedTuple):
+    """Where the numbers of a paper are compared."""
+
+    module: str  # that computes its rows
+    about: str  # who, where, and what is compared
+    choices: str  # under which its rows are computed, the head of its table
+    figures: str | None = None  # module that draws its figures
+
+
+#: By the name on the command line.
 PAPERS = {
-    "liu-ni-2022": "tribodyn.validation.liu_ni",
-    "efremenkov-2024": "tribodyn.validation.efremenkov",
-    "veciana-2024": "tribodyn.validation.veciana",
-    "diez-ibarbia": "tribodyn.validation.diez_ibarbia",
-    "jia-2022": "tribodyn.validation.jia",
-}
-#: Paper's name -> who, where, and what is compared.
-ABOUT = {
-    "liu-ni-2022": "Liu & Ni, Mechanics & Industry 23:10 (2022): CRC drive and involute",
-    "efremenkov-2024": "Efremenkov et al., Mathematics 12:873 (2024): gear with rolling elements",
-    "veciana-2024": "Veciana et al., Machines 12:943 (2024): efficiency of cycloidal gears",
-    "diez-ibarbia": "Diez-Ibarbia et al.: efficiency of spur gears over the profile shift",
-    "jia-2022": "Jia et al., Mathematics 10:4290 (2022): gears with a parabolic path of contact",
-}
-#: Paper's name -> the choices under which its rows are computed, the head of its table.
-CHOICES = {
-    "liu-ni-2022": "as published, with kinematic sliding; beside it the default, dynamic sliding",
-    "efremenkov-2024": "as published: the paper's own equations with their errors; beside it corrected "
-    "speeds, with which the gear loses nearly all its power",
-    "veciana-2024": "with the mixed law as printed (reading A) and the paper's rolling speeds; beside it "
-    "reading B",
-    "diez-ibarbia": "with load contact by finite elements; rows without a published number stand beside "
-    "another implementation of the equations",
-    "jia-2022": "with maximum line loads for contact stresses, misalignment in the plane of action, limits "
-    "with the paper's sin(beta); beside it Hertz pressures and the actual tips",
-}
-#: Paper's name -> module that draws its figures.
-FIGURES = {
-    "liu-ni-2022": "tribodyn.validation.liu_ni_figures",
-    "veciana-2024": "tribodyn.validation.veciana_figures",
-    "diez-ibarbia": "tribodyn.validation.diez_ibarbia_figures",
-    "jia-2022": "tribodyn.validation.jia_figures",
+    "liu-ni-2022": Paper(
+        "tribodyn.validation.liu_ni",
+        "Liu & Ni, Mechanics & Industry 23:10 (2022): CRC drive and involute",
+        "as published, with kinematic sliding; beside it the default, dynamic sliding",
+        "tribodyn.validation.liu_ni_figures",
+    ),
+    "efremenkov-2024": Paper(
+        "tribodyn.validation.efremenkov",
+        "Efremenkov et al., Mathematics 12:873 (2024): gear with rolling elements",
+        "as published: the paper's own equations with their errors; beside it corrected speeds, with which "
+        "the gear loses nearly all its power",
+    ),
+    "veciana-2024": Paper(
+        "tribodyn.validation.veciana",
+        "Veciana et al., Machines 12:943 (2024): efficiency of cycloidal gears",
+        "with the mixed law as printed (reading A) and the paper's rolling speeds; beside it reading B",
+        "tribodyn.validation.veciana_figures",
+    ),
+    "diez-ibarbia": Paper(
+        "tribodyn.validation.diez_ibarbia",
+        "Diez-Ibarbia et al.: efficiency of spur gears over the profile shift",
+        "with load contact by finite elements; rows without a published number stand beside another "
+        "implementation of the equations",
+        "tribodyn.validation.diez_ibarbia_figures",
+    ),
+    "jia-2022": Paper(
+        "tribodyn.validation.jia",
+        "Jia et al., Mathematics 10:4290 (2022): gears with a parabolic path of contact",
+        "with maximum line loads for contact stresses, misalignment in the plane of action, limits with the "
+        "paper's sin(beta); beside it Hertz pressures and the actual tips",
+        "tribodyn.validation.jia_figures",
+    ),
 }
 
 
 def validate(
     paper: str, progress: Callable[[float], None] | None = None, folder: str | Path | None = None
 ) -> list[Row]:
-    """Run what a paper's rows need and compare.
+    """Run what a paper's rows need and compare; `progress` is called with the share done, 0 … 1.
 
-    Parameters
-    ----------
-    paper : one of `PAPERS`
-    progress : optional; called with the share done, 0 … 1
-    folder : optional; where to keep the records of the runs; a temporary folder if not given
-
-    Returns
-    -------
-    list of Row
-        Published and computed value, tolerance, verdict ("pass", "fail", "direction", "reported"), the same
-        under another choice where there is one, and a note.
-
-    Raises
-    ------
-    InputError
-        For an unknown paper.
-    SimulationError
-        If one of the runs fails.
+    The records of the runs are kept in `folder`, in a temporary one if none is given. Raises InputError for
+    an unknown paper, SimulationError if one of the runs fails.
     """
     _check(paper)
-    module = import_module(PAPERS[paper])
+    module = import_module(PAPERS[paper].module)
     if folder is not None:
         return module.rows(Path(folder), progress)
     from tempfile import TemporaryDirectory
@@ -83,16 +78,22 @@ def figure_names(paper: str) -> list[str]:
 
     Raises InputError for an unknown paper, and one without figures.
     """
+    return list(_figures(paper))
+
+
+def _figures(paper: str) -> dict[str, Callable[[Path], Any]]:
+    """Name of every figure -> what draws it, given the folder with the records of the paper's runs."""
     _check(paper)
-    if paper not in FIGURES:
+    module = PAPERS[paper].figures
+    if module is None:
         raise InputError(
             "plots",
             f"figures of {paper}",
             "none of them is drawn here",
             f"keep its records with --output and draw these with tribodyn plot, or take one of: "
-            f"{', '.join(FIGURES)}",
+            f"{', '.join(name for name in PAPERS if PAPERS[name].figures)}",
         )
-    return list(import_module(FIGURES[paper]).FIGURES)
+    return import_module(module).FIGURES
 
 
 def draw(
@@ -103,29 +104,21 @@ def draw(
     *,
     force: bool = False,
 ) -> list[Path]:
-    """Draw figures like a paper's from our own numbers.
+    """Draw figures like a paper's from our own numbers into the folder `plots`, which is there.
 
-    Raises InputError as `figure_names` and `write_output`.
-
-    Parameters
-    ----------
-    paper : one of `FIGURES`
-    plots : folder of the pictures, which is there: ``diez-ibarbia-figure-06.png``
-    records : folder in which `validate` left the paper's records
-    progress : optional; called with the share done, 0 … 1
-    force : replace also pictures that are not ours
+    From the records that `validate` left; `force` replaces also pictures that are not ours. Raises InputError
+    as `figure_names` and `write_output`.
     """
     from tribodyn.post.style import house_style, save
 
-    names = figure_names(paper)
-    module = import_module(FIGURES[paper])
+    figures = _figures(paper)
     pictures = []
-    for done, name in enumerate(names, start=1):
+    for done, (name, draw_figure) in enumerate(figures.items(), start=1):
         with house_style():
-            figure = module.FIGURES[name](records)
+            figure = draw_figure(records)
         pictures.append(save(figure, picture_path(paper, name, plots), force=force))
         if progress:
-            progress(done / len(names))
+            progress(done / len(figures))
     return pictures
 
 
