@@ -153,9 +153,7 @@ def tooth_profile(assembly: Assembly, side: Side, flank_points: int = 60) -> Too
         *["tip"] * TIP_POINTS,
     ]
     return ToothProfile(
-        part + part[::-1],
-        np.concatenate([radius, radius[::-1]]),
-        np.concatenate([-angle, angle[::-1]]),
+        part + part[::-1], np.concatenate([radius, radius[::-1]]), np.concatenate([-angle, angle[::-1]])
     )
 
 

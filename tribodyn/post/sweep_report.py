@@ -92,8 +92,7 @@ def weighted_mean(record: SweepRecord, name: str) -> np.ndarray | None:
     for number, dim in enumerate(record.dims):
         if dim in weights:
             weight = weight * np.expand_dims(
-                np.asarray(weights[dim], dtype=float),
-                tuple(i for i in range(values.ndim) if i != number),
+                np.asarray(weights[dim], dtype=float), tuple(i for i in range(values.ndim) if i != number)
             )
     over = tuple(number for number, dim in enumerate(record.dims) if dim in weights)
     weight = np.where(np.isfinite(values), weight, 0.0)

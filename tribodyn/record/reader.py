@@ -139,10 +139,7 @@ class Record(OpenRecord):
         schema.require_head(self.attrs)
         if self.attrs.get("kind") == SWEEP:
             raise InputError(
-                "record",
-                str(self.path),
-                "the record of a sweep, not of a run",
-                "show, plot or open it",
+                "record", str(self.path), "the record of a sweep, not of a run", "show, plot or open it"
             )
         _ = self.axis, self.pairs, self.elements
         for name in str(self.attrs.get("datasets", self.axis)).split():

@@ -154,13 +154,7 @@ GRID = 11.0, 6.6, 2, 3
 OVERVIEW: dict[str, Any] = {"left": 0.74, "right": 0.42, "top": 0.85, "bottom": 0.5, "between": (0.86, 1.0)}
 #: Titles of its panels a, and b to f.
 PATH = "Teeth and path of contact"
-TRACES = (
-    DEFLECTION,
-    NORMAL_LOAD,
-    FRICTION_FORCE,
-    FILM_THICKNESS,
-    EFFICIENCY,
-)
+TRACES = (DEFLECTION, NORMAL_LOAD, FRICTION_FORCE, FILM_THICKNESS, EFFICIENCY)
 
 
 def overview_figure(records: Sequence[Record], view: View) -> Figure:

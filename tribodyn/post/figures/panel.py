@@ -81,12 +81,7 @@ def abscissa(window: Window, view: View) -> np.ndarray:
 
 
 def draw(
-    axes: Axes,
-    records: Sequence[Record],
-    trace: Trace,
-    view: View,
-    first: bool = True,
-    last: bool = True,
+    axes: Axes, records: Sequence[Record], trace: Trace, view: View, first: bool = True, last: bool = True
 ) -> int:
     """Draw a dataset of every record, pairs apart where it has pairs, with axis labels and key points.
 

@@ -169,13 +169,7 @@ def series_data(series: Series) -> dict[str, Any]:
             {"label": one.label, "y": packed(one.values), "i": None if whole else packed(one.places, "<u4")}
         )
     short = series.name.replace("_", " ")
-    return {
-        "name": series.name,
-        "title": series.title,
-        "unit": series.unit,
-        "curves": curves,
-        "short": short,
-    }
+    return {"name": series.name, "title": series.title, "unit": series.unit, "curves": curves, "short": short}
 
 
 class PageMap(NamedTuple):
