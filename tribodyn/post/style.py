@@ -106,10 +106,7 @@ _place: ContextVar[Axes | None] = ContextVar("place", default=None)
 def in_place_of(axes: Axes) -> Iterator[None]:
     """Draw the next figure where axes stand, which are removed from their figure.
 
-    Raises
-    ------
-    InputError
-        For axes that are in no grid, such as ``figure.add_axes(...)`` makes.
+    Raises InputError for axes that are in no grid, such as ``figure.add_axes(...)`` makes.
     """
     if axes.get_subplotspec() is None:
         rule = "axes that stand in no grid have no room for a figure"
@@ -161,10 +158,8 @@ def prepare_grid(width: float, height: float, rows: int, columns: int) -> None:
 class Margins(LayoutEngine):
     """A grid of panels with room of a known size for its labels, inch; saves half the time to draw it.
 
-    Parameters
-    ----------
-    left, right, top, bottom : around the grid; below it comes what a legend of the figure takes
-    between : (float, float); panels, across and down
+    There is room around the grid (below it also for a legend of the figure), and `between` panels across and
+    down.
     """
 
     _adjust_compatible = True
@@ -211,14 +206,7 @@ def save(figure: Figure, path: str | Path, *, force: bool = False) -> Path:
 
 
 def inline(figure: Figure, about: str = "", share: float = INLINE) -> str:
-    """A figure as an image within a page.
-
-    Parameters
-    ----------
-    figure : Figure
-    about : what it shows, for who cannot see it
-    share : its resolution over that of a file
-    """
+    """A figure as an image within a page: what it is about in words, its resolution over that of a file."""
     dpi = share * STYLE["savefig.dpi"]
     with house_style():
         data = base64.b64encode(_png(painted(figure, dpi), dpi)).decode("ascii")
@@ -283,6 +271,20 @@ def panel_title(letter: str, title: str) -> str:
     """Set (a), (b), … before what a panel shows."""
     marked = rf"$\mathbf{{({letter})}}$" if letter else ""
     return " ".join(filter(None, (marked, title)))
+
+
+def name_above(axes: Axes, place: float, text: str, row: int, color: str = QUIET, size: float = 6.5) -> None:
+    """Write a name above the axes at a place along them, in a row that is counted upwards."""
+    axes.annotate(
+        text,
+        (place, 1),
+        xycoords=("data", "axes fraction"),
+        xytext=(0, 3 + ROW * row),
+        textcoords="offset points",
+        ha="center",
+        fontsize=size,
+        color=color,
+    )
 
 
 def mark_panel(axes: Axes, letter: str, title: str = "", rows: int = 0) -> None:

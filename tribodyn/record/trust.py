@@ -173,10 +173,7 @@ def judge_tribology(judge: Judge, summary: Mapping[str, Any]) -> None:
 
     Not by their maximum: where the load vanishes, laws give a film without bound.
     """
-    given = {
-        "film_thickness": summary.get("film_min"),
-        "film_parameter": summary.get("film_parameter_min"),
-    }
+    given = {"film_thickness": summary.get("film_min"), "film_parameter": summary.get("film_parameter_min")}
     for name, law in (("film_law_range", "closure"), ("friction_law_range", "friction")):
         inside = summary.get(f"{law}_in_range_fraction")
         given[name] = None if inside is None else 1.0 - inside

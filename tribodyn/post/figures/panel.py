@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 
 from tribodyn.post.cycles import Window, key_points, last_cycles, pair_curve
 from tribodyn.post.figures.scale import scale
-from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal
+from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal, name_above
 from tribodyn.quantities.quantity import SHOWN
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
@@ -86,12 +86,7 @@ def draw(
     """Draw a dataset of every record, pairs apart where it has pairs, with axis labels and key points.
 
     In a stack of panels the `first` alone names the key points and the `last` alone the horizontal axis. Over
-    many cycles the range within each cycle and its mean are drawn.
-
-    Returns
-    -------
-    int
-        Rows of names above the axes.
+    many cycles the range within each cycle and its mean are drawn. Returns the rows of names above the axes.
     """
     several = len(records) > 1
     shown = []
@@ -138,14 +133,10 @@ def cycle_ranges(
     values = values[window.part][:-1]
     if values.ndim > 1:
         values = np.where(record["normal_load"][window.part][:-1] > 0.0, values, np.nan)
-    rows = values.reshape(round(window.phase[-1]), -1)
-    known = np.isfinite(rows)
-    count = known.sum(axis=1)
-    some = count > 0
-    low = np.where(some, np.min(np.where(known, rows, np.inf), axis=1), np.nan)
-    high = np.where(some, np.max(np.where(known, rows, -np.inf), axis=1), np.nan)
-    mean = np.where(some, np.sum(np.where(known, rows, 0.0), axis=1) / np.maximum(count, 1), np.nan)
-    return low, mean, high
+    rows = np.where(np.isfinite(values), values, np.nan).reshape(round(window.phase[-1]), -1)
+    count = np.isfinite(rows).sum(axis=1)
+    mean = np.where(count > 0, np.nansum(rows, axis=1) / np.maximum(count, 1), np.nan)
+    return np.fmin.reduce(rows, axis=1), mean, np.fmax.reduce(rows, axis=1)
 
 
 def _shade_extrapolated(
@@ -187,12 +178,8 @@ def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bo
     """Draw thin lines at the key points of every cycle, named above the axes unless `named` is off.
 
     One record: a row for each of its pairs, naming where it is. Several: a row for each record in its colour,
-    naming where pair 1 is. Over many cycles lines and names would hide the curves and are left out.
-
-    Returns
-    -------
-    int
-        Rows of names above the axes.
+    naming where pair 1 is. Over many cycles lines and names would hide the curves and are left out. Returns
+    the rows of names above the axes.
     """
     several = len(records) > 1
     rows, left, right = 0, np.inf, -np.inf
@@ -210,7 +197,7 @@ def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bo
             for point in known
             if cycle + point.phase <= cycles + 1e-9
         ]
-        pairs = [1] if several else sorted({pair for one in known for pair in one.names}, reverse=True)
+        pairs = [1] if several else sorted({pair for point in known for pair in point.names}, reverse=True)
         heads = {1: record_label(record)} if several else {pair: f"pair {pair}" for pair in pairs}
         color = PALETTE[number % len(PALETTE)] if several else QUIET
         places = np.interp([phase for phase, _ in points], window.phase, x)
@@ -224,44 +211,26 @@ def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bo
             linestyle=":",
             zorder=0.9,
         )
-        for place, (_, names) in zip(places, points, strict=True):
-            for position, pair in enumerate(pairs if named else ()):
-                row = len(records) - 1 - number if several else len(pairs) - 1 - position
-                _name(axes, place, row, names.get(pair, ""), color if several or position else INK)
-        if named:
-            for position, pair in enumerate(pairs):
-                row = len(records) - 1 - number if several else len(pairs) - 1 - position
-                _head_row(axes, row, heads[pair], color if several or position else INK)
-            rows = len(records) if several else len(pairs)
+        if not named:
+            continue
+        rows = len(records) if several else len(pairs)
+        for position, pair in enumerate(pairs):
+            row = rows - 1 - (number if several else position)
+            shade = color if several or position else INK
+            axes.annotate(
+                heads[pair],
+                (1, 1),
+                xycoords="axes fraction",
+                xytext=(9, 3 + ROW * row),
+                textcoords="offset points",
+                fontsize=6.5,
+                color=shade,
+            )
+            for place, (_, names) in zip(places, points, strict=True):
+                if pair in names:
+                    name_above(axes, place, f"${names[pair]}$", row, shade, 7.5)
     axes.set_xlim(left, right)
     return rows
-
-
-def _head_row(axes: Axes, row: int, text: str, color: str) -> None:
-    axes.annotate(
-        text,
-        (1, 1),
-        xycoords="axes fraction",
-        xytext=(9, 3 + ROW * row),
-        textcoords="offset points",
-        fontsize=6.5,
-        color=color,
-    )
-
-
-def _name(axes: Axes, place: float, row: int, name: str, color: str) -> None:
-    if not name:
-        return
-    axes.annotate(
-        f"${name}$",
-        (place, 1),
-        xycoords=("data", "axes fraction"),
-        xytext=(0, 3 + ROW * row),
-        textcoords="offset points",
-        ha="center",
-        fontsize=7.5,
-        color=color,
-    )
 
 
 def legend(figure: Figure, panels: Sequence[Axes], records: Sequence[Record], view: View) -> None:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import Spectrum, Window, amplitude_spectrum, last_cycles
 from tribodyn.post.figures.panel import View, record_label, record_title
-from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, ROW, WIDTH, mark_panel, new_figure
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, name_above, new_figure
 from tribodyn.record.reader import Record
 
 #: Orders of the mesh that are shown at least, and where no mode is known.
@@ -64,25 +64,12 @@ def draw_spectrum(axes: Axes, record: Record, color: str) -> tuple[float, float]
     step = -(-count // NAMED)
     for order in range(1 if step == 1 else step, count + 1, step):
         text = "$f_m$" if order == 1 else f"{order}$f_m$"
-        _above(axes, places[order - 1], text, 0)
+        name_above(axes, places[order - 1], text, 0)
     for number, frequency in enumerate(mode_frequencies(record), start=1):
         if frequency <= limit * mesh:
             axes.axvline(frequency * 1e-3, color=PALETTE[3], linewidth=0.9, linestyle=(0, (4, 2)), zorder=1)
-            _above(axes, frequency * 1e-3, f"mode {number}", 1, PALETTE[3])
+            name_above(axes, frequency * 1e-3, f"mode {number}", 1, PALETTE[3])
     return float(orders.max(initial=0.0)), limit * mesh * 1e-3
-
-
-def _above(axes: Axes, place: float, text: str, row: int, color: str = QUIET) -> None:
-    axes.annotate(
-        text,
-        (place, 1),
-        xycoords=("data", "axes fraction"),
-        xytext=(0, 3 + ROW * row),
-        textcoords="offset points",
-        ha="center",
-        fontsize=6.5,
-        color=color,
-    )
 
 
 def spectrum_figure(records: Sequence[Record], view: View) -> Figure:

@@ -64,30 +64,22 @@ class Branch(NamedTuple):
 
 
 def branches(records: Sequence[SweepRecord]) -> list[Branch]:
-    """All branches of the records.
+    """All branches of the records; InputError where their first parameters differ or are no numbers.
 
     Of a single one up and down have different colours; of several each has its own, up solid, down dashed.
-
-    Raises
-    ------
-    InputError
-        If a record's first parameter is no number, or the records' first parameters differ.
     """
     keys = {record.parameters[0].key for record in records}
     if len(keys) > 1:
-        raise InputError(
-            "record", str(records[1].path), f"other first parameters: {', '.join(sorted(keys))}", "draw apart"
-        )
+        rule = f"other first parameters: {', '.join(sorted(keys))}"
+        raise InputError("record", str(records[1].path), rule, "draw apart")
     curves = []
     for record in records:
         first, *others = record.parameters
         if first.values.dtype.kind not in "fi":
-            raise InputError(
-                "record", str(record.path), f"{first.key} is not a number", "vary a number first"
-            )
-        shape = tuple(len(one.values) for one in others)
-        for place in np.ndindex(*shape):
-            label = ", ".join(_value(one, i) for one, i in zip(others, place, strict=True))
+            rule = f"{first.key} is not a number"
+            raise InputError("record", str(record.path), rule, "vary a number first")
+        for place in np.ndindex(*(len(parameter.values) for parameter in others)):
+            label = ", ".join(_value(parameter, i) for parameter, i in zip(others, place, strict=True))
             if len(records) > 1:
                 label = f"{record.label}, {label}" if label else record.label
             curves.append((record, place, label))
@@ -117,22 +109,25 @@ def chosen_branch(records: Sequence[SweepRecord], at: Mapping[str, float | str])
     """
     drawn = branches(records[:1])
     record = records[0]
-    wanted = []
-    for one in record.parameters[1:]:
-        if one.name not in at:
-            wanted.append(0)
-        elif one.values.dtype.kind in "fi":
-            wanted.append(int(np.argmin(np.abs(one.values - float(at[one.name])))))
-        else:
-            same = np.flatnonzero(one.values == at[one.name])
-            if not same.size:
-                known = ", ".join(map(str, one.values))
-                raise InputError("--at", f"{one.name}={at[one.name]}", "no such value", f"one of {known}")
-            wanted.append(int(same[0]))
-    found = [branch for branch in drawn if branch.place[1 : len(record.parameters)] == tuple(wanted)]
-    others = len(drawn) // len(record.directions or ("",)) - 1
-    more = f" (one of {others + 1}; choose with --at)" if others else ""
+    _, *others = record.parameters
+    wanted = tuple(
+        index_of(parameter.values, parameter.name, at[parameter.name]) if parameter.name in at else 0
+        for parameter in others
+    )
+    found = [branch for branch in drawn if branch.place[1 : len(record.parameters)] == wanted]
+    count = len(drawn) // len(record.directions or ("",))
+    more = f" (one of {count}; choose with --at)" if count > 1 else ""
     return found, f"{literal(found[0].label)}{more}"
+
+
+def index_of(values: np.ndarray, name: str, wanted: float | str) -> int:
+    """Index of the nearest value of a parameter; of texts that of the same, or InputError."""
+    if values.dtype.kind in "fi":
+        return int(np.argmin(np.abs(values - float(wanted))))
+    same = np.flatnonzero(values == wanted)
+    if not same.size:
+        raise InputError("--at", f"{name}={wanted}", "no such value", f"one of {', '.join(map(str, values))}")
+    return int(same[0])
 
 
 def axis_label(parameter: VariedKey) -> str:
@@ -145,11 +140,6 @@ def axis_label(parameter: VariedKey) -> str:
 def _value(parameter: VariedKey, index: int) -> str:
     text = shown(parameter.values[index].item(), parameter.units, 4)
     return f"{parameter.name.replace('_', ' ')} {text}" if parameter.units == "1" else text
-
-
-def named(branch: Branch) -> str:
-    """What distinguishes a branch, its direction included; empty where there is only one."""
-    return ", ".join(word for word in (branch.label, branch.direction) if word)
 
 
 def draw_branch(axes: Axes, branch: Branch, values: np.ndarray) -> None:
@@ -194,14 +184,7 @@ def mark_ends(axes: Axes, drawn: Sequence[Branch]) -> None:
 
 
 def draw_unstable(axes: Axes, drawn: Sequence[Branch], name: str, factor: float) -> None:
-    """Draw the branches beyond their ends, where a figure of their unstable motions was recorded.
-
-    Parameters
-    ----------
-    axes : Axes
-    name : dataset over case, end and motion, and what else there is
-    factor : from SI
-    """
+    """Draw the branches beyond their ends, where a dataset `name` over case, end and motion was recorded."""
     for branch in drawn:
         if name not in branch.record:
             continue
@@ -260,7 +243,7 @@ def branch_legend(
         single = len({branch.label for branch in drawn}) == 1
         ways: tuple[tuple[str, Any], ...] = ("up", UP), ("down", DOWN)
         for direction, style in ways:
-            color = next((one.color for one in drawn if one.direction == direction), QUIET)
+            color = next((branch.color for branch in drawn if branch.direction == direction), QUIET)
             handles.append(
                 Line2D(
                     [],

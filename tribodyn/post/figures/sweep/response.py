@@ -42,39 +42,43 @@ FLAT = 1e-5
 def panels_of(records: Sequence[SweepRecord], quantities: Sequence[Quantity]) -> list[Panel]:
     """Panels of the first quantities that vary; of the first that there are where none does.
 
-    Parameters
-    ----------
-    quantities : those that may be drawn; none: all, as the first record describes them
+    Of no quantities all are taken, as the first record describes them.
     """
+
+    def varies(name: str) -> bool:
+        values = np.concatenate([record[name].ravel() for record in records])
+        values = values[np.isfinite(values)]
+        return bool(values.size) and np.ptp(values) > FLAT * np.max(np.abs(values))
+
     quantities = quantities or [described(records[0], name) for name in records[0].quantities]
-    known = [one for one in quantities if all(one.name in record for record in records)]
-    varying = [one for one in known if _varies(records, one.name)]
-    return [Panel(one) for one in (varying or known)[:MOST_PANELS]]
+    known = [quantity for quantity in quantities if all(quantity.name in record for record in records)]
+    varying = [quantity for quantity in known if varies(quantity.name)]
+    return [Panel(quantity) for quantity in (varying or known)[:MOST_PANELS]]
 
 
-def _varies(records: Sequence[SweepRecord], name: str) -> bool:
-    values = np.concatenate([record[name].ravel() for record in records])
-    values = values[np.isfinite(values)]
-    return bool(values.size) and np.ptp(values) > FLAT * np.max(np.abs(values))
+def _grid(record: SweepRecord, panels: int, maps: bool = False) -> tuple[Figure, np.ndarray]:
+    """A figure with axes for panels in two columns, over the first parameter, and room for a legend."""
+    columns = min(2, panels)
+    count = -(-panels // columns)
+    height = PANEL_HEIGHT - 0.1 if maps else PANEL_HEIGHT - 0.2
+    figure = new_figure(WIDTH, count * height + 0.6 + 0.6 * (count == 1 and not maps))
+    rows = figure.subplots(count, columns, sharex=True, sharey=maps, squeeze=False)
+    for axes in rows.flat[panels:]:
+        axes.set_visible(False)
+    for axes in rows.flat[max(0, panels - columns) : panels]:
+        axes.tick_params(labelbottom=True)
+        axes.set_xlabel(axis_label(record.parameters[0]))
+    return figure, rows
 
 
 def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> Figure:
-    """Draw figures of every case over the first parameter; up and down apart where both were followed.
+    """Draw at most `MOST_PANELS` quantities of every case over the first parameter, up and down apart.
 
     Shaded where contact is lost at times; marked where the motion does not repeat with the mesh.
-
-    Parameters
-    ----------
-    panels : at most `MOST_PANELS`
     """
     if maps_of(records):
         return _maps(records[0], panels)
-    columns = min(2, len(panels))
-    count = -(-len(panels) // columns)
-    figure = new_figure(WIDTH, count * (PANEL_HEIGHT - 0.2) + 0.6 + 0.6 * (count == 1))
-    rows = figure.subplots(count, columns, sharex=True, squeeze=False)
-    for axes in rows.flat[len(panels) :]:
-        axes.set_visible(False)
+    figure, rows = _grid(records[0], len(panels))
     drawn = branches(records)
     for letter, axes, (quantity, from_zero) in zip("abcdef", rows.flat, panels, strict=False):
         for branch in drawn:
@@ -90,9 +94,6 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
         shade_contact_loss(axes, drawn)
         mark_ends(axes, drawn)
         mark_panel(axes, letter, literal(quantity.title))
-    for axes in rows.flat[max(0, len(panels) - columns) : len(panels)]:
-        axes.tick_params(labelbottom=True)
-        axes.set_xlabel(axis_label(records[0].parameters[0]))
     figure.align_ylabels()
     branch_legend(figure, drawn, marks=regime_handles(drawn))
     figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
@@ -106,22 +107,20 @@ def maps_of(records: Sequence[SweepRecord]) -> bool:
         len(records) == 1
         and not record.directions
         and len(record.parameters) == 2
-        and all(one.values.dtype.kind in "fi" for one in record.parameters)
+        and all(parameter.values.dtype.kind in "fi" for parameter in record.parameters)
         and len(record.parameters[0].values) > 2
         and len(record.parameters[1].values) > MOST_COLORS
     )
 
 
 def _maps(record: SweepRecord, panels: Sequence[Panel]) -> Figure:
-    """Draw figures of the cases as maps over both parameters; a dot on every case that loses contact."""
-    columns = min(2, len(panels))
-    count = -(-len(panels) // columns)
-    figure = new_figure(WIDTH, count * (PANEL_HEIGHT - 0.1) + 0.6)
-    rows = figure.subplots(count, columns, sharex=True, sharey=True, squeeze=False)
-    for axes in rows.flat[len(panels) :]:
-        axes.set_visible(False)
-    x, y = (one.values * shown_unit(one.units)[1] for one in record.parameters)
+    """Draw quantities of the cases as maps over both parameters; a dot on every case that loses contact."""
+    figure, rows = _grid(record, len(panels), maps=True)
+    x, y = (parameter.values * shown_unit(parameter.units)[1] for parameter in record.parameters)
     done = record["status"] == DONE
+    lost = np.empty((0, 2), dtype=int)
+    if "contact_loss_fraction" in record:
+        lost = np.argwhere(done & (record["contact_loss_fraction"] > 0.0))
     for letter, axes, (quantity, _) in zip("abcdef", rows.flat, panels, strict=False):
         values = quantity.in_unit(np.where(done, record[quantity.name], np.nan))
         image = axes.pcolormesh(x, y, values.T, cmap="viridis", shading="nearest", rasterized=True)
@@ -129,17 +128,11 @@ def _maps(record: SweepRecord, panels: Sequence[Panel]) -> Figure:
         bar.outline.set_visible(False)
         axes.grid(False)
         mark_panel(axes, letter, literal(quantity.title))
-        if "contact_loss_fraction" in record:
-            lost = np.argwhere(done & (record["contact_loss_fraction"] > 0.0))
-            axes.plot(x[lost[:, 0]], y[lost[:, 1]], ".", color="white", markersize=2.5)
+        axes.plot(x[lost[:, 0]], y[lost[:, 1]], ".", color="white", markersize=2.5)
     for axes in rows[:, 0]:
         axes.set_ylabel(axis_label(record.parameters[1]))
-    for axes in rows.flat[max(0, len(panels) - columns) : len(panels)]:
-        axes.tick_params(labelbottom=True)
-        axes.set_xlabel(axis_label(record.parameters[0]))
-    dots = "contact_loss_fraction" in record and np.any(done & (record["contact_loss_fraction"] > 0.0))
-    said = "; white dots: cases that lose contact" if dots else ""
-    figure.suptitle(sweep_title([record]) + said, x=0.01, ha="left", fontsize=9)
+    dots = "; white dots: cases that lose contact" if len(lost) else ""
+    figure.suptitle(sweep_title([record]) + dots, x=0.01, ha="left", fontsize=9)
     return figure
 
 

@@ -12,6 +12,7 @@ from tribodyn.post.figures.sweep.branch import (
     branch_legend,
     branches,
     draw_unstable,
+    index_of,
     mark_ends,
     regime_handles,
     sweep_title,
@@ -49,7 +50,8 @@ def bifurcation_figure(records: Sequence[SweepRecord]) -> Figure:
     axes.margins(x=0.02)
     mark_ends(axes, drawn)
     draw_unstable(axes, drawn, "unstable_poincare_error", 1e6)
-    marks = [one for one in regime_handles(drawn) if one.get_label() in ("unstable", "a branch ends")]
+    shown_marks = ("unstable", "a branch ends")
+    marks = [handle for handle in regime_handles(drawn) if handle.get_label() in shown_marks]
     branch_legend(figure, drawn, lines=False, marks=marks)
     figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
     return figure
@@ -58,10 +60,8 @@ def bifurcation_figure(records: Sequence[SweepRecord]) -> Figure:
 def poincare_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str]) -> Figure:
     """Draw the section of one case of each record: transmission error and its rate at the start of cycles.
 
-    Parameters
-    ----------
-    at : parameter's name to value in SI, the nearest case is taken; those not named are chosen so that the
-        section has the most points, and the largest spread
+    Of the parameters `at` (SI) the nearest case is taken; those not named are chosen so that the section has
+    the most points, and the largest spread.
     """
     figure = new_figure(WIDTH * 0.75, 3.6)
     axes = figure.subplots()
@@ -94,7 +94,7 @@ def poincare_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str
 
 def chosen_case(record: SweepRecord, at: Mapping[str, float | str]) -> tuple[int, ...]:
     """Return the place of the case that `at` describes; raises InputError where there is none."""
-    scales = {one.name: one.values for one in record.parameters}
+    scales = {parameter.name: parameter.values for parameter in record.parameters}
     if record.directions:
         scales["direction"] = np.array(record.directions)
     for name in at:
@@ -104,12 +104,8 @@ def chosen_case(record: SweepRecord, at: Mapping[str, float | str]) -> tuple[int
     for name, values in scales.items():
         if name not in at:
             wanted.append(slice(None))
-        elif values.dtype.kind in "fi":
-            wanted.append(int(np.argmin(np.abs(values - float(at[name])))))
-        elif at[name] in values:
-            wanted.append(int(np.flatnonzero(values == at[name])[0]))
         else:
-            raise InputError("--at", f"{name}={at[name]}", "no such value", f"one of {', '.join(values)}")
+            wanted.append(index_of(values, name, at[name]))
     mask = np.zeros(record["status"].shape, dtype=bool)
     mask[tuple(wanted)] = True
     mask &= record["status"] == DONE
@@ -126,9 +122,10 @@ def chosen_case(record: SweepRecord, at: Mapping[str, float | str]) -> tuple[int
 
 def described(record: SweepRecord, place: tuple[int, ...]) -> str:
     """Name a case by its parameters in engineers' units, and its sort of motion."""
-    words = []
-    for one, index in zip(record.parameters, place, strict=False):
-        words.append(f"{one.name.replace('_', ' ')} {shown(one.values[index].item(), one.units)}")
+    words = [
+        f"{parameter.name.replace('_', ' ')} {shown(parameter.values[index].item(), parameter.units)}"
+        for parameter, index in zip(record.parameters, place, strict=False)
+    ]
     if record.directions:
         words.append(record.directions[place[-1]])
     return f"{', '.join(words)}: {record.case('solution', place)}"

@@ -5,7 +5,6 @@ orders. In the waterfall a line of the spectrum is a mark at its frequency, colo
 """
 
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -18,53 +17,51 @@ from matplotlib.lines import Line2D
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
 from tribodyn.post.figures.sweep.branch import Branch, axis_label, chosen_branch, sweep_title
-from tribodyn.post.style import INK, PALETTE, QUIET, ROW, WIDTH, mark_panel, new_figure
+from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, mark_panel, name_above, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
+
+#: Orders of the mesh that the Campbell diagram draws, and that the waterfall shows at least.
+RAYS, LEAST_ORDERS = 6, 4
+#: Area of the largest marker, square points.
+LARGEST_AREA = 160.0
+#: Amplitudes below this share of the highest are not shown: 60 dB.
+LOWEST = 10 ** (-60.0 / 20)
 
 
 def spectra(branch: Branch) -> list[Spectrum | None]:
-    """Spectrum, m over mesh orders, of every case; None where there is no window.
-
-    Raises
-    ------
-    InputError
-        If no case has one.
-    """
-    per_cycle = branch.record.samples_per_cycle
-    results = [_spectrum(window, per_cycle) for window in branch.values("transmission_error_rotational")]
+    """Spectrum, m over mesh orders, of every case; None where there is no window, InputError if nowhere."""
+    size = branch.record.samples_per_cycle
+    windows = [window[np.isfinite(window)] for window in branch.values("transmission_error_rotational")]
+    results = [amplitude_spectrum(window, size) if window.size >= size else None for window in windows]
     if not any(results):
         raise InputError("record", str(branch.record.path), "no case is done", "wait, or sweep again")
     return results
 
 
-def _spectrum(window: np.ndarray, per_cycle: int) -> Spectrum | None:
-    window = window[np.isfinite(window)]
-    return amplitude_spectrum(window, per_cycle) if window.size >= per_cycle else None
-
-
 def order_amplitudes(branch: Branch, orders: int) -> np.ndarray:
     """Amplitudes (cases, orders) of the mesh orders 1 … orders, m; NaN where a case is not done."""
-    rows = [np.full(orders, np.nan) if one is None else one.harmonics(orders) for one in spectra(branch)]
-    return np.array(rows)
+    none = np.full(orders, np.nan)
+    return np.array([found.harmonics(orders) if found else none for found in spectra(branch)])
 
 
-#: No case chosen.
-NOWHERE: Mapping[str, float | str] = MappingProxyType({})
-#: Orders of the mesh that are drawn.
-RAYS = 6
-#: Area of the largest marker, square points.
-LARGEST_AREA = 160.0
+def _beside(
+    records: Sequence[SweepRecord], at: Mapping[str, float | str], height: float
+) -> tuple[list[Branch], Figure, Sequence[Axes]]:
+    """The branches, up and down, nearest to `at`; a figure of a height, inch, with axes for each."""
+    drawn, name = chosen_branch(records, at)
+    figure = new_figure(WIDTH if len(drawn) == 1 else 1.35 * WIDTH, height)
+    title = f"{sweep_title(records)}: {name}" if name else sweep_title(records)
+    figure.suptitle(title, x=0.01, ha="left", fontsize=9)
+    return drawn, figure, figure.subplots(1, len(drawn), sharex=True, sharey=True, squeeze=False)[0]
 
 
-def campbell_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str] = NOWHERE) -> Figure:
+def campbell_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str]) -> Figure:
     """Draw modes (dashed) and orders of the mesh (rays) over the first parameter, up and down apart.
 
     The area of a marker on an order is the amplitude of the transmission error there. Of several other
     parameters the branch nearest to `at` is drawn, or the first.
     """
-    drawn, named = chosen_branch(records, at)
-    figure = new_figure(WIDTH if len(drawn) == 1 else 1.35 * WIDTH, 4.4)
-    panels = figure.subplots(1, len(drawn), sharex=True, sharey=True, squeeze=False)[0]
+    drawn, figure, panels = _beside(records, at, 4.4)
     largest = max(float(np.nanmax(order_amplitudes(branch, RAYS))) for branch in drawn) or 1.0
     for letter, axes, branch in zip("ab", panels, drawn, strict=False):
         _draw_modes(axes, branch)
@@ -84,8 +81,6 @@ def campbell_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str
         "Area of the marks: amplitude of the transmission error",
         title_fontsize=7.5,
     )
-    shown = f": {named}" if named else ""
-    figure.suptitle(sweep_title(records) + shown, x=0.01, ha="left", fontsize=9)
     return figure
 
 
@@ -146,24 +141,16 @@ def _draw_orders(axes: Axes, branch: Branch, largest: float) -> None:
     axes.margins(x=0.03)
 
 
-#: Orders of the mesh that are shown at least.
-LEAST_ORDERS = 4
-#: Lines weaker than the highest by more than this are not shown, dB.
-RANGE = 60.0
-_LOWEST = 10 ** (-RANGE / 20)
-
-
-def waterfall_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str] = NOWHERE) -> Figure:
+def waterfall_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str]) -> Figure:
     """Draw amplitude spectra of the transmission error over frequency and the first parameter.
 
     Up and down beside each other where both were followed; of several other parameters the branch nearest to
     `at`, or the first.
     """
-    drawn, named = chosen_branch(records, at)
-    figure = new_figure(WIDTH if len(drawn) == 1 else 1.35 * WIDTH, 4.6)
-    panels = figure.subplots(1, len(drawn), squeeze=False, sharex=True, sharey=True)[0]
-    highest = max(_highest(branch) for branch in drawn) * 1e6 or 1.0
-    norm = LogNorm(highest * _LOWEST, highest)
+    drawn, figure, panels = _beside(records, at, 4.6)
+    found = [spectrum for branch in drawn for spectrum in spectra(branch) if spectrum]
+    highest = max(float(spectrum.amplitudes[1:].max()) for spectrum in found) * 1e6 or 1.0
+    norm = LogNorm(highest * LOWEST, highest)
     limit = max(map(_limit, drawn))
     lines: Any = None
     for letter, axes, branch in zip("ab", panels, drawn, strict=False):
@@ -174,13 +161,7 @@ def waterfall_figure(records: Sequence[SweepRecord], at: Mapping[str, float | st
     panels[0].set_ylabel(axis_label(records[0].parameters[0]))
     bar = figure.colorbar(lines, ax=list(panels), label="Amplitude (µm)", pad=0.02)
     bar.outline.set_visible(False)
-    shown = f": {named}" if named else ""
-    figure.suptitle(f"{sweep_title(records)}{shown}", x=0.01, ha="left", fontsize=9)
     return figure
-
-
-def _highest(branch: Branch) -> float:
-    return max(float(one.amplitudes[1:].max()) for one in spectra(branch) if one is not None)
 
 
 def _limit(branch: Branch) -> float:
@@ -193,17 +174,13 @@ def _draw(axes: Axes, branch: Branch, norm: LogNorm, limit: float) -> LineCollec
     frequency = branch.values("mesh_frequency") * 1e-3
     low, high = _edges(branch.x)
     places, amplitudes = [], []
-    for i, one in enumerate(spectra(branch)):
-        if one is None:
+    for i, spectrum in enumerate(spectra(branch)):
+        if spectrum is None:
             continue
-        levels = one.amplitudes * 1e6
-        for k in np.flatnonzero(
-            (one.orders > 0)
-            & (levels > _LOWEST * float(norm.vmax or 0.0))
-            & (one.orders * frequency[i] <= limit)
-        ):
-            x = one.orders[k] * frequency[i]
-            places.append([(x, low[i]), (x, high[i])])
+        levels, x = spectrum.amplitudes * 1e6, spectrum.orders * frequency[i]
+        strong = levels > LOWEST * float(norm.vmax or 0.0)
+        for k in np.flatnonzero((spectrum.orders > 0) & strong & (x <= limit)):
+            places.append([(x[k], low[i]), (x[k], high[i])])
             amplitudes.append(levels[k])
     order = np.argsort(amplitudes)  # the strongest on top
     lines = LineCollection(
@@ -220,16 +197,7 @@ def _draw(axes: Axes, branch: Branch, norm: LogNorm, limit: float) -> LineCollec
     for mode in range(modes.shape[1]):
         axes.plot(modes[:, mode], branch.x, color=QUIET, linestyle=(0, (3, 2)), linewidth=0.7, zorder=0.9)
         if np.isfinite(modes[last, mode]):
-            axes.annotate(
-                f"mode {mode + 1}",
-                (modes[last, mode], 1),
-                xycoords=("data", "axes fraction"),
-                xytext=(0, 3 + ROW * (mode % 2)),
-                textcoords="offset points",
-                ha="center",
-                fontsize=6.5,
-                color=INK,
-            )
+            name_above(axes, modes[last, mode], f"mode {mode + 1}", mode % 2, INK)
     axes.set_xlim(0, limit)
     axes.set_ylim(float(np.min(low)), float(np.max(high)))
     axes.grid(False)
