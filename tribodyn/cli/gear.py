@@ -27,8 +27,7 @@ def gear(
     model: Annotated[
         str,
         typer.Argument(
-            help="A drive or a scenario: the name of a shipped one, or a file.",
-            autocompletion=drives,
+            help="A drive or a scenario: the name of a shipped one, or a file.", autocompletion=drives
         ),
     ],
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Folder of the drawings.")] = None,

@@ -19,8 +19,7 @@ SCHEMA_EXAMPLE = "\b\nExample:\n  tribodyn schema > scenario.schema.json"
 def init(
     name: Annotated[str, typer.Argument(help="Name of the scenario; NAME.toml is written in this folder.")],
     kind: Annotated[
-        str,
-        typer.Option(help="Kind of study; all of them: tribodyn list kinds.", autocompletion=kinds),
+        str, typer.Option(help="Kind of study; all of them: tribodyn list kinds.", autocompletion=kinds)
     ] = "",
     force: Annotated[bool, typer.Option("--force", help="Replace a file of that name.")] = False,
 ) -> None:

@@ -87,8 +87,7 @@ def _beginning(known: Iterable[str], incomplete: str) -> list[str]:
 
 
 ScenarioArgument = Annotated[
-    str,
-    typer.Argument(help="A scenario file, or the name of a shipped scenario.", autocompletion=scenarios),
+    str, typer.Argument(help="A scenario file, or the name of a shipped scenario.", autocompletion=scenarios)
 ]
 
 SetOption = Annotated[
@@ -101,10 +100,7 @@ SetOption = Annotated[
     ),
 ]
 
-LargeOption = Annotated[
-    bool,
-    typer.Option("--allow-large", help="Allow runs above the resource limits."),
-]
+LargeOption = Annotated[bool, typer.Option("--allow-large", help="Allow runs above the resource limits.")]
 
 ForceOption = Annotated[
     bool,

@@ -15,8 +15,7 @@ EXAMPLES = "\b\nExamples:\n  tribodyn show crc-23-47.h5\n  tribodyn show crc-23-
 
 
 def show(
-    record: Annotated[Path, typer.Argument(help="A record that tribodyn wrote.")],
-    json: JsonOption = False,
+    record: Annotated[Path, typer.Argument(help="A record that tribodyn wrote.")], json: JsonOption = False
 ) -> None:
     """Print the summary of a record."""
     from tribodyn.cli.printing import print_json

@@ -17,13 +17,7 @@ EXAMPLES = (
 
 
 def validate(
-    paper: Annotated[
-        str,
-        typer.Argument(
-            help="The paper: tribodyn list papers.",
-            autocompletion=papers,
-        ),
-    ],
+    paper: Annotated[str, typer.Argument(help="The paper: tribodyn list papers.", autocompletion=papers)],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder to keep the records in.")
     ] = None,

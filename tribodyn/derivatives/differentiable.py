@@ -17,13 +17,7 @@ import tomli_w
 from pydantic import BaseModel
 
 from tribodyn.derivatives.numbers import Number, numbers_of
-from tribodyn.derivatives.quantities import (
-    ALSO,
-    QUANTITIES,
-    Fixed,
-    PairEvaluation,
-    quantity_of,
-)
+from tribodyn.derivatives.quantities import ALSO, QUANTITIES, Fixed, PairEvaluation, quantity_of
 from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.limits.limits import beyond
 from tribodyn.mesh.tabulate import pair_slots

@@ -113,9 +113,7 @@ def _broken_rolling(key: str, rolling: Rolling) -> Iterator[InputError]:
         yield InputError(f"{key}.{needed}", rule=rule, remedy=f'add {needed} = "12 mm"')
     if getattr(rolling, other) is not None:
         yield InputError(
-            f"{key}.{other}",
-            rule=f'has no effect with type = "{rolling.type}"',
-            remedy=f"leave {other} out",
+            f"{key}.{other}", rule=f'has no effect with type = "{rolling.type}"', remedy=f"leave {other} out"
         )
     if rolling.contact_angle >= MAXIMUM_CONTACT_ANGLE:
         yield InputError(

@@ -43,9 +43,7 @@ def lubricant_of(lubricant: Lubricant, oil_temperature: float | None = None) -> 
     """
     given = {name: value for name in UNITS if (value := getattr(lubricant, name)) is not None}
     stages = FzgStages(
-        lubricant.fzg_scuffing_stage,
-        lubricant.fzg_micropitting_stage,
-        lubricant.fzg_micropitting_temperature,
+        lubricant.fzg_scuffing_stage, lubricant.fzg_micropitting_stage, lubricant.fzg_micropitting_temperature
     )
     if (sheet := sheet_of(lubricant)) is not None and oil_temperature is not None:
         return lubricant_from(sheet, oil_temperature, stages)

@@ -54,13 +54,9 @@ class Modification(Table):
     crowning: Amount | None = Field(
         None, description="the same at both ends of the face, without a straight part"
     )
-    profile_error: (
-        Annotated[
-            ErrorCurve,
-            csv_file("roll_angle", "error"),
-        ]
-        | None
-    ) = Field(None, description="positive where material is missing")
+    profile_error: Annotated[ErrorCurve, csv_file("roll_angle", "error")] | None = Field(
+        None, description="positive where material is missing"
+    )
     pitch_errors: Annotated[
         tuple[Annotated[float, InUnit(units.DEVIATION)], ...], csv_file("error", as_list=True)
     ] = Field((), description="one per tooth, positive where material is missing")
