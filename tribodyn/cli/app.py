@@ -7,7 +7,7 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from tribodyn.cli import assess, check, compare, gear, init, plot, report, run, show, sweep, validate
+from tribodyn.cli import assess, compare, gear, plot, report, run, scenario, show, sweep, validate
 from tribodyn.cli import list as list_
 from tribodyn.cli.outcome import verb
 
@@ -59,15 +59,15 @@ for function, examples in (
     (run.run, run.EXAMPLES),
     (assess.assess, assess.EXAMPLES),
     (sweep.sweep, sweep.EXAMPLES),
-    (check.check, check.EXAMPLES),
+    (scenario.check, scenario.CHECK_EXAMPLES),
     (gear.gear, gear.EXAMPLES),
     (show.show, show.EXAMPLES),
     (plot.plot, plot.EXAMPLES),
     (report.report, report.EXAMPLES),
     (compare.compare, compare.EXAMPLES),
     (list_.list, list_.EXAMPLES),
-    (init.init, init.EXAMPLES),
-    (init.schema, init.SCHEMA_EXAMPLE),
+    (scenario.init, scenario.INIT_EXAMPLES),
+    (scenario.schema, scenario.SCHEMA_EXAMPLE),
     (validate.validate, validate.EXAMPLES),
 ):
     app.command(epilog=examples)(verb(function))

@@ -1,14 +1,11 @@
 """`tribodyn assess`: a drive from a data sheet to one page, into a folder."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from tribodyn.cli.options import LargeOption, ScenarioArgument, SetOption, overrides
-
-if TYPE_CHECKING:
-    from tribodyn.studies.protocol.study import Study
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -39,17 +36,22 @@ def assess(
 ) -> None:
     """Assess a drive: loads, vibration, film, temperatures, losses, margins; one folder, one report."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
-    from tribodyn.cli.printing import print_json, quoted_path, write_json
+    from tribodyn.cli.printing import print_files, print_json, write_json
     from tribodyn.cli.progress import progress_bar
     from tribodyn.cli.show import print_summary
+    from tribodyn.errors import InputError
     from tribodyn.numerics.output_files import check_output, make_folder
     from tribodyn.post.report import as_json
     from tribodyn.record.reader import open_record
+    from tribodyn.studies import STUDIES
     from tribodyn.studies.pages.page import write_report
     from tribodyn.studies.protocol.load import load
 
     loaded = load(scenario, overrides(settings))
-    _require(loaded.study)
+    if loaded.study.verb != "assess":
+        first = next(name for name, other in STUDIES.items() if other.verb == "assess")
+        remedy = f"tribodyn {loaded.study.verb} it, or begin with: tribodyn init NAME --kind {first}"
+        raise InputError("kind", f'"{loaded.study.kind}"', "is run, not assessed", remedy)
     folder = output or Path(loaded.case.name)
     make_folder(folder)
     for name in (PAGE, DATA):
@@ -70,25 +72,10 @@ def assess(
             print_json(data)
             return
         print_summary(record)
-    typer.echo(f"record   {quoted_path(result.path)}")
-    typer.echo(f"data     {quoted_path(folder / DATA)}")
-    typer.echo(f"report   {quoted_path(page)}")
-    missed = [name for name, limit in data.get("limits", {}).items() if not limit["kept"]]
-    if missed:
-        typer.echo(f"limits exceeded: {', '.join(missed)}")
+    for what, file in (("record", result.path), ("data", folder / DATA), ("report", page)):
+        print_files(what, [file])
     limits = data.get("limits", {}).items()
+    if missed := [name for name, limit in limits if not limit["kept"]]:
+        typer.echo(f"limits exceeded: {', '.join(missed)}")
     if within := [name for name, limit in limits if limit["kept"] and not limit.get("kept_p95", True)]:
         typer.echo(f"limits exceeded within the scatter of the deviations: {', '.join(within)}")
-
-
-def _require(study: "Study") -> None:
-    """Refuse a scenario that is not to be assessed."""
-    from tribodyn.errors import InputError
-    from tribodyn.studies import STUDIES
-
-    if study.verb == "assess":
-        return
-    kinds = [name for name, other in STUDIES.items() if other.verb == "assess"]
-    rule = "is run, not assessed"
-    remedy = f"tribodyn {study.verb} it, or begin with: tribodyn init NAME --kind {kinds[0]}"
-    raise InputError("kind", f'"{study.kind}"', rule, remedy)

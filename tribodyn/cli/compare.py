@@ -49,7 +49,7 @@ def compare(
     from tempfile import TemporaryDirectory
 
     from tribodyn.cli.pictures import draw
-    from tribodyn.cli.printing import print_json, print_rich, quoted_path
+    from tribodyn.cli.printing import print_files, print_json, print_rich
     from tribodyn.post import compare as comparing
     from tribodyn.record.reader import open_record
     from tribodyn.studies.pages.pictures import compare as compare_records
@@ -77,10 +77,8 @@ def compare(
         print_json({**comparing.as_json(compared), **files})
         return
     print_rich(comparing.comparison_table(compared))
-    for path in ran:
-        typer.echo(f"record   {quoted_path(path)}")
-    for picture in pictures:
-        typer.echo(f"picture  {quoted_path(picture)}")
+    print_files("record", ran)
+    print_files("picture", pictures)
 
 
 def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loaded"]:

@@ -46,7 +46,7 @@ def gear(
     json: JsonOption = False,
 ) -> None:
     """Print a gear pair's geometry; draw it."""
-    from tribodyn.cli.printing import print_json, print_prose, print_text_table, quoted_path
+    from tribodyn.cli.printing import print_files, print_findings, print_json, print_prose
     from tribodyn.geometry.families import family
     from tribodyn.geometry.limits.checks import check
     from tribodyn.studies.gears.check import sheet_tables
@@ -73,10 +73,8 @@ def gear(
         )
         return
     print_prose(f"{loaded.path}: {loaded.title}: {loaded.family}")
-    for table in sheet_tables(sheet):
-        print_text_table(table)
-    for file in files:
-        typer.echo(f"{file.suffix[1:]:8} {quoted_path(file)}")
+    print_findings(sheet_tables(sheet))
+    print_files("", files)
 
 
 def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tuple[DriveModel, Path]":

@@ -9,19 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, get_args
 
 import typer
 
-from tribodyn.cli.options import (
-    ForceOption,
-    JsonOption,
-    LargeOption,
-    PageOption,
-    PlotOption,
-    ReplaceOption,
-    ScenarioArgument,
-    SetOption,
-    SummaryOption,
-    overrides,
-    require_one_way,
-)
+from tribodyn.cli.options import JsonOption, ReplaceOption, ScenarioArgument, SetOption, overrides
+from tribodyn.cli.run import run, run_loaded
 from tribodyn.errors import InputError
 
 if TYPE_CHECKING:
@@ -50,19 +39,21 @@ def command_of(name: str, verb: "Verb") -> Callable[..., None]:
     """The verb as typer takes it: its own options, then those that all verbs of its form have."""
     form = _answer if verb.answers else _run
     own = {
-        parameter.name: parameter.replace(
-            annotation=_annotation(parameter, option), kind=parameter.KEYWORD_ONLY
-        )
+        parameter.name: parameter.replace(annotation=_annotation(parameter, option))
         for parameter in inspect.signature(verb.function).parameters.values()
         if (option := _option_of(parameter)) is not None
     }
-    _, scenario, *others = inspect.signature(form).parameters.values()
+    shared = dict(inspect.signature(form).parameters) | (
+        {} if verb.answers else inspect.signature(run).parameters
+    )
+    scenario, *others = (shared[key] for key in shared if key not in ("function", "how"))
 
     def command(**given: Any) -> None:
         options = {key: given.pop(key) for key in own}
         form(lambda *source, **how: verb.function(*source, **options, **how), **given)
 
-    signature = inspect.Signature([scenario.replace(kind=scenario.KEYWORD_ONLY), *own.values(), *others])
+    parameters = [scenario, *own.values(), *others]
+    signature = inspect.Signature([part.replace(kind=part.KEYWORD_ONLY) for part in parameters])
     command.__name__, command.__doc__ = name, (verb.function.__doc__ or "").partition("\n")[0]
     command.__annotations__ = {key: value.annotation for key, value in signature.parameters.items()}
     vars(command)["__signature__"] = signature
@@ -85,7 +76,6 @@ def _run(
     function: Callable[..., Any],
     scenario: ScenarioArgument,
     *,
-    resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped run of that name.")] = False,
     engine: Annotated[
         SearchEngine, typer.Option(help="native: the cores of this machine; dask: many machines.")
     ] = SearchEngine.native,
@@ -93,32 +83,16 @@ def _run(
         str | None,
         typer.Option(metavar="ADDRESS", help="Dask's scheduler, tcp://host:8786; default: one of its own."),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="The record; default: the scenario's name and the verb's."),
-    ] = None,
-    settings: SetOption = None,
-    force: ForceOption = False,
-    allow_large: LargeOption = False,
-    plot: PlotOption = None,
-    report: PageOption = False,
-    json: SummaryOption = False,
+    settings: list[str] | None = None,
+    **how: Any,
 ) -> None:
-    """Run the scenario that a verb makes, and show what became of it, as `tribodyn run` does."""
-    from tribodyn.cli.run import Shown, run_loaded
+    """Run the scenario that a verb makes, and show what became of it, with the options of `tribodyn run`."""
     from tribodyn.studies.sweeping.cluster import client_of
 
-    require_one_way(resume=resume, force=force)
     if scheduler is not None and engine is SearchEngine.native:
         raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
-    how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}
     with nullcontext() if engine is SearchEngine.native else client_of(None, scheduler) as client:
-        run_loaded(
-            lambda: function(scenario, overrides=overrides(settings)),
-            Shown(plot, report, json),
-            **how,
-            client=client,
-        )
+        run_loaded(lambda: function(scenario, overrides=overrides(settings)), client=client, **how)
 
 
 def _answer(
@@ -134,7 +108,7 @@ def _answer(
     json: JsonOption = False,
 ) -> None:
     """Print what a verb finds, and keep it."""
-    from tribodyn.cli.printing import print_json, print_prose, print_text_table, quoted_path
+    from tribodyn.cli.printing import print_files, print_findings, print_json
     from tribodyn.cli.progress import progress_bar
     from tribodyn.studies.protocol.load import load
 
@@ -144,15 +118,12 @@ def _answer(
         answer = function(loaded.case, progress=progress)
     if output is not None:
         _keep(answer, output, force)
+    files = [output] if output is not None else []
     if json:
-        print_json(answer.as_dict() | ({"files": [str(output)]} if output is not None else {}))
+        print_json(answer.as_dict() | ({"files": [str(output)]} if files else {}))
         return
-    for table in answer.tables():
-        print_text_table(table)
-    for remark in answer.remarks:
-        print_prose(remark)
-    if output is not None:
-        typer.echo(f"kept     {quoted_path(output)}")
+    print_findings(answer.tables(), answer.remarks)
+    print_files("kept", files)
 
 
 def _check(output: Path | None, force: bool) -> None:

@@ -111,19 +111,7 @@ ReplaceOption = Annotated[
     bool, typer.Option("--force", help="Replace also files that tribodyn did not make, and links.")
 ]
 
-PlotOption = Annotated[
-    bool | None,
-    typer.Option("--plot/--no-plot", help="All pictures, or none; default: one overview picture."),
-]
-
-PageOption = Annotated[
-    bool, typer.Option("--report", help="Also write a page for the browser, beside the record.")
-]
-
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON.")]
-
-SummaryOption = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")]
-
 #: Characters of a key; above that it is none of a scenario's.
 LONGEST_KEY = 200
 

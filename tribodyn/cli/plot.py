@@ -73,7 +73,7 @@ def plot(
     from contextlib import ExitStack
 
     from tribodyn.cli.pictures import draw
-    from tribodyn.cli.printing import print_json, quoted_path
+    from tribodyn.cli.printing import print_files, print_json
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
     from tribodyn.record.sweep_reader import is_sweep
@@ -97,8 +97,7 @@ def plot(
     if json:
         print_json({"pictures": [str(picture) for picture in pictures]})
     else:
-        for picture in pictures:
-            typer.echo(f"picture  {quoted_path(picture)}")
+        print_files("picture", pictures)
 
 
 def _draw_sweeps(

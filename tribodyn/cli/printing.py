@@ -156,9 +156,20 @@ def plain(data: Any) -> Any:
     return data if data is None or isinstance(data, (bool, int, float, str)) else str(data)
 
 
-def print_text_table(table: "TextTable") -> None:
-    """Write a table of a study to stdout."""
-    print_table(table.title, table.columns, table.rows)
+def print_findings(tables: "Iterable[TextTable]", remarks: Iterable[str] = ()) -> None:
+    """Write tables of a study to stdout, and sentences below them."""
+    for table in tables:
+        print_table(*table)
+    for remark in remarks:
+        print_prose(remark)
+
+
+def print_files(what: str, files: Iterable[Path]) -> None:
+    """Write what files are, by default their ending, and their paths to stdout."""
+    from typer import echo
+
+    for file in files:
+        echo(f"{what or file.suffix[1:]:8} {quoted_path(file)}")
 
 
 def print_table(title: str, columns: Iterable[str], rows: Iterable[Iterable[str]]) -> None:

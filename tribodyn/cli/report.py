@@ -32,7 +32,7 @@ def report(
     """Write a page of records for the browser; several side by side."""
     from contextlib import ExitStack
 
-    from tribodyn.cli.printing import print_json, quoted_path
+    from tribodyn.cli.printing import print_files, print_json
     from tribodyn.numerics.output_files import check_output
     from tribodyn.record.sweep_reader import open_any
     from tribodyn.studies.pages.page import write_report
@@ -52,4 +52,4 @@ def report(
         print_json({what: str(path) for what, path in files.items()})
     else:
         for what, path in files.items():
-            typer.echo(f"{what:8} {quoted_path(path)}")
+            print_files(what, [path])

@@ -111,7 +111,7 @@ def sweep(
 ) -> None:
     """Vary keys of a scenario, one record of all cases."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
-    from tribodyn.cli.printing import quoted_path
+    from tribodyn.cli.printing import print_files
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
     from tribodyn.record.sweep_schema import DIRECTIONS
@@ -143,7 +143,7 @@ def sweep(
         )
     _print(result, json)
     if not json:
-        typer.echo(f"record   {quoted_path(result.path)}")
+        print_files("record", [result.path])
     if result.status != "complete":
         complain(f"{grid.path}: all {result.cases} cases failed; their reasons: {result.path}")
         raise typer.Exit(SIMULATION_FAILED)

@@ -33,7 +33,7 @@ def validate(
 
     from tribodyn import validation
     from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, complain
-    from tribodyn.cli.printing import print_json, print_table, quoted_path
+    from tribodyn.cli.printing import print_files, print_json, print_table
     from tribodyn.cli.progress import progress_bar
     from tribodyn.numerics.output_files import check_output
     from tribodyn.validation.rows import SHOWN, counted, counts
@@ -62,8 +62,7 @@ def validate(
         title = f"{paper}: {validation.PAPERS[paper].choices}"
         print_table(title, SHOWN, [[row.written(name) for name in SHOWN] for row in rows])
         typer.echo(counted(rows))
-        for picture in pictures:
-            typer.echo(f"picture  {quoted_path(picture)}")
+        print_files("picture", pictures)
     failed = [row.id for row in rows if row.verdict == "fail"]
     if failed:
         complain(f"{paper}: outside tolerance: {', '.join(failed)}")

@@ -1,17 +1,22 @@
-"""`tribodyn init` and `tribodyn schema`: a commented scenario to begin with, and what may stand in one."""
+"""Verbs on scenario files: `tribodyn init`, `tribodyn check` and `tribodyn schema`."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from tribodyn.cli.options import kinds
+from tribodyn.cli.options import JsonOption, LargeOption, ScenarioArgument, SetOption, kinds, overrides
 
-EXAMPLES = (
+INIT_EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn init my-drive\n"
     "  tribodyn run my-drive.toml\n"
     "  tribodyn init my-study --kind efficiency"
+)
+CHECK_EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn check involute-18-36\n"
+    "  tribodyn check my-drive.toml --set drive.pinion.profile_shift=0.3 --json"
 )
 SCHEMA_EXAMPLE = "\b\nExample:\n  tribodyn schema > scenario.schema.json"
 
@@ -36,6 +41,26 @@ def init(
         raise InputError("name", f'"{path}"', "the folder does not exist", f"create {path.parent} first")
     write_output(path, template, force=force)
     typer.echo(f"{path}\nrun it with: {command_name()} {STUDIES[kind or DEFAULT].verb} {quoted_path(path)}")
+
+
+def check(
+    scenario: ScenarioArgument,
+    settings: SetOption = None,
+    allow_large: LargeOption = False,
+    json: JsonOption = False,
+) -> None:
+    """Check a scenario; print geometry and stiffness."""
+    from tribodyn.cli.printing import print_findings, print_json, print_prose
+    from tribodyn.studies.protocol.load import load
+
+    loaded = load(scenario, overrides(settings))
+    with loaded.naming():
+        checked = loaded.study.check(loaded.case, allow_large=allow_large)
+    if json:
+        print_json({"scenario": str(loaded.path), "title": loaded.case.title, **checked.data})
+        return
+    print_prose(f"{loaded.path}: {loaded.case.title}: sound")
+    print_findings(checked.tables, checked.remarks)
 
 
 def schema() -> None:
