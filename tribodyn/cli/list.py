@@ -43,10 +43,13 @@ def list(
 ) -> None:
     """List scenarios, models, kinds of study, laws, solvers, plots, papers."""
     from tribodyn.cli.printing import print_json, print_table
+    from tribodyn.errors import InputError
 
-    listed: dict[str, dict[str, Any]]
+    if record is not None and what is not What.plots:
+        rule = f"{what.value if what else 'everything'} does not depend on a record"
+        raise InputError("record", None, rule, "write: tribodyn list plots RECORD")
     if record is not None:
-        listed = {_plots_only(what).value: _plots_of(record)}
+        listed = {What.plots.value: _plots_of(record)}
     else:
         listed = {sort.value: _about(sort) for sort in ([what] if what else What)}
     if json:
@@ -58,60 +61,35 @@ def list(
 
 def _about(what: What) -> dict[str, str]:
     """Return name and description of everything of one sort."""
+    from tribodyn.geometry.families import FAMILIES
     from tribodyn.scenario.sources import shipped
+    from tribodyn.solve.methods import SOLVERS
+    from tribodyn.studies import STUDIES
+    from tribodyn.tribology.film import FILM_LAWS
+    from tribodyn.tribology.friction import FRICTION_LAWS
+    from tribodyn.validation import PAPERS
 
+    named: dict[What, Any] = {
+        What.kinds: STUDIES,
+        What.laws: FRICTION_LAWS,
+        What.film_laws: FILM_LAWS,
+        What.families: FAMILIES,
+        What.papers: PAPERS,
+    }
     match what:
         case What.scenarios:
             return _titles(shipped("scenarios"))
         case What.models:
             folders = sorted(path for path in shipped("models").iterdir() if path.is_dir())
-            return {
-                f"{folder.name}/{name}": title
-                for folder in folders
-                for name, title in _titles(folder).items()
-            }
-        case What.kinds:
-            from tribodyn.studies import STUDIES
-
-            return _described(STUDIES)
-        case What.laws:
-            from tribodyn.tribology.friction import FRICTION_LAWS
-
-            return _described(FRICTION_LAWS)
-        case What.film_laws:
-            from tribodyn.tribology.film import FILM_LAWS
-
-            return _described(FILM_LAWS)
-        case What.families:
-            from tribodyn.geometry.families import FAMILIES
-
-            return _described(FAMILIES)
+            titles = {folder.name: _titles(folder) for folder in folders}
+            return {f"{folder}/{name}": title for folder in titles for name, title in titles[folder].items()}
         case What.solvers:
-            from tribodyn.solve.methods import SOLVERS
-
             return dict(SOLVERS)
-        case What.sweep_plots:
-            from tribodyn.studies import STUDIES
-
-            return _drawn(dict(STUDIES.each(lambda study: study.sweep_drawings() if study.swept() else {})))
-        case What.papers:
-            from tribodyn.validation import PAPERS
-
-            return {name: paper.about for name, paper in PAPERS.items()}
         case What.plots:
-            from tribodyn.studies import STUDIES
-
             return _drawn(dict(STUDIES.each(lambda study: study.drawings())))
-
-
-def _plots_only(what: What | None) -> What:
-    """Refuse a record where something else than its figures is to be listed."""
-    from tribodyn.errors import InputError
-
-    if what is not What.plots:
-        rule = f"{what.value if what else 'everything'} does not depend on a record"
-        raise InputError("record", None, rule, "write: tribodyn list plots RECORD")
-    return what
+        case What.sweep_plots:
+            return _drawn(dict(STUDIES.each(lambda study: study.sweep_drawings() if study.swept() else {})))
+    return {name: thing.about for name, thing in named[what].items()}
 
 
 def _plots_of(path: Path) -> dict[str, str]:
@@ -122,10 +100,6 @@ def _plots_of(path: Path) -> dict[str, str]:
     with open_any(path) as opened:
         known = drawable_of_sweep([opened]) if isinstance(opened, SweepRecord) else drawable([opened])
         return {name: thing.about for name, thing in known.items()}
-
-
-def _described(registry: Any) -> dict[str, str]:
-    return {name: thing.about for name, thing in registry.items()}
 
 
 def _drawn(of_kinds: dict[str, Any]) -> dict[str, str]:

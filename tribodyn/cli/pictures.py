@@ -11,6 +11,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, cast
 
@@ -36,9 +37,7 @@ def draw(
     """Draw figures by name into files named after `beside`: ``crc.png`` becomes ``crc-film.png``."""
     from tribodyn.studies.pages.pictures import figure
 
-    def make(name: str) -> "Figure":
-        return figure(name, records, cycles=cycles, against=against)
-
+    make = partial(figure, records=records, cycles=cycles, against=against)
     return save_all(names, beside, make, force=force)
 
 
@@ -116,12 +115,7 @@ _begun: list[Drawer] = []
 
 
 def begin(words: Sequence[str]) -> None:
-    """Start the process before anything else of a command that will draw an overview, if a core is free.
-
-    Parameters
-    ----------
-    words : of the command line, without the program
-    """
+    """Start the process before anything else of a command that will draw an overview, if a core is free."""
     drawn_otherwise = {"--plot", "--no-plot", "-h", "--help"}
     if list(words[:1]) == ["run"] and not drawn_otherwise.intersection(words) and usable_cores() > 1:
         with suppress(OSError):

@@ -9,7 +9,6 @@ from tribodyn.cli.options import JsonOption
 
 if TYPE_CHECKING:
     from tribodyn.record.reader import Record
-    from tribodyn.record.sweep_reader import SweepRecord
 
 EXAMPLES = "\b\nExamples:\n  tribodyn show crc-23-47.h5\n  tribodyn show crc-23-47-pinion_speed.h5 --json"
 
@@ -18,28 +17,21 @@ def show(
     record: Annotated[Path, typer.Argument(help="A record that tribodyn wrote.")], json: JsonOption = False
 ) -> None:
     """Print the summary of a record."""
-    from tribodyn.cli.printing import print_json
-    from tribodyn.post.report import as_json
-    from tribodyn.record.sweep_reader import SweepRecord, open_any
-
-    with open_any(record) as opened:
-        if isinstance(opened, SweepRecord):
-            _show_sweep(opened, json)
-        elif json:
-            print_json({**as_json(opened), "scenario": opened.scenario})
-        else:
-            print_summary(opened)
-
-
-def _show_sweep(record: "SweepRecord", json: bool) -> None:
     from tribodyn.cli.printing import print_json, print_rich
+    from tribodyn.post.report import as_json
     from tribodyn.post.sweep_report import sweep_as_json
+    from tribodyn.record.sweep_reader import SweepRecord, open_any
     from tribodyn.studies.pages.pictures import sweep_table
 
-    if json:
-        print_json({**sweep_as_json(record), "scenario": record.scenario})
-    else:
-        print_rich(sweep_table(record))
+    with open_any(record) as opened:
+        sweep = isinstance(opened, SweepRecord)
+        if json:
+            data = sweep_as_json(opened) if sweep else as_json(opened)
+            print_json({**data, "scenario": opened.scenario})
+        elif sweep:
+            print_rich(sweep_table(opened))
+        else:
+            print_summary(opened)
 
 
 def print_summary(record: "Record") -> None:
