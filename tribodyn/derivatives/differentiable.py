@@ -10,7 +10,7 @@ import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import tomli_w
@@ -66,13 +66,11 @@ class Differentiable:
         self.key_units = tuple(self._numbers[key].unit for key in self.wrt)
         self.at = np.array([float(self._numbers[key].value) for key in self.wrt])
         self._all = np.array([float(number.value) for number in self._numbers.values()])
-        places = {key: place for place, key in enumerate(self._numbers)}
-        self._places = np.array([places[key] for key in self.wrt])
+        self._places = np.array([list(self._numbers).index(key) for key in self.wrt])
 
     def values(self, x: Float[Array, " key"]) -> Float[Array, " value"]:
         """Quantities where the keys have the values x (SI); NaN where there is no such mesh."""
-        values = self._values(x)
-        return self._finite(self._run("values", values))[0]
+        return self._finite(self._run("values", self._values(x)))[0]
 
     def jacobian(self, x: Float[Array, " key"]) -> tuple[Float[Array, " value"], Float[Array, "value key"]]:
         """Quantities, and their derivatives by the keys, SI, where the keys have the values x.
@@ -114,7 +112,7 @@ class Differentiable:
         fixed = fixed_of(_put(self._case, self._numbers, values)) if meshes else Fixed(0, False)
         program = _program(self._structure, self._names, fixed)
         with jax.enable_x64(True):
-            return jax.tree.map(np.array, getattr(program, how)(values, *more))
+            return jax.tree.map(np.array, program[how](values, *more))
 
     @cached_property
     def _structure(self) -> "_Structure":
@@ -184,16 +182,9 @@ def _put(case: Any, numbers: Mapping[str, Number], values: Any) -> Any:
     return case
 
 
-class _Program(NamedTuple):
-    """Compiled functions of all numbers of a case."""
-
-    values: Callable[..., Any]
-    forwards: Callable[..., Any]
-    backwards: Callable[..., Any]
-
-
 @lru_cache(maxsize=64)
-def _program(structure: _Structure, of: tuple[str, ...], fixed: Fixed) -> _Program:
+def _program(structure: _Structure, of: tuple[str, ...], fixed: Fixed) -> dict[str, Callable[..., Any]]:
+    """Compiled functions of all numbers of a case, by name."""
     import jax
     import jax.numpy as jnp
 
@@ -202,15 +193,12 @@ def _program(structure: _Structure, of: tuple[str, ...], fixed: Fixed) -> _Progr
         return jnp.stack([QUANTITIES[name].function(at) for name in of])
 
     def forwards(values: Any, directions: Any) -> Any:
-        def along(direction: Any) -> Any:
-            return jax.jvp(quantities, (values,), (direction,))
-
-        found, slopes = jax.vmap(along, out_axes=(None, 1))(directions)
-        return found, slopes
+        along = jax.vmap(lambda direction: jax.jvp(quantities, (values,), (direction,)), out_axes=(None, 1))
+        return along(directions)
 
     def backwards(values: Any) -> Any:
         found, slopes = jax.value_and_grad(lambda x: quantities(x)[0])(values)
         return found[None], slopes
 
-    functions = (quantities, forwards, backwards)
-    return _Program(*(jax.jit(function, compiler_options=_HARDLY_OPTIMISED) for function in functions))
+    functions = {"values": quantities, "forwards": forwards, "backwards": backwards}
+    return {how: jax.jit(function, compiler_options=_HARDLY_OPTIMISED) for how, function in functions.items()}

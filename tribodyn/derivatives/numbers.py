@@ -3,6 +3,7 @@
 import tomllib
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -112,17 +113,15 @@ def _of_materials(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Numbe
     groups = {f"drive.{SIDES[place]}.material": [place] for place in own}
     groups["drive.material"] = [place for place in range(len(SIDES)) if place not in own]
 
-    def on_all(places: list[int], name: str) -> Callable[[Any, Any], Any]:
-        def put(case: Any, value: Any) -> Any:
-            for place in places:
-                case = _put(case, ("materials", place, name), value)
-            return case
-
-        return put
+    def put(places: list[int], name: str, case: Any, value: Any) -> Any:
+        for place in places:
+            case = _put(case, ("materials", place, name), value)
+        return case
 
     for key, places in groups.items():
         for name in _OF_MATERIAL if places else ():
-            yield f"{key}.{name}", Number(getattr(case.materials[places[0]], name), "", on_all(places, name))
+            value = getattr(case.materials[places[0]], name)
+            yield f"{key}.{name}", Number(value, "", partial(put, places, name))
 
 
 def _of_roughness(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:
@@ -150,18 +149,15 @@ def _of_lubricant(case: Any) -> Iterator[tuple[str, Number]]:
             yield f"lubricant.{name}", Number(getattr(case.lubricant, name), "", _on("lubricant", name))
         return
 
-    def on_sheet(*path: str) -> Callable[[Any, Any], Any]:
-        def put(case: Any, value: Any) -> Any:
-            oil = case.lubricant
-            sheet = _put(oil.sheet, path, value)
-            return replace(case, lubricant=lubricant_from(sheet, oil.temperature, oil.fzg))
-
-        return put
+    def put(path: tuple[str, ...], case: Any, value: Any) -> Any:
+        oil = case.lubricant
+        sheet = _put(oil.sheet, path, value)
+        return replace(case, lubricant=lubricant_from(sheet, oil.temperature, oil.fzg))
 
     for name in ("viscosity_40", "viscosity_100", "density_15"):
-        yield f"lubricant.{name}", Number(getattr(sheet, name), "", on_sheet(name))
+        yield f"lubricant.{name}", Number(getattr(sheet, name), "", partial(put, (name,)))
     for name, value in sheet.given.items():
-        yield f"lubricant.{name}", Number(value, "", on_sheet("given", name))
+        yield f"lubricant.{name}", Number(value, "", partial(put, ("given", name)))
 
     def put_temperature(case: Any, value: Any) -> Any:
         return replace(case, lubricant=lubricant_at(case.lubricant, value))

@@ -1,4 +1,4 @@
-"""Quantities of a gear pair as functions of its case, whose numbers may be traced: to be differentiated.
+"""Quantities of a gear pair as functions of its case, whose numbers may be traced, to be differentiated.
 
 They are quasi-static: of the teeth alone, or of the mesh in slow rotation under the gear's torque, of elastic
 load sharing.
@@ -34,12 +34,7 @@ class Fixed(NamedTuple):
 
 
 class PairEvaluation:
-    """A case on the way to its quantities; each step is made once, when a quantity needs it.
-
-    Parameters
-    ----------
-    case : with gears; its numbers may be traced
-    """
+    """A case with gears, its numbers maybe traced; each step to its quantities is made once, when needed."""
 
     def __init__(self, case: Any, fixed: Fixed) -> None:
         self.case, self.fixed = case, fixed
@@ -105,24 +100,12 @@ class Differentiated(NamedTuple):
     limit: bool = False  # whether it is a distance from a limit of existence, positive where gears exist
 
 
-def _centre_distance(at: PairEvaluation) -> Any:
-    return at.gears.path.pinion_pitch_radius + at.gears.path.gear_pitch_radius
-
-
-def _equivalent_radius(at: PairEvaluation) -> Any:
-    return 1.0 / kinematics(at.gears.path, 0.0).relative_curvature
-
-
 def _hertz_pressure(at: PairEvaluation) -> Any:
     path, case = at.gears.path, at.case
     load = absolute(case.operating.gear_torque) / path.gear_pitch_radius / cos(path.pressure_angle(0.0))
     width = minimum(case.drive.pinion.face_width, case.drive.gear.face_width)
     curvature = kinematics(path, 0.0).relative_curvature
     return hertz_pressure(load / width, curvature, surfaces_of(case).effective_modulus)
-
-
-def _mean_stiffness(at: PairEvaluation) -> Any:
-    return cycle_mean(at.cycle, at.state.mesh_stiffness)
 
 
 def _swing(values: Any) -> Any:
@@ -163,14 +146,7 @@ def _largest(name: str, sign: float = 1.0) -> Callable[[PairEvaluation], Any]:
     return function
 
 
-def _film_parameter_min(at: PairEvaluation) -> Any:
-    return _largest("central_film_thickness", -1.0)(at) / at.case.roughness
-
-
-def _limit(name: str) -> Callable[[PairEvaluation], Any]:
-    return lambda at: at.limits[name]
-
-
+_film_min = _largest("central_film_thickness", -1.0)
 _LOADED = ("mesh", "operating")
 _RUBBING = ("mesh", "operating", "friction")
 #: Names that they have in the summary of a run, where it holds the same of quasi-static contact.
@@ -184,12 +160,19 @@ ALSO = {
 }
 QUANTITIES: dict[str, Differentiated] = {
     "contact_ratio": Differentiated("transverse contact ratio", "1", lambda at: at.gears.contact_ratio),
-    "centre_distance": Differentiated("working centre distance", "m", _centre_distance),
+    "centre_distance": Differentiated(
+        "working centre distance",
+        "m",
+        lambda at: at.gears.path.pinion_pitch_radius + at.gears.path.gear_pitch_radius,
+    ),
     "pressure_angle": Differentiated(
         "working pressure angle at the pitch point", "rad", lambda at: at.gears.path.pressure_angle(0.0)
     ),
     "equivalent_radius": Differentiated(
-        "equivalent radius of curvature at the pitch point", "m", _equivalent_radius, at_pitch_point=True
+        "equivalent radius of curvature at the pitch point",
+        "m",
+        lambda at: 1.0 / kinematics(at.gears.path, 0.0).relative_curvature,
+        at_pitch_point=True,
     ),
     "hertz_pressure": Differentiated(
         "maximum Hertz pressure of one pair at the pitch point",
@@ -199,7 +182,10 @@ QUANTITIES: dict[str, Differentiated] = {
         at_pitch_point=True,
     ),
     "mean_stiffness": Differentiated(
-        "mesh stiffness, mean over a mesh cycle", "N/m", _mean_stiffness, _LOADED
+        "mesh stiffness, mean over a mesh cycle",
+        "N/m",
+        lambda at: cycle_mean(at.cycle, at.state.mesh_stiffness),
+        _LOADED,
     ),
     "stiffness_swing": Differentiated(
         "mesh stiffness, peak to peak", "N/m", lambda at: _swing(at.state.mesh_stiffness), _LOADED
@@ -221,15 +207,17 @@ QUANTITIES: dict[str, Differentiated] = {
     "hertz_pressure_max": Differentiated(
         "maximum Hertz pressure over a mesh cycle", "Pa", _largest("hertz_pressure"), _RUBBING
     ),
-    "film_min": Differentiated(
-        "minimum film thickness over a mesh cycle", "m", _largest("central_film_thickness", -1.0), _RUBBING
+    "film_min": Differentiated("minimum film thickness over a mesh cycle", "m", _film_min, _RUBBING),
+    "film_parameter_min": Differentiated(
+        "minimum film parameter λ", "1", lambda at: _film_min(at) / at.case.roughness, _RUBBING
     ),
-    "film_parameter_min": Differentiated("minimum film parameter λ", "1", _film_parameter_min, _RUBBING),
     "flash_temperature_max": Differentiated(
         "maximum flash temperature rise", "K", _largest("flash_temperature_rise"), _RUBBING
     ),
 } | {
-    limit.name: Differentiated(limit.definition.rstrip("."), limit.si, _limit(limit.name), limit=True)
+    limit.name: Differentiated(
+        limit.definition.rstrip("."), limit.si, lambda at, name=limit.name: at.limits[name], limit=True
+    )
     for limit in LIMITS
 }
 

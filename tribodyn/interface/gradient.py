@@ -64,12 +64,8 @@ class Gradient:
         rows = []
         for key, slope in self.gradient.items():
             over = f"{self.unit} per {self.units[key]}" if self.units[key] != "1" else self.unit
-            cells = (
-                key,
-                _with_unit(self.at[key], self.units[key]),
-                _with_unit(slope, over),
-                f"{self.sensitivity[key]:+.3g} %" if self.at[key] else "–",
-            )
+            more = f"{self.sensitivity[key]:+.3g} %" if self.at[key] else "–"
+            cells = (key, _with_unit(self.at[key], self.units[key]), _with_unit(slope, over), more)
             rows.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>")
         title = f"{escape(self.about)}: <b>{escape(_with_unit(self.value, self.unit))}</b>"
         return shown.block(f"<p>{title}</p><table>{head}{''.join(rows)}</table>")
@@ -124,15 +120,10 @@ def gradient(
     function = differentiable(case, of, keys)
     value, slopes = function.gradient(function.at)
     quantity = quantity_of(case, of)
-    return Gradient(
-        of,
-        quantity.about,
-        quantity.unit,
-        value,
-        dict(zip(keys, slopes.tolist(), strict=True)),
-        dict(zip(keys, function.at.tolist(), strict=True)),
-        dict(zip(keys, function.key_units, strict=True)),
-    )
+    by_key = dict(zip(keys, slopes.tolist(), strict=True))
+    at = dict(zip(keys, function.at.tolist(), strict=True))
+    units = dict(zip(keys, function.key_units, strict=True))
+    return Gradient(of, quantity.about, quantity.unit, value, by_key, at, units)
 
 
 @in_python()
@@ -142,7 +133,7 @@ def differentiable(
     wrt: str | Sequence[str],
     overrides: Mapping[str, Any] | None = None,
 ) -> Differentiable:
-    """Make quantities of a gear pair a differentiable function of numbers of its scenario, for a search.
+    """Make quantities of a gear pair a differentiable function of numbers of its scenario, as a search needs.
 
     Parameters
     ----------

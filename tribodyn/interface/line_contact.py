@@ -49,14 +49,11 @@ class SolvedContact:
     #: `sliding_speed`: where surface 1 is the faster one, the film holds it back and draws on surface 2.
     friction_coefficient: float
     rolling_coefficient: float  # drag of the pressure flow on each surface over the load, ½ ∫ h dp/dx dx/w
-    #: hertz_pressure, half_width: of the dry contact, Pa, m
-    hertz_pressure: float
-    half_width: float
-    #: moes_load, moes_material: Moes' M and L, with the sum of the speeds
-    moes_load: float
-    moes_material: float
-    #: what the result is not credible for, in sentences; empty within the laws' usual range
-    limits: tuple[str, ...]
+    hertz_pressure: float  # of the dry contact, Pa
+    half_width: float  # of the dry contact, m
+    moes_load: float  # Moes' M, with the sum of the speeds
+    moes_material: float  # Moes' L, with the sum of the speeds
+    limits: tuple[str, ...]  # what the result is not credible for; empty within the laws' usual range
     solution: Solution  # the solution in Hertz's units, from which a similar contact can start
 
     def plot(self, ax: "Axes | None" = None) -> "Figure":
@@ -74,12 +71,8 @@ class SolvedContact:
                 ax = new_figure(4.2, 2.8).subplots()
             place = self.x / self.half_width
             (pressure,) = ax.plot(place, self.pressure / 1e9, color=PALETTE[0], label="pressure")
-            ax.set(
-                xlabel="x over Hertz's half width",
-                ylabel="pressure in GPa",
-                xlim=(-2.0, 1.5),
-                ylim=(0.0, None),
-            )
+            ax.set(xlabel="x over Hertz's half width", ylabel="pressure in GPa")
+            ax.set(xlim=(-2.0, 1.5), ylim=(0.0, None))
             right = ax.twinx()
             (film,) = right.plot(place, self.film_thickness * 1e6, color=PALETTE[1], label="film")
             right.set(ylabel="film thickness in µm", ylim=(0.0, 4.0 * self.central_film_thickness * 1e6))
@@ -188,11 +181,8 @@ def line_contact(
     _check_options(compressible, step, start, roughness)
     index = viscosity_pressure_index
     if index is None:
-        check(
-            LineContact(
-                line_load, radius, entrainment_speed, Fluid(viscosity, pressure_viscosity), effective_modulus
-            )
-        )
+        fluid = Fluid(viscosity, pressure_viscosity)
+        check(LineContact(line_load, radius, entrainment_speed, fluid, effective_modulus))
         index = min(max(float(roelands_index(pressure_viscosity, viscosity)), 1e-3), 1.0)
     fluid = Fluid(viscosity, pressure_viscosity, index, compressible)
     rough = None

@@ -47,12 +47,10 @@ def _function(verb: "Verb") -> Callable[..., Any]:
         return verb.function(scenario(source, overrides), **options)
 
     function = wraps(verb.function)(answer if verb.answers else run)
-    own = [
-        parameter.replace(annotation=getattr(parameter.annotation, "__origin__", parameter.annotation))
-        if hasattr(parameter.annotation, "__metadata__")
-        else parameter
-        for parameter in inspect.signature(verb.function).parameters.values()
-    ]
+    own = list(inspect.signature(verb.function).parameters.values())
+    for place, parameter in enumerate(own):
+        if hasattr(parameter.annotation, "__metadata__"):  # what the command line reads is left out
+            own[place] = parameter.replace(annotation=parameter.annotation.__origin__)
     any_number = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
     mine = inspect.signature(function, follow_wrapped=False).parameters.values()
     added = [parameter for parameter in mine if parameter.kind not in any_number]

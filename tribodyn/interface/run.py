@@ -4,7 +4,7 @@ import shutil
 import tempfile
 import weakref
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, nullcontext
+from contextlib import ExitStack, contextmanager, nullcontext
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -28,13 +28,6 @@ if TYPE_CHECKING:
 class Run:
     """A record of a run, and what can be asked of it; `run` and `open` make one.
 
-    Parameters
-    ----------
-    path : Path
-        The record.
-    folder : str, optional
-        A temporary folder, which goes with this object.
-
     Attributes
     ----------
     path : Path
@@ -46,7 +39,7 @@ class Run:
     message : str
         Why it is not complete.
     summary : dict
-        Figures of the run by name, SI units; None where one is withheld.
+        Quantities of the run by name, SI units; None where one is withheld.
     scenario : dict
         The resolved scenario.
     trust : str
@@ -57,7 +50,7 @@ class Run:
 
     def __init__(self, path: Path, folder: str | None = None) -> None:
         self.path = path
-        if folder is not None:
+        if folder is not None:  # a temporary one, which goes with this object
             weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         with open_record(path) as record:
             self.kind, self.status, self.message = record.kind, record.status, record.message
@@ -233,8 +226,6 @@ class Run:
 @contextmanager
 def records_of(runs: "list[Run]") -> Iterator[list[Record]]:
     """The records of runs, open."""
-    from contextlib import ExitStack
-
     with ExitStack() as stack:
         yield [stack.enter_context(open_record(run.path)) for run in runs]
 
@@ -281,14 +272,9 @@ def run(
     OutputError
         If the record cannot be written.
     """
-    case = scenario(source, overrides)
-    how: dict[str, Any] = {
-        "film": film,
-        "friction": friction,
-        "progress": progress,
-        "allow_large": allow_large,
-    }
-    return recorded(case, output, force=force, **how)
+    laws = {"film": film, "friction": friction}
+    how: dict[str, Any] = {"force": force, "progress": progress, "allow_large": allow_large, **laws}
+    return recorded(scenario(source, overrides), output, **how)
 
 
 def recorded(case: CaseHead, output: str | Path | None, **how: Any) -> Run:
@@ -314,8 +300,6 @@ def open_run(path: Path, folder: str | None = None) -> Run:
 def run_class(kind: str) -> type[Run]:
     """The class of the runs of a kind of study."""
     own = STUDIES[kind].run_properties() if kind in STUDIES else None
-    return (
-        Run
-        if own is None
-        else type(own.__name__, (own, Run), {"__doc__": own.__doc__, "__module__": own.__module__})
-    )
+    if own is None:
+        return Run
+    return type(own.__name__, (own, Run), {"__doc__": own.__doc__, "__module__": own.__module__})

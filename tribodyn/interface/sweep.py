@@ -42,7 +42,7 @@ class Sweep:
     scenario : dict
         The resolved scenario, without the varied keys' values.
     data : xarray.Dataset
-        Figures over the grid, with units; SI. NaN, with the reason in "message", where a case failed.
+        Quantities over the grid, with units; SI. NaN, with the reason in "message", where a case failed.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -154,7 +154,7 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        Figures over the grid, SI; NaN, with the reason in "message", where a case failed.
+        Quantities over the grid, SI; NaN, with the reason in "message", where a case failed.
 
     Raises
     ------
