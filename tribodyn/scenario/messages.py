@@ -13,14 +13,9 @@ Key = tuple[str | int, ...]
 
 
 class Origins:
-    """Which file each part of a scenario came from: the longest known prefix of its key decides.
+    """Which file each part of a scenario came from: the longest known prefix of its key decides."""
 
-    Parameters
-    ----------
-    file : the scenario's own file
-    """
-
-    def __init__(self, file: str):
+    def __init__(self, file: str):  # the scenario's own
         self._files: dict[Key, str] = {(): file}
 
     def put(self, key: Key, file: str) -> None:
@@ -139,16 +134,13 @@ def keys_in(model: type[BaseModel], key: Iterable[str]) -> list[str]:
 
 def _near_key(model: type[BaseModel], key: Key) -> str:
     table = _table_at(model, key[:-1])
-    known = list(table.model_fields) if table else []
-    near = _of_symbol(table, str(key[-1])) or near_name(str(key[-1]), known)
-    return f'did you mean "{near}"?' if near else f"known keys: {', '.join(known)}"
-
-
-def _of_symbol(table: type[BaseModel] | None, symbol: str) -> str:
-    """Return the key whose description begins with a symbol, as on a drawing: "A_sne, upper deviation …"."""
-    fields = table.model_fields if table else {}
-    described = ((name, field.description or "") for name, field in fields.items())
-    return next((name for name, text in described if text.startswith(f"{symbol},")), "")
+    described = {
+        name: field.description or "" for name, field in (table.model_fields if table else {}).items()
+    }
+    # a symbol as on a drawing, with which a description begins: "A_sne, upper deviation …"
+    of_symbol = (name for name, text in described.items() if text.startswith(f"{key[-1]},"))
+    near = next(of_symbol, None) or near_name(str(key[-1]), described)
+    return f'did you mean "{near}"?' if near else f"known keys: {', '.join(described)}"
 
 
 def _how_to_write(model: type[BaseModel], key: Key) -> str:
@@ -157,10 +149,11 @@ def _how_to_write(model: type[BaseModel], key: Key) -> str:
     field = table.model_fields.get(str(key[-1])) if table else None
     if table is None or field is None:
         return "write it"
-    if _table_in(field.annotation) and not any(isinstance(mark, Reference) for mark in field.metadata):
+    named = any(isinstance(mark, Reference) for mark in field.metadata)
+    if _table_in(field.annotation) and not named:
         return f"add the table [{'.'.join(map(str, key))}]"
     shape = table.model_json_schema()["properties"][str(key[-1])]
-    if any(isinstance(mark, Reference) for mark in field.metadata):
+    if named:
         return f"give the {shape['anyOf'][0]['description']}"
     example = shape.get("examples", [None])[0]
     wanted = {"integer": "a whole number", "number": "a number", "string": "text"}

@@ -1,6 +1,6 @@
 """Values of the keys that a tooth family or a law has of its own: what is due, and in which unit."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,26 +33,22 @@ def own_key_errors(owner: Owner, given: Mapping[str, Any]) -> list[InputError]:
     """Return what is wrong with the keys: unknown, missing, of a wrong unit or sign."""
     errors = []
     known = {parameter.name: parameter for parameter in owner.parameters}
-    for name, value in given.items():
-        if name not in known:
-            key = f"{owner.table}.{name}"
-            errors.append(
-                InputError(
-                    key, quoted(value), "unknown key", _known_keys(owner, name, (*known, *owner.others))
-                )
-            )
+    there = (*known, *owner.others)
+    for name in (name for name in given if name not in known):
+        near = near_name(name, there)
+        remedy = f"keys of this {owner.what}: {', '.join(there) or 'none'}"
+        remedy = f'did you mean "{near}"?' if near else remedy
+        errors.append(InputError(f"{owner.table}.{name}", quoted(given[name]), "unknown key", remedy))
     for name, parameter in known.items():
         key = f"{owner.table}.{name}"
-        if name not in given:
-            if parameter.default is None and not parameter.optional:
-                errors.append(
-                    InputError(key, None, f"missing: {parameter.about}", _example(owner, parameter))
-                )
-            continue
-        try:
-            value_in_si(parameter, given[name], key)
-        except InputError as error:
-            errors.append(error)
+        if name in given:
+            try:
+                value_in_si(parameter, given[name], key)
+            except InputError as error:
+                errors.append(error)
+        elif parameter.default is None and not parameter.optional:
+            remedy = f"add {name} = {example_of(parameter)} to [{owner.table.removeprefix('drive.')}]"
+            errors.append(InputError(key, None, f"missing: {parameter.about}", remedy))
     return errors
 
 
@@ -60,9 +56,8 @@ def key_schema(parameter: Parameter) -> dict[str, Any]:
     """Return the JSON schema of a key's value."""
     about = parameter.about
     if parameter.default is not None:
-        about += f"; default: {parameter.default:g} in SI units" + (
-            f" ({parameter.source})" if parameter.source else ""
-        )
+        source = f" ({parameter.source})" if parameter.source else ""
+        about += f"; default: {parameter.default:g} in SI units{source}"
     if parameter.listed:
         return {"type": "array", "description": about, "items": key_schema(_of_list(parameter))}
     if parameter.kind == "number":
@@ -118,16 +113,6 @@ def _kind(parameter: Parameter) -> units.Kind:
     return kind._replace(allowed=parameter.allowed or ("any" if signed else "positive"))
 
 
-def _known_keys(owner: Owner, name: str, known: Iterable[str]) -> str:
-    near = near_name(name, known)
-    there = ", ".join(known) or "none"
-    return f'did you mean "{near}"?' if near else f"keys of this {owner.what}: {there}"
-
-
-def _example(owner: Owner, parameter: Parameter) -> str:
-    return f"add {parameter.name} = {example_of(parameter)} to [{owner.table.removeprefix('drive.')}]"
-
-
 def example_of(parameter: Parameter) -> str:
     """Return a sensible value as TOML writes it."""
     plain = {"number": "0.3", "path": '"path.csv"', "length": '"12 mm"', "signed length": '"12 mm"'}
@@ -157,9 +142,8 @@ def _points(value: Any, key: str) -> np.ndarray:
         try:
             columns.append(Column.model_validate(value[name]).in_si(units.LENGTH))
         except ValidationError:
-            raise InputError(
-                f"{key}.{name}", quoted(value[name]), "not a column of numbers", remedy
-            ) from None
+            given = quoted(value[name])
+            raise InputError(f"{key}.{name}", given, "not a column of numbers", remedy) from None
         except units.NotAQuantity as error:
             raise InputError(f"{key}.{name}", None, error.rule, error.remedy) from None
     if len(columns[0]) != len(columns[1]):

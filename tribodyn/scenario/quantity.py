@@ -28,13 +28,7 @@ class Table(BaseModel):
 
 
 class InUnit:
-    """Marks a field as written with a unit: ``Annotated[float, InUnit(LENGTH)]`` reads "3 mm" as 0.003.
-
-    Parameters
-    ----------
-    kind : what it is a quantity of
-    example : a sensible value of this field; default: the kind's own
-    """
+    """Marks a field as written with a unit: ``Annotated[float, InUnit(LENGTH)]`` reads "3 mm" as 0.003."""
 
     def __init__(self, kind: Kind, example: str = ""):
         self.kind = kind._replace(example=example) if example else kind
@@ -63,16 +57,7 @@ RecordReader = Callable[[Path, str], dict[str, Any]]
 
 
 class Reference:
-    """Marks a field that may name a file instead of being written out; the loader puts the content in.
-
-    Parameters
-    ----------
-    what : what the name stands for
-    folder : folder of `models/` whose files may be named; empty for CSV files
-    columns : columns that a CSV file must have
-    as_list : whether the one column of a CSV file stands for a list of quantities
-    record : (path, key) -> the columns, out of a record; for files that end in .h5
-    """
+    """Marks a field that may name a file instead of being written out; the loader puts the content in."""
 
     def __init__(
         self,
@@ -82,11 +67,11 @@ class Reference:
         as_list: bool = False,
         record: RecordReader | None = None,
     ) -> None:
-        self.what = what
-        self.folder = folder
-        self.columns = columns
-        self.as_list = as_list
-        self.record = record
+        self.what = what  # what the name stands for
+        self.folder = folder  # of `models/`, whose files may be named; empty for CSV files
+        self.columns = columns  # that a CSV file must have
+        self.as_list = as_list  # whether the one column of a CSV file stands for a list of quantities
+        self.record = record  # reads the columns of files that end in .h5
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         like = {"type": "string", "description": f"{self.what}: says what this table does not"}
@@ -122,28 +107,18 @@ class Draws:
 
 
 class Weighed:
-    """Marks a field that numbers the tables of a list, each of which has a weight: quantities have a mean.
-
-    Parameters
-    ----------
-    tables, weight : key of the list in a scenario, and of the weight in its tables
-    """
+    """Marks a field that numbers the tables of a list, each of which has a weight: quantities have a mean."""
 
     def __init__(self, tables: str, weight: str) -> None:
-        self.tables = tables
-        self.weight = weight
+        self.tables = tables  # key of the list in a scenario
+        self.weight = weight  # key in its tables
 
 
 class Names:
-    """Marks a text that must be one of some names, for the schema; that it is one of them is a rule.
-
-    Parameters
-    ----------
-    known : looked through only when a schema is made
-    """
+    """Marks a text that must be one of some names, for the schema; that it is one of them is a rule."""
 
     def __init__(self, known: Iterable[str]) -> None:
-        self.known = known
+        self.known = known  # looked through only when a schema is made
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         return {**handler(schema), "enum": list(self.known)}
@@ -201,14 +176,12 @@ class CurveTable(Table):
             try:
                 factor_to_si(columns[name].unit, field.metadata[0])
             except NotAQuantity as error:
-                raise broken(
-                    f"{name} is in {quoted(columns[name].unit)}: {error.rule}", error.remedy
-                ) from None
+                rule = f"{name} is in {quoted(columns[name].unit)}: {error.rule}"
+                raise broken(rule, error.remedy) from None
         (first, x), (second, y) = columns.items()
         if len(x.values) != len(y.values):
-            raise broken(
-                f"{len(x.values)} values of {first} and {len(y.values)} of {second}", "write as many of each"
-            )
+            rule = f"{len(x.values)} values of {first} and {len(y.values)} of {second}"
+            raise broken(rule, "write as many of each")
         given = np.array(x.values)
         rising = given[1:] > given[:-1]
         if not rising.all():
@@ -248,14 +221,14 @@ def references(table: type[BaseModel]) -> Mapping[tuple[str, ...], Reference]:
 
 def parts_of(field: Any) -> Iterator[Any]:
     """Go through everything that stands in a field's annotation, metadata included."""
+
+    def parts(annotation: Any) -> Iterator[Any]:
+        yield annotation
+        for part in (*getattr(annotation, "__args__", ()), *getattr(annotation, "__metadata__", ())):
+            yield from parts(part)
+
     yield from field.metadata
-    yield from _parts(field.annotation)
-
-
-def _parts(annotation: Any) -> Iterator[Any]:
-    yield annotation
-    for part in (*getattr(annotation, "__args__", ()), *getattr(annotation, "__metadata__", ())):
-        yield from _parts(part)
+    yield from parts(field.annotation)
 
 
 _DIGITS = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)", re.ASCII)

@@ -45,13 +45,9 @@ TableOf = Callable[[Mapping[str, Any]], type[Table]]
 
 
 def resolve(path: Path, overrides: Mapping[str, Any], table_of: TableOf) -> Resolved:
-    """Return the scenario in `path` with references, overrides and defaults put in.
+    """Return the scenario in a file with references, overrides and defaults put in.
 
-    Parameters
-    ----------
-    path : the scenario file
-    overrides : dotted key to value; a string is read as TOML where it is TOML, else taken as it stands
-    table_of : see `TableOf`
+    Overrides are values by dotted key; a string is read as TOML where it is TOML, else taken as it stands.
     """
     return resolve_table(read_toml(path), path, overrides, table_of)
 
@@ -150,16 +146,14 @@ def _override(known: _References, dotted: str, value: Any) -> None:
             place = place[part]
         else:
             place = None
-    last = key[-1]
+    last, put = key[-1], toml_value(value) if isinstance(value, str) else value
     if isinstance(place, dict):
-        place[str(last)] = toml_value(value) if isinstance(value, str) else value
+        place[str(last)] = put
     elif isinstance(place, list) and isinstance(last, int) and last < len(place):
-        place[last] = toml_value(value) if isinstance(value, str) else value
+        place[last] = put
     else:
-        above = ".".join(map(str, key[:-1]))
-        raise InputError(
-            dotted, quoted(value), f"{above} is not a table", "see the keys with: tribodyn schema", OVERRIDES
-        )
+        rule = f"{'.'.join(map(str, key[:-1]))} is not a table"
+        raise InputError(dotted, quoted(value), rule, "see the keys with: tribodyn schema", OVERRIDES)
     known.origins.put(key, OVERRIDES)
 
 
@@ -182,17 +176,15 @@ def _put_content(known: _References, key: Key) -> None:
         file = referring.parent / name
         if not is_file(file):
             columns = ",".join(f"{column} [unit]" for column in mark.columns)
-            raise InputError(
-                dotted,
-                quoted(name),
-                f"no such file: {printable_path(file)}",
-                f"give a CSV file that begins with {columns}{'' if mark.record is None else ', or a record'}",
-            )
+            remedy = f"give a CSV file that begins with {columns}{', or a record' if mark.record else ''}"
+            raise InputError(dotted, quoted(name), f"no such file: {printable_path(file)}", remedy)
         if mark.record is not None and file.suffix == ".h5":
             curve = mark.record(file, dotted)
         else:
             curve = read_curve(file, dotted, mark.columns)
-        holder[key[-1]] = _quantities(curve[mark.columns[0]]) if mark.as_list else curve
+        column = curve[mark.columns[0]]
+        quantities = [f"{number!r} {column['unit']}" for number in column["values"]]
+        holder[key[-1]] = quantities if mark.as_list else curve
     known.origins.put(key, str(file))
 
 
@@ -236,11 +228,6 @@ def _leaves(table: Mapping[str, Any], above: Key = ()) -> list[Key]:
     for name, value in table.items():
         keys += _leaves(value, (*above, name)) if isinstance(value, dict) else [(*above, name)]
     return keys
-
-
-def _quantities(column: Mapping[str, Any]) -> list[str]:
-    """Write a column as the list of quantities that it stands for."""
-    return [f"{value!r} {column['unit']}" for value in column["values"]]
 
 
 def _at(data: Any, key: Iterable[str | int]) -> Any:

@@ -143,21 +143,14 @@ def find_scenario(name: str) -> Path:
         near = near_name(path.stem, names(path.parent))
         remedy = f'did you mean "{path.with_name(near + ".toml")}"?' if near else "check the path"
         raise InputError("scenario", quoted(name), "no such file", remedy)
-    folder = shipped("scenarios")
-    if is_file(folder / f"{name}.toml"):
-        return folder / f"{name}.toml"
-    raise _not_found("scenario", name, "scenario", [folder])
+    return _named("scenario", name, "scenario", [shipped(SCENARIOS)])
 
 
 def find_drive_or_scenario(name: str) -> Path:
     """Return the file of a drive or of a scenario that is given by path or by the name of a shipped one."""
     if name.endswith(".toml") or is_file(Path(name)):
         return find_scenario(name)
-    folders = [shipped("models") / DRIVES, shipped(SCENARIOS)]
-    for folder in folders:
-        if is_file(folder / f"{name}.toml"):
-            return folder / f"{name}.toml"
-    raise _not_found("model", name, "drive or scenario", folders)
+    return _named("model", name, "drive or scenario", [shipped("models") / DRIVES, shipped(SCENARIOS)])
 
 
 def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
@@ -178,28 +171,25 @@ def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
         remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
         raise InputError(key, quoted(name), f"no such file: {printable_path(path)}", remedy)
     if kind == SCENARIOS:
-        folders = [referring.resolve().parent, shipped(SCENARIOS)]
-        for folder in folders:
-            if is_file(folder / f"{name}.toml"):
-                return folder / f"{name}.toml"
-        raise _not_found(key, name, "scenario", folders)
+        return _named(key, name, "scenario", [referring.resolve().parent, shipped(SCENARIOS)])
     above = referring.resolve().parent.parent
     # beside a scenario's folder there is models/, beside a model's own folder the other kinds
     folders = [above / "models" / kind, above / kind, shipped("models") / kind]
+    return _named(key, name, f"file in models/{kind}", folders)
+
+
+def _named(key: str, name: str, what: str, folders: Iterable[Path]) -> Path:
+    """Return the TOML file of that name in the first of the folders that has it."""
     for folder in folders:
         if is_file(folder / f"{name}.toml"):
             return folder / f"{name}.toml"
-    raise _not_found(key, name, f"file in models/{kind}", folders)
-
-
-def _not_found(key: str, name: str, what: str, folders: Iterable[Path]) -> InputError:
     looked = list(dict.fromkeys(folder.resolve() for folder in folders))
     known = sorted({known for folder in looked for known in names(folder)})
     near = near_name(name, known)
     remedy = f'did you mean "{near}"? ' if near else ""
     there = ", ".join(known) or "nothing"
     places = " and ".join(map(str, looked))
-    return InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")
+    raise InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")
 
 
 def read_text(path: Path, most: int) -> str:

@@ -69,7 +69,8 @@ def to_si(value: Any, kind: Kind) -> float:
     """
     write = f'write a quantity with a unit of {kind.name}, such as "{kind.example}"'
     if isinstance(value, (bool, dict, list)) or not isinstance(value, (int, float, str)):
-        raise NotAQuantity(f"not a quantity but {_toml_name(value)}", write)
+        names = {bool: "a true/false value", dict: "a table", list: "a list"}
+        raise NotAQuantity(f"not a quantity but {names.get(type(value), 'a date')}", write)
     if not isinstance(value, str):
         raise NotAQuantity("a number without a unit", write)
     if len(value) > LONGEST:
@@ -83,13 +84,14 @@ def to_si(value: Any, kind: Kind) -> float:
         magnitude = _absolute(float(number["number"]), number["unit"], write)
     else:
         factor = _spelled_factor(number["number"], number["unit"], kind, write)
-        magnitude = _scaled(float(number["number"]), factor)
+        magnitude = scaled(float(number["number"]), factor)
     if not isfinite(magnitude):
         raise NotAQuantity("not a finite number", write)
     if is_extreme(magnitude):
         raise NotAQuantity(f"{EXTREME}, in {kind.si}", write)
     if (kind.allowed == "positive" and magnitude <= 0) or (kind.allowed == "not negative" and magnitude < 0):
-        raise NotAQuantity(f"must be {_sign(kind.allowed)}", f'write it like "{kind.example}"')
+        sign = "greater than zero" if kind.allowed == "positive" else "zero or more"
+        raise NotAQuantity(f"must be {sign}", f'write it like "{kind.example}"')
     return magnitude
 
 
@@ -126,9 +128,9 @@ def factor_to_si(unit: str, kind: Kind) -> float:
     return _spelled_factor("", unit, kind, write)
 
 
-def _scaled(number: float, factor: float) -> float:
+def scaled(number: float, factor: float) -> float:
     """Multiply; "9 mm" becomes 0.009 m to the last digit, which 9 × 0.001 is not."""
-    divisor = round(1 / factor) if factor < 1 else 0
+    divisor = round(1 / factor) if 0 < factor < 1 else 0
     return number / divisor if divisor and abs(1 / factor - divisor) < 1e-9 * divisor else number * factor
 
 
@@ -197,15 +199,6 @@ def _factor_by_pint(text: str, kind: Kind, write: str) -> float:
 def _has_angle(units: Any) -> bool:
     """Whether an angle stands in the unit; pint itself treats the radian as the number 1."""
     return "radian" in dict(registry().Quantity(1, units).to_root_units().unit_items())
-
-
-def _sign(allowed: str) -> str:
-    return "greater than zero" if allowed == "positive" else "zero or more"
-
-
-def _toml_name(value: Any) -> str:
-    names = {bool: "a true/false value", dict: "a table", list: "a list"}
-    return names.get(type(value), "a date")
 
 
 def positive(kind: Kind) -> Kind:

@@ -17,7 +17,7 @@ from tribodyn.scenario.quantity import Draws, InUnit, Reference, Weighed, parts_
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.sources import LONGEST_KEY, broken_bounds
 from tribodyn.scenario.unit_grammar import is_unit
-from tribodyn.scenario.units import Kind, NotAQuantity, to_si
+from tribodyn.scenario.units import Kind, NotAQuantity, registry, scaled, to_si
 
 VARY = "--vary"
 #: Values of one axis; beyond, a range was surely mistyped, and the values alone would fill the memory.
@@ -88,8 +88,9 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
     leaf = kind_at(table, key)
     if key in ("title", "name", "kind") or key.startswith("output."):
         raise _refusal(option, f"{key} cannot be varied", "vary what the physics depends on")
-    if isinstance(leaf, type) and issubclass(leaf, BaseModel):
-        raise _refusal(option, f"{key} is a table", f"vary a key in it, such as {key}.{_example(leaf)}")
+    if _is_table(leaf):
+        first = next(iter(leaf.model_fields))
+        raise _refusal(option, f"{key} is a table", f"vary a key in it, such as {key}.{first}")
     texts = _values(option, text, leaf)
     written = tuple(value if isinstance(leaf, Kind) else toml_value(value) for value in texts)
     for error in broken_bounds(list(written)):
@@ -97,8 +98,7 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
     values, units = _in_si(option, key, written, leaf)
     if len(set(values)) < len(values):
         raise _refusal(option, "a value comes twice", "list every value once")
-    marks = _marks(table, key)
-    weighed = next((mark for mark in marks if isinstance(mark, Weighed)), None)
+    weighed = next((mark for mark in _marks(table, key) if isinstance(mark, Weighed)), None)
     return Axis(key, key.rpartition(".")[2], written, values, units, is_drawn(table, key), weighed)
 
 
@@ -174,8 +174,6 @@ def _in_si(
 
 def base_units(value: Any) -> tuple[float, str] | None:
     """Magnitude and SI base units of a quantity whose kind only a family of teeth knows; None if none."""
-    from tribodyn.scenario.units import registry
-
     match = re.fullmatch(rf"\s*({_NUMBER})\s*(\S.*)", value, re.ASCII) if isinstance(value, str) else None
     if match is None or not is_unit(match[2]):
         return None
@@ -183,9 +181,7 @@ def base_units(value: Any) -> tuple[float, str] | None:
         base = registry().Quantity(1.0, match[2]).to_base_units()
     except Exception:  # pint raises whatever Python's tokenizer and arithmetic do
         return None
-    number, factor = float(match[1]), float(base.magnitude)
-    exact = number / round(1 / factor) if 0 < factor < 1 and abs(1 / factor % 1) < 1e-9 else number * factor
-    return exact, f"{base.units:~C}".replace("**", "") or "1"
+    return scaled(float(match[1]), float(base.magnitude)), f"{base.units:~C}".replace("**", "") or "1"
 
 
 def is_drawn(table: type[BaseModel], key: str) -> bool:
@@ -193,47 +189,37 @@ def is_drawn(table: type[BaseModel], key: str) -> bool:
     return any(isinstance(mark, Draws) for mark in _marks(table, key))
 
 
-def _marks(table: type[BaseModel], key: str) -> list[Any]:
-    """Everything that stands in the annotation of the field at a key."""
-    above, _, name = key.rpartition(".")
-    place = kind_at(table, above) if above else table
-    field = getattr(place, "model_fields", {}).get(name)
-    return [] if field is None else list(parts_of(field))
-
-
 def is_whole(table: type[BaseModel], key: str) -> bool:
     """Whether a whole number is due at a key."""
-    place: Any = table
-    field = None
-    for part in key.split("."):
-        field = getattr(place, "model_fields", {}).get(part)
-        if field is None:
-            return False
-        tables = (mark for mark in parts_of(field) if isinstance(mark, type) and issubclass(mark, BaseModel))
-        place = next(tables, None)
-    return field is not None and int in set(parts_of(field))
+    return int in _marks(table, key)
 
 
 def kind_at(table: type[BaseModel], key: str) -> Any:
     """What stands at a key: a `Kind` of quantity, a `Reference` or a table; None for anything else."""
+    marks = _marks(table, key)
+    inside_list = key.rpartition(".")[2].isdecimal()
+    references = [mark for mark in marks if isinstance(mark, Reference) and not inside_list]
+    kinds = [mark.kind for mark in marks if isinstance(mark, InUnit)]
+    return next(iter(references or kinds or filter(_is_table, marks)), None)
+
+
+def _marks(table: type[BaseModel], key: str) -> list[Any]:
+    """Everything that stands in the annotation of the field at a key, or of the list whose place it is."""
     place: Any = table
+    marks: list[Any] = []
     for part in key.split("."):
         if part.isdecimal():
             continue
         fields = getattr(place, "model_fields", {})
         if part not in fields:
-            return None
-        parts = list(parts_of(fields[part]))
-        references = [mark for mark in parts if isinstance(mark, Reference)]
-        kinds = [mark.kind for mark in parts if isinstance(mark, InUnit)]
-        tables = [mark for mark in parts if isinstance(mark, type) and issubclass(mark, BaseModel)]
-        last = part == key.rpartition(".")[2]
-        place = next(iter(references if last and references else kinds or tables), None)
-    return place
+            return []
+        marks = list(parts_of(fields[part]))
+        place = next(filter(_is_table, marks), None)
+    return marks
 
 
-def _example(table: type[BaseModel]) -> str:
-    return next(iter(table.model_fields))
+def _is_table(mark: Any) -> bool:
+    return isinstance(mark, type) and issubclass(mark, BaseModel)
 
 
 def _named_apart(axes: list[Axis]) -> list[Axis]:

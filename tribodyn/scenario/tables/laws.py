@@ -19,11 +19,7 @@ class LawTable(Table, extra="allow"):
 
     name: ClassVar[str]
     laws: ClassVar[Registry[Any]]
-
-    @property
-    def chosen(self) -> str | None:
-        """Name of the law."""
-        raise NotImplementedError
+    law: Any  # its name
 
     @property
     def own(self) -> dict[str, Any]:
@@ -69,11 +65,6 @@ class FilmTable(LawTable):
     laws = FILM_LAWS
     law: Text | None = Field(None, description="default: the one that goes with the friction law")
 
-    @property
-    def chosen(self) -> str | None:
-        """Name of the law."""
-        return self.law
-
 
 class FrictionTable(LawTable):
     """Which law acts between the flanks, and the law's own keys."""
@@ -82,22 +73,16 @@ class FrictionTable(LawTable):
     laws = FRICTION_LAWS
     law: Text
 
-    @property
-    def chosen(self) -> str:
-        """Name of the law."""
-        return self.law
-
 
 def law_errors(table: LawTable) -> list[InputError]:
     """Return what is wrong with the name of the law and with its own keys."""
-    if table.chosen is None:
+    if table.law is None:
         rule = "is a key of a film law, and none is named"
-        remedy = "name it, such as law = " + quoted(next(iter(table.laws)))
-        return [
-            InputError(f"{table.name}.{key}", quoted(value), rule, remedy) for key, value in table.own.items()
-        ]
+        remedy = f"name it, such as law = {quoted(next(iter(table.laws)))}"
+        given = table.own.items()
+        return [InputError(f"{table.name}.{key}", quoted(value), rule, remedy) for key, value in given]
     try:
-        law = table.laws[table.chosen]
+        law = table.laws[table.law]
     except InputError as error:
         return [error]
     errors = own_key_errors(_owner(table, law), table.own)
@@ -111,11 +96,11 @@ def _owner(table: LawTable, law: Any) -> Owner:
 def _explained(error: InputError, table: LawTable, law: Any) -> InputError:
     """Say of a missing key that the law needs it, and of another law's key that this one has none."""
     key = error.key.removeprefix(f"{table.name}.")
-    known = {one.name: one for one in law.keys}
+    known = {parameter.name: parameter for parameter in law.keys}
     if key not in table.own:
         rule = f'missing: law = "{law.name}" needs it, {known[key].about}'
         return InputError(error.key, None, rule, error.remedy)
-    others = [name for name, one in table.laws.items() if any(key == own.name for own in one.keys)]
+    others = [name for name, other in table.laws.items() if any(key == own.name for own in other.keys)]
     if key not in known and others:
         rule = f'contradicts law = "{law.name}"; it is a key of law = {", ".join(map(quoted, others))}'
         return InputError(error.key, error.value, rule, f"leave {key} out")

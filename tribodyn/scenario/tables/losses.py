@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.geometry.drive import SIDES
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Count, InUnit, Positive, Table, written
 from tribodyn.scenario.tables.model_files import Lubricant
@@ -13,7 +14,6 @@ from tribodyn.tribology.bulk_temperature import Lubrication, TemperatureData
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, LossData
 
 Depth = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
-SIDES = ("pinion", "gear")
 
 
 class BearingDrag(Table):
@@ -48,16 +48,8 @@ def losses_of(table: LossesTable | None) -> LossData | None:
     """Return what a table asks for; None: no load-independent losses."""
     if table is None or not (table.churning or table.windage or table.bearings):
         return None
-    drag = tuple(_drag(getattr(table, f"{side}_bearings")) for side in SIDES)
-    return LossData(
-        table.churning,
-        table.windage,
-        table.bearings,
-        table.pinion_immersion,
-        table.gear_immersion,
-        table.oil_volume,
-        (drag[0], drag[1]),
-    )
+    numbers = table.model_dump(exclude={"pinion_bearings", "gear_bearings"})
+    return LossData(**numbers, drag=(_drag(table.pinion_bearings), _drag(table.gear_bearings)))
 
 
 def _drag(table: BearingDrag | None) -> BearingDragData | None:
@@ -77,36 +69,26 @@ def broken_loss_rules(table: LossesTable | None) -> Iterator[InputError]:
         yield from (_unread(name, "churning", "iso-14179-1") for name in unread)
     else:
         if not immersed:
-            yield InputError(
-                "losses.gear_immersion",
-                rule=f"missing: churning = {quoted(table.churning)} needs a gear that dips into the oil",
-                remedy='add gear_immersion = "20 mm", or pinion_immersion',
-            )
+            rule = f"missing: churning = {quoted(table.churning)} needs a gear that dips into the oil"
+            remedy = 'add gear_immersion = "20 mm", or pinion_immersion'
+            yield InputError("losses.gear_immersion", rule=rule, remedy=remedy)
         if table.churning == "changenet-velex" and table.oil_volume is None:
-            yield InputError(
-                "losses.oil_volume",
-                rule='missing: churning = "changenet-velex" needs it',
-                remedy='add oil_volume = "2 l"',
-            )
+            rule, remedy = 'missing: churning = "changenet-velex" needs it', 'add oil_volume = "2 l"'
+            yield InputError("losses.oil_volume", rule=rule, remedy=remedy)
         if table.churning != "changenet-velex" and table.oil_volume is not None:
             yield _unread("oil_volume", "churning", "changenet-velex")
     shafts = [f"{side}_bearings" for side in SIDES if getattr(table, f"{side}_bearings") is not None]
     if table.bearings is None:
         yield from (_unread(name, "bearings", "palmgren") for name in shafts)
     elif not shafts:
-        yield InputError(
-            "losses.pinion_bearings",
-            rule=f"missing: bearings = {quoted(table.bearings)} needs the bearings of a shaft",
-            remedy='add [losses.pinion_bearings] with type = "deep-groove-ball" and mean_diameter = "60 mm"',
-        )
+        rule = f"missing: bearings = {quoted(table.bearings)} needs the bearings of a shaft"
+        remedy = 'add [losses.pinion_bearings] with type = "deep-groove-ball" and mean_diameter = "60 mm"'
+        yield InputError("losses.pinion_bearings", rule=rule, remedy=remedy)
 
 
 def _unread(name: str, formula: str, choice: str) -> InputError:
-    return InputError(
-        f"losses.{name}",
-        rule=f"has no effect: losses.{formula} does not ask for it",
-        remedy=f'leave {name} out, or write {formula} = "{choice}"',
-    )
+    rule = f"has no effect: losses.{formula} does not ask for it"
+    return InputError(f"losses.{name}", None, rule, f'leave {name} out, or write {formula} = "{choice}"')
 
 
 Conductance = Annotated[float, InUnit(units.not_negative(units.CONDUCTANCE))]
@@ -151,11 +133,9 @@ def broken_temperature_rules(table: TemperatureTable | None, lubricant: Lubrican
     for name in given:
         if name not in allowed:
             choice = "iso" if name in _ESTIMATE else "network"
-            yield InputError(
-                f"temperature.{name}",
-                rule=f'has no effect with model = "{table.model}"',
-                remedy=f'leave {name} out, or write model = "{choice}"',
-            )
+            rule = f'has no effect with model = "{table.model}"'
+            remedy = f'leave {name} out, or write model = "{choice}"'
+            yield InputError(f"temperature.{name}", None, rule, remedy)
     if table.model == "oil":
         return
     if lubricant.viscosity_40 is None:
@@ -172,15 +152,9 @@ def broken_temperature_rules(table: TemperatureTable | None, lubricant: Lubrican
 def _network(table: TemperatureTable) -> Iterator[InputError]:
     for name in ("pinion_oil", "gear_oil"):
         if not getattr(table, name):
-            yield InputError(
-                f"temperature.{name}",
-                rule="must be greater than zero" if getattr(table, name) == 0 else "missing",
-                remedy=f'a network needs it: {name} = "20 W/K"',
-            )
+            rule = "must be greater than zero" if getattr(table, name) == 0 else "missing"
+            yield InputError(f"temperature.{name}", None, rule, f'a network needs it: {name} = "20 W/K"')
     if bool(table.oil_housing) != bool(table.housing_ambient):
         missing = "housing_ambient" if table.oil_housing else "oil_housing"
-        yield InputError(
-            f"temperature.{missing}",
-            rule="missing: heat must enter the housing and leave it",
-            remedy=f'add {missing} = "20 W/K", or leave both out',
-        )
+        rule, remedy = "missing: heat must enter the housing and leave it", f'add {missing} = "20 W/K"'
+        yield InputError(f"temperature.{missing}", None, rule, f"{remedy}, or leave both out")
