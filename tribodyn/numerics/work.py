@@ -5,6 +5,7 @@ among what is called for it. Nobody watching, all of it does nothing.
 """
 
 import os
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -61,6 +62,32 @@ def steps(of: Sequence[Step]) -> Iterator[Step]:
     for done, step in enumerate(of):
         with part(done / len(of), (done + 1) / len(of)):
             yield step
+
+
+def in_threads(
+    call: Callable[[Step], None],
+    items: Sequence[Step],
+    workers: int,
+    progress: Callable[[float], None] | None = None,
+    cancelled: threading.Event | None = None,
+) -> None:
+    """Call a function with each item, side by side; raises what a call raises, and begins none any more.
+
+    `progress` is called with the share done; `cancelled` is set where calls that still run should end.
+    """
+    from concurrent.futures import ThreadPoolExecutor, as_completed
+
+    with ThreadPoolExecutor(workers) as pool:
+        try:
+            jobs = [pool.submit(call, item) for item in items]
+            for done, job in enumerate(as_completed(jobs), 1):
+                job.result()
+                if progress:
+                    progress(done / len(jobs))
+        finally:
+            if cancelled:
+                cancelled.set()
+            pool.shutdown(cancel_futures=True)
 
 
 def usable_cores() -> int:

@@ -6,14 +6,13 @@ A case that fails keeps what it has and leaves the others alone.
 
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
 
 import numpy as np
 
 from tribodyn.dynamics.extremes import extremes_of, put_extremes, take_in
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.work import usable_cores
+from tribodyn.numerics.work import in_threads, usable_cores
 from tribodyn.solve.choice import choose
 from tribodyn.solve.integrator import MAX_STEPS, Ensemble, March, Status, nothing_yet, put
 from tribodyn.solve.methods import AUTO, EXPLICIT, Runs, runs
@@ -159,14 +158,5 @@ def one_by_one(
                 return
             done += cycles
 
-    with ThreadPoolExecutor(workers) as pool:
-        try:
-            jobs = [pool.submit(integrate, case) for case in range(len(models))]
-            for done, job in enumerate(as_completed(jobs), 1):
-                job.result()
-                if progress:
-                    progress(done / len(jobs))
-        finally:
-            cancelled.set()
-            pool.shutdown(cancel_futures=True)
+    in_threads(integrate, range(len(models)), workers, progress, cancelled)
     return result

@@ -54,12 +54,7 @@ TOO_SOFT = (
 def accelerations(
     states: Float[Array, "*places state"], phase: Any, segment: Any, model: Model
 ) -> Float[Array, "*places state"]:
-    """Derivatives of states per mesh cycle, many at once and without compiled code.
-
-    Parameters
-    ----------
-    phase, segment : where in the mesh cycle each state stands
-    """
+    """Derivatives of states per mesh cycle, many at once and without compiled code, each at its place."""
     rates: dict[int, Any] = {}
     derivatives(phase, 0.0, segment, np.moveaxis(states, -1, 0), model, {}, rates)
     return np.stack([np.broadcast_to(rates[i], states.shape[:-1]) for i in range(STATES)], axis=-1)
@@ -105,7 +100,8 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
     values = y[unknown]
     residual = partial(_residual, model, phase, segment, y, unknown, equation)
     if shaft:  # which the free bodies twist in proportion
-        free, twisted = (residual(values + twist)[-1] for twist in (0.0 * scale, _last(scale)))
+        twist = np.append(np.zeros(len(scale) - 1), scale[-1])
+        free, twisted = residual(values)[-1], residual(values + twist)[-1]
         values[-1] = scale[-1] * free / (free - twisted)
     push = float(residual(values)[equation.index(XI_RATE)]) * float(mechanics.gear_inertia)
     if abs(push) <= _NO_LOAD * _torques(model) * float(model.table.gear_pitch_radius):
@@ -205,11 +201,6 @@ def _torques(model: Model) -> float:
     mechanics = model.mechanics
     load = np.concatenate([mechanics.load_torques, mechanics.load_amplitudes, [mechanics.load_torque]])
     return float(np.sum(np.abs(load)) + abs(mechanics.drive_torque))
-
-
-def _last(values: Float[Array, " value"]) -> Float[Array, " value"]:
-    """The last of the values, and zeros before it."""
-    return np.where(np.arange(len(values)) == len(values) - 1, values, 0.0)
 
 
 def initial_state(model: Model, kind: str) -> Float[Array, " state"]:

@@ -14,21 +14,13 @@ from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import law, where
 from tribodyn.numerics.shapes import Array, Float
 
-#: States that may jump.
-JUMPING = (SLIP, XI_RATE, WORK_IN, WORK_PARAMETRIC)
-
 
 @law
 def engage(segment, applies, y, model, work, behind):
     """Take a state over the boundary at the start of a segment; at segment 0 over the end of a mesh cycle.
 
-    Parameters
-    ----------
-    segment : the segment that begins
-    applies : whether the state stands before the boundary; if not, it stays: at the start of a run
-    y : (STATES,)
-    work : scratch, as for `dynamics.equations.derivatives`
-    behind : receives the `JUMPING` states behind the boundary; may be `y`
+    `applies` says whether the state stands before the boundary; if not, it stays: at the start of a run.
+    `behind` receives the states that may jump, slip, ξ', work in, parametric work; it may be `y`.
     """
     boundary = model.table.boundary
     segments = model.table.in_contact.shape[0]

@@ -44,13 +44,7 @@ class _Ended(Exception):
 
 
 class ScipyIntegrator:
-    """Integrates with a solver of SciPy, made anew at every engagement; see `integrator.Integrator`.
-
-    Parameters
-    ----------
-    method : name of one of `methods` that SciPy runs
-    samples : samples per mesh cycle
-    """
+    """Integrates with a solver of SciPy, made anew at every engagement; see `integrator.Integrator`."""
 
     def __init__(self, method: str, model: Model, samples: int, tolerances: StepTolerances):
         self.method = SOLVERS[method]

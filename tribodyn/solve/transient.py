@@ -56,10 +56,7 @@ class MarchedAgain:
     """Wraps an integrator: where extremes are sought, a native one follows it, see `integrator.Integrator`.
 
     As it starts every mesh cycle where the other did, it goes astray by no more than a cycle's error.
-
-    Parameters
-    ----------
-    samples : samples per mesh cycle, at least 1
+    There is at least one sample in a mesh cycle.
     """
 
     def __init__(self, integrator: Integrator, model: Model, samples: int, tolerances: StepTolerances):
@@ -110,14 +107,8 @@ def cycles_at_once(method: str, cycles: int) -> int:
 def transient(
     model: Model, state: Float[Array, " state"], settings: TransientSettings
 ) -> Iterator[SampledStates | Stop]:
-    """Integrate from `state`; yields samples as they are done, and a `Stop` last.
+    """Integrate from a state at phase 0, behind the engagement there; yields samples, and a `Stop` last.
 
-    Parameters
-    ----------
-    state : start, at phase 0 with the pairs of the first segment in contact
-
-    Notes
-    -----
     A complete run has cycles × samples + 1 samples, the last one at the start of the next mesh cycle, after
     its engagement. A run that stops early yields what it has and says why in `Stop.reason`.
     """

@@ -118,15 +118,7 @@ class BranchPoint(NamedTuple):
 
 
 class Arclength:
-    """The way along a branch: its units, and steps.
-
-    Parameters
-    ----------
-    line : which of its lines
-    seed : where it begins
-    size : magnitude by which the parameter is measured
-    tolerance : maximum scaled change over a period of the motion
-    """
+    """The way along a branch from a seed on: its units, and steps; `size` measures the parameter."""
 
     def __init__(self, family: SystemFamily, line: int, seed: Seed, size: float, tolerance: float) -> None:
         self.family, self.line, self.seed = family, line, seed

@@ -7,7 +7,6 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.branch.continuation import Arrival, Leg, follow
 from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.choice import choose
@@ -43,20 +42,10 @@ class UnstableRange(NamedTuple):
 
 
 class GearLines:
-    """Gear pairs on lines along a parameter, as `arclength.SystemFamily`.
-
-    Parameters
-    ----------
-    starts : line -> (STATES,), by which states are scaled
-    moving : see `gear_map.moving_states`
-    """
+    """Gear pairs on lines along a parameter, as `arclength.SystemFamily`; `starts` scale the states."""
 
     def __init__(
-        self,
-        model_at: ModelAt,
-        starts: dict[int, Float[Array, " state"]],
-        moving: tuple[int, ...],
-        **settings: Any,
+        self, model_at: ModelAt, starts: dict[int, np.ndarray], moving: tuple[int, ...], **settings: Any
     ):
         self.model_at, self.starts = model_at, starts
         self.moving, self.settings = moving, settings
@@ -90,11 +79,9 @@ def followed_states(
 ) -> list[LegResult]:
     """Follow gear pairs, each along its leg, to the steady motions at the targets.
 
-    Parameters
-    ----------
-    legs : their states are (STATES,) at phase 0 after engagement; those that are handed on likewise
-    samples, rtol, max_cycles, solver, max_steps, workers, tolerance : as `periodic.steady_states` has them
-    unstable : continue branches beyond the ends of their stable parts
+    States of the legs are (STATES,) at phase 0 after engagement, those that are handed on likewise; numbers
+    are those of `periodic.steady_states`. Branches go on beyond the ends of their stable parts where
+    `unstable` asks for it.
     """
     alike: dict[tuple[Any, ...], list[int]] = {}
     for number, leg in enumerate(legs):
@@ -115,9 +102,7 @@ def followed_states(
         steadies = sampled(period_map, [arrival.orbit for arrival in arrivals], samples)
         for number, steady, arrival in zip(numbers, steadies, arrivals, strict=True):
             next_state = period_map.full(arrival.next_state[None])[0]
-            continued = (
-                [] if unstable is None else _continued(family, legs[number].line, arrival, unstable, samples)
-            )
+            continued = _continued(family, legs[number].line, arrival, unstable, samples) if unstable else []
             results[number] = LegResult(steady, arrival._replace(next_state=next_state), continued)
     return [results[number] for number in range(len(legs))]
 

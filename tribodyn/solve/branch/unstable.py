@@ -67,8 +67,7 @@ def unstable_branches(
 ) -> list[UnstableBranch | None]:
     """The unstable motions beyond the ends of stable branches, within a range of the parameter.
 
-    None where there are none that can be followed. Parameters are those of `arclength.Arclength`, and the
-    span (lowest, highest) of the parameter.
+    None where there are none that can be followed.
     """
     reach = max(map(abs, span))
     found = []

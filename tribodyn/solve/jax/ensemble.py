@@ -6,7 +6,6 @@ The same right-hand side, mapped over the cases. For a GPU, and to compare with;
 
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -17,6 +16,7 @@ import numpy as np
 from tribodyn.dynamics.parameters import Model, Options
 from tribodyn.numerics.cache import use_compilation_cache
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.numerics.work import in_threads
 from tribodyn.solve.integrator import Ensemble, March, Status, nothing_yet
 from tribodyn.solve.jax.integrator import (
     METHODS,
@@ -64,8 +64,6 @@ def through_jax(
     A failed case's state is the one at the end of the segment before, where `reached` points too. On a
     processor the parts go to `workers` threads; elsewhere there is one.
 
-    Notes
-    -----
     Compiled once for a method, a width, a shape of models (`lanes.batch.ModelShape`), tables shared or
     not, and every `jax.integrator.ROOM` samples per cycle; for no number, and not for fewer cases.
     """
@@ -84,13 +82,7 @@ def through_jax(
             if cancelled.is_set():
                 return
 
-    with ThreadPoolExecutor(threads) as pool:
-        try:
-            for job in as_completed([pool.submit(integrate, part) for part in parts]):
-                job.result()
-        finally:
-            cancelled.set()
-            pool.shutdown(cancel_futures=True)
+    in_threads(integrate, parts, threads, cancelled=cancelled)
     return result
 
 

@@ -218,13 +218,7 @@ def steps_end_on(models: Sequence[Model]) -> Float[Array, "case segment stop"]:
 
 
 class DiffraxIntegrator:
-    """Integrates with diffrax; see `integrator.Integrator`.
-
-    Parameters
-    ----------
-    method : name of one of `METHODS`
-    samples : samples per mesh cycle
-    """
+    """Integrates with diffrax; see `integrator.Integrator`."""
 
     def __init__(self, method: str, model: Model, samples: int, tolerances: StepTolerances):
         use_compilation_cache()

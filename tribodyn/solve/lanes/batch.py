@@ -98,21 +98,19 @@ def pack(models: Sequence[Model]) -> Packed:
     shape = shape_of(models[0])
     fields, lengths = _fields(models[0], shape)
     kept: dict[int, Kept] = {}
-    numbers = np.empty((len(models), sum(f.ndim == 0 for group in fields for f in group)))
-    addresses = np.empty((len(models), sum(f.ndim > 0 for group in fields for f in group)), dtype=np.int64)
     rows: dict[int, tuple[Any, list[float], list[int]]] = {}
-    for case, model in enumerate(models):
-        first_number = first_address = 0
+    numbers, addresses = [], []
+    for model in models:
+        numbers.append([])
+        addresses.append([])
         for name, group in zip(RECORDS, fields, strict=True):
             record = getattr(model, name)
             if id(record) not in rows:
                 rows[id(record)] = (record, *_row(record, group, kept))
-            _, own_numbers, own_addresses = rows[id(record)]
-            numbers[case, first_number : first_number + len(own_numbers)] = own_numbers
-            addresses[case, first_address : first_address + len(own_addresses)] = own_addresses
-            first_number += len(own_numbers)
-            first_address += len(own_addresses)
-    return Packed(shape, fields, numbers, addresses, np.array(lengths, dtype=np.int64), list(kept.values()))
+            numbers[-1] += rows[id(record)][1]
+            addresses[-1] += rows[id(record)][2]
+    where, shapes = np.array(addresses, dtype=np.int64), np.array(lengths, dtype=np.int64)
+    return Packed(shape, fields, np.array(numbers), where, shapes, list(kept.values()))
 
 
 def _fields(model: Model, shape: ModelShape) -> tuple[tuple[tuple[Field, ...], ...], list[int]]:

@@ -64,23 +64,9 @@ def column(j, difference, place, y, f, model, work, into):
 
 @kernel
 def differentiate(place, y, f, scale, model, work, into):
-    """Jacobian and slope of the right-hand side.
+    """Jacobian and slope of the right-hand side at a `marching.Place`; `f` is its value there.
 
-    Parameters
-    ----------
-    place : marching.Place
-    y, model, work
-        As for `dynamics.equations.derivatives`.
-    f : (STATES,)
-        The right-hand side there.
-    scale : (STATES,)
-        Sizes of the states.
-    into : Differences
-
-    Returns
-    -------
-    int
-        Evaluations of the right-hand side that it took.
+    `scale` (STATES,) are sizes of the states. Returns how many right-hand sides it took.
     """
     jacobian = into.jacobian
     mechanics, table = model.mechanics, model.table

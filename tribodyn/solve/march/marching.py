@@ -69,26 +69,12 @@ class Control(NamedTuple):
 
 @kernel
 def march_with(method, march, control, model, y, out, work, buffer, search):
-    """Integrate mesh cycles from the state `y` at the end of the one before.
+    """Integrate mesh cycles from the state `y` at the end of the one before, which becomes the state reached.
 
-    Parameters
-    ----------
-    method : Method
-    march : integrator.March
-        All its cycles are sampled, whatever its window.
-    control : Control
-    model : Model
-    y : (STATES,) float64, changed in place to the state reached
-    out : (cycles · samples, STATES)
-        Receives the states at the samples.
-    work, buffer : arrays
-        Scratch, from `right_hand_side.work_array` and the method's `buffer`.
-    search : extreme_search.Search
-        What is known of the extremes; used where `march.extremes` says that they are sought.
-
-    Returns
-    -------
-    status, reached (cycles since first_cycle), step, steps, evaluations, samples written
+    `out` (cycles · samples, STATES) receives the states at the samples of all cycles, whatever the window;
+    `work` and `buffer` are scratch, from `right_hand_side.work_array` and the method's `buffer`; `search` is
+    used where `march.extremes` says that they are sought. Returns status, cycles reached since the first,
+    step, steps, evaluations, samples written.
     """
     samples, table = march.samples, model.table
     segments = table.in_contact.shape[0]
@@ -205,13 +191,7 @@ def scratch_buffer(rows: int) -> Float[Array, "row state"]:
 
 
 class NativeIntegrator:
-    """Integrates with a compiled kernel; see `integrator.Integrator`.
-
-    Parameters
-    ----------
-    method : name of one of `methods` that is native: a module with `integrate` and `buffer`
-    samples : samples per mesh cycle
-    """
+    """Integrates with the kernel of a module of `methods`; see `integrator.Integrator`."""
 
     def __init__(self, method: str, model: Model, samples: int, tolerances: StepTolerances):
         file = import_module(f"tribodyn.solve.methods.{method}")

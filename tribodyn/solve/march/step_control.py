@@ -46,15 +46,7 @@ def refused(steps, max_steps, step, speed, nominal_speed):
     """Whether no step can be taken: too many in this mesh cycle; too small; the pinion comes to rest.
 
     It does where steps vanish as it stops, and at once where an engagement takes all its kinetic energy.
-
-    Parameters
-    ----------
-    steps, max_steps : number
-        Accepted in this mesh cycle so far, and allowed.
-    step : float
-        To be taken, mesh cycles.
-    speed, nominal_speed : float
-        Of the pinion, rad/s.
+    Steps are those accepted in this mesh cycle, and allowed; speeds are the pinion's.
     """
     vanishing = step < MINIMUM_STEP
     at_rest = (vanishing & (speed < STANDSTILL * nominal_speed)) | (speed <= 0.0)

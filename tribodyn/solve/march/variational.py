@@ -13,7 +13,6 @@ control resolves them as it does those of the motion.
 """
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,6 +23,7 @@ from tribodyn.kernels.duals.functions import LENGTH, VALUE, duals_of
 from tribodyn.kernels.duals.numbers import DIRECTIONS
 from tribodyn.kernels.native import PackedValue, kernel, packed
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.numerics.work import in_threads
 from tribodyn.solve.integrator import March, Status
 from tribodyn.solve.march import explicit_8
 from tribodyn.solve.march.extreme_search import ignore_segment, ignore_step
@@ -106,18 +106,9 @@ def march_with_derivative(
 ) -> Derived:
     """March from the start of a mesh cycle, behind its engagement, with the derivatives in some directions.
 
-    Parameters
-    ----------
-    models : sequence of R Models
-    states : (R, STATES)
-    directions : (R, STATES, D); at most `DIRECTIONS`. The error control takes a direction for a displacement
-        of the state and measures its error likewise, so that a direction should be of the size of the states'
-        scales.
-    cycles : mesh cycles
-    rtol : of the motion; that of the derivatives is the method's
-    max_steps : steps allowed in one mesh cycle
-    methods : for every row, a key of `METHODS`
-    workers : threads
+    The error control takes a direction, of at most `DIRECTIONS`, for a displacement of the state and measures
+    its error likewise, so that it should be of the size of the states' scales. `rtol` is of the motion; that
+    of the derivatives is the method's. `methods` has a key of `METHODS` for every row.
     """
     count = directions.shape[-1]
     if count > DIRECTIONS:
@@ -134,7 +125,7 @@ def march_with_derivative(
         np.zeros(rows, dtype=int),
     )
 
-    def one(row: int) -> None:
+    def integrate(row: int) -> None:
         method = METHODS[methods[row]]
         y, work = _duals((STATES,)), _duals(work_array(models[row]).shape)
         y[:, :count], y[:, VALUE] = directions[row], states[row]
@@ -148,13 +139,7 @@ def march_with_derivative(
         result.state[row], result.slopes[row] = y[:, VALUE], y[:, :count]
         result.status[row], result.reached[row], result.steps[row] = status, reached, steps
 
-    with ThreadPoolExecutor(min(workers, rows)) as pool:
-        jobs = [pool.submit(one, row) for row in range(rows)]
-        try:
-            for job in jobs:
-                job.result()
-        finally:
-            pool.shutdown(cancel_futures=True)
+    in_threads(integrate, range(rows), min(workers, rows))
     return result
 
 

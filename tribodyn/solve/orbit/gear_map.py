@@ -46,18 +46,10 @@ def moving_states(model: Model) -> tuple[int, ...]:
 
 
 class GearMap:
-    """Maps over a mesh cycle of gear pairs with the same moving states, as `motions.PeriodMap`.
+    """Maps over a mesh cycle of gear pairs with the same `moving_states`, as `motions.PeriodMap`.
 
-    Parameters
-    ----------
-    starts : states that scale and integration method are judged by
-    moving : see `moving_states`
-    solver, rtol, fine_rtol, max_steps, workers : method, tolerances of marching and of fixed points, steps
-        allowed per cycle, threads
-
-    Notes
-    -----
-    Tangents are exact with native methods (`variational`); with others they are difference quotients.
+    Scales and the integration method follow from the states at the start; fixed points are sought with
+    `fine_rtol`. Tangents are exact with native methods (`variational`), difference quotients with others.
     """
 
     def __init__(
@@ -78,9 +70,7 @@ class GearMap:
         self.settings: dict[str, Any] = {"max_steps": max_steps, "workers": workers}
         self.solvers = [choose(solver, m, y).method for m, y in zip(models, starts, strict=True)]
         self.blur = 0.0 if self.exact else DIFFERENCE
-        self.scale = np.array(
-            [state_scales(model, start)[self.moving] for model, start in zip(models, starts, strict=True)]
-        )
+        self.scale = np.array([state_scales(m, y)[self.moving] for m, y in zip(models, starts, strict=True)])
 
     @property
     def exact(self) -> bool:

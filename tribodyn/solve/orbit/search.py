@@ -62,15 +62,10 @@ def find(
 ) -> list[Orbit]:
     """Steady states of all systems of a map, each from its own start.
 
-    Parameters
-    ----------
-    states : where each system starts
-    tolerance : maximum scaled change over a period of the motion
-    max_periods : periods that a system may march
-    method : {"auto", "marching", "shooting"}; "marching" takes only what marching alone brings within the
-        tolerance; "shooting" starts Newton's method for one period from the states given and takes unstable
-        states too
-    progress : called with the share of systems done
+    `tolerance` is the maximum scaled change over a period of the motion, `max_periods` are those that a
+    system may march. "marching" takes only what marching alone brings within the tolerance; "shooting" starts
+    Newton's method for one period from the states given and takes unstable states too. `progress` is called
+    with the share of systems done.
     """
     if method == "shooting":
         orbits = []
@@ -89,12 +84,7 @@ def find(
 
 
 class Progress:
-    """What has been marched of every system, and what its last states show.
-
-    Parameters
-    ----------
-    states, scale : where each starts, and sizes by which states are measured
-    """
+    """What has been marched of every system from its start, and what its last states show."""
 
     def __init__(self, states: Float[Array, "case state"], scale: Float[Array, "case state"]):
         self.current, self.scale = states.copy(), scale

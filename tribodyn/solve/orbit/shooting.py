@@ -39,19 +39,11 @@ def shoot(
     tolerance: float,
     max_steps: int = 20,
 ) -> list[Shot]:
-    """Look for fixed points of the n-fold map near given states.
+    """Look for fixed points of the n-fold map near given states, `cases` being the systems of the rows.
 
-    Parameters
-    ----------
-    states : where to start
-    cases : the system of each row
-    periods : n
-    tolerance : maximum scaled residual of a solution
-    max_steps : Newton steps allowed; 0 only judges the states given
-
-    Notes
-    -----
-    Each row has its own damping: a step is halved until the residual falls. Rows fail on their own.
+    `tolerance` is the maximum scaled residual of a solution; with no Newton step allowed the states given are
+    only judged. Each row has its own damping: a step is halved until the residual falls. Rows fail on their
+    own.
     """
     rows = [_Row(state.copy(), case) for state, case in zip(states, map(int, cases), strict=True)]
     scales = period_map.scale
@@ -188,11 +180,7 @@ def closed_orbit(
 ) -> Orbit:
     """The orbit of a converged shot over some periods: its shortest period and its stability.
 
-    Parameters
-    ----------
-    period_map, shot, case : the shot and its system
-    period, cycles : periods of the excitation that the shot closes over, and those marched before
-    tolerance : of the shot
+    `cycles` are the periods marched before, `tolerance` is that of the shot.
     """
     for n in range(1, period):
         if period % n == 0:
