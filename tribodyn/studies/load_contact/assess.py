@@ -87,7 +87,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     scattered = {name: rows[name] for name in _SCATTERED} if rows else {}
     if rows and accurate is not None:
         shared = rows["shared_load_max"]
-        factors = [transverse_load_factor(one, accurate) if np.isfinite(one) else one for one in shared]
+        factors = [transverse_load_factor(load, accurate) if np.isfinite(load) else load for load in shared]
         scattered["transverse_load_factor"] = np.array(factors)
     along = {"roll_angle": roll, "normal_load": load, "hertz_pressure": pressure}
     curve = ReportCurve(

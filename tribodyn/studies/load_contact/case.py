@@ -103,11 +103,8 @@ class LoadContactCase(GearCase):
 
 def estimate(case: LoadContactCase) -> Estimate:
     """What a run of a case takes."""
-    positions, slices, torques = (
-        case.positions_per_cycle * case.cycles,
-        case.mesh.slices,
-        len(case.gear_torques),
-    )
+    positions, slices = case.positions_per_cycle * case.cycles, case.mesh.slices
+    torques = len(case.gear_torques)
     sizes = {"phase": positions, "pair": TOUCHING, "slice": slices, "body": 2}
     if torques:
         sizes["torque"] = torques

@@ -33,16 +33,6 @@ ROLL = "Roll angle from the pitch point (°)"
 _NO_ERROR = 1e-12
 
 
-def has_map(record: Record) -> bool:
-    """Whether the record holds a Harris map."""
-    return "torque" in record
-
-
-def has_film(record: Record) -> bool:
-    """Whether the record holds the film over the face."""
-    return FILM.dataset in record
-
-
 def colour(number: int) -> str:
     """Colour of a record, or of a pair of the only one."""
     return PALETTE[number % len(PALETTE)]
@@ -123,8 +113,7 @@ def draw_stiffness(axes: Axes, records: Sequence[Record]) -> None:
     for number, record in enumerate(records):
         phase, stiffness = over_phase(record, "mesh_stiffness")
         axes.plot(phase, stiffness * 1e-6, color=colour(number))
-    axes.set_xlabel(PHASE)
-    axes.set_ylabel("Mesh stiffness (N/µm)")
+    axes.set(xlabel=PHASE, ylabel="Mesh stiffness (N/µm)")
     axes.set_ylim(bottom=0)
 
 
@@ -138,17 +127,12 @@ def _root_stress(records: Sequence[Record]) -> Figure:
         show_contact(axes, records)
     for axes, text in zip(panels[:, 0], ("Root tension (MPa)", "Root compression (MPa)"), strict=True):
         axes.set_ylabel(text)
-    share_rows(panels)
-    titles = [f"{what} in the fillet of the {body}" for what in ("Tension", "Compression") for body in BODIES]
-    return _finish(drawn, panels.ravel(), records, titles)
-
-
-def share_rows(panels: np.ndarray) -> None:
-    """Give the panels of each row common vertical limits."""
-    for row in panels:
+    for row in panels:  # common vertical limits
         low, high = zip(*(axes.get_ylim() for axes in row), strict=True)
         for axes in row:
             axes.set_ylim(min(low), max(high))
+    titles = [f"{what} in the fillet of the {body}" for what in ("Tension", "Compression") for body in BODIES]
+    return _finish(drawn, panels.ravel(), records, titles)
 
 
 def draw_root_stress(axes: Axes, records: Sequence[Record], name: str, body: str, style: str = "-") -> None:
@@ -178,8 +162,7 @@ def draw_harris(axes: Axes, records: Sequence[Record]) -> None:
         recorded = np.ptp(record["loaded_transmission_error"]) * 1e6
         at = record.summary["gear_torque"]
         axes.plot(at, recorded, color=colour(number), marker="o", markersize=7, markerfacecolor="none")
-    axes.set_xlabel("Torque on the gear (N m)")
-    axes.set_ylabel("Peak to peak (µm)")
+    axes.set(xlabel="Torque on the gear (N m)", ylabel="Peak to peak (µm)")
     axes.set_ylim(bottom=0)
     axes.margins(x=0.03)
 
@@ -192,8 +175,7 @@ def _draw_map_curves(axes: Axes, record: Record) -> None:
         phase = np.append(record["phase"], record["phase"][-1] + record["phase"][1])
         closed = np.append(error, error[0])
         axes.plot(phase, (closed - np.mean(error)) * 1e6, color=shade, label=f"{torque:.4g} N m")
-    axes.set_xlabel(PHASE)
-    axes.set_ylabel("Loaded error less its mean (µm)")
+    axes.set(xlabel=PHASE, ylabel="Loaded error less its mean (µm)")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=6.5)
 
 
@@ -202,8 +184,7 @@ def _overview(records: Sequence[Record]) -> Figure:
     drawn = new_figure(11.0, 6.2)
     panels = drawn.subplots(2, 3).ravel()
     draw_error(panels[0], [record], "loaded_transmission_error")
-    panels[0].set_ylabel("Loaded transmission error (µm)")
-    panels[0].set_xlabel(PHASE)
+    panels[0].set(xlabel=PHASE, ylabel="Loaded transmission error (µm)")
     panels[0].legend(loc="upper right")
     draw_loads(panels[1], [record])
     panels[1].set_xlabel(PHASE)
@@ -231,8 +212,8 @@ def _overview(records: Sequence[Record]) -> Figure:
     )
     for letter, axes, title in zip("abcdef", panels, titles, strict=True):
         mark_panel(axes, letter, title)
-    said = f"{record_title(record)}.  Maps: {LINE_LOAD.explained[0].lower()}{LINE_LOAD.explained[1:]}"
-    drawn.suptitle(said, x=0.01, ha="left", fontsize=11)
+    head = f"{record_title(record)}.  Maps: {LINE_LOAD.explained[0].lower()}{LINE_LOAD.explained[1:]}"
+    drawn.suptitle(head, x=0.01, ha="left", fontsize=11)
     return drawn
 
 
@@ -268,8 +249,6 @@ def _drawing(about: str, draw: Callable[[Sequence[Record]], Figure], *fits: Any)
     return drawing(about, lambda records, _: draw(records), *fits, samples=2, timeless=timeless)
 
 
-_NO_MAP = "harris", "{path} holds a single torque", "run the scenario with operating.gear_torques"
-_NO_FILM = "film-map", "{path} holds no film", "run the scenario with a lubricant and a speed"
 DRAWINGS: dict[str, Drawing] = {
     "overview": _drawing(
         "transmission error, loads, stiffness or Harris map, pressure, root stress", _overview
@@ -283,10 +262,15 @@ DRAWINGS: dict[str, Drawing] = {
     "film-map": _drawing(
         "film thickness over roll angle and face, with a lubricant",
         lambda records: face_map_figure(records, FILM),
-        has_film,
-        _NO_FILM,
+        lambda record: FILM.dataset in record,
+        ("film-map", "{path} holds no film", "run the scenario with a lubricant and a speed"),
     ),
     "root-stress": _drawing("root stress on both sides of the tooth", _root_stress),
     "mesh-stiffness": _drawing("mesh stiffness", _mesh_stiffness),
-    "harris": _drawing("Harris map: loaded transmission error over torque", _harris, has_map, _NO_MAP),
+    "harris": _drawing(
+        "Harris map: loaded transmission error over torque",
+        _harris,
+        lambda record: "torque" in record,
+        ("harris", "{path} holds a single torque", "run the scenario with operating.gear_torques"),
+    ),
 }

@@ -22,6 +22,12 @@ class FaceMap(NamedTuple):
     face: Float[Array, " slice"]  # (slices,); middles of the slices from the middle of the face, m
     values: Float[Array, "position slice"]  # (positions, slices)
 
+    def to_edges(self, record: Record) -> tuple[Float[Array, " place"], Float[Array, "position place"]]:
+        """Places and values to the edges of the face, with the values of the outermost slices there."""
+        edges = face_edges(record)[[0, -1]]
+        values = np.concatenate([self.values[:, :1], self.values, self.values[:, -1:]], axis=1)
+        return np.concatenate([edges[:1], self.face, edges[1:]]), values
+
 
 def over_phase(record: Record, name: str) -> tuple[Float[Array, " position"], Float[Array, "position ..."]]:
     """Give phase and a quantity over it; a study of a single mesh cycle is given twice, for it repeats."""
@@ -55,14 +61,10 @@ def pair_over_phase(
 def over_roll(
     record: Record, values: Float[Array, "sample pair ..."]
 ) -> tuple[Float[Array, " position"], Float[Array, "position ..."]]:
-    """Give roll angle (rad, increasing) and values (…) of one pair through its life.
+    """Give roll angle (rad, increasing) and values (…) of one pair through its life, of (phase, pair, …).
 
     In a study of one cycle all pairs are alike, and each number covers another part of it. Where teeth differ
     and there are cycles enough, it is the first pair whose beginning is recorded.
-
-    Parameters
-    ----------
-    values : (phase, pair, …)
     """
     cycle = np.floor(record["phase"] + 1e-9).astype(int)
     pairs = len(record.pairs)
@@ -140,17 +142,15 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
 
     A cross marks the worst value, unless it is the same all along the face.
     """
-    tops = [np.nanpercentile(one[quantity.dataset], quantity.top) for one in records]
+    tops = [np.nanpercentile(other[quantity.dataset], quantity.top) for other in records]
     top = float(max(tops)) * quantity.factor
     face_values = face_map(record, quantity.dataset)
     roll, values = np.degrees(face_values.roll), face_values.values * quantity.factor
-    across = face_values.face * 1e3
-    edges = face_edges(record)[[0, -1]] * 1e3
-    # to the edges of the face with the values of the outermost slices
+    across, shown = face_values.to_edges(record)
     mesh = axes.pcolormesh(
         roll,
-        np.concatenate([edges[:1], across, edges[1:]]),
-        np.ma.masked_invalid(np.concatenate([values[:, :1], values, values[:, -1:]], axis=1).T),
+        across * 1e3,
+        np.ma.masked_invalid(shown.T * quantity.factor),
         vmin=0.0,
         vmax=top,
         cmap="viridis",
@@ -181,14 +181,15 @@ def draw_across_face(axes: Axes, record: Record, quantity: OverFace, color: str)
     axes.set_ylabel(quantity.label)
 
 
-def _columns(maps: int) -> int:
-    """Maps beside each other: up to three, four in a square."""
-    return 2 if maps == 4 else min(maps, 3)
+def _grid(maps: int) -> tuple[int, int]:
+    """Rows and columns of maps: up to three beside each other, four in a square."""
+    columns = 2 if maps == 4 else min(maps, 3)
+    return -(-maps // columns), columns
 
 
 def line_load_figure(records: Sequence[Record]) -> Figure:
     """Draw maps of the line load, and below them its course over the face at the pitch point."""
-    rows = -(-len(records) // _columns(len(records)))
+    rows, _ = _grid(len(records))
     drawn = new_figure(WIDTH, (rows + 1) * PANEL_HEIGHT + 0.4)
     parts: Any = drawn.subfigures(2, 1, height_ratios=[rows, 1])
     upper, lower = parts
@@ -206,8 +207,7 @@ def line_load_figure(records: Sequence[Record]) -> Figure:
 
 def face_map_figure(records: Sequence[Record], quantity: OverFace) -> Figure:
     """Draw maps of a quantity, on one scale."""
-    rows = -(-len(records) // _columns(len(records)))
-    drawn = new_figure(WIDTH, rows * PANEL_HEIGHT + 0.6)
+    drawn = new_figure(WIDTH, _grid(len(records))[0] * PANEL_HEIGHT + 0.6)
     _maps(drawn, records, quantity)
     _head(drawn, records, quantity)
     return drawn
@@ -220,8 +220,7 @@ def _head(drawn: Figure, records: Sequence[Record], quantity: OverFace) -> None:
 
 def _maps(part: Any, records: Sequence[Record], quantity: OverFace) -> None:
     """Fill a figure or a part of one with one map per record."""
-    columns = _columns(len(records))
-    rows = -(-len(records) // columns)
+    rows, columns = _grid(len(records))
     grid = part.subplots(rows, columns, squeeze=False, sharey=True, sharex=True)
     for axes in grid.ravel()[len(records) :]:
         axes.remove()

@@ -1,13 +1,11 @@
 """Reported quantities of a load contact study, and how far to trust them."""
 
-import numpy as np
-
 from tribodyn.post.page.data import PageMap
 from tribodyn.post.report import on_closures
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
-from tribodyn.studies.load_contact.maps import FILM, LINE_LOAD, PRESSURE, face_edges, face_map
+from tribodyn.studies.load_contact.maps import FILM, LINE_LOAD, PRESSURE, face_map
 
 REPORTED: Reported = {
     "Geometry": quantities(
@@ -66,31 +64,23 @@ def maps(record: Record) -> list[PageMap]:
     """Line load, Hertz pressure and, with a lubricant, film of one pair over its roll angle and the face."""
     if record.samples < 2:
         return []
-    edges = face_edges(record)[[0, -1]]
     found = []
     for quantity in (LINE_LOAD, PRESSURE, FILM):
-        name = quantity.dataset
-        if name not in record:
-            continue
-        over = face_map(record, name)
-        # to the edges of the face with the values of the outermost slices
-        face = np.concatenate([edges[:1], over.face, edges[1:]])
-        values = np.concatenate([over.values[:, :1], over.values, over.values[:, -1:]], axis=1)
-        found.append(PageMap(name, over.roll, face, values, quantity.top))
+        if quantity.dataset in record:
+            over = face_map(record, quantity.dataset)
+            found.append(PageMap(quantity.dataset, over.roll, *over.to_edges(record), quantity.top))
     return found
 
 
 def sentences(record: Record) -> list[str]:
     """Say what the model leaves out, and how well the loads carry the torque."""
-    summary, said = record.summary, []
-    slices = summary.get("slices")
-    if slices is not None:
+    summary, found = record.summary, []
+    if (slices := summary.get("slices")) is not None:
         what = "in one piece, alike all along" if slices == 1 else f"in {slices} slices"
-        said.append(f"Slow rotation, no inertia; the face is taken {what}.")
-    residual = summary.get("torque_residual")
-    if residual is not None:
-        said.append(f"The loads carry the torque to within {abs(residual):.1e} of it.")
+        found.append(f"Slow rotation, no inertia; the face is taken {what}.")
+    if (residual := summary.get("torque_residual")) is not None:
+        found.append(f"The loads carry the torque to within {abs(residual):.1e} of it.")
     if "film_min" in summary:
-        said.append("The film is that of each slice alone, the oil as warm as it enters.")
-        said += on_closures(summary)
-    return said
+        found.append("The film is that of each slice alone, the oil as warm as it enters.")
+        found += on_closures(summary)
+    return found

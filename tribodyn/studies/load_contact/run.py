@@ -16,15 +16,17 @@ from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.gears.check import sheet_and_stiffness
 from tribodyn.studies.load_contact.case import BODIES, LAYOUT, OILED, LoadContactCase
-from tribodyn.studies.load_contact.film import FaceFilm, film_over_face
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
+from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities
+from tribodyn.tribology.surface_state import contact_friction, fraction_in_range, range_shares
 
 
 class PreparedTeeth(NamedTuple):
@@ -37,10 +39,7 @@ class PreparedTeeth(NamedTuple):
 def prepare(case: LoadContactCase) -> PreparedTeeth:
     """Check geometry and modifications, and find the elasticity of both gears.
 
-    Raises
-    ------
-    InputError
-        Where the teeth cannot be made, or cannot run together as they are modified.
+    Raises InputError where the teeth cannot be made, or cannot run together as they are modified.
     """
     from tribodyn.compliance.sharing.flank_gap import check_modifications
 
@@ -60,12 +59,7 @@ def _flexible(name: str, drive: Drive, materials: tuple[MaterialData, MaterialDa
 def roll(study: PreparedTeeth, gear_torque: float) -> LoadedContact:
     """Roll the study's teeth through its mesh cycles at a torque, N m.
 
-    Raises
-    ------
-    InputError
-        If the slices do not resolve what carries.
-    SimulationError
-        If no state of contact is found.
+    Raises InputError if the slices do not resolve what carries, SimulationError if no contact is found.
     """
     return roll_through(*_contact(study, gear_torque))
 
@@ -95,19 +89,15 @@ def run(
         loaded, failure = roll(study, case.operating.gear_torque), ""
     except SimulationError as error:
         loaded, failure = None, error.reason
-    groups = {
-        "mesh_cycle": _numbers(study),
-        "geometry": geometry_arrays(study.flexible.assembly),
-    }
+    groups = {"mesh_cycle": _numbers(study), "geometry": geometry_arrays(study.flexible.assembly)}
     samples, scales = 0 if loaded is None else len(loaded.phase), _scales(study, loaded)
     layout = LAYOUT if case.lubricated is None else OILED
     with writer(case, path, layout, samples, groups=groups, scales=scales, force=force) as record:
-        summary: dict[str, Any] = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
         if loaded is None:
+            summary = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
             return RunResult(record.fail(failure, summary), "failed", failure, summary)
-        film = film_of(study, loaded)
-        record.write(0, record_arrays(study, loaded) | film.arrays)
-        summary |= loaded_quantities(study, loaded) | film.figures | _judged(study, loaded, film.figures)
+        film, summary = _evaluated(study, loaded)
+        record.write(0, record_arrays(study, loaded) | film)
         report(1 / steps)
         spread = []
         for row, torque in enumerate(case.gear_torques):
@@ -136,18 +126,64 @@ def check(case: LoadContactCase) -> CheckResult:
 
 
 def quantities_of(case: LoadContactCase) -> dict[str, Any]:
-    """Figures of a case at its own torque, without a record."""
+    """Quantities of a case at its own torque, without a record."""
     study = prepare(case)
-    contact_ratio = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
-    loaded = roll(study, case.operating.gear_torque)
-    film = film_of(study, loaded).figures
-    return contact_ratio | loaded_quantities(study, loaded) | film | _judged(study, loaded, film)
+    return _evaluated(study, roll(study, case.operating.gear_torque))[1]
 
 
-def film_of(study: PreparedTeeth, loaded: LoadedContact) -> FaceFilm:
-    """Film over the face; nothing where the scenario has no lubricant."""
-    case = study.case.lubricated
-    return FaceFilm({}, {}) if case is None else film_over_face(study.flexible.assembly, loaded, case)
+def _evaluated(
+    study: PreparedTeeth, loaded: LoadedContact
+) -> tuple[dict[str, Float[Array, "position pair slice"]], dict[str, Any]]:
+    """Datasets of the film over the face, and the summary of a torque."""
+    arrays, film = film_over_face(study, loaded)
+    summary = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
+    return arrays, summary | loaded_quantities(study, loaded) | film | _judged(study, loaded, film)
+
+
+def film_over_face(
+    study: PreparedTeeth, loaded: LoadedContact
+) -> tuple[dict[str, Float[Array, "position pair slice"]], dict[str, Any]]:
+    """Datasets and summary of the film law at the load of every slice, the oil as it enters the mesh.
+
+    Film by the law in use, m, and whether that is inside its range; NaN where a slice carries nothing. Empty
+    without a lubricant.
+
+    Each slice is a line contact of its own line load, with the radii and speeds of its pair: no flow along
+    the face. Beyond the path of contact the flanks have the curvature of the path's end.
+    """
+    assembly, case = study.flexible.assembly, study.case.lubricated
+    if case is None:
+        return {}, {}
+    closure = closure_of(case)
+    motion = pair_geometry(assembly, loaded.roll).motion
+    speed = case.operating.pinion_speed
+    carries = loaded.line_load > 0.0
+    position, pair, _ = np.nonzero(carries)
+    vanishing = pitch_point(assembly.path)
+    contact = contact_friction(
+        closure,
+        loaded.line_load[carries],
+        1.0 / motion.relative_curvature[position, pair],
+        speed * motion.pinion_speed[position, pair],
+        speed * motion.gear_speed[position, pair],
+        float(vanishing.length),
+        speed * float(vanishing.speed_per_radius),
+    )
+    film, inside = contact.surface.central_film_thickness, contact.surface.closure_in_range
+    thickness, in_range = (np.full(carries.shape, np.nan) for _ in range(2))
+    thickness[carries], in_range[carries] = film, inside
+    least = int(np.argmin(film))
+    laws = {name: value for name, value in law_quantities(case).items() if name.startswith("film")}
+    outside = exceeded_limits(case, *range_shares(contact.contact, closure))
+    arrays = {"central_film_thickness": thickness, "closure_in_range": in_range}
+    return arrays, {
+        "film_min": float(film[least]),
+        "film_parameter_min": float(film[least] / closure.surfaces.roughness),
+        "film_parameter_min_roll_angle": float(loaded.roll[position[least], pair[least]]),
+        "closure_in_range_fraction": fraction_in_range(inside),
+        **{name: value for name, value in outside.items() if name == "closure_exceeded"},
+        **laws,
+    }
 
 
 def record_arrays(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Float[Array, "position ..."]]:
@@ -185,6 +221,8 @@ def loaded_quantities(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, 
     worst = np.unravel_index(np.argmax(loaded.line_load), loaded.line_load.shape)
     position, pair = np.unravel_index(np.argmin(np.abs(loaded.roll)), loaded.roll.shape)
     tension, compression = loaded.root_tension, loaded.root_compression
+    # of a pair beside another; none where pairs never share the load
+    shared = shared_load(loaded.normal_load, loaded.roll, study.flexible.assembly.roll_limits)
     return {
         "contact_ratio_effective": float(loaded.contact_ratio),
         "stiffness_single_pair_at_pitch_point": single_pair_stiffness(study),
@@ -194,7 +232,7 @@ def loaded_quantities(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, 
         "loaded_transmission_error_peak_to_peak": float(np.ptp(loaded.deflection)),
         "unloaded_transmission_error_peak_to_peak": float(np.ptp(loaded.unloaded)),
         "normal_load_max": float(np.max(loaded.normal_load)),
-        **_shared(study, loaded),
+        **({"shared_load_max": shared} if np.isfinite(shared) else {}),
         "line_load_max": float(loaded.line_load[worst]),
         "face_load_factor": float(loaded.face_load_factor[worst[0], worst[1]]),
         "face_load_factor_pitch_point": float(loaded.face_load_factor[position, pair]),
@@ -217,12 +255,6 @@ def _judged(study: PreparedTeeth, loaded: LoadedContact, film: Mapping[str, Any]
     judge.take({"deflection": bent, "hertz_pressure": loaded.pressure}, places, pairs)
     judge_tribology(judge, film)
     return judge.summary()
-
-
-def _shared(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, float]:
-    """Maximum load of a pair beside another; nothing where pairs never share the load."""
-    value = shared_load(loaded.normal_load, loaded.roll, study.flexible.assembly.roll_limits)
-    return {"shared_load_max": value} if np.isfinite(value) else {}
 
 
 def single_pair_stiffness(study: PreparedTeeth) -> float:

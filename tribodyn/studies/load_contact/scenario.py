@@ -97,22 +97,15 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         yield InputError("operating.gear_torques", f"{torques[0]:g} N*m", rule, "give at least two")
     for number, (torque, after) in enumerate(pairwise(torques), start=1):
         if after <= torque:
-            yield InputError(
-                f"operating.gear_torques.{number}",
-                f"{after:g} N*m",
-                f"not greater than the {torque:g} N*m before it",
-                "give the torques in increasing order",
-            )
+            key, rule = f"operating.gear_torques.{number}", f"not greater than the {torque:g} N*m before it"
+            yield InputError(key, f"{after:g} N*m", rule, "give the torques in increasing order")
             break
 
 
 def _without_oil(scenario: Scenario) -> Iterator[InputError]:
     """Refuse what says something of a film that is not computed."""
     remedy = 'add lubricant = "iso-vg-220-mineral", or leave it out'
-    given = {
-        "operating.oil_temperature": scenario.operating.oil_temperature,
-        "film": scenario.film,
-    }
+    given = {"operating.oil_temperature": scenario.operating.oil_temperature, "film": scenario.film}
     for key, value in given.items():
         if value is not None:
             yield InputError(key, rule="without a lubricant there is no film", remedy=remedy)
