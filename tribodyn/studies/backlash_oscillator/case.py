@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 from tribodyn.numerics.parameter import Variable, flag
 from tribodyn.record.schema import Layout
@@ -28,6 +29,7 @@ class BacklashOscillatorCase(CaseHead):
 
 
 _POINT = ("frequency", "direction")
+_point = partial(Variable, _POINT, "1")
 _MULTIPLIER = ("frequency", "direction", "multiplier")
 
 FREQUENCY = Variable(
@@ -40,19 +42,15 @@ UNSTABLE_MOTION = Variable(
 )
 
 SAMPLES: dict[str, Variable] = {
-    "rms_displacement": Variable(
-        _POINT, "1", "root mean square of the displacement about its mean, in half backlashes"
-    ),
-    "peak_to_peak_displacement": Variable(_POINT, "1", "peak to peak of displacement, in half backlashes"),
-    "mean_displacement": Variable(_POINT, "1", "mean displacement, in half backlashes"),
-    "contact_loss_fraction": Variable(_POINT, "1", "share of the time without contact"),
-    "back_contact_fraction": Variable(_POINT, "1", "share of the time in contact on the back side"),
-    "period": Variable(_POINT, "1", "periods of the excitation in one of the motion; 0: not periodic"),
-    "stable": Variable(
-        _POINT,
-        "1",
+    "rms_displacement": _point("root mean square of the displacement about its mean, in half backlashes"),
+    "peak_to_peak_displacement": _point("peak to peak of displacement, in half backlashes"),
+    "mean_displacement": _point("mean displacement, in half backlashes"),
+    "contact_loss_fraction": _point("share of the time without contact"),
+    "back_contact_fraction": _point("share of the time in contact on the back side"),
+    "period": _point("periods of the excitation in one of the motion; 0: not periodic"),
+    "stable": _point(
         "1: the motion is periodic and stable; 0: it is not periodic, and its figures are over 100 periods "
-        "of the excitation; NaN: it grew without bound",
+        "of the excitation; NaN: it grew without bound"
     ),
     "multiplier_modulus": Variable(
         _MULTIPLIER,
@@ -67,47 +65,43 @@ SAMPLES: dict[str, Variable] = {
         "unbounded periodic not_periodic quasi_periodic chaotic longer_period",
         0,
     ),
-    "residual": Variable(_POINT, "1", "maximum change of displacement and velocity over one period"),
-    "section_displacement": Variable(
-        _POINT, "1", "displacement at the maximum excitation, in half backlashes"
-    ),
-    "section_velocity": Variable(_POINT, "1", "velocity there, in half backlashes times natural frequency"),
+    "residual": _point("maximum change of displacement and velocity over one period"),
+    "section_displacement": _point("displacement at the maximum excitation, in half backlashes"),
+    "section_velocity": _point("velocity there, in half backlashes times natural frequency"),
 }
 
 _END = ("end",)
+_end = partial(Variable, _END, "1")
 ENDS: dict[str, Variable] = {
     "end_kind": branches.kind_variable("how the branch ends that is left there"),
-    "end_frequency": Variable(_END, "1", "frequency at which a branch ends"),
-    "end_within": Variable(_END, "1", "distance between the frequencies that locate the end"),
+    "end_frequency": _end("frequency at which a branch ends"),
+    "end_within": _end("distance between the frequencies that locate the end"),
     "end_direction": flag(_END, "sense in which the frequency was followed: 0 up, 1 down", "up down", 0),
     **branches.COMMON,
 }
 
 _MOTION = ("unstable",)
+_motion = partial(Variable, _MOTION, "1")
 UNSTABLE: dict[str, Variable] = {
-    "unstable_end": Variable(_MOTION, "1", "number of the end beyond which the branch goes on", "<i4", 0),
-    "unstable_frequency": Variable(_MOTION, "1", "frequency of the excitation of an unstable motion"),
-    "unstable_period": Variable(_MOTION, "1", "periods of the excitation in one of the motion", "<i4", 0),
-    "unstable_rms_displacement": Variable(
-        _MOTION, "1", "root mean square of its displacement about the mean, in half backlashes"
+    "unstable_end": _motion("number of the end beyond which the branch goes on", "<i4", 0),
+    "unstable_frequency": _motion("frequency of the excitation of an unstable motion"),
+    "unstable_period": _motion("periods of the excitation in one of the motion", "<i4", 0),
+    "unstable_rms_displacement": _motion(
+        "root mean square of its displacement about the mean, in half backlashes"
     ),
-    "unstable_peak_to_peak_displacement": Variable(
-        _MOTION, "1", "peak to peak of its displacement, in half backlashes"
-    ),
-    "unstable_contact_loss_fraction": Variable(_MOTION, "1", "share of the time without contact"),
-    "unstable_multiplier_modulus": Variable(
-        _MOTION, "1", "maximum modulus of its Floquet multipliers, above 1"
-    ),
+    "unstable_peak_to_peak_displacement": _motion("peak to peak of its displacement, in half backlashes"),
+    "unstable_contact_loss_fraction": _motion("share of the time without contact"),
+    "unstable_multiplier_modulus": _motion("maximum modulus of its Floquet multipliers, above 1"),
     "unstable_multiplier_angle": Variable(_MOTION, "rad", "angle of that multiplier"),
-    "unstable_residual": Variable(_MOTION, "1", "change of displacement and velocity over one period"),
-    "unstable_section_displacement": Variable(
-        _MOTION, "1", "its displacement at the maximum excitation, in half backlashes"
+    "unstable_residual": _motion("change of displacement and velocity over one period"),
+    "unstable_section_displacement": _motion(
+        "its displacement at the maximum excitation, in half backlashes"
     ),
-    "unstable_section_velocity": Variable(_MOTION, "1", "velocity there"),
+    "unstable_section_velocity": _motion("velocity there"),
     "end_unstable_finish": branches.kind_variable(
         "how the branch beyond stops being unstable; none: it leaves the range, or is lost"
     ),
-    "end_unstable_finish_frequency": Variable(_END, "1", "frequency at which it stops being unstable"),
+    "end_unstable_finish_frequency": _end("frequency at which it stops being unstable"),
 }
 
 LAYOUT = Layout(

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.solve.branch.arclength import KINDS, BranchEnd
+from tribodyn.solve.branch.arclength import KINDS
 from tribodyn.studies.backlash_oscillator.case import LAYOUT, LAYOUT_WITH_UNSTABLE, BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import (
     CHAOTIC,
@@ -56,7 +56,7 @@ def run(
     with writer(case, path, layout, len(response.frequency), scales=scales, force=force) as record:
         record.write(0, record_arrays(response))
         for row, (direction, end) in enumerate(response.ends):
-            record.put(row, end_row(direction, end))
+            record.put(row, end_values(end, "end_frequency") | {"end_direction": direction})
         for beyond in response.beyond:
             record.put(beyond.end, finish_row(beyond))
         for row, values in enumerate(unstable_rows):
@@ -94,11 +94,6 @@ def record_arrays(response: Response) -> dict[str, Any]:
         "section_displacement": response.displacement,
         "section_velocity": response.velocity,
     }
-
-
-def end_row(direction: int, end: BranchEnd) -> dict[str, Any]:
-    """What the record holds of the end of a branch."""
-    return end_values(end, "end_frequency") | {"end_direction": direction}
 
 
 def rows_of(beyond: MeasuredBranch) -> list[dict[str, Any]]:
@@ -194,15 +189,11 @@ def check(case: BacklashOscillatorCase) -> CheckResult:
 
 
 def linear_figures(case: BacklashOscillatorCase) -> dict[str, float | None]:
-    """Number of frequencies, and by linear theory at constant stiffness the figures of the sweep.
+    """Number of frequencies, and by linear theory at constant stiffness the quantities of the sweep.
 
-    Returns
-    -------
-    dict
-        `frequencies`; `resonance`, the frequency of the largest amplitude; `contact_loss_from`, the lowest
-        frequency at which the amplitude F_e Ω² / |1 − Ω² + 2iζΩ| reaches the mean force, both None where
-        there is none; and `tongue_half_width` of the instability at Ω = 2, √(ε²/4 − 4ζ²), None where damping
-        closes it.
+    `resonance` is the frequency of the largest amplitude; `contact_loss_from` the lowest frequency at which
+    the amplitude F_e Ω² / |1 − Ω² + 2iζΩ| reaches the mean force; `tongue_half_width` that of the instability
+    at Ω = 2, √(ε²/4 − 4ζ²). None: there is none.
     """
     damping, force, error = case.damping, case.mean_force, case.error_amplitude
     resonance = 1.0 / np.sqrt(1.0 - 2.0 * damping**2) if damping < np.sqrt(0.5) else None

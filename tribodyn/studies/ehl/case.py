@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,46 +18,45 @@ from tribodyn.tribology.ehl.grid import STEP
 PLACES, BEGIN, END = 161, -3.0, 1.5
 
 PHASE = Variable(("phase",), "1", "mesh cycles since the pair came into contact")
-_OVER = ("phase",)
-_PROFILE = ("phase", "place")
+_over, _profile = partial(Variable, ("phase",)), partial(Variable, ("phase", "place"))
 
 SAMPLES: dict[str, Variable] = {
-    "roll_angle": Variable(
-        _OVER, "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
+    "roll_angle": _over(
+        "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
     ),
-    "normal_load": Variable(_OVER, "N", "normal load of the pair"),
-    "line_load": Variable(_OVER, "N/m", "normal load per face width"),
-    "equivalent_radius": Variable(_OVER, "m", "equivalent radius"),
-    "entrainment_speed": Variable(_OVER, "m/s", "entrainment speed"),
-    "sliding_speed": Variable(_OVER, "m/s", "sliding speed, of the pinion's flank over the gear's"),
-    "hertz_pressure": Variable(_OVER, "Pa", "maximum Hertz pressure"),
-    "half_width": Variable(_OVER, "m", "half width of the Hertz contact"),
-    "central_film_thickness": Variable(_OVER, "m", "mean gap on the line of centres, solved"),
-    "minimum_film_thickness": Variable(_OVER, "m", "minimum mean gap, solved"),
-    "central_film_smooth": Variable(_OVER, "m", "film on the line of centres of smooth surfaces, solved"),
-    "minimum_film_smooth": Variable(_OVER, "m", "minimum film of smooth surfaces, solved"),
-    "film_parameter": Variable(_OVER, "1", "central film over the roughness of both surfaces"),
-    "friction_coefficient": Variable(_OVER, "1", "friction coefficient, solved"),
-    "asperity_load_ratio": Variable(_OVER, "1", "share of the load that asperities carry, solved"),
-    "temperature_rise_max": Variable(_OVER, "K", "maximum over the contact of the oil's temperature rise"),
-    "moes_load": Variable(_OVER, "1", "load parameter M of Moes"),
-    "moes_material": Variable(_OVER, "1", "material parameter L of Moes"),
-    "residual": Variable(_OVER, "1", "largest imbalance of flow over the flow and of force over the load"),
-    "pressure": Variable(_PROFILE, "Pa", "pressure of fluid and asperities, solved"),
-    "film_thickness": Variable(_PROFILE, "m", "mean gap, solved; NaN behind the film"),
-    "temperature_rise": Variable(_PROFILE, "K", "temperature over the inlet's, mean over the film, solved"),
-    "shear_stress": Variable(_PROFILE, "Pa", "shear stress, mean over the film, solved"),
+    "normal_load": _over("N", "normal load of the pair"),
+    "line_load": _over("N/m", "normal load per face width"),
+    "equivalent_radius": _over("m", "equivalent radius"),
+    "entrainment_speed": _over("m/s", "entrainment speed"),
+    "sliding_speed": _over("m/s", "sliding speed, of the pinion's flank over the gear's"),
+    "hertz_pressure": _over("Pa", "maximum Hertz pressure"),
+    "half_width": _over("m", "half width of the Hertz contact"),
+    "central_film_thickness": _over("m", "mean gap on the line of centres, solved"),
+    "minimum_film_thickness": _over("m", "minimum mean gap, solved"),
+    "central_film_smooth": _over("m", "film on the line of centres of smooth surfaces, solved"),
+    "minimum_film_smooth": _over("m", "minimum film of smooth surfaces, solved"),
+    "film_parameter": _over("1", "central film over the roughness of both surfaces"),
+    "friction_coefficient": _over("1", "friction coefficient, solved"),
+    "asperity_load_ratio": _over("1", "share of the load that asperities carry, solved"),
+    "temperature_rise_max": _over("K", "maximum over the contact of the oil's temperature rise"),
+    "moes_load": _over("1", "load parameter M of Moes"),
+    "moes_material": _over("1", "material parameter L of Moes"),
+    "residual": _over("1", "largest imbalance of flow over the flow and of force over the load"),
+    "pressure": _profile("Pa", "pressure of fluid and asperities, solved"),
+    "film_thickness": _profile("m", "mean gap, solved; NaN behind the film"),
+    "temperature_rise": _profile("K", "temperature over the inlet's, mean over the film, solved"),
+    "shear_stress": _profile("Pa", "shear stress, mean over the film, solved"),
     "film_by_law": Variable(("phase", "film_law"), "m", "film thickness by the regression"),
     "friction_by_law": Variable(("phase", "friction_law"), "1", "friction coefficient by the law"),
 }
 
 #: With squeeze, beside `SAMPLES`.
 SQUEEZED: dict[str, Variable] = {
-    "transient_central_film_thickness": Variable(_OVER, "m", "mean gap on the line of centres, with squeeze"),
-    "transient_minimum_film_thickness": Variable(_OVER, "m", "minimum mean gap, with squeeze"),
-    "transient_friction_coefficient": Variable(_OVER, "1", "friction coefficient, with squeeze"),
-    "transient_pressure": Variable(_PROFILE, "Pa", "pressure of fluid and asperities, with squeeze"),
-    "transient_film_thickness": Variable(_PROFILE, "m", "mean gap, with squeeze; NaN behind the film"),
+    "transient_central_film_thickness": _over("m", "mean gap on the line of centres, with squeeze"),
+    "transient_minimum_film_thickness": _over("m", "minimum mean gap, with squeeze"),
+    "transient_friction_coefficient": _over("1", "friction coefficient, with squeeze"),
+    "transient_pressure": _profile("Pa", "pressure of fluid and asperities, with squeeze"),
+    "transient_film_thickness": _profile("m", "mean gap, with squeeze; NaN behind the film"),
 }
 
 TRACTION = {

@@ -1,6 +1,7 @@
 """A case of the static load contact study: what one run needs to know, records and takes; SI units."""
 
 from dataclasses import dataclass
+from functools import partial
 
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.mesh.cycle import MESH_CYCLE
@@ -29,43 +30,39 @@ TORQUE = Variable(("torque",), "N*m", "torque on the gear")
 
 BODIES = ("pinion", "gear")
 
-_PAIR = ("phase", "pair")
-_FACE = ("phase", "pair", "slice")
-_ROOT = ("phase", "body", "pair", "slice")
+_phase, _pair = partial(Variable, ("phase",)), partial(Variable, ("phase", "pair"))
+_face = partial(Variable, ("phase", "pair", "slice"))
+_root = partial(Variable, ("phase", "body", "pair", "slice"))
 
 #: Over the positions of the pinion. `phase` itself is the dimension scale of the first axis.
 SAMPLES: dict[str, Variable] = {
-    "pinion_angle": Variable(("phase",), "rad", "rotation of the pinion from the first position"),
-    "roll_angle": Variable(
-        _PAIR, "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
+    "pinion_angle": _phase("rad", "rotation of the pinion from the first position"),
+    "roll_angle": _pair(
+        "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
     ),
-    "loaded_transmission_error": Variable(
-        ("phase",), "m", "loaded static transmission error r_p theta_p - r_g theta_g"
+    "loaded_transmission_error": _phase("m", "loaded static transmission error r_p theta_p - r_g theta_g"),
+    "unloaded_transmission_error": _phase(
+        "m", "unloaded (kinematic) transmission error r_p theta_p - r_g theta_g"
     ),
-    "unloaded_transmission_error": Variable(
-        ("phase",), "m", "unloaded (kinematic) transmission error r_p theta_p - r_g theta_g"
+    "normal_load": _pair("N", "normal load of the pair"),
+    "line_load": _face("N/m", "normal load per face width"),
+    "hertz_pressure": _face("Pa", "maximum Hertz pressure"),
+    "half_width": _face("m", "half width of the Hertz contact"),
+    "face_load_factor": _pair(
+        "1", "maximum line load over the mean along the face; NaN where the pair carries none"
     ),
-    "normal_load": Variable(_PAIR, "N", "normal load of the pair"),
-    "line_load": Variable(_FACE, "N/m", "normal load per face width"),
-    "hertz_pressure": Variable(_FACE, "Pa", "maximum Hertz pressure"),
-    "half_width": Variable(_FACE, "m", "half width of the Hertz contact"),
-    "face_load_factor": Variable(
-        _PAIR, "1", "maximum line load over the mean along the face; NaN where the pair carries none"
+    "root_tension": _root("Pa", "maximum surface stress along the fillet on the loaded side"),
+    "root_compression": _root("Pa", "minimum surface stress along the fillet on the other side"),
+    "mesh_stiffness": _phase(
+        "N/m", "derivative of the load at the pitch radius by the loaded transmission error"
     ),
-    "root_tension": Variable(_ROOT, "Pa", "maximum surface stress along the fillet on the loaded side"),
-    "root_compression": Variable(_ROOT, "Pa", "minimum surface stress along the fillet on the other side"),
-    "mesh_stiffness": Variable(
-        ("phase",), "N/m", "derivative of the load at the pitch radius by the loaded transmission error"
-    ),
-    "torque_residual": Variable(("phase",), "1", "torque of the loads over the gear's torque, less 1"),
+    "torque_residual": _phase("1", "torque of the loads over the gear's torque, less 1"),
 }
 
 #: What a study with a lubricant adds.
 FILM: dict[str, Variable] = {
-    "central_film_thickness": Variable(
-        _FACE, "m", "film thickness by the film law; NaN where the slice carries none"
-    ),
-    "closure_in_range": Variable(_FACE, "1", "1 where the film law is inside its range, 0 outside"),
+    "central_film_thickness": _face("m", "film thickness by the film law; NaN where the slice carries none"),
+    "closure_in_range": _face("1", "1 where the film law is inside its range, 0 outside"),
 }
 
 #: What a study at several torques adds: a Harris map.

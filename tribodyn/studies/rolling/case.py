@@ -1,6 +1,7 @@
 """A case of the gear with rolling elements: what one run needs to know, records and takes; SI units."""
 
 from dataclasses import dataclass
+from functools import partial
 
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import TIME, Layout
@@ -35,30 +36,29 @@ class RollingCase(CaseHead):
 
 ELEMENT = Variable(("element",), "1", "rolling element, in the order of their angles")
 
-_TIME, _EACH = ("time",), ("time", "element")
+_time, _each = partial(Variable, ("time",)), partial(Variable, ("time", "element"))
 
 #: What a run records over time.
 SAMPLES: dict[str, Variable] = {
-    "input_angle": Variable(_TIME, "rad", "rotation of the shaft"),
-    "element_angle": Variable(
-        _EACH,
+    "input_angle": _time("rad", "rotation of the shaft"),
+    "element_angle": _each(
         "rad",
         "angle of the element about the cage's centre from the pitch point; 0 in a depression of the cam, "
         "pi on a protrusion",
     ),
-    "cam_distance": Variable(_EACH, "m", "L_A, distance from pitch point to contact with the cam"),
-    "crown_distance": Variable(_EACH, "m", "L_B, distance from pitch point to contact with the crown"),
-    "normal_load": Variable(_EACH, "N", "normal load of the element, the same on cam and crown"),
-    "slip_speed": Variable(
-        _EACH, "m/s", "slip of the element over the cam, positive counter-clockwise about the pitch point"
+    "cam_distance": _each("m", "L_A, distance from pitch point to contact with the cam"),
+    "crown_distance": _each("m", "L_B, distance from pitch point to contact with the crown"),
+    "normal_load": _each("N", "normal load of the element, the same on cam and crown"),
+    "slip_speed": _each(
+        "m/s", "slip of the element over the cam, positive counter-clockwise about the pitch point"
     ),
-    "spin_speed": Variable(_EACH, "rad/s", "rotation of the element in the cage"),
-    "power_cam": Variable(_EACH, "W", "power lost at the cam, to rolling and sliding"),
-    "power_crown": Variable(_EACH, "W", "power lost at the crown, to rolling"),
-    "power_in": Variable(_TIME, "W", "power of the shaft"),
-    "power_out": Variable(_TIME, "W", "power of the cam, which drives the load"),
-    "power_friction": Variable(_TIME, "W", "power lost in all contacts"),
-    "efficiency": Variable(_TIME, "1", "instantaneous efficiency; as_published: the product (23)"),
+    "spin_speed": _each("rad/s", "rotation of the element in the cage"),
+    "power_cam": _each("W", "power lost at the cam, to rolling and sliding"),
+    "power_crown": _each("W", "power lost at the crown, to rolling"),
+    "power_in": _time("W", "power of the shaft"),
+    "power_out": _time("W", "power of the cam, which drives the load"),
+    "power_friction": _time("W", "power lost in all contacts"),
+    "efficiency": _time("1", "instantaneous efficiency; as_published: the product (23)"),
 }
 
 #: Curves and lengths of the geometry.

@@ -27,12 +27,12 @@ from tribodyn.studies.backlash_oscillator.response import (
 from tribodyn.studies.backlash_oscillator.run import (
     branches_apart,
     described,
-    end_row,
     finish_row,
     record_arrays,
     response_figures,
     rows_of,
 )
+from tribodyn.studies.sweeping.branches import end_values
 
 
 def case(frequencies, force=0.4, error=0.02, **more):
@@ -168,9 +168,9 @@ def test_the_figures_of_a_response_are_counted():
     assert np.isnan(arrays["stable"][5, 0])
     assert np.isnan(arrays["period"][5, 0])
     assert (arrays["stable"][5, 1], arrays["period"][5, 1]) == (0.0, 1.0)
-    row = end_row(1, response.ends[1][1])
+    row = end_values(response.ends[1][1], "end_frequency")
     assert row["end_kind"] == 1 + KINDS.index(FOLD)
-    assert (row["end_frequency"], row["end_direction"], row["end_period"]) == (0.7, 1, 2)
+    assert (row["end_frequency"], row["end_period"]) == (0.7, 2)
     assert row["end_multiplier_modulus"] == pytest.approx(0.98)
     assert row["end_multiplier_angle"] == pytest.approx(np.pi / 2)
     nothing = response_figures(made(2))
