@@ -1,4 +1,7 @@
-"""Margins by the standards and by the simulation, and which limits of the scenario hold."""
+"""The simulation beside the standards: values by their names along the path of contact, margins, limits.
+
+Film and temperature are by method A of ISO/TS 6336-22, from the simulation's loads.
+"""
 
 import math
 from collections.abc import Mapping
@@ -6,12 +9,158 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.errors import SimulationError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.path import kinematics
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.quantities.quantity import Quantity
-from tribodyn.standards import scuffing
+from tribodyn.standards import micropitting, scuffing
+from tribodyn.standards.micropitting import Films
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.local import LocalValues
-from tribodyn.studies.assessment.standard import ZERO_CELSIUS, Standard, Strength
+from tribodyn.studies.assessment.standard import ZERO_CELSIUS, Standard, Strength, by_point, flanks_of, oil_of
+
+#: Half width of a Hertz contact over its radius from which it is none: at the pitch point of a cycloid.
+_WIDEST = 0.1
+
+
+class LocalValues(NamedTuple):
+    """Values along the path of contact, and those at the points A to E."""
+
+    #: (places,); rotation of the pinion since the pair met at the pitch point, rad, increasing
+    roll_angle: Float[Array, " place"]
+    normal_load: Float[Array, " place"]  # (places,); of the pair, slow rotation, N
+    #: radius, sliding: (places,); equivalent radius, m, and sliding speed, m/s
+    radius: Float[Array, " place"]
+    sliding: Float[Array, " place"]
+    #: arrays over the places; the pressure with the dynamic and the application factor. NaN where there is no
+    #: Hertz contact: without load, or where the radius vanishes.
+    films: Films
+    points: Float[Array, " point"]  # (7,); roll angles of the points, rad
+
+    def at_points(self, values: Any) -> Float[Array, " point"]:
+        """Values (places,) at the points."""
+        return np.interp(self.points, self.roll_angle, values)
+
+
+def point_angles(assembly: Assembly) -> Float[Array, " point"]:
+    """Roll angles of A, AB, B, C, D, DE, E: ends, a pitch from them, between, and the pitch point."""
+    start, end = map(float, assembly.roll_limits)
+    pitch = float(assembly.pitch_angle)
+    first, last = end - pitch, start + pitch
+    return np.array([start, (start + first) / 2.0, first, 0.0, last, (last + end) / 2.0, end])
+
+
+def local_of(
+    case: AssessmentCase, assembly: Assembly, along: Mapping[str, Any], quantities: Mapping[str, Any]
+) -> LocalValues:
+    """Evaluate method A; SimulationError where no place has a Hertz contact.
+
+    Parameters
+    ----------
+    along : ``roll_angle``, ``hertz_pressure`` (maximum over the face) and ``normal_load`` of one pair
+    quantities : ``dynamic_factor``, ``friction_coefficient_mean`` and ``power_friction_mean``
+    """
+    settings = case.settings
+    start, end = map(float, assembly.roll_limits)
+    inside = (along["roll_angle"] >= start) & (along["roll_angle"] <= end)
+    # the points themselves too, by interpolation: both ends lie between positions inside and beyond
+    points = point_angles(assembly)
+    roll = np.unique(np.concatenate([points, along["roll_angle"][inside]]))
+    load, pressure = (
+        np.interp(roll, along["roll_angle"], along[name]) for name in ("normal_load", "hertz_pressure")
+    )
+    motion = kinematics(assembly.path, assembly.path.signed_distance(roll))
+    speeds = (
+        motion.pinion_speed * case.operating.pinion_speed,
+        motion.gear_speed * case.operating.pinion_speed,
+    )
+    raised = pressure * np.sqrt(settings.application_factor * max(quantities["dynamic_factor"], 1.0))
+    # no Hertz contact where its half width √(8 w ρ/(π E_r)) is not small beside its radius, none without load
+    flanks = flanks_of(case)
+    line_load = load / float(assembly.common_width)
+    narrow = 8.0 * line_load * motion.relative_curvature / (np.pi * flanks.reduced_modulus) < _WIDEST**2
+    hertzian = (raised > 0.0) & narrow
+    if not np.any(hertzian):
+        raise SimulationError(
+            f"the contact is nowhere narrower than {_WIDEST:g} of its radius: the load is far beyond what "
+            "the teeth carry; reduce operating.gear_torque, or use larger teeth or a stiffer material"
+        )
+    films = micropitting.at_places(
+        np.where(hertzian, raised, np.nan),
+        1.0 / motion.relative_curvature,
+        speeds,
+        quantities["friction_coefficient_mean"],
+        bulk_of(case, assembly, quantities),
+        flanks,
+        oil_of(case),
+    )
+    sliding = np.abs(speeds[0] - speeds[1])
+    return LocalValues(roll, load, 1.0 / motion.relative_curvature, sliding, films, points)
+
+
+def bulk_of(case: AssessmentCase, assembly: Assembly, quantities: Mapping[str, Any]) -> float:
+    """Bulk temperature of the simulation, K: its own if it has one, else by its loss as in ISO/TR 15144-1."""
+    if quantities.get("bulk_temperature") is not None:
+        return float(quantities["bulk_temperature"])
+    path = assembly.path
+    centre = float(path.pinion_pitch_radius + path.gear_pitch_radius)
+    supply = micropitting.LUBRICATION_FACTORS[case.settings.lubrication]
+    loss, width = float(quantities["power_friction_mean"]), float(assembly.common_width)
+    return case.oil_temperature + micropitting.bulk_rise(loss, 1.0, 1.0, centre, width, supply)
+
+
+#: Quantity of the simulation -> its name by the standards.
+_NAMES = {
+    "dynamic_factor": "K_v",
+    "transverse_load_factor": "K_Halpha",
+    "face_load_factor": "K_Hbeta",
+}
+
+
+def simulated_part(
+    case: AssessmentCase,
+    assembly: Assembly,
+    local: LocalValues,
+    quantities: Mapping[str, Any],
+    spread: Mapping[str, Mapping[str, float]],
+) -> dict[str, Any]:
+    """What stands beside `standard.iso_part`, by the same names; worst values are those of all places.
+
+    c' and c_γα are along the line of action per face width: of one pair at the pitch point, and the mean of
+    all pairs. H_v is loss over power and mean friction coefficient. ``spread`` has the scatter over the
+    samples of deviations.
+    """
+    films, count = local.films, len(local.points)
+    width = float(assembly.common_width)
+    angle = float(assembly.path.pressure_angle(0.0))
+    power = (
+        case.operating.gear_torque
+        * float(case.drive.pinion.teeth / case.drive.gear.teeth)
+        * case.operating.pinion_speed
+    )
+    loss, friction = float(quantities["power_friction_mean"]), float(quantities["friction_coefficient_mean"])
+    bulk = films.bulk_temperature - ZERO_CELSIUS
+    film = by_point(local.at_points(films.film_thickness), min)
+    specific = by_point(local.at_points(films.specific_film), min)
+    scattered = {_NAMES.get(name, name): scatter for name, scatter in spread.items()}
+    transverse = quantities.get("transverse_load_factor")
+    return {
+        "theta_M": by_point(np.full(count, bulk), max),
+        "mu_m": by_point(np.full(count, friction), max),
+        "h_Y": film | {"worst": float(np.nanmin(films.film_thickness))},
+        "lambda_GF": specific | {"worst": float(np.nanmin(films.specific_film))},
+        "c_prime": quantities["stiffness_single_pair_at_pitch_point"] / width,
+        "c_gamma_alpha": quantities["mesh_stiffness_mean"] / width / math.cos(angle) ** 2,
+        "K_v": quantities["dynamic_factor"],
+        "H_v": loss / (power * friction) if friction > 0.0 else float("nan"),
+        "loss": loss,
+        "K_Hbeta": quantities["face_load_factor"],
+        **({"K_Halpha": transverse} if transverse is not None else {}),
+        **({"spread": scattered} if scattered else {}),
+        "theta_B": by_point(local.at_points(bulk + films.flash_rise), max)
+        | {"worst": float(bulk + np.nanmax(films.flash_rise))},
+    }
 
 
 class StandardLimit(NamedTuple):
@@ -34,7 +183,7 @@ LIMITS: dict[str, StandardLimit] = {
         "Loaded error, peak to peak", QUANTITIES["loaded_transmission_error_peak_to_peak"]
     ),
 }
-#: StandardLimit -> the figure that it bounds, of those that scatter.
+#: StandardLimit -> the quantity that it bounds, of those that scatter.
 _SCATTERED = {"dynamic_factor": "dynamic_factor", "loaded_error": "loaded_transmission_error_peak_to_peak"}
 
 
@@ -43,13 +192,13 @@ def margins_and_limits(
     found: Standard | None,
     strength: Strength,
     local: LocalValues,
-    figures: Mapping[str, Any],
+    quantities: Mapping[str, Any],
     spread: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:
     """Return ``margins`` by ``iso`` and ``simulated``, ``load_factors`` and ``limits``; temperatures in °C.
 
     The worse of both safeties is compared with a limit. One whose load stage the oil lacks is
-    left out. Where a figure scatters over samples of deviations (`spread`, by the names of the figures),
+    left out. Where a quantity scatters over samples of deviations (`spread`, by the names of the quantities),
     its 95 % is compared too, as ``p95`` and ``kept_p95``.
     """
     by_standard = _by_standard(case, found, strength) if found else {}
@@ -58,10 +207,10 @@ def margins_and_limits(
         "scuffing_flash": _worse(by_standard.get("S_B"), own.get("S_B")),
         "scuffing_integral": by_standard.get("S_intS", math.nan),
         "micropitting": _worse(by_standard.get("S_lambda"), own.get("S_lambda")),
-        "dynamic_factor": figures["dynamic_factor"],
+        "dynamic_factor": quantities["dynamic_factor"],
         "hertz_pressure": float(np.nanmax(local.films.pressure)),
-        "root_tension": max(figures["pinion_root_tension_max"], figures["gear_root_tension_max"]),
-        "loaded_error": figures["loaded_transmission_error_peak_to_peak"],
+        "root_tension": max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"]),
+        "loaded_error": quantities["loaded_transmission_error_peak_to_peak"],
     }
     limits = {}
     for name, limit in case.limits.items():
@@ -72,7 +221,7 @@ def margins_and_limits(
         upper = spread.get(_SCATTERED.get(name, ""), {}).get("p95", math.nan)
         if math.isfinite(upper):
             limits[name] |= {"p95": upper, "kept_p95": bool(upper <= limit)}
-    factors = {"K_A": case.settings.application_factor, "K_Hbeta": figures["face_load_factor"]}
+    factors = {"K_A": case.settings.application_factor, "K_Hbeta": quantities["face_load_factor"]}
     if found:
         factors |= {
             "K_v": found.dynamic.factor,
@@ -80,7 +229,7 @@ def margins_and_limits(
             "N": found.dynamic.resonance_ratio,
             "resonance_speed": found.dynamic.resonance_speed,
             "range": found.dynamic.range,
-            "c_gamma_beta": found.mesh_stiffness_face,
+            "c_gamma_beta": found.stiffness.mesh_face,
         }
     margins = {"simulated": own} | ({"iso": by_standard} if by_standard else {})
     return {"margins": margins, "load_factors": factors, "limits": limits}
@@ -116,6 +265,6 @@ def _by_simulation(case: AssessmentCase, strength: Strength, local: LocalValues)
     return margins
 
 
-def _worse(one: float | None, other: float | None) -> float:
-    known = [value for value in (one, other) if value is not None and math.isfinite(value)]
+def _worse(first: float | None, second: float | None) -> float:
+    known = [value for value in (first, second) if value is not None and math.isfinite(value)]
     return min(known, default=math.nan)

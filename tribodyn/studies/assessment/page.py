@@ -74,7 +74,9 @@ def page(record: Record) -> str:
             for part in taking_part
             if done
         ),
-        "<section><h2>Gears and oil</h2>" + "".join(table(*one) for one in check(case).tables) + "</section>",
+        "<section><h2>Gears and oil</h2>"
+        + "".join(table(*sheet) for sheet in check(case).tables)
+        + "</section>",
         _origin(record),
     ]
     style = resources.files(__package__ or "").joinpath("page.css").read_text(encoding="utf-8")
@@ -91,21 +93,25 @@ def _header(record: Record, title: str) -> str:
 
 def _verdict(record: Record, summary: Mapping[str, Any]) -> str:
     limits = summary.get("limits", {})
-    missed = [LIMITS[name].label for name, one in limits.items() if not one["kept"]]
-    if missed:
-        said = f'<p class="verdict bad">Limits exceeded: {escape("; ".join(missed))}.</p>'
-    else:
-        said = f'<p class="verdict good">All {len(limits)} limits hold.</p>' if limits else ""
+    exceeded = [LIMITS[name].label for name, found in limits.items() if not found["kept"]]
     within = [
-        f"{LIMITS[name].label} ({LIMITS[name].quantity.in_unit(one['p95']):.3g} at 95 %)"
-        for name, one in limits.items()
-        if one["kept"] and not one.get("kept_p95", True)
+        f"{LIMITS[name].label} ({LIMITS[name].quantity.in_unit(found['p95']):.3g} at 95 %)"
+        for name, found in limits.items()
+        if found["kept"] and not found.get("kept_p95", True)
     ]
+    verdicts = []
+    if exceeded:
+        verdicts.append(("bad", f"Limits exceeded: {'; '.join(exceeded)}."))
+    elif limits and not within:
+        verdicts.append(("good", f"All {len(limits)} limits hold."))
     if within:
-        held = "" if missed else f"All {len(limits)} limits hold with accurate teeth. "
-        text = f"{held}Exceeded within the scatter of the deviations: {'; '.join(within)}."
-        said = (said if missed else "") + f'<p class="verdict bad">{escape(text)}</p>'
-    return said + warnings_of(record, named=False).replace('class="warning"', 'class="verdict bad"')
+        accurate = "" if exceeded else f"All {len(limits)} limits hold with accurate teeth. "
+        verdicts.append(
+            ("bad", f"{accurate}Exceeded within the scatter of the deviations: {'; '.join(within)}.")
+        )
+    paragraphs = [f'<p class="verdict {kind}">{escape(text)}</p>' for kind, text in verdicts]
+    warnings = warnings_of(record, named=False).replace('class="warning"', 'class="verdict bad"')
+    return "".join(paragraphs) + warnings
 
 
 def _asked(case: AssessmentCase) -> str:
@@ -126,7 +132,7 @@ def _asked(case: AssessmentCase) -> str:
     oil = f"at {case.oil_temperature - 273.15:.4g} °C, {case.settings.lubrication}"
     if sheet is not None:
         oil = f"{sheet.type}, {sheet.viscosity_40 * 1e6:.4g}/{sheet.viscosity_100 * 1e6:.4g} mm²/s, {oil}"
-    materials = " / ".join(dict.fromkeys(one.name for one in case.materials))
+    materials = " / ".join(dict.fromkeys(material.name for material in case.materials))
     rows = (("Gears", gears), ("Material", materials), ("Oil", oil), ("Duty", duty))
     cells = (f"<tr><td><b>{name}</b></td><td>{escape(text)}</td></tr>" for name, text in rows)
     return f'<table class="asked">{"".join(cells)}</table>'
@@ -152,62 +158,68 @@ def _tiles(summary: Mapping[str, Any]) -> str:
         else (f"{lost * _RPM:.0f} rpm", "contact is lost from this pinion speed"),
     )
     tiles = (
-        f'<div class="tile"><b>{escape(one)}</b><span>{escape(text)}</span></div>' for one, text in shown
+        f'<div class="tile"><b>{escape(value)}</b><span>{escape(text)}</span></div>' for value, text in shown
     )
     return f'<div class="tiles">{"".join(tiles)}</div>'
 
 
+def _table(
+    heading: str, columns: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "", marked: Any = ()
+) -> str:
+    """A section with a table of numbers, some rows of which are marked as bad."""
+
+    def cells(tag: str, row: Sequence[str]) -> str:
+        return "".join(f"<{tag}>{escape(text)}</{tag}>" for text in row)
+
+    lines = [f"<tr>{cells('th', columns)}</tr>"]
+    for number, row in enumerate(rows):
+        mark = ' class="bad"' if number in marked else ""
+        lines.append(f"<tr{mark}>{cells('td', row)}</tr>")
+    table = f'<table class="numbers{kind}">{"".join(lines)}</table>'
+    return f"<section><h2>{heading}</h2>{table}</section>"
+
+
 def _limits(summary: Mapping[str, Any]) -> str:
+    limits = summary.get("limits", {})
     rows = []
-    for name, one in summary.get("limits", {}).items():
+    for name, found in limits.items():
         limit = LIMITS[name]
-        value, bound = limit.quantity.in_unit(one["value"]), limit.quantity.in_unit(one["limit"])
-        sign, mark = "≥" if limit.least else "≤", "" if one["kept"] else ' class="bad"'
-        verdict = "holds" if one["kept"] else "exceeded"
-        rows.append(
-            f"<tr{mark}><td>{escape(limit.label)}</td><td>{value:.3g}</td><td>{sign} {bound:.3g}</td>"
-            f"<td>{escape(limit.quantity.unit)}</td><td>{verdict}</td></tr>"
-        )
-    head = "<tr><th>Limit</th><th>value</th><th>required</th><th></th><th></th></tr>"
-    return f'<section><h2>Limits</h2><table class="numbers">{head}{"".join(rows)}</table></section>'
+        value, bound = (f"{limit.quantity.in_unit(found[key]):.3g}" for key in ("value", "limit"))
+        required = f"{'≥' if limit.least else '≤'} {bound}"
+        verdict = "holds" if found["kept"] else "exceeded"
+        rows.append((limit.label, value, required, limit.quantity.unit, verdict))
+    exceeded = [number for number, found in enumerate(limits.values()) if not found["kept"]]
+    return _table("Limits", ("Limit", "value", "required", "", ""), rows, marked=exceeded)
 
 
 def _by_standard(summary: Mapping[str, Any]) -> str:
-    iso, own, rows = summary.get("iso", {}), summary["simulated"], []
-    for quantity in _COMPARED:
-        values = (_shown(part.get(quantity.name), quantity) for part in (iso, own))
-        rows.append((quantity.title, *values, _unit(quantity)))
-    margins = summary["margins"]
-    for quantity in _MARGINS:
-        values = [_shown(margins.get(part, {}).get(quantity.name), quantity) for part in ("iso", "simulated")]
-        if any(value != "–" for value in values):
-            rows.append((quantity.title, *values, _unit(quantity)))
-    cells = "".join(
-        f"<tr><td>{escape(label)}</td><td>{first}</td><td>{second}</td><td>{escape(unit)}</td></tr>"
-        for label, first, second, unit in rows
-    )
-    head = "<tr><th></th><th>ISO 6336</th><th>simulated</th><th></th></tr>"
-    return f'<section><h2>Standard and simulation</h2><table class="numbers">{head}{cells}</table></section>'
+    iso, simulated = summary.get("iso", {}), summary["simulated"]
+    of_iso, of_simulation = (summary["margins"].get(part, {}) for part in ("iso", "simulated"))
+    compared = [(quantity, iso, simulated) for quantity in _COMPARED] + [
+        (quantity, of_iso, of_simulation)
+        for quantity in _MARGINS
+        if quantity.name in of_iso or quantity.name in of_simulation
+    ]
+    rows = [
+        (quantity.title, *(_shown(part.get(quantity.name), quantity) for part in parts), _unit(quantity))
+        for quantity, *parts in compared
+    ]
+    return _table("Standard and simulation", ("", "ISO 6336", "simulated", ""), rows)
 
 
 def _scatter(summary: Mapping[str, Any]) -> str:
-    """Figures over the samples of deviations, where there are any."""
+    """Quantities over the samples of deviations, where there are any."""
     spread = summary["simulated"].get("spread", {})
     rows = [
-        f"<tr><td>{escape(quantity.title)}</td>"
-        + "".join(f"<td>{_shown(spread[quantity.name][part], quantity)}</td>" for part in SPREAD)
-        + f"<td>{quantity.unit}</td></tr>"
+        (quantity.title, *(_shown(spread[quantity.name][part], quantity) for part in SPREAD), quantity.unit)
         for quantity in _SCATTERED
         if quantity.name in spread
     ]
     if not rows:
         return ""
-    known = min(int(one["samples"]) for one in spread.values())
-    head = "<tr><th></th>" + "".join(f"<th>{one}</th>" for one in ("median", "5 %", "95 %", "")) + "</tr>"
-    return (
-        f"<section><h2>Scatter over {known} samples of deviations</h2>"
-        f'<table class="numbers scatter">{head}{"".join(rows)}</table></section>'
-    )
+    known = min(int(found["samples"]) for found in spread.values())
+    heading = f"Scatter over {known} samples of deviations"
+    return _table(heading, ("", "median", "5 %", "95 %", ""), rows, " scatter")
 
 
 def _shown(value: Any, quantity: Quantity) -> str:
@@ -222,28 +234,18 @@ def _unit(quantity: Quantity) -> str:
 
 
 def _points(summary: Mapping[str, Any]) -> str:
-    iso, own = summary.get("iso", {}), summary["simulated"]
-    rows = [
-        (quantity, f"{quantity._replace(unit=_unit(quantity)).titled}, {by}", part.get(quantity.name))
-        for quantity in quantities("lambda_GF", "h_Y", "theta_B")
-        for by, part in (("ISO", iso), ("simulated", own))
-    ]
-    head = "".join(f"<th>{name}</th>" for name in ("", *POINTS, "worst"))
-    cells = "".join(
-        f"<tr><td>{escape(label)}</td>"
-        + "".join(f"<td>{_shown(values.get(name), quantity)}</td>" for name in (*POINTS, "worst"))
-        + "</tr>"
-        for quantity, label, values in rows
-        if values
-    )
-    return (
-        '<section><h2>Along the path of contact</h2><table class="numbers points">'
-        f"<tr>{head}</tr>{cells}</table></section>"
-    )
+    names = (*POINTS, "worst")
+    rows = []
+    for quantity in quantities("lambda_GF", "h_Y", "theta_B"):
+        for by, part in (("ISO", "iso"), ("simulated", "simulated")):
+            if values := summary.get(part, {}).get(quantity.name):
+                label = f"{quantity._replace(unit=_unit(quantity)).titled}, {by}"
+                rows.append((label, *(_shown(values.get(name), quantity) for name in names)))
+    return _table("Along the path of contact", ("", *names), rows, " points")
 
 
-def _list(heading: str, said: Mapping[str, str]) -> str:
-    items = "".join(f"<li>{escape(str(one))}</li>" for one in said.values()) or "<li>Nothing.</li>"
+def _list(heading: str, sentences: Mapping[str, str]) -> str:
+    items = "".join(f"<li>{escape(str(text))}</li>" for text in sentences.values()) or "<li>Nothing.</li>"
     return f'<section class="small"><h2>{heading}</h2><ul>{items}</ul></section>'
 
 
@@ -252,10 +254,10 @@ def _part(study: Study, title: str, done: Sequence[parts.TaskResult]) -> str:
     from tribodyn.post.page.page import summary_tables
     from tribodyn.studies.pages.pictures import overview
 
-    for one in done:
-        if not one.summary:
+    for result in done:
+        if not result.summary:
             continue
-        with open_record(one.path) as record:
+        with open_record(result.path) as record:
             picture = f"<p>{inline(overview(record), title)}</p>"
             tables = summary_tables([record], [study.reported()])
         return f"<section><h2>{escape(title)}</h2>{picture}{tables}</section>"

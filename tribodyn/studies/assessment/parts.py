@@ -9,7 +9,7 @@ import hashlib
 import json
 import tomllib
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -75,7 +75,7 @@ def parts(request: Request) -> tuple[Part, ...]:
     found = [(study, role) for _, study in STUDIES.items() if (role := study.role()) is not None]
     return tuple(
         Part(study, role, tuple(role.tasks(request)))
-        for study, role in sorted(found, key=lambda one: one[1].order)
+        for study, role in sorted(found, key=lambda pair: pair[1].order)
     )
 
 
@@ -118,18 +118,19 @@ def results(
             _file(task, folder).unlink()
         _require_unchanged(task, folder)
     folder.mkdir(parents=True, exist_ok=True)
-    report = progress or (lambda _share: None)
     done: dict[str, TaskResult] = {}
     for number, (study, task) in enumerate(every):
         announce(f"{number + 1}/{len(every)}, {task.about}")
-        report(number / len(every))
+        if progress:
+            progress(number / len(every))
         try:
-            done[task.name] = _varied(study, task, folder) if task.values else _run(study, task, folder)
+            done[task.name] = _kept(task, folder) or _computed(study, task, folder)
         except (InputError, SimulationError) as error:
             if task.needed:
                 raise
             done[task.name] = TaskResult(folder / task.name, failures=(f"{task.about}: {error}",))
-    report(1.0)
+    if progress:
+        progress(1.0)
     return done
 
 
@@ -145,7 +146,7 @@ def kept(all_parts: tuple[Part, ...], folder: Path) -> dict[str, TaskResult] | N
     for part in all_parts:
         for task in part.tasks:
             _require_unchanged(task, folder)
-            found = _kept_rows(task, folder) if task.values else _kept_run(task, folder)
+            found = _kept(task, folder)
             if found is None and task.needed:
                 return None
             done[task.name] = found or TaskResult(folder / task.name, failures=(task.about,))
@@ -160,35 +161,54 @@ def answers(
         yield part, part.role.answer(request, {task.name: done[task.name] for task in part.tasks})
 
 
-def _run(study: Study, task: Task, folder: Path) -> TaskResult:
-    found = _kept_run(task, folder)
-    if found is not None:
-        return found
-    path = _file(task, folder)
-    with _sealing(task, folder):
-        result = study.run(case_of(task), path, force=True, allow_large=True)  # the whole was asked for
-        if result.status != COMPLETE:
-            raise SimulationError(f"{task.about}: {result.message}")
-    with open_record(path) as record:
-        return TaskResult(path, record.summary)
-
-
-def _kept_run(task: Task, folder: Path) -> TaskResult | None:
-    """A record of the same scenario by the same code; None: there is none."""
-    if not _is_current(task, folder):
+def _kept(task: Task, folder: Path) -> TaskResult | None:
+    """What the same code made of the same scenario; None: there is nothing."""
+    sealed, path = _sealed(task, folder), _file(task, folder)
+    if sealed is None or not path.exists() or sealed[0] != _origin(task):
         return None
-    with open_record(_file(task, folder)) as record:
-        return TaskResult(_file(task, folder), record.summary)
+    return _read(task, path)
 
 
-def _kept_rows(task: Task, folder: Path) -> TaskResult | None:
-    """Rows of the same cases by the same code; None: there are none."""
-    if not _is_current(task, folder):
-        return None
-    path = _file(task, folder)
+def _read(task: Task, path: Path) -> TaskResult:
+    if not task.values:
+        with open_record(path) as record:
+            return TaskResult(path, record.summary)
     data = json.loads(path.read_text(encoding="utf-8"))
     rows = {name: np.array(row, dtype=float) for name, row in data["figures"].items()}
     return TaskResult(path, rows=rows, failures=tuple(data["failures"]))
+
+
+def _computed(study: Study, task: Task, folder: Path) -> TaskResult:
+    """Run a task, or the cases over which it varies, and seal what it gives; until then nothing is kept."""
+    path = _file(task, folder)
+    _seal(task, folder).unlink(missing_ok=True)
+    if task.values:
+        write_output(path, json.dumps(_varied(study, task), indent=1), force=True)
+    else:
+        result = study.run(case_of(task), path, force=True, allow_large=True)  # the whole was asked for
+        if result.status != COMPLETE:
+            raise SimulationError(f"{task.about}: {result.message}")
+    write_output(_seal(task, folder), f"{_origin(task)} {_digest(path)}\n", force=True)
+    return _read(task, path)
+
+
+def _varied(study: Study, task: Task) -> dict[str, Any]:
+    """Quantities over the cases of a task, None where one fails, and why those failed."""
+    rows: dict[str, list[float | None]] = {name: [] for name in study.swept()}
+    failures = []
+    for found in evaluated(study, [case_of(task, {task.key: value}) for value in task.values]):
+        if isinstance(found, str):
+            failures.append(found)
+        for name, row in rows.items():
+            value = None if isinstance(found, str) else found.get(name)
+            row.append(float(value) if value is not None and np.isfinite(value) else None)
+    return {
+        "scenario": tomli_w.dumps(dict(task.scenario)),
+        "varied": task.key,
+        "values": list(task.values),
+        "figures": rows,
+        "failures": failures,
+    }
 
 
 def _first(task: Task) -> Any:
@@ -210,26 +230,12 @@ def _origin(task: Task) -> str:
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
 
 
-@contextmanager
-def _sealing(task: Task, folder: Path) -> Iterator[None]:
-    """Write down what a part is of as soon as it is there; until then nothing is taken for it."""
-    _seal(task, folder).unlink(missing_ok=True)
-    yield
-    written = _digest(_file(task, folder))
-    write_output(_seal(task, folder), f"{_origin(task)} {written}\n", force=True)
-
-
 def _sealed(task: Task, folder: Path) -> tuple[str, str] | None:
     """Origin and digest of a part as it was written; None where nothing was, or the seal is damaged."""
     with suppress(OSError, ValueError):
         origin, written = _seal(task, folder).read_text(encoding="ascii").split()
         return origin, written
     return None
-
-
-def _is_current(task: Task, folder: Path) -> bool:
-    sealed = _sealed(task, folder)
-    return sealed is not None and _file(task, folder).exists() and sealed[0] == _origin(task)
 
 
 def _changed(task: Task, folder: Path) -> bool:
@@ -253,39 +259,3 @@ def _require_unchanged(task: Task, folder: Path) -> None:
             "was changed since the assessment wrote it",
             "remove it, or assess with --force, which computes it again",
         )
-
-
-def _varied(study: Study, task: Task, folder: Path) -> TaskResult:
-    """Figures of every case: together, where the study evaluates cases so."""
-    found = _kept_rows(task, folder)
-    if found is not None:
-        return found
-    cases = [case_of(task, {task.key: value}) for value in task.values]
-    rows, failures = _figures(study, cases)
-    data = {
-        "scenario": tomli_w.dumps(dict(task.scenario)),
-        "varied": task.key,
-        "values": list(task.values),
-        "figures": {name: [one if np.isfinite(one) else None for one in row] for name, row in rows.items()},
-        "failures": failures,
-    }
-    path = _file(task, folder)
-    with _sealing(task, folder):
-        write_output(path, json.dumps(data, indent=1), force=True)
-    return TaskResult(
-        path, rows={name: np.array(row) for name, row in rows.items()}, failures=tuple(failures)
-    )
-
-
-def _figures(study: Study, cases: list[Any]) -> tuple[dict[str, list[float]], list[str]]:
-    """Figures over the cases, NaN where one fails, and why those failed."""
-    rows = {name: [float("nan")] * len(cases) for name in study.swept()}
-    failures = []
-    for i, found in enumerate(evaluated(study, cases)):
-        if isinstance(found, str):
-            failures.append(found)
-            continue
-        for name, row in rows.items():
-            if found.get(name) is not None:
-                row[i] = float(found[name])
-    return rows, failures

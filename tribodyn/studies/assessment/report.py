@@ -50,4 +50,4 @@ PANELS = ("hertz_pressure", "contact_temperature", "specific_film")
 def sentences(record: Record) -> list[str]:
     """Say what is assumed and what is extrapolated."""
     summary = record.summary
-    return [str(one) for name in ("assumed", "extrapolated") for one in summary.get(name, {}).values()]
+    return [str(text) for name in ("assumed", "extrapolated") for text in summary.get(name, {}).values()]

@@ -1,7 +1,7 @@
 """From a case of an assessment to its record: the other studies' parts, then the standards beside them."""
 
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -19,8 +19,7 @@ from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import LAYOUT, AssessmentCase
-from tribodyn.studies.assessment.local import LocalValues, local_of, simulated_part
-from tribodyn.studies.assessment.margins import margins_and_limits
+from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_and_limits, simulated_part
 from tribodyn.studies.assessment.parts import Part, TaskResult
 from tribodyn.studies.assessment.standard import iso_part, standard_of, strength_of
 from tribodyn.studies.gears.check import sheet_tables, with_oil
@@ -119,7 +118,7 @@ def assessed(
         "iso": iso,
         "simulated": own,
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
-        **{f"{name}_spread": [one[part] for part in SPREAD] for name, one in spread.items()},
+        **{f"{name}_spread": [values[part] for part in SPREAD] for name, values in spread.items()},
         **margins_and_limits(case, found, strength_of(case), local, found_there, spread),
         "assumed": _numbered(assumed(case, found is not None)),
         "extrapolated": _numbered(extrapolated(taking_part, done)),
@@ -175,16 +174,19 @@ def _arrays(local: LocalValues) -> dict[str, Any]:
 
 def _trust(done: dict[str, parts.TaskResult], needed: Collection[str]) -> dict[str, Any]:
     """Outside the model where any part is; laws extrapolated where those of a `needed` one are."""
-    judged = {name: one.summary for name, one in done.items() if TRUST in one.summary}
+    judged = {name: result.summary for name, result in done.items() if TRUST in result.summary}
     for verdict, parts_of in ((OUTSIDE, judged), (EXTRAPOLATED, needed)):
-        found = [one[REASONS] for name, one in judged.items() if one[TRUST] == verdict and name in parts_of]
+        reasons: dict[str, Any] = {}
+        found = [known for name, known in judged.items() if known[TRUST] == verdict and name in parts_of]
+        for known in found:
+            reasons |= known[REASONS]
         if found:
-            return {TRUST: verdict, REASONS: {name: why for one in found for name, why in one.items()}}
+            return {TRUST: verdict, REASONS: reasons}
     return {TRUST: INSIDE} if judged else {}
 
 
 def _numbered(sentences: list[str]) -> dict[str, str]:
-    return {f"{number:02d}": one for number, one in enumerate(sentences, 1)}
+    return {f"{number:02d}": sentence for number, sentence in enumerate(sentences, 1)}
 
 
 #: Words by which a study says that a law is used outside its range.
@@ -195,70 +197,63 @@ _ASSUMPTION = "assumption"
 
 def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     """What is chosen here, or stands in for what the scenario does not say."""
-    settings, said = case.settings, []
-    said += [f"{name}: {text}" for name, text in _models(tomllib.loads(case.toml))]
-    for name, one in oil_values(case.lubricant).items():
-        if one.origin.startswith(_ASSUMPTION) or one.spread is not None:
-            spread = f", published {one.spread[0]:g} to {one.spread[1]:g}" if one.spread else ""
-            said.append(f"Oil: {name.replace('_', ' ')} {one.value:.3g} ({one.origin}{spread}).")
-    stages = case.lubricant.fzg
-    if stages.scuffing is None or stages.micropitting is None:
-        missing = [
-            name
-            for name, one in (("scuffing", stages.scuffing), ("micropitting", stages.micropitting))
-            if not one
-        ]
-        said.append(f"The oil has no FZG load stage of {' and '.join(missing)}: no margin can be given.")
-    said.append(
+    settings, stages = case.settings, case.lubricant.fzg
+    tables = {name: table for name, table in tomllib.loads(case.toml).items() if isinstance(table, Mapping)}
+    sentences = [
+        f"{name.capitalize()}: {text}" for name, table in tables.items() for text in _of_models(table)
+    ]
+    for name, value in oil_values(case.lubricant).items():
+        if value.origin.startswith(_ASSUMPTION) or value.spread is not None:
+            spread = f", published {value.spread[0]:g} to {value.spread[1]:g}" if value.spread else ""
+            sentences.append(f"Oil: {name.replace('_', ' ')} {value.value:.3g} ({value.origin}{spread}).")
+    if missing := [name for name in ("scuffing", "micropitting") if not getattr(stages, name)]:
+        names = " and ".join(missing)
+        sentences.append(f"The oil has no FZG load stage of {names}: no margin can be given.")
+    sentences.append(
         f"K_A = {settings.application_factor:g}; damping of the mesh {settings.damping_ratio:g}; K_Hβ by the "
         "contact analysis."
     )
     scatter = ""
     if settings.samples:
         scatter = f"; its scatter is over {settings.samples} samples of deviations within the tolerances"
-    said.append(
+    sentences.append(
         f"The simulation has accurate teeth but for modifications and misalignment of the scenario{scatter}. "
         "Its K_Hα is that of one tooth with the base pitch deviation of the standard."
     )
+    of_standards = "The standards' formulas are for involutes: this drive has none beside the simulation."
     if by_standard:
-        said.append(
+        of_standards = (
             f"Standards: deviations of class {case.quality.grade:g} by ISO 1328-1, K_v and K_Hα by method B, "
             "flanks without credited tip relief, case-hardened running-in, new oil."
         )
-    else:
-        said.append("The standards' formulas are for involutes: this drive has none beside the simulation.")
-    return said
+    return [*sentences, of_standards]
 
 
-def _models(tables: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Assumptions that model files state, by table."""
-    found = []
-    for name, table in tables.items():
-        if isinstance(table, Mapping):
-            if table.get("assumptions"):
-                found.append((name.capitalize(), str(table["assumptions"])))
-            found += [(name.capitalize(), text) for _, text in _models(table)]
-    return found
+def _of_models(table: Mapping[str, Any]) -> Iterator[str]:
+    """Assumptions that model files state."""
+    if table.get("assumptions"):
+        yield str(table["assumptions"])
+    for inner in table.values():
+        if isinstance(inner, Mapping):
+            yield from _of_models(inner)
 
 
 def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, TaskResult]) -> list[str]:
     """Where laws are used outside their range, and what could not be computed."""
-    said, beside = [], []
-    for part in taking_part:
-        for task in part.tasks:
-            one = done[task.name]
-            said += one.failures
-            if not one.summary:
-                continue
-            if not task.needed:
-                inside = one.summary.get("friction_in_range_fraction")
-                beside += [task.about] if inside is not None and inside < 1.0 else []
-                continue
-            with open_record(one.path) as record:
-                sentences = part.study.sentences(record)
+    remarks, compared = [], []
+    for study, task in [(part.study, task) for part in taking_part for task in part.tasks]:
+        result = done[task.name]
+        remarks += result.failures
+        if result.summary and not task.needed:
+            inside = result.summary.get("friction_in_range_fraction")
+            compared += [task.about] if inside is not None and inside < 1.0 else []
+        elif result.summary:
+            with open_record(result.path) as record:
+                sentences = study.sentences(record)
             exceeded = [sentence for sentence in sentences if sentence.startswith(EXCEEDED)]
             found = exceeded or [sentence for sentence in sentences if _BEYOND in sentence]
-            said += [f"{task.about.capitalize()}: {sentence}" for sentence in found]
-    if beside:
-        said.append(f"For comparison only, outside the range of the law in part or all: {'; '.join(beside)}.")
-    return list(dict.fromkeys(said))
+            remarks += [f"{task.about.capitalize()}: {sentence}" for sentence in found]
+    if compared:
+        about = "; ".join(compared)
+        remarks.append(f"For comparison only, outside the range of the law in part or all: {about}.")
+    return list(dict.fromkeys(remarks))

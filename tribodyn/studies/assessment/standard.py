@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.compliance.iso6336 import ReferenceStiffness
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.drive import MaterialData, reference_radius, tip_radius
@@ -42,13 +43,8 @@ class Standard(NamedTuple):
     path: ContactPath
     films: Films  # of method B at the `POINTS`
     dynamic: DynamicFactor
-    #: single_stiffness, mesh_stiffness, mesh_stiffness_face: c', c_γα, c_γβ, Pa
-    single_stiffness: float
-    mesh_stiffness: float
-    mesh_stiffness_face: float
-    #: transverse, face: K_Hα by method B, K_Hβ of the contact analysis
-    transverse: float
-    face: float
+    stiffness: ReferenceStiffness  # c', c_γα, c_γβ, Pa
+    transverse: float  # K_Hα by method B
     losses: float  # H_v
     #: flash_bulk, flash_contact: θ_M and θ_Bmax of ISO/TS 6336-20, K
     flash_bulk: float
@@ -66,7 +62,9 @@ def oil_of(case: AssessmentCase) -> Oil:
 def flanks_of(case: AssessmentCase) -> Flanks:
     """What the flanks are of."""
     pinion, gear = case.materials
-    reduced = 2.0 / sum((1.0 - one.poisson_ratio**2) / one.youngs_modulus for one in (pinion, gear))
+    reduced = 2.0 / sum(
+        (1.0 - material.poisson_ratio**2) / material.youngs_modulus for material in (pinion, gear)
+    )
     return Flanks(case.mean_roughness, reduced, (_contact(pinion), _contact(gear)), case.quality.grade)
 
 
@@ -99,7 +97,9 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
     path = path_of(assembly)
     width, torque = float(assembly.common_width), case.operating.gear_torque / path.ratio
     bodies = body_masses(
-        assembly, [(one.mass, one.inertia) for one in case.masses], [one.density for one in case.materials]
+        assembly,
+        [(body.mass, body.inertia) for body in case.masses],
+        [material.density for material in case.materials],
     )
     by = rated(
         assembly,
@@ -147,11 +147,8 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
         path,
         films,
         dynamic,
-        stiffness.single_pair,
-        stiffness.mesh,
-        stiffness.mesh_face,
+        stiffness,
         transverse,
-        face,
         loss_factor(path),
         bulk,
         contact,
@@ -204,8 +201,8 @@ def iso_part(case: AssessmentCase, found: Standard) -> dict[str, Any]:
         "mu_m": by_point(np.full(count, films.friction_coefficient), max),
         "h_Y": by_point(films.film_thickness, min),
         "lambda_GF": by_point(films.specific_film, min),
-        "c_prime": found.single_stiffness,
-        "c_gamma_alpha": found.mesh_stiffness,
+        "c_prime": found.stiffness.single_pair,
+        "c_gamma_alpha": found.stiffness.mesh,
         "K_v": found.dynamic.factor,
         "K_Halpha": found.transverse,
         "H_v": found.losses,

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from tribodyn.studies.protocol.study import CaseHead
 
 _NUMBER_AND_UNIT = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(\S.*?)?\s*$", re.ASCII)
-#: What stands for the value of a figure at the start, as the limit of a constraint.
+#: What stands for the value of a quantity at the start, as the limit of a constraint.
 START = "start"
 #: Distribution of a tolerance whose key numbers samples.
 DRAWN = "drawn"
@@ -42,22 +42,19 @@ class Free(NamedTuple):
 
 
 class Objective(NamedTuple):
-    """A sum of figures to be minimised: (figure, weight) each; weights are negative where more is better.
-
-    The figures of a sum of several count relative to their values at the start.
-    """
+    """A sum of quantities to be minimised; several count relative to their values at the start."""
 
     name: str
-    terms: tuple[tuple[str, float], ...]
+    terms: tuple[tuple[str, float], ...]  # (quantity, weight); weights are negative where more is better
 
     @property
     def relative(self) -> bool:
-        """Whether its figures are divided by their values at the start."""
+        """Whether its quantities are divided by their values at the start."""
         return len(self.terms) > 1
 
 
 class Constraint(NamedTuple):
-    """A figure that must not be above (sign 1) or below (sign −1) its limit, SI or `START`."""
+    """A quantity that must not be above (sign 1) or below (sign −1) its limit, SI or `START`."""
 
     text: str
     quantity: str
@@ -66,7 +63,7 @@ class Constraint(NamedTuple):
 
 
 class WeightedDuty(NamedTuple):
-    """One of the duties that the figures are means over."""
+    """One of the duties that the quantities are means over."""
 
     weight: float
     set: Mapping[str, Any]
@@ -85,7 +82,7 @@ class Tolerance(NamedTuple):
 
 
 class Robust(NamedTuple):
-    """How figures are taken over the samples of the tolerances: "mean", "worst" or "quantile"."""
+    """How quantities are taken over the samples of the tolerances: "mean", "worst" or "quantile"."""
 
     over: str = "mean"
     quantile: float = 0.9
@@ -106,32 +103,21 @@ class SearchOptions(NamedTuple):
 
 @dataclass(frozen=True)
 class DesignCase(CaseHead):
-    """A search, complete.
+    """A search, complete."""
 
-    Parameters
-    ----------
-    title, name, kind, toml, sha256 : as in `tribodyn.studies.protocol.study.CaseHead`; `kind` is "design"
-    base : the scenario that is searched through, resolved, as TOML has it
-    parts : further scenarios by name, with the drive of the base
-    objectives : one, or two for a front
-    duties : at least one
-    over_duties : "mean" or "worst"
-    confirm : key to value, under which start and best are evaluated once more; empty: they are not
-    sensitivities : whether each key and each tolerance is moved alone about the best
-    """
-
-    base: Mapping[str, Any]
-    parts: Mapping[str, Mapping[str, Any]]
+    base: Mapping[str, Any]  # the scenario that is searched through, resolved, as TOML has it
+    parts: Mapping[str, Mapping[str, Any]]  # further scenarios by name, with the drive of the base
     free: tuple[Free, ...]
-    objectives: tuple[Objective, ...]
+    objectives: tuple[Objective, ...]  # one, or two for a front
     constraints: tuple[Constraint, ...]
-    duties: tuple[WeightedDuty, ...]
-    over_duties: str
+    duties: tuple[WeightedDuty, ...]  # at least one
+    over_duties: str  # "mean" or "worst"
     tolerances: tuple[Tolerance, ...]
     robust: Robust
     search: SearchOptions
+    #: key to value, under which start and best are evaluated once more; empty: they are not
     confirm: Mapping[str, Any]
-    sensitivities: bool
+    sensitivities: bool  # whether each key and each tolerance is moved alone about the best
 
     @property
     def quantities(self) -> tuple[str, ...]:

@@ -36,24 +36,8 @@ from tribodyn.studies.protocol.study import Study
 _CONSTRAINT = re.compile(r"\s*([A-Za-z][\w.-]*)\s*(<=|>=|≤|≥|<|>)\s*(\S.*?)\s*$")
 
 
-class Parts(NamedTuple):
-    """What the table says, and what is wrong with it."""
-
-    free: tuple[Free, ...]
-    objectives: tuple[Objective, ...]
-    constraints: tuple[Constraint, ...]
-    duties: tuple[WeightedDuty, ...]
-    tolerances: tuple[Tolerance, ...]
-    errors: tuple[InputError, ...]
-
-
-def parts_of_design(table: Any, sources: Sources) -> Parts:
-    """Read the table `[design]`.
-
-    Parameters
-    ----------
-    sources : what is evaluated
-    """
+def parts_of_design(table: Any, sources: Sources) -> tuple[dict[str, Any], list[InputError]]:
+    """Fields of a `DesignCase` that the table `[design]` says, and what is wrong with it."""
     errors: list[InputError] = []
     studies = {name: source.study for name, source in sources.items()}
 
@@ -79,14 +63,14 @@ def parts_of_design(table: Any, sources: Sources) -> Parts:
     collect("", list(flat(table.confirm)), lambda _, key: require_key("design.confirm", key, sources))
     key_names = apart([naming_key(entry.keys) for entry in free])
     names = apart([tolerance.key for tolerance in tolerances])
-    return Parts(
-        tuple(key._replace(name=name) for key, name in zip(free, key_names, strict=True)),
-        objectives[0] if objectives else (),
-        tuple(constraints),
-        tuple(duties) or (WeightedDuty(1.0, {}, ""),),
-        tuple(tol._replace(name=name) for tol, name in zip(tolerances, names, strict=True)),
-        tuple(errors),
-    )
+    fields = {
+        "free": tuple(key._replace(name=name) for key, name in zip(free, key_names, strict=True)),
+        "objectives": objectives[0] if objectives else (),
+        "constraints": tuple(constraints),
+        "duties": tuple(duties) or (WeightedDuty(1.0, {}, ""),),
+        "tolerances": tuple(entry._replace(name=name) for entry, name in zip(tolerances, names, strict=True)),
+    }
+    return fields, errors
 
 
 def _free(place: str, table: Any, sources: Sources) -> Free:

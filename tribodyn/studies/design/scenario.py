@@ -14,21 +14,11 @@ from tribodyn.scenario.tables.drive_data import with_axes_held
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.design.candidates.sources import BASE, NAME, Source, sources_of
 from tribodyn.studies.design.case import DesignCase, Robust, SearchOptions, flat
+from tribodyn.studies.design.methods import METHODS
 from tribodyn.studies.design.parts import parts_of_design
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
 
 KIND = "design"
-METHODS = (
-    "auto",
-    "cobyqa",
-    "slsqp",
-    "trust-constr",
-    "differential-evolution",
-    "cma-es",
-    "epsilon-constraint",
-    "nsga2",
-    "every",
-)
 
 _Bounds = create_model(
     "FreeBounds",
@@ -103,7 +93,7 @@ class DesignTable(Table):
     over_duties: Literal["mean", "worst"] = "mean"
     tolerance: tuple[ToleranceTable, ...] = ()
     robust: RobustTable = written({})
-    method: Literal[METHODS] = "auto"  # pyright: ignore[reportInvalidTypeForm]
+    method: Literal["auto", *METHODS] = "auto"  # pyright: ignore[reportInvalidTypeForm]
     evaluations: Annotated[int, Field(strict=True, ge=2, le=1_000_000)] = Field(
         200, description="of the duties and samples together, at most"
     )
@@ -193,21 +183,15 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
     if "drive" in base:
         base |= {"drive": with_axes_held(base["drive"])}
     further = {name: _on_drive(part, base) for name, part in (data["design"].get("part") or {}).items()}
-    parts = parts_of_design(table, sources_of({BASE: base, **further}))
+    fields, _ = parts_of_design(table, sources_of({BASE: base, **further}))
     return DesignCase(
         **head_of(scenario, toml, sha256),
         base=base,
         parts=further,
-        free=parts.free,
-        objectives=parts.objectives,
-        constraints=parts.constraints,
-        duties=parts.duties,
+        **fields,
         over_duties=table.over_duties,
-        tolerances=parts.tolerances,
         robust=Robust(**table.robust.model_dump()),
-        search=SearchOptions(
-            table.method, table.evaluations, table.starts, table.seed, table.points, table.accuracy
-        ),
+        search=SearchOptions(**{name: getattr(table, name) for name in SearchOptions._fields}),
         confirm=flat(table.confirm),
         sensitivities=table.sensitivities,
     )
@@ -245,7 +229,7 @@ def broken_rules(scenario: Any) -> Iterator[InputError]:
             rule = f"the scenario has a table [{name}]"
             yield InputError("design.part", quoted(name), rule, "choose another name for the part")
     if clear:
-        yield from parts_of_design(scenario.design, sources).errors
+        yield from parts_of_design(scenario.design, sources)[1]
 
 
 def _of_scenario(place: str, scenario: Any) -> Iterator[InputError]:

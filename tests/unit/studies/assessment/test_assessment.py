@@ -17,7 +17,7 @@ from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
 from tribodyn.record.reader import open_record
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
-from tribodyn.studies.assessment.local import local_of, point_angles
+from tribodyn.studies.assessment.margins import local_of, point_angles
 from tribodyn.studies.assessment.parts import request_of
 from tribodyn.studies.assessment.standard import path_of
 from tribodyn.studies.protocol.load import load_scenario

@@ -181,12 +181,11 @@ def test_load_factors_under_more_load(harder: Standard):
     single, mesh = (one * APPLICATION**0.25 for one in stiffness())
     pitch, _ = deviations()
     assert line < 100.0
-    assert harder.single_stiffness == pytest.approx(single * 1e9, rel=1e-9)
-    assert harder.mesh_stiffness == pytest.approx(mesh * 1e9, rel=1e-9)
-    assert harder.mesh_stiffness_face == pytest.approx(0.85 * mesh * 1e9, rel=1e-9)
+    assert harder.stiffness.single_pair == pytest.approx(single * 1e9, rel=1e-9)
+    assert harder.stiffness.mesh == pytest.approx(mesh * 1e9, rel=1e-9)
+    assert harder.stiffness.mesh_face == pytest.approx(0.85 * mesh * 1e9, rel=1e-9)
     transverse = RATIO / 2.0 * (0.9 + 0.4 * mesh * pitch / (line * harder.dynamic.factor * FACE))
     assert harder.transverse == pytest.approx(min(max(transverse, 1.0), 3.0 / (4.0 - RATIO)), rel=1e-9)
-    assert harder.face == FACE
 
 
 def test_flash_temperature_place_by_place(harder: Standard):
