@@ -59,13 +59,12 @@ def bearings_of(bearings: Bearings) -> tuple[BearingData, BearingData]:
 def _bearing_of(bearing: Bearing) -> BearingData:
     ratio_x = bearing.damping_ratio if bearing.damping_ratio_x is None else bearing.damping_ratio_x
     ratio_y = bearing.damping_ratio if bearing.damping_ratio_y is None else bearing.damping_ratio_y
+    stiffness_x, stiffness_y = bearing.stiffness_x, bearing.stiffness_y
     if bearing.rolling is not None:
         numbers = bearing.rolling.model_dump()
         sizes = {name: numbers[name] or 0.0 for name in ("diameter", "length")}
-        both = radial_stiffness(RollingBearing(**{**numbers, **sizes}))
-        return BearingData(both, both, cast(float, ratio_x), cast(float, ratio_y))
-    stiffness = cast(float, bearing.stiffness_x), cast(float, bearing.stiffness_y)
-    return BearingData(*stiffness, cast(float, ratio_x), cast(float, ratio_y))
+        stiffness_x = stiffness_y = radial_stiffness(RollingBearing(**{**numbers, **sizes}))
+    return BearingData(*(cast(float, value) for value in (stiffness_x, stiffness_y, ratio_x, ratio_y)))
 
 
 def broken_bearing_rules(bearings: Bearings) -> Iterator[InputError]:
@@ -78,32 +77,21 @@ def _broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
     for name in ("stiffness_x", "stiffness_y"):
         given = getattr(bearing, name)
         if bearing.rolling is None and given is None:
-            yield InputError(
-                f"{key}.{name}",
-                rule="missing",
-                remedy=f'add {name} = "1e9 N/m", or the table [{key}.rolling]',
-            )
+            remedy = f'add {name} = "1e9 N/m", or the table [{key}.rolling]'
+            yield InputError(f"{key}.{name}", rule="missing", remedy=remedy)
         elif bearing.rolling is not None and given is not None:
-            yield InputError(
-                f"{key}.{name}",
-                f"{given:g} N/m",
-                f"contradicts [{key}.rolling], from which it follows",
-                "give the one or the other",
-            )
+            rule = f"contradicts [{key}.rolling], from which it follows"
+            yield InputError(f"{key}.{name}", f"{given:g} N/m", rule, "give the one or the other")
     if bearing.rolling is not None:
         yield from _broken_rolling(f"{key}.rolling", bearing.rolling)
     each = (bearing.damping_ratio_x, bearing.damping_ratio_y)
     if bearing.damping_ratio is not None and any(ratio is not None for ratio in each):
-        yield InputError(
-            f"{key}.damping_ratio",
-            bearing.damping_ratio,
-            "contradicts damping_ratio_x and damping_ratio_y",
-            "write the one for both axes, or both of the others",
-        )
+        rule = "contradicts damping_ratio_x and damping_ratio_y"
+        remedy = "write the one for both axes, or both of the others"
+        yield InputError(f"{key}.damping_ratio", bearing.damping_ratio, rule, remedy)
     elif bearing.damping_ratio is None and any(ratio is None for ratio in each):
-        yield InputError(
-            f"{key}.damping_ratio", rule="missing", remedy="add damping_ratio = 0.05, for both axes"
-        )
+        remedy = "add damping_ratio = 0.05, for both axes"
+        yield InputError(f"{key}.damping_ratio", rule="missing", remedy=remedy)
 
 
 def _broken_rolling(key: str, rolling: Rolling) -> Iterator[InputError]:
@@ -116,8 +104,5 @@ def _broken_rolling(key: str, rolling: Rolling) -> Iterator[InputError]:
             f"{key}.{other}", rule=f'has no effect with type = "{rolling.type}"', remedy=f"leave {other} out"
         )
     if rolling.contact_angle >= MAXIMUM_CONTACT_ANGLE:
-        yield InputError(
-            f"{key}.contact_angle",
-            rule="60 deg or more: a thrust bearing",
-            remedy="write a smaller angle, or give stiffness_x and stiffness_y",
-        )
+        remedy = "write a smaller angle, or give stiffness_x and stiffness_y"
+        yield InputError(f"{key}.contact_angle", rule="60 deg or more: a thrust bearing", remedy=remedy)

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from tribodyn.geometry.assembly import Assembly, normal_backlash
+from tribodyn.geometry.assembly import Assembly, normal_backlash, tip_break
 from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of
-from tribodyn.geometry.families import FAMILIES
+from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.geometry.families.involute import overlap, shift_sensitivity, tight_centre_distance
 from tribodyn.scenario.quantity import shift_rounding
 from tribodyn.scenario.tables.model_files import DriveTable, Gear, Material
@@ -49,12 +49,7 @@ class RoundedDistance(NamedTuple):
 
 
 def rounded_distance(table: DriveTable, drive: Drive) -> RoundedDistance | None:
-    """How the centre distance is rounded; None where none is written, and where it is meant as written.
-
-    Parameters
-    ----------
-    drive : its numbers, whatever their centre distance
-    """
+    """How the centre distance is rounded; None where none is written, and where it is meant as written."""
     if table.centre_distance is None or not FAMILIES[table.family].involute:
         return None
     printed, rounding = table.centre_distance
@@ -90,8 +85,8 @@ def roughness_of(drive: DriveTable) -> float:
 
 
 def _mean_roughnesses(drive: DriveTable) -> list[float | None]:
-    gears = drive.pinion, drive.gear
-    return [drive.mean_roughness if one.mean_roughness is None else one.mean_roughness for one in gears]
+    own = drive.pinion.mean_roughness, drive.gear.mean_roughness
+    return [drive.mean_roughness if roughness is None else roughness for roughness in own]
 
 
 def teeth_of(drive: DriveTable) -> dict[str, Any]:
@@ -107,9 +102,6 @@ def teeth_of(drive: DriveTable) -> dict[str, Any]:
 
 def drive_of(drive: DriveTable) -> Drive:
     """Return the geometry of a drive file."""
-    from tribodyn.geometry.assembly import tip_break
-    from tribodyn.geometry.families import family
-
     teeth = family(drive.family)
     sharp = Drive(
         drive.module,
@@ -157,12 +149,8 @@ def backlash_of(drive: DriveTable, given: float | None) -> float | None:
     """Return the normal backlash (m): as `given`, else of the drive; None where that says nothing."""
     if given is not None or not gives_backlash(drive):
         return given
-    from tribodyn.geometry.families import family
-
-    numbers = drive_of(drive)
     with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
-        backlash = float(normal_backlash(Assembly(family(drive.family), numbers)))
-    return max(backlash, 0.0)
+        return max(float(normal_backlash(Assembly(family(drive.family), drive_of(drive)))), 0.0)
 
 
 def materials_of(drive: DriveTable) -> tuple[MaterialData, MaterialData]:
@@ -172,14 +160,11 @@ def materials_of(drive: DriveTable) -> tuple[MaterialData, MaterialData]:
 
 def masses_of(drive: DriveTable) -> tuple[BodyMass, BodyMass]:
     """Return the masses that a drive file gives."""
-    return _mass(drive.pinion), _mass(drive.gear)
+    pinion, gear = drive.pinion, drive.gear
+    return BodyMass(pinion.mass, pinion.inertia), BodyMass(gear.mass, gear.inertia)
 
 
 def _material(drive: DriveTable, gear: Gear) -> MaterialData:
     material = cast(Material, gear.material or drive.material)
     numbers = material.model_dump(exclude={"title", "source", "assumptions"})
     return MaterialData(name=material.title, **numbers)
-
-
-def _mass(gear: Gear) -> BodyMass:
-    return BodyMass(gear.mass, gear.inertia)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.flanks.modification import (
+    Misalignment,
     Modifications,
     broken_flank_rules,
     shown_count,
@@ -20,7 +21,6 @@ from tribodyn.scenario.tables.model_files import (
     MisalignmentTable,
     Modification,
     flank_of,
-    misalignment_of,
 )
 from tribodyn.scenario.tables.quality import broken_quality_rules, helix_allowance
 from tribodyn.scenario.tables.tooth_data import broken_tooth_rules, shape_errors
@@ -31,7 +31,7 @@ SLICES = 21
 
 def modifications_of(drive: DriveTable, misalignment: MisalignmentTable) -> Modifications:
     """Return what is taken off the flanks of a drive, and how its axes stand."""
-    stand = misalignment_of(misalignment)
+    stand = Misalignment(misalignment.in_plane, misalignment.out_of_plane)
     if misalignment.from_quality:
         opened = misalignment.from_quality * helix_allowance(drive)
         stand = stand._replace(in_plane=stand.in_plane + opened)
@@ -66,12 +66,8 @@ def broken_modification_rules(drive: DriveTable) -> Iterator[InputError]:
 def _contradicted_by_crowning(key: str, table: Modification) -> Iterator[InputError]:
     for name in ("lead_relief_start", "lead_relief_end", "lead_unmodified"):
         if value := getattr(table, name):
-            yield InputError(
-                f"{key}.{name}",
-                shown_length(value),
-                "contradicts crowning, which gives the whole shape of the lead",
-                "give the one or the other",
-            )
+            rule = "contradicts crowning, which gives the whole shape of the lead"
+            yield InputError(f"{key}.{name}", shown_length(value), rule, "give the one or the other")
 
 
 def broken_slice_rules(face: Face) -> Iterator[InputError]:
@@ -88,39 +84,29 @@ def broken_face_rules(face: Face, compliance: str) -> Iterator[InputError]:
         yield from uneven_teeth(modifications_of(face.drive, face.misalignment))
     else:
         remedy = 'leave it out, or write compliance = "fem"'
-        yield from _contradicted_modifications(face, f'compliance = "{compliance}"', remedy)
+        for key, value in (*_modified(face.drive), *_deviations(face)):
+            yield InputError(key, value, f'contradicts compliance = "{compliance}"', remedy)
 
 
-def _contradicted_modifications(face: Face, contradiction: str, remedy: str) -> Iterator[InputError]:
-    """Refuse everything of the sort in a run that does not know it.
-
-    Parameters
-    ----------
-    contradiction : what it contradicts: ``compliance = "energy"``
-    remedy : what to write instead
-    """
-    for key, value in (*_all_reliefs(face.drive), *_pitch_errors(face.drive), *_deviations(face)):
-        yield InputError(key, value, f"contradicts {contradiction}", remedy)
-
-
-def _all_reliefs(drive: DriveTable) -> Iterator[tuple[str, str | None]]:
-    for name in ("pinion", "gear"):
-        table = getattr(drive, name).modification
-        key = f"drive.{name}.modification"
+def _modified(drive: DriveTable) -> Iterator[tuple[str, str | None]]:
+    """Keys of everything that modifies the flanks, pitch errors last, and the values as they are shown."""
+    tables = {
+        f"drive.{name}.modification": gear.modification
+        for name, gear in (("pinion", drive.pinion), ("gear", drive.gear))
+    }
+    for key, table in tables.items():
         for relief in ("tip_relief", "root_relief", "lead_relief_start", "lead_relief_end", "crowning"):
             if amount := getattr(table, relief):
                 yield f"{key}.{relief}", shown_length(amount)
         if table.profile_error is not None:
             yield f"{key}.profile_error", None
-
-
-def _pitch_errors(drive: DriveTable) -> Iterator[tuple[str, str | None]]:
-    for name in ("pinion", "gear"):
-        if errors := getattr(drive, name).modification.pitch_errors:
-            yield f"drive.{name}.modification.pitch_errors", shown_count(len(errors))
+    for key, table in tables.items():
+        if table.pitch_errors:
+            yield f"{key}.pitch_errors", shown_count(len(table.pitch_errors))
 
 
 def _deviations(face: Face) -> Iterator[tuple[str, str | None]]:
+    """Keys of what stands askew or in slices, and the values as they are shown."""
     if share := face.misalignment.from_quality:
         yield "mesh.misalignment.from_quality", f"{share:g}"
     for name, angle in face.misalignment.model_dump(exclude={"from_quality"}).items():
@@ -137,11 +123,8 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
     for name in ("pinion", "gear"):
         gear = getattr(drive, name)
         if drive.material is None and gear.material is None:
-            yield InputError(
-                f"drive.{name}.material",
-                rule="missing",
-                remedy="give the name of a file in models/materials here, or drive.material for both gears",
-            )
+            remedy = "give the name of a file in models/materials here, or drive.material for both gears"
+            yield InputError(f"drive.{name}.material", rule="missing", remedy=remedy)
     yield from broken_tooth_rules(drive)
     yield from broken_modification_rules(drive)
     yield from broken_quality_rules(drive)
@@ -153,17 +136,11 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
 
 def broken_part_rules(hertz: str, foundation: str, compliance: str) -> Iterator[InputError]:
     """Go through what contradicts between the parts of a compliance, contact and body, and the compliance."""
-    if hertz == "load-dependent" and compliance != "energy":
-        yield InputError(
-            "mesh.hertz",
-            '"load-dependent"',
-            f'contradicts compliance = "{compliance}", which contains the Hertz contact',
-            'leave hertz out, or write compliance = "energy"',
-        )
-    if foundation == "ring" and compliance != "energy":
-        yield InputError(
-            "mesh.foundation",
-            '"ring"',
-            f'contradicts compliance = "{compliance}", which contains the gear bodies',
-            'leave foundation out, or write compliance = "energy"',
-        )
+    for name, given, refused, part in (
+        ("hertz", hertz, "load-dependent", "the Hertz contact"),
+        ("foundation", foundation, "ring", "the gear bodies"),
+    ):
+        if given == refused and compliance != "energy":
+            rule = f'contradicts compliance = "{compliance}", which contains {part}'
+            remedy = f'leave {name} out, or write compliance = "energy"'
+            yield InputError(f"mesh.{name}", f'"{given}"', rule, remedy)

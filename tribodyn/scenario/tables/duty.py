@@ -42,15 +42,18 @@ class DutyTable(Table):
 def broken_duty_rules(
     table: DutyTable, key: str = "operating", speed_needed: bool = True
 ) -> list[InputError]:
-    """Return what is missing or given more than once in the speed and load of a table.
+    """Return what is missing or given more than once in the speed and load of the table at a key.
 
-    Parameters
-    ----------
-    key : where it stands
-    speed_needed : whether the study needs a speed even where no power is given
+    A speed may be needed even where no power is given.
     """
-    speeds, loads = _given(table, SPEEDS), _given(table, LOADS)
-    errors = [*_several(key, "the speed", speeds), *_several(key, "the load", loads)]
+    speeds, loads = (
+        [name for name in names if getattr(table, name) is not None] for names in (SPEEDS, LOADS)
+    )
+    errors = [
+        InputError(f"{key}.{name}", None, f"gives {what}, as {first} does", "leave one of them out")
+        for what, (first, *others) in (("the speed", speeds or [""]), ("the load", loads or [""]))
+        for name in others
+    ]
     if not loads:
         errors.append(InputError(f"{key}.gear_torque", rule="missing: the load", remedy=_LOAD_REMEDY))
     if not speeds and "power" in loads:
@@ -69,23 +72,16 @@ def broken_driving_rules(
     *,
     speed_needed: bool = True,
 ) -> list[InputError]:
-    """Return as `broken_duty_rules` does, and a load by which the pinion does not drive.
+    """Return as `broken_duty_rules` does, and a load by which the pinion does not drive; `teeth` of both.
 
-    Parameters
-    ----------
-    teeth : (float, float); of pinion and gear
-    why : why the study needs a driving pinion
-    remedy : what else than a positive torque helps, as the end of a sentence
+    The study says why it needs a driving pinion, and what else helps than a positive torque, as the end of a
+    sentence.
     """
     broken = broken_duty_rules(table, speed_needed=speed_needed)
     if broken or (torque := duty_of(table, *teeth).gear_torque) > 0.0:
         return broken
-    rule = f"must be greater than zero: {why}"
-    return [
-        InputError(
-            "operating.gear_torque", f"{torque:g} N*m", rule, f'write a torque such as "500 N*m"{remedy}'
-        )
-    ]
+    rule, remedy = f"must be greater than zero: {why}", f'write a torque such as "500 N*m"{remedy}'
+    return [InputError("operating.gear_torque", f"{torque:g} N*m", rule, remedy)]
 
 
 def duty_of(table: DutyTable, pinion_teeth: float, gear_teeth: float) -> Duty:
@@ -104,15 +100,6 @@ def duty_of(table: DutyTable, pinion_teeth: float, gear_teeth: float) -> Duty:
     if table.pinion_torque is not None:
         return Duty(speed, table.pinion_torque * ratio)
     return Duty(speed, (table.power or 0.0) * ratio / speed)
-
-
-def _given(table: DutyTable, names: tuple[str, ...]) -> list[str]:
-    return [name for name in names if getattr(table, name) is not None]
-
-
-def _several(key: str, what: str, names: list[str]) -> Iterator[InputError]:
-    for name in names[1:]:
-        yield InputError(f"{key}.{name}", None, f"gives {what}, as {names[0]} does", "leave one of them out")
 
 
 #: What a duty says in place of [operating].
@@ -155,8 +142,8 @@ class SpectrumScenario(ScenarioHead):
 def spectrum_of(scenario: Any) -> list[tuple[float, Any]]:
     """Return share of time, their sum 1, and scenario of every duty; empty where there is no spectrum."""
     duties: Sequence[SpectrumDuty] = getattr(scenario, "duty", ())
-    total = sum(one.share for one in duties)
-    return [(one.share / total, _with(scenario, number)) for number, one in enumerate(duties, start=1)]
+    total = sum(duty.share for duty in duties)
+    return [(duty.share / total, _with(scenario, number)) for number, duty in enumerate(duties, start=1)]
 
 
 def in_force(scenario: Any) -> Any:
@@ -177,8 +164,8 @@ def broken_spectrum_rules(scenario: Any) -> Iterator[InputError]:
     if number is not None and number > len(duties):
         has = f"the load spectrum has {len(duties)}" if duties else "there is no load spectrum"
         yield InputError("operating.duty", number, has, "add [[duty]] tables, or name another")
-    for place, one in enumerate(duties):
-        for error in broken_duty_rules(one, f"duty.{place}"):
+    for place, duty in enumerate(duties):
+        for error in broken_duty_rules(duty, f"duty.{place}"):
             if "missing" not in error.rule and "without a speed" not in error.rule:
                 yield error
 
@@ -187,11 +174,9 @@ def unnamed_duty(scenario: Any) -> Iterator[InputError]:
     """Refuse a spectrum in a study that runs one duty at a time, where it is not said which."""
     count = len(scenario.duty)
     if count > 1 and scenario.operating.duty is None:
-        yield InputError(
-            "operating.duty",
-            rule=f"missing: this kind of study runs one duty of the {count} at a time",
-            remedy=f"add duty = 1, or sweep operating.duty over 1:{count}:1",
-        )
+        rule = f"missing: this kind of study runs one duty of the {count} at a time"
+        remedy = f"add duty = 1, or sweep operating.duty over 1:{count}:1"
+        yield InputError("operating.duty", None, rule, remedy)
 
 
 def of_duty(error: InputError, number: int) -> InputError:
@@ -204,7 +189,7 @@ def of_duty(error: InputError, number: int) -> InputError:
 
 def _with(scenario: Any, number: int) -> Any:
     """The scenario with the keys of one of its duties in [operating]; its duties say all of theirs."""
-    duties = tuple(_completed(one, scenario.operating) for one in scenario.duty)
+    duties = tuple(_completed(duty, scenario.operating) for duty in scenario.duty)
     keys = {name for name in _TAKEN if hasattr(scenario.operating, name)}
     update = {name: getattr(duties[number - 1], name) for name in keys} | {"duty": number}
     operating = scenario.operating.model_copy(update=update)

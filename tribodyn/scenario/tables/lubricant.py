@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any, cast
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.tables.model_files import Lubricant
 from tribodyn.tribology.oil import (
     MAXIMUM_VISCOSITY,
@@ -48,7 +48,7 @@ def lubricant_of(lubricant: Lubricant, oil_temperature: float | None = None) -> 
     if (sheet := sheet_of(lubricant)) is not None and oil_temperature is not None:
         return lubricant_from(sheet, oil_temperature, stages)
     typical = by_type(lubricant.type) if lubricant.type else {}
-    numbers: dict[str, Any] = {name: one.value for name, one in typical.items()} | given
+    numbers: dict[str, Any] = {name: number.value for name, number in typical.items()} | given
     return LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
 
 
@@ -87,85 +87,61 @@ def _direct(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[Inp
                 remedy += ", or the data sheet: type, viscosity_40, viscosity_100 and density_15"
             yield InputError(f"lubricant.{name}", rule="missing", remedy=remedy)
     if oil_temperature is not None:
-        yield InputError(
-            "operating.oil_temperature",
-            f"{oil_temperature - ZERO_CELSIUS:.6g} degC",
-            "contradicts a lubricant whose inlet_viscosity is given at one temperature",
-            "leave it out, or give the data sheet: type, viscosity_40, viscosity_100 and density_15",
-        )
+        given = f"{oil_temperature - ZERO_CELSIUS:.6g} degC"
+        rule = "contradicts a lubricant whose inlet_viscosity is given at one temperature"
+        remedy = "leave it out, or give the data sheet: type, viscosity_40, viscosity_100 and density_15"
+        yield InputError("operating.oil_temperature", given, rule, remedy)
 
 
 def _sheet(lubricant: Lubricant) -> Iterator[InputError]:
     if lubricant.type is None:
-        choices = ", ".join(f'"{one}"' for one in OIL_TYPES)
+        rule = "missing: pressure-viscosity, limiting shear and lubricant factor go by it"
         yield InputError(
-            "lubricant.type",
-            rule="missing: pressure-viscosity, limiting shear and lubricant factor go by it",
-            remedy=f"write one of {choices}",
+            "lubricant.type", rule=rule, remedy=f"write one of {', '.join(map(quoted, OIL_TYPES))}"
         )
     for name in _SHEET:
         if getattr(lubricant, name) is None:
             rule = "missing: a data sheet needs viscosity_40, viscosity_100 and density_15"
             yield InputError(f"lubricant.{name}", rule=rule, remedy=f"add {name} = {_EXAMPLES[name]}")
     if lubricant.inlet_viscosity is not None:
-        yield InputError(
-            "lubricant.inlet_viscosity",
-            f"{lubricant.inlet_viscosity:g} Pa*s",
-            "contradicts viscosity_40 and viscosity_100, from which it follows at operating.oil_temperature",
-            "leave it out, or leave out viscosity_40, viscosity_100 and density_15",
+        given = f"{lubricant.inlet_viscosity:g} Pa*s"
+        rule = (
+            "contradicts viscosity_40 and viscosity_100, from which it follows at operating.oil_temperature"
         )
+        remedy = "leave it out, or leave out viscosity_40, viscosity_100 and density_15"
+        yield InputError("lubricant.inlet_viscosity", given, rule, remedy)
     density = lubricant.density_15
     if density is not None and not DENSITIES[0] <= density <= DENSITIES[1]:
-        yield InputError(
-            "lubricant.density_15",
-            f"{density:g} kg/m**3",
-            f"oils have {DENSITIES[0]:g} to {DENSITIES[1]:g} kg/m**3",
-            'check the unit: "0.89 g/cm**3"',
-        )
+        given, rule = f"{density:g} kg/m**3", f"oils have {DENSITIES[0]:g} to {DENSITIES[1]:g} kg/m**3"
+        yield InputError("lubricant.density_15", given, rule, f"check the unit: {_EXAMPLES['density_15']}")
     at_40, at_100 = lubricant.viscosity_40, lubricant.viscosity_100
     if at_40 is not None and at_40 > THICKEST:
+        given, rule = f"{1e6 * at_40:g} mm**2/s", f"more than {1e6 * THICKEST:g} mm**2/s, which is no oil"
         yield InputError(
-            "lubricant.viscosity_40",
-            f"{1e6 * at_40:g} mm**2/s",
-            f"more than {1e6 * THICKEST:g} mm**2/s, which is no oil",
-            'check the unit: "220 mm**2/s"',
+            "lubricant.viscosity_40", given, rule, f"check the unit: {_EXAMPLES['viscosity_40']}"
         )
     if at_40 is None or at_100 is None:
         return
+    given = f"{1e6 * at_100:g} mm**2/s"
     if at_100 >= at_40:
-        yield InputError(
-            "lubricant.viscosity_100",
-            f"{1e6 * at_100:g} mm**2/s",
-            f"must be below viscosity_40, {1e6 * at_40:g} mm**2/s: oil gets thinner as it warms up",
-            "swap the two, or check the data sheet",
-        )
+        rule = f"must be below viscosity_40, {1e6 * at_40:g} mm**2/s: oil gets thinner as it warms up"
+        yield InputError("lubricant.viscosity_100", given, rule, "swap the two, or check the data sheet")
     elif at_100 < MINIMUM_VISCOSITY:
-        yield InputError(
-            "lubricant.viscosity_100",
-            f"{1e6 * at_100:g} mm**2/s",
-            f"ASTM D341 holds from {1e6 * MINIMUM_VISCOSITY:g} mm**2/s on",
-            "give inlet_viscosity and the other numbers that the laws read instead of the data sheet",
-        )
+        rule = f"ASTM D341 holds from {1e6 * MINIMUM_VISCOSITY:g} mm**2/s on"
+        remedy = "give inlet_viscosity and the other numbers that the laws read instead of the data sheet"
+        yield InputError("lubricant.viscosity_100", given, rule, remedy)
 
 
 def _temperature(lubricant: Lubricant, temperature: float) -> Iterator[InputError]:
-    low, high = (round(one - ZERO_CELSIUS) for one in TEMPERATURE_RANGE)
+    low, high = (round(limit - ZERO_CELSIUS) for limit in TEMPERATURE_RANGE)
     key, given = "operating.oil_temperature", f"{temperature - ZERO_CELSIUS:.6g} degC"
     if not TEMPERATURE_RANGE[0] <= temperature <= TEMPERATURE_RANGE[1]:
-        yield InputError(
-            key,
-            given,
-            f"outside {low} to {high} degC, for which viscosity and density are derived from a data sheet",
-            f"write a temperature from {low} to {high} degC",
-        )
+        rule = f"outside {low} to {high} degC, for which viscosity and density are derived from a data sheet"
+        yield InputError(key, given, rule, f"write a temperature from {low} to {high} degC")
     elif lubricant.viscosity_40 and lubricant.viscosity_100:
         viscosity = kinematic_viscosity(lubricant.viscosity_40, lubricant.viscosity_100, temperature)
         limits = f"{1e6 * MINIMUM_VISCOSITY:g} to {1e6 * MAXIMUM_VISCOSITY:g} mm**2/s"
         if not MINIMUM_VISCOSITY <= viscosity <= MAXIMUM_VISCOSITY:
-            thin = viscosity < MINIMUM_VISCOSITY
-            yield InputError(
-                key,
-                given,
-                f"the oil has {1e6 * viscosity:.2g} mm**2/s there, and ASTM D341 holds from {limits}",
-                f"write a {'lower' if thin else 'higher'} temperature, or take another oil",
-            )
+            rule = f"the oil has {1e6 * viscosity:.2g} mm**2/s there, and ASTM D341 holds from {limits}"
+            other = "lower" if viscosity < MINIMUM_VISCOSITY else "higher"
+            yield InputError(key, given, rule, f"write a {other} temperature, or take another oil")

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from tribodyn.geometry.drive import PROFILES
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Relief
+from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Relief
 from tribodyn.scenario import units
 from tribodyn.scenario.common import ErrorCurve
 from tribodyn.scenario.quantity import (
@@ -91,11 +91,6 @@ def flank_of(table: Modification, module: float) -> FlankModification:
         pitch_error=table.pitch_errors,
         both_flanks=table.both_flanks,
     )
-
-
-def misalignment_of(table: MisalignmentTable) -> Misalignment:
-    """Return how the axes stand."""
-    return Misalignment(table.in_plane, table.out_of_plane)
 
 
 def _relief(table: Modification, end: str, module: float) -> Relief:

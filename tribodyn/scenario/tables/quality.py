@@ -75,18 +75,11 @@ def _assembly(drive: DriveTable) -> Assembly:
 
 def _deviations(drive: DriveTable, sample: int) -> tuple[Deviations, Deviations]:
     both = []
-    for number, (gear, allowed) in enumerate(
-        zip((drive.pinion, drive.gear), tolerances_of(drive), strict=True)
-    ):
+    gears = zip((drive.pinion, drive.gear), tolerances_of(drive), strict=True)
+    for number, (gear, allowed) in enumerate(gears):
         if allowed is None:  # refused by the rules
             raise InputError("drive.quality", rule="missing", remedy="add quality = 6 to [drive]")
-        limits = Limits(
-            allowed.single_pitch,
-            allowed.total_pitch,
-            allowed.profile_slope,
-            allowed.profile_form,
-            allowed.helix_slope,
-        )
+        limits = Limits(*(getattr(allowed, name) for name in Limits._fields))
         both.append(sampled(limits, gear.teeth, sample, number))
     return both[0], both[1]
 
@@ -115,7 +108,7 @@ def helix_allowance(drive: DriveTable) -> float:
 
     ISO 6336-1 takes the same root as f_ma; 0 where no quality is given.
     """
-    slopes = [one.helix_slope if one else 0.0 for one in tolerances_of(drive)]
+    slopes = [allowed.helix_slope if allowed else 0.0 for allowed in tolerances_of(drive)]
     return math.hypot(*slopes) / min(drive.pinion.face_width, drive.gear.face_width)
 
 

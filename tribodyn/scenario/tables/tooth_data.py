@@ -43,7 +43,7 @@ def pressure_angle_of(drive: DriveTable) -> float | None:
 def gear_body(drive: DriveTable, gear: Gear) -> GearBody:
     """Return one body of a drive that breaks no rule; without the rounding of its tip."""
     rack = PROFILES.get(drive.rack or "", USUAL)
-    bore, tip = _radius(gear, "bore"), _radius(gear, "tip")
+    bore = _radius(gear, "bore")
     return GearBody(
         teeth=float(gear.teeth),
         profile_shift=gear.profile_shift,
@@ -52,7 +52,7 @@ def gear_body(drive: DriveTable, gear: Gear) -> GearBody:
         fillet_radius=rack.fillet_radius if gear.fillet_radius is None else gear.fillet_radius,
         face_width=gear.face_width,
         bore_radius=USUAL_BORE * drive.module * gear.teeth / 2 if bore is None else bore,
-        tip_radius=tip,
+        tip_radius=_radius(gear, "tip"),
         thickness_allowance=_allowance(drive, gear),
     )
 
@@ -74,17 +74,12 @@ def broken_tooth_rules(drive: DriveTable) -> Iterator[InputError]:
     for name, gear in (("pinion", drive.pinion), ("gear", drive.gear)):
         for what in ("bore", "tip"):
             if getattr(gear, f"{what}_radius") is not None and getattr(gear, f"{what}_diameter") is not None:
+                key, given = f"drive.{name}.{what}_diameter", _shown(gear, f"{what}_diameter")
                 rule, remedy = f"contradicts {what}_radius, which says the same", "leave one of them out"
-                yield InputError(
-                    f"drive.{name}.{what}_diameter", _shown(gear, f"{what}_diameter"), rule, remedy
-                )
+                yield InputError(key, given, rule, remedy)
         if gear.tip_diameter is not None and gear.addendum is not None:
-            yield InputError(
-                f"drive.{name}.addendum",
-                gear.addendum,
-                "contradicts tip_diameter, which takes its place",
-                "leave one of them out",
-            )
+            rule, remedy = "contradicts tip_diameter, which takes its place", "leave one of them out"
+            yield InputError(f"drive.{name}.addendum", gear.addendum, rule, remedy)
         yield from _broken_thickness(drive, f"drive.{name}", gear)
     yield from _broken_roughness(drive)
 
@@ -93,13 +88,10 @@ def _broken_roughness(drive: DriveTable) -> Iterator[InputError]:
     if drive.roughness is not None or drive.mean_roughness is not None:
         return
     lacking = [name for name in ("pinion", "gear") if getattr(drive, name).mean_roughness is None]
-    remedy = (
-        'add mean_roughness = "0.8 um", Ra, or to [drive] roughness = "0.3 um", composite rms of both flanks'
-    )
-    if len(lacking) == 2:
-        yield InputError("drive.roughness", rule="missing", remedy=remedy)
-    elif lacking:
-        yield InputError(f"drive.{lacking[0]}.mean_roughness", rule="missing", remedy=remedy)
+    if lacking:
+        key = "drive.roughness" if len(lacking) == 2 else f"drive.{lacking[0]}.mean_roughness"
+        both = 'or to [drive] roughness = "0.3 um", composite rms of both flanks'
+        yield InputError(key, rule="missing", remedy=f'add mean_roughness = "0.8 um", Ra, {both}')
 
 
 def _broken_thickness(drive: DriveTable, key: str, gear: Gear) -> Iterator[InputError]:
@@ -113,16 +105,13 @@ def _broken_thickness(drive: DriveTable, key: str, gear: Gear) -> Iterator[Input
                 remedy = f"add {needed} = {_EXAMPLES[needed]}"
                 yield InputError(f"{key}.{needed}", rule=f"missing: {there} needs it", remedy=remedy)
     if gear.thickness_tolerance is not None and gear.thickness_allowance is None:
-        remedy = 'add thickness_allowance = "-60 um"'
-        yield InputError(
-            f"{key}.thickness_allowance", rule="missing: thickness_tolerance is below it", remedy=remedy
-        )
+        rule, remedy = "missing: thickness_tolerance is below it", 'add thickness_allowance = "-60 um"'
+        yield InputError(f"{key}.thickness_allowance", None, rule, remedy)
     measured = given and given[0] in _WITH
     if measured and drive.family in FAMILIES and not FAMILIES[drive.family].involute:
+        shown = _shown(gear, given[0])
         rule = f"teeth of the family {drive.family} have no measure over a span or pins in closed form"
-        yield InputError(
-            f"{key}.{given[0]}", _shown(gear, given[0]), rule, "give thickness_allowance in its place"
-        )
+        yield InputError(f"{key}.{given[0]}", shown, rule, "give thickness_allowance in its place")
     elif measured and pressure_angle_of(drive) is not None and getattr(gear, _WITH[given[0]]) is not None:
         yield from _impossible_measure(drive, key, gear, given[0])
 
@@ -177,7 +166,7 @@ def shape_of(drive: DriveTable, family: Family) -> Any:
     if family.shape is None:
         return ()
     given = own_values(Owner(TABLE, "family", family.parameters), drive.shape or {})
-    return family.shape(**{one.name: given.get(one.name, one.default) for one in family.parameters})
+    return family.shape(**{own.name: given.get(own.name, own.default) for own in family.parameters})
 
 
 def shape_errors(drive: DriveTable, family: Family) -> list[InputError]:
