@@ -13,7 +13,7 @@ from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.studies.efficiency.published import tip_contact_ratios
 from tribodyn.validation.diez_ibarbia_study import (
     CONDITIONS,
-    SCENARIOS,
+    SHIFTS,
     Scenario,
     at_load,
     drive,
@@ -28,12 +28,6 @@ from tribodyn.validation.diez_ibarbia_study import (
 from tribodyn.validation.rows import Row, compare, published
 
 PAPER = "diez-ibarbia"
-#: Shifts x1 at which it is checked whether the efficiency falls.
-SHIFTS: dict[Scenario, tuple[float, ...]] = {
-    "S1": (0.0, 0.1, 0.2),
-    "S2": (0.0, 0.1, 0.3, 0.5, 0.7),
-    "S3": (0.0, 0.1, 0.3, 0.5, 0.7),
-}
 
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
@@ -101,12 +95,12 @@ def _step_at_pitch_point(flexible: PairFlexibility) -> tuple[bool, str]:
 
 def _falls_with_shift(progress: Callable[[float], None] | None) -> tuple[bool, str]:
     falls, notes = [], []
-    for count, scenario in enumerate(SCENARIOS):
+    for count, scenario in enumerate(SHIFTS):
         notes += [_by_hoehn(scenario), *_by_load_contact(scenario)]
         for condition in CONDITIONS:
             falls += [np.all(np.diff(course) < 0.0) for course in _courses(scenario, condition)]
         if progress:
-            progress(0.5 + 0.5 * (count + 1) / len(SCENARIOS))
+            progress(0.5 + 0.5 * (count + 1) / len(SHIFTS))
     return bool(all(falls)), "; ".join(notes)
 
 
@@ -144,6 +138,6 @@ def _by_load_contact(scenario: Scenario) -> list[str]:
         if np.any(steps > 0.0):
             highest = int(np.argmax(values))
             course = "rises" if highest == len(shifts) - 1 else f"largest of these at {shifts[highest]:g}"
-        figures = ", ".join(f"{100 * value:.3f}" for value in values)
-        sentences.append(f"{scenario} by load contact {condition} {figures}: {course}")
+        efficiencies = ", ".join(f"{100 * value:.3f}" for value in values)
+        sentences.append(f"{scenario} by load contact {condition} {efficiencies}: {course}")
     return sentences

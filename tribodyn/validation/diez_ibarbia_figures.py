@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from tribodyn.post.style import INK, PALETTE, QUIET, mark_panel, new_figure
 from tribodyn.validation.diez_ibarbia_study import (
     CONDITIONS,
+    SHIFTS,
     Course,
     Scenario,
     at_load,
@@ -23,16 +24,11 @@ from tribodyn.validation.diez_ibarbia_study import (
     theoretical_contact_ratio,
 )
 
-#: Shifts x1 of the curves over shift, and of those over the roll angle.
+#: Shifts x1 of the curves over shift; those over the roll angle are at `SHIFTS`.
 OVER_SHIFT: dict[Scenario, tuple[float, ...]] = {
     "S1": (0.0, 0.05, 0.1, 0.15, 0.2),
     "S2": (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7),
     "S3": (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7),
-}
-OVER_ROLL: dict[Scenario, tuple[float, ...]] = {
-    "S1": (0.0, 0.1, 0.2),
-    "S2": (0.0, 0.1, 0.3, 0.5, 0.7),
-    "S3": (0.0, 0.1, 0.3, 0.5, 0.7),
 }
 TITLES: dict[Scenario, str] = {
     "S1": "tip circles fixed",
@@ -115,67 +111,64 @@ def contact_ratio(scenario: Scenario, _: Path) -> Figure:
 
 def over_roll(scenario: Scenario, quantity: str, _: Path) -> Figure:
     """Figures 8, 12, 17 (load sharing) and 9, 13, 18 (losses) for several shifts, mildest and severest."""
-    figure = new_figure(height=3.1)
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    shifts = OVER_ROLL[scenario]
+    shifts = SHIFTS[scenario]
     colours = colormaps["viridis"](np.linspace(0.0, 0.88, len(shifts)))
-    for letter, axes, condition in zip("ab", panels, EXTREMES, strict=True):
+
+    def curves(axes: Axes, condition: str) -> None:
         for shift, colour in zip(shifts, colours, strict=True):
             course = course_at_load(scenario, shift, condition)
-            axes.plot(
-                np.degrees(course.roll), _values(course, quantity), color=colour, label=f"$x_1$ = {shift:g}"
-            )
-        _finish(axes, letter, f"{scenario}, {condition}", quantity)
-    panels[0].set_ylim(bottom=0.0)  # once both have been drawn: they share it
-    panels[1].set_ylabel("")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(shifts))
+            _draw(axes, course, quantity, color=colour, label=f"$x_1$ = {shift:g}")
+
+    figure, axes = _two_panels(curves, {f"{scenario}, {name}": name for name in EXTREMES}, quantity)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=len(shifts))
     return figure
 
 
 def both_approaches(scenario: Scenario, shift: float, _: Path) -> Figure:
     """Figure 14: losses by both approaches with and without shift, at OC2 and OC4."""
-    figure = new_figure(height=3.1)
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    for letter, axes, condition in zip("ab", panels, EXTREMES, strict=True):
+
+    def curves(axes: Axes, condition: str) -> None:
         for x, colour in zip((0.0, shift), PALETTE, strict=False):
-            by_model = course_at_load(scenario, x, condition)
-            equal = course_by_equal_loads(scenario, x, condition)
-            axes.plot(
-                np.degrees(by_model.roll), _values(by_model, "loss"), color=colour, label=f"$x_1$ = {x:g}"
-            )
-            axes.plot(np.degrees(equal.roll), _values(equal, "loss"), color=colour, linestyle=DASHED)
-        _finish(axes, letter, f"{scenario}, {condition}", "loss")
-    panels[0].set_ylim(bottom=0.0)  # once both have been drawn: they share it
-    panels[1].set_ylabel("")
-    _legend(figure, panels[0], {"load contact": "-", "equal loads (Höhn)": DASHED}, 4)
+            _draw(axes, course_at_load(scenario, x, condition), "loss", color=colour, label=f"$x_1$ = {x:g}")
+            _draw(axes, course_by_equal_loads(scenario, x, condition), "loss", color=colour, linestyle=DASHED)
+
+    figure, axes = _two_panels(curves, {f"{scenario}, {name}": name for name in EXTREMES}, "loss")
+    _legend(figure, axes, {"load contact": "-", "equal loads (Höhn)": DASHED}, 4)
     return figure
 
 
 def by_condition(scenario: Scenario, shift: float, _: Path) -> Figure:
     """Figures 10, 15, 20: losses at every operating condition, without and with the largest shift."""
-    figure = new_figure(height=3.1)
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    for letter, axes, x in zip("ab", panels, (0.0, shift), strict=True):
+
+    def curves(axes: Axes, x: float) -> None:
         for condition, colour in BY_CONDITION.items():
-            course = course_at_load(scenario, x, condition)
-            axes.plot(np.degrees(course.roll), _values(course, "loss"), color=colour, label=condition)
-        _finish(axes, letter, f"{scenario}, $x_1$ = {x:g}", "loss")
-    panels[0].set_ylim(bottom=0.0)  # once both have been drawn: they share it
-    panels[1].set_ylabel("")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
+            _draw(axes, course_at_load(scenario, x, condition), "loss", color=colour, label=condition)
+
+    figure, axes = _two_panels(curves, {f"{scenario}, $x_1$ = {x:g}": x for x in (0.0, shift)}, "loss")
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=5)
     return figure
 
 
-def _values(course: Course, quantity: str) -> Any:
-    return course.share if quantity == "share" else 1e3 * course.loss
+def _two_panels(
+    curves: Callable[[Axes, Any], None], panels_of: dict[str, Any], quantity: str
+) -> tuple[Figure, Axes]:
+    """Two panels over the roll angle, the curves drawn of what stands behind their titles; and the first."""
+    figure = new_figure(height=3.1)
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    for letter, axes, (title, given) in zip("ab", panels, panels_of.items(), strict=True):
+        curves(axes, given)
+        axes.axvline(0.0, color=QUIET, linewidth=0.6)
+        axes.set_title(title)
+        axes.set_xlabel(ROLL)
+        mark_panel(axes, letter)
+    panels[0].set_ylabel(LOAD_SHARING if quantity == "share" else LOSS)
+    panels[0].set_ylim(bottom=0.0)  # once both have been drawn: they share it
+    return figure, panels[0]
 
 
-def _finish(axes: Axes, letter: str, title: str, quantity: str) -> None:
-    axes.axvline(0.0, color=QUIET, linewidth=0.6)
-    axes.set_title(title)
-    axes.set_xlabel(ROLL)
-    axes.set_ylabel(LOAD_SHARING if quantity == "share" else LOSS)
-    mark_panel(axes, letter)
+def _draw(axes: Axes, course: Course, quantity: str, **style: Any) -> None:
+    values = course.share if quantity == "share" else 1e3 * course.loss
+    axes.plot(np.degrees(course.roll), values, **style)
 
 
 def _legend(figure: Figure, axes: Axes, lines: dict[str, Any], columns: int) -> None:

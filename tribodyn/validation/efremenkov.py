@@ -13,7 +13,6 @@ from tribodyn.studies.protocol.run import run
 from tribodyn.validation.rows import Row, compare, published
 
 PAPER = "efremenkov-2024"
-PUBLISHED, CORRECTED = "irefc-as-published", "irefc"
 
 #: What is changed by the ends of the names of the records.
 CHANGES = {
@@ -39,7 +38,7 @@ RUNS: dict[str, tuple[str, dict[str, str]]] = {
 
 
 class FinishedRun(NamedTuple):
-    """What the rows need of a record: figures, and datasets (time, element)."""
+    """What the rows need of a record: its summary, and datasets (time, element)."""
 
     summary: dict[str, Any]
     data: dict[str, np.ndarray]
@@ -63,7 +62,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         if progress:
             progress((count + 1) / len(RUNS))
     values, otherwise = (
-        _table(results[begin]) | _figures({end: results.get(begin + end) for end in CHANGES})
+        _table(results[begin]) | _of_the_text({end: results.get(begin + end) for end in CHANGES})
         for begin in (PUBLISHED, CORRECTED)
     )
     published_as = results[PUBLISHED].summary["efficiency_by_energy"]
@@ -109,8 +108,8 @@ def _table(result: FinishedRun) -> dict[str, Any]:
     return {f"efremenkov/row-{number:02d}": row.tolist() for number, row in enumerate(table, start=1)}
 
 
-def _figures(results: dict[str, FinishedRun | None]) -> dict[str, Any]:
-    """Figures of the text, from runs by `CHANGES`; None for a gear that locks."""
+def _of_the_text(results: dict[str, FinishedRun | None]) -> dict[str, Any]:
+    """Numbers of the text, from runs by `CHANGES`; None for a gear that locks."""
     found: dict[str, Any] = {
         f"efremenkov/ns-max{end or '-r2-20'}": None if result is None else float(result.loss.max())
         for end, result in results.items()

@@ -4,10 +4,10 @@ Where the paper draws contact stress these show the maximum line load along the 
 behave like (docs/validation.md); Hertz pressures have a figure of their own.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib import colormaps
@@ -17,122 +17,83 @@ from matplotlib.figure import Figure
 from tribodyn.post.style import mark_panel, new_figure
 from tribodyn.validation.jia import CROWNED, FaceState, Name, face_load, passage
 
-RELIEFS = (0.0, 4.0, 8.0, 12.0)
-MINUTES = (0.0, 1.0, 2.0, 3.0)
 FACE = "From the middle of the face (mm)"
 ROLL = "Pinion angle from the pitch point (°)"
-LINE_LOAD = "Line load (N/mm)"
+#: Along the face of the pair at the pitch point, and of the `Passage` of a pair: label, and SI to its unit.
 QUANTITIES = {
+    "face": ("Line load (N/mm)", 1e-3),
     "line_load": ("Maximum line load (N/mm)", 1e-3),
     "pressure": ("Hertz pressure (GPa)", 1e-9),
     "compression": ("Root compression (MPa)", 1e-6),
     "tension": ("Root tension (MPa)", 1e-6),
 }
+
+
+class Panel(NamedTuple):
+    """Curves of one drive, by their labels."""
+
+    title: str
+    drive: Name
+    states: dict[str, FaceState]
+
+
+RELIEVED = [
+    Panel(
+        f"parabolic, $y_3$ = {unmodified:g} mm",
+        "parabolic",
+        {f"$y_1 = y_2$ = {relief:g} µm": FaceState(relief, unmodified) for relief in (0.0, 4.0, 8.0, 12.0)},
+    )
+    for unmodified in (0.0, 8.0)
+]
 #: The four panels of figures 17 and 19 to 21.
-PANELS: tuple[tuple[str, Name, FaceState], ...] = (
-    ("involute, unmodified", "involute", FaceState()),
-    ("parabolic, unmodified", "parabolic", FaceState()),
-    ("involute, 8/8 µm, 8 mm", "involute", CROWNED),
-    ("parabolic, 8/8 µm, 8 mm", "parabolic", CROWNED),
-)
+MISALIGNED = [
+    Panel(
+        f"{drive}, {title}",
+        drive,
+        {f"{minutes:g}′": state._replace(misalignment=minutes) for minutes in (0.0, 1.0, 2.0, 3.0)},
+    )
+    for title, state in (("unmodified", FaceState()), ("8/8 µm, 8 mm", CROWNED))
+    for drive in ("involute", "parabolic")
+]
 
 
-def relieved_faces(_: Path) -> Figure:
-    """Figure 14: load along the face at the pitch point under relief, parabolic."""
-    figure = new_figure(height=3.0)
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    for letter, axes, unmodified in zip("ab", panels, (0.0, 8.0), strict=True):
-        for relief, colour in zip(RELIEFS, _shades(RELIEFS), strict=True):
-            _draw_face(
-                axes, "parabolic", FaceState(relief, unmodified), colour, f"$y_1 = y_2$ = {relief:g} µm"
-            )
-        axes.set_title(f"parabolic, $y_3$ = {unmodified:g} mm")
+def _figure(height: float, quantities: Sequence[str], panels: Sequence[Panel], _: Path) -> Figure:
+    """Two panels a row, those of one quantity after those of another."""
+    wanted = [(quantity, panel) for quantity in quantities for panel in panels]
+    figure = new_figure(height=height)
+    sharey = "row" if len(quantities) > 1 else "all"
+    grid = figure.subplots(len(wanted) // 2, 2, sharex=True, sharey=sharey, squeeze=False)
+    for letter, axes, (quantity, panel) in zip("abcdef", grid.flat, wanted, strict=False):
+        _draw(axes, quantity, panel)
+        axes.set_title(panel.title)
         mark_panel(axes, letter)
-    _finish(figure, panels.flat, FACE, LINE_LOAD)
+    for axes, (quantity, _panel) in zip(grid[:, 0], wanted[::2], strict=True):
+        axes.set_ylabel(QUANTITIES[quantity][0])
+        axes.set_ylim(bottom=0.0)
+    for axes in grid[-1]:
+        axes.set_xlabel(FACE if quantities == ["face"] else ROLL)
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 
-def relieved_stresses(_: Path) -> Figure:
-    """Figure 16: line load and root stresses over the pinion's angle under relief, parabolic."""
-    figure = new_figure(height=7.2)
-    panels = figure.subplots(3, 2, sharex=True, sharey="row")
-    for row, quantity in zip(panels, ("line_load", "compression", "tension"), strict=True):
-        for axes, unmodified in zip(row, (0.0, 8.0), strict=True):
-            for relief, colour in zip(RELIEFS, _shades(RELIEFS), strict=True):
-                state = FaceState(relief, unmodified)
-                _draw_passage(axes, "parabolic", state, quantity, colour, f"$y_1 = y_2$ = {relief:g} µm")
-            axes.set_title(f"parabolic, $y_3$ = {unmodified:g} mm")
-        row[0].set_ylabel(QUANTITIES[quantity][0])
-        row[0].set_ylim(bottom=0.0)
-    for letter, axes in zip("abcdef", panels.flat, strict=True):
-        mark_panel(axes, letter)
-    for axes in panels[-1]:
-        axes.set_xlabel(ROLL)
-    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return figure
-
-
-def misaligned_faces(_: Path) -> Figure:
-    """Figure 17: load along the face at the pitch point under misalignment."""
-    return _four(_draw_face, FACE, LINE_LOAD)
-
-
-def misaligned_passages(quantity: str, _: Path) -> Figure:
-    """Figures 19 (line load; Hertz pressure), 20 and 21 (root stress) under misalignment."""
-
-    def draw(axes: Axes, name: Name, state: FaceState, colour: Any, label: str) -> None:
-        _draw_passage(axes, name, state, quantity, colour, label)
-
-    return _four(draw, ROLL, QUANTITIES[quantity][0])
-
-
-def _four(draw: Callable[[Axes, Name, FaceState, Any, str], None], along: str, across: str) -> Figure:
-    figure = new_figure(height=5.2)
-    panels = figure.subplots(2, 2, sharex=True, sharey=True)
-    for letter, axes, (title, name, state) in zip("abcd", panels.flat, PANELS, strict=True):
-        for minutes, colour in zip(MINUTES, _shades(MINUTES), strict=True):
-            draw(axes, name, state._replace(misalignment=minutes), colour, f"{minutes:g}′")
-        axes.set_title(title)
-        mark_panel(axes, letter)
-    for axes in panels[1]:
-        axes.set_xlabel(along)
-    for axes in panels[:, 0]:
-        axes.set_ylabel(across)
-    panels[0, 0].set_ylim(bottom=0.0)
-    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return figure
-
-
-def _finish(figure: Figure, panels: Iterable[Axes], along: str, across: str) -> None:
-    first, *_ = panels = list(panels)
-    for axes in panels:
-        axes.set_xlabel(along)
-    first.set_ylabel(across)
-    first.set_ylim(bottom=0.0)
-    figure.legend(*first.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-
-
-def _draw_face(axes: Axes, name: Name, state: FaceState, colour: Any, label: str) -> None:
-    place, load = face_load(name, state)
-    axes.plot(1e3 * place, 1e-3 * load, color=colour, label=label)
-
-
-def _draw_passage(axes: Axes, name: Name, state: FaceState, quantity: str, colour: Any, label: str) -> None:
-    course = passage(name, state)
-    values = getattr(course, quantity)
-    axes.plot(np.degrees(course.roll), QUANTITIES[quantity][1] * values, color=colour, label=label)
-
-
-def _shades(values: tuple[float, ...]) -> Any:
-    return colormaps["viridis"](np.linspace(0.0, 0.88, len(values)))
+def _draw(axes: Axes, quantity: str, panel: Panel) -> None:
+    colours = colormaps["viridis"](np.linspace(0.0, 0.88, len(panel.states)))
+    for colour, (label, state) in zip(colours, panel.states.items(), strict=True):
+        if quantity == "face":
+            place, values = face_load(panel.drive, state)
+            along = 1e3 * place
+        else:
+            course = passage(panel.drive, state)
+            along, values = np.degrees(course.roll), getattr(course, quantity)
+        axes.plot(along, QUANTITIES[quantity][1] * values, color=colour, label=label)
 
 
 FIGURES: dict[str, Callable[[Path], Figure]] = {
-    "figure-14": relieved_faces,
-    "figure-16": relieved_stresses,
-    "figure-17": misaligned_faces,
-    "figure-19": partial(misaligned_passages, "line_load"),
-    "figure-19-pressure": partial(misaligned_passages, "pressure"),
-    "figure-20": partial(misaligned_passages, "compression"),
-    "figure-21": partial(misaligned_passages, "tension"),
+    "figure-14": partial(_figure, 3.0, ["face"], RELIEVED),
+    "figure-16": partial(_figure, 7.2, ["line_load", "compression", "tension"], RELIEVED),
+    "figure-17": partial(_figure, 5.2, ["face"], MISALIGNED),
+    "figure-19": partial(_figure, 5.2, ["line_load"], MISALIGNED),
+    "figure-19-pressure": partial(_figure, 5.2, ["pressure"], MISALIGNED),
+    "figure-20": partial(_figure, 5.2, ["compression"], MISALIGNED),
+    "figure-21": partial(_figure, 5.2, ["tension"], MISALIGNED),
 }

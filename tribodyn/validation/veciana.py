@@ -8,21 +8,26 @@ from typing import Any
 import numpy as np
 
 from tribodyn.validation.rows import Row, compare, published
-from tribodyn.validation.veciana_study import DRIVES, LAWS, PINION_TEETH, DriveUnderLaw, Law, contact_height
+from tribodyn.validation.veciana_study import (
+    CHOSEN,
+    DRIVES,
+    LAWS,
+    PINION_TEETH,
+    DriveUnderLaw,
+    Law,
+    contact_height,
+)
 
 PAPER = "veciana-2024"
-#: Generating circles over d_1 between which the paper gives its gains, and the one it chooses.
-SMALL, CHOSEN, LARGE = 0.1, 0.17, 0.4
+#: Generating circles over d_1 between which the paper gives its gains.
+SMALL, LARGE = 0.1, 0.4
 
 
 class Efficiencies:
     """Efficiencies, %, of all drives of the study under one law.
 
-    Attributes
-    ----------
-    involute : (drive,)
-    cycloid : (drive, circle), at `SMALL`, `CHOSEN` and `LARGE` circles
-    crossover : of the first drive
+    `involute` (drive,), `cycloid` (drive, circle) at `SMALL`, `CHOSEN` and `LARGE` circles, `crossover` of
+    the first drive.
     """
 
     def __init__(self, law: Law) -> None:

@@ -19,6 +19,8 @@ from tribodyn.studies.efficiency.published import UnitContact
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.surface_state import surface_state
 from tribodyn.validation.veciana_study import (
+    CHOSEN,
+    DRIVES,
     EFFECTIVE_MODULUS,
     LAWS,
     PINION_TEETH,
@@ -28,13 +30,10 @@ from tribodyn.validation.veciana_study import (
     contact_height,
 )
 
-#: The paper's choice of d_g1/d_1.
-CHOSEN = 0.17
-
 Arrays = dict[str, np.ndarray]
 
-#: (gear ratio, module m) of the panels of figures 5 and 6, and the gear ratios of figure 10.
-DRIVES = [(1.0, 2e-3), (2.0, 2e-3), (3.0, 2e-3), (1.0, 2e-3), (1.0, 4e-3), (1.0, 6e-3)]
+#: Drives of the panels of figures 5 and 6, and the gear ratios of figure 10.
+PANELS = (*DRIVES[:3], DRIVES[0], *DRIVES[3:])
 RATIOS = (1.0, 1.5, 2.0, 2.5, 3.0)
 
 
@@ -160,7 +159,7 @@ def surfaces(law: Law, arrays: Arrays) -> Figure:
     approach, recess = np.meshgrid(circle, circle, indexing="ij")
     figure = new_figure(8.2, 5.0)
     panels = figure.subplots(2, 3, sharex=True, sharey=True)
-    keys = [drive_key(*drive) for drive in DRIVES]
+    keys = [drive_key(*drive) for drive in PANELS]
     percentages = [100.0 * arrays[f"{key} [1]"] for key in keys]
     steps = np.linspace(min(map(np.min, percentages)), max(map(np.max, percentages)), 15)
     filled: Any = None

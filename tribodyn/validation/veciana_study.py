@@ -27,6 +27,8 @@ PITCH_LINE_SPEED = 12.5  # m/s
 PITCH_POINT_PRESSURE = 668e6  # Pa, of the involute
 WIDTH_OVER_DIAMETER = 0.8
 EFFECTIVE_MODULUS = 231e9  # Pa
+#: The paper's choice of the generating circles d_g1/d_1.
+CHOSEN = 0.17
 #: The paper's drives: (gear ratio, module m).
 DRIVES = ((1.0, 2e-3), (2.0, 2e-3), (3.0, 2e-3), (1.0, 4e-3), (1.0, 6e-3))
 
@@ -164,13 +166,8 @@ def involute_contact(
 ) -> UnitContact:
     """An involute pair: A = r_b, T = r sin α ± ψ r_b1 (Veciana (51), (52), (57)).
 
-    Parameters
-    ----------
-    pinion_teeth : z1
-    pinion_radius : working pitch radius, m
-    ratio : i = d_2/d_1
-    pressure_angle : working, rad
-    rotation : (ψ, weights), default: `rotations`
+    Of the working pitch radius (m) and pressure angle (rad), i = d_2/d_1; the rotation is (ψ, weights), those
+    of `rotations` if not given.
     """
     psi, weight = rotation or rotations(pinion_teeth)
     base = pinion_radius * math.cos(pressure_angle) + np.zeros_like(psi)
@@ -200,14 +197,9 @@ def cycloid_contact(
 ) -> UnitContact:
     """A cycloidal pair: a = |ψ|/(2c), A = r cos a, T = r sin a ± d_g sin a (Veciana (24)-(40), (A9)-(A13)).
 
-    Parameters
-    ----------
-    pinion_teeth, pinion_radius, ratio, rotation
-        As in `involute_contact`.
-    approach_circle, recess_circle : scalar or array (…)
-        c_h = d_g1/d_1 and c_e = d_g2/d_1 of the generating circles.
-    exact_speeds : the rolling speeds contain the motion of the contact along the path, r κ. Veciana (43)-(50)
-        leave it out and take angular speed times lever arm; sliding is the same either way
+    The generating circles are c_h = d_g1/d_1 and c_e = d_g2/d_1, scalars or arrays (…). `exact_speeds`: the
+    rolling speeds contain the motion of the contact along the path, r κ. Veciana (43)-(50) leave it out and
+    take angular speed times lever arm; sliding is the same either way.
     """
     psi, weight = rotation or rotations(pinion_teeth)
     circles = np.asarray(approach_circle, dtype=float), np.asarray(recess_circle, dtype=float)
