@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 from tribodyn.geometry.families import family
-from tribodyn.geometry.families.parabolic import maximum_coefficient, published_limits
+from tribodyn.geometry.families.parabolic import maximum_coefficient
 from tribodyn.geometry.path import kinematics
 from tribodyn.post.style import house_style
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation import validate
-from tribodyn.validation.jia import CROWNED, geometry, maximum_line_load
+from tribodyn.validation.jia import CROWNED, geometry, maximum_line_load, published_limits
 from tribodyn.validation.jia_figures import FIGURES
 from tribodyn.validation.rows import compare, published
 

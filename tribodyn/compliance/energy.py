@@ -13,21 +13,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.foundation import (
-    Foundation,
-    foundation_compliance,
-    ring_compliance,
-    ring_foundation,
-)
+from tribodyn.compliance.foundation import Foundation, foundation_compliance, ring_compliance, ring_foundation
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import GearBody, MaterialData, Side, body_of
 from tribodyn.geometry.path import PerContact, distance_at_radius
-from tribodyn.geometry.tooth import (
-    Tooth,
-    contact_in_tooth_frame,
-    fillet_point,
-    thickness_half_angle,
-)
+from tribodyn.geometry.tooth import Tooth, contact_in_tooth_frame, fillet_point, thickness_half_angle
 from tribodyn.numerics.elementary import cos, namespace, sin, tan
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
@@ -126,11 +116,7 @@ def loaded_tooth(assembly: Assembly, side: Side) -> LoadedTooth:
 
 
 def tooth_compliance(
-    loaded: LoadedTooth,
-    material: MaterialData,
-    width: Any,
-    r: PerContact,
-    body: Foundation = "sainsot-velex",
+    loaded: LoadedTooth, material: MaterialData, width: Any, r: PerContact, body: Foundation = "sainsot-velex"
 ) -> ToothCompliance:
     """Compliance of one tooth that is loaded at the signed distances r (m) of the drive.
 

@@ -157,7 +157,9 @@ def pair_of(
     The order is by numbers of teeth, whichever gear drives.
     """
     drive, path = assembly.drive, assembly.path
-    order = SIDES if _first(assembly) == "pinion" else SIDES[::-1]
+    # of equal numbers of teeth the larger profile shift comes first
+    ranks = [(body.teeth, -body.profile_shift) for body in (drive.pinion, drive.gear)]
+    order = SIDES if ranks[0] <= ranks[1] else SIDES[::-1]
     bodies = [body_of(drive, side) for side in order]
     torque = normal_load * float(path.gear_pitch_radius) * math.cos(float(path.pressure_angle(0.0)))
     modulus = dict(zip(SIDES, (material.youngs_modulus for material in materials), strict=True))
@@ -188,10 +190,3 @@ def bodies_outside(assembly: Assembly) -> list[str]:
                 f"rim of the {side} {heights:.2g} tooth heights, no solid disc below {_RIM_HEIGHTS:g}"
             )
     return found
-
-
-def _first(assembly: Assembly) -> str:
-    """Name the gear with fewer teeth, of equal ones that with the larger profile shift."""
-    pinion, gear = assembly.drive.pinion, assembly.drive.gear
-    pinion_first = (pinion.teeth, -pinion.profile_shift) <= (gear.teeth, -gear.profile_shift)
-    return "pinion" if pinion_first else "gear"

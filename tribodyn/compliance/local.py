@@ -12,10 +12,7 @@ from tribodyn.numerics.shapes import Array, Float
 
 
 def hertz_half_width(
-    line_load: Float[Array, "..."],
-    curvature: Float[Array, "..."],
-    first: MaterialData,
-    second: MaterialData,
+    line_load: Float[Array, "..."], curvature: Float[Array, "..."], first: MaterialData, second: MaterialData
 ) -> Float[Array, "..."]:
     """Half width of the contact, m: L = √(4/π Σ(1 − ν²)/E q/κ), κ = 1/χ1 + 1/χ2 (Diez-Ibarbia et al. (13)).
 

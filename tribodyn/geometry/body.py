@@ -143,9 +143,7 @@ def mass_and_inertia(assembly: Assembly, side: Side, density: Any) -> tuple[Any,
 
 
 def body_masses(
-    assembly: Assembly,
-    given: Sequence[tuple[float | None, float | None]],
-    densities: Sequence[float],
+    assembly: Assembly, given: Sequence[tuple[float | None, float | None]], densities: Sequence[float]
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Mass (kg) and inertia (kg m²) of pinion and gear: those given, the others from section and density."""
     masses = []

@@ -195,10 +195,7 @@ def contact_limits(
 
     Contact begins at the gear's tip and ends at the pinion's.
     """
-    return (
-        -distance_at_radius(mirrored(path), gear_tip_radius),
-        distance_at_radius(path, pinion_tip_radius),
-    )
+    return (-distance_at_radius(mirrored(path), gear_tip_radius), distance_at_radius(path, pinion_tip_radius))
 
 
 def contact_ratio(

@@ -82,6 +82,7 @@ class MeshCycle(NamedTuple):
         return 2 * np.pi / self.pinion_teeth
 
 
+_PAIR = ("phase", "pair")
 #: Fields of a `MeshCycle` as a record has them: dimensions, unit, meaning; (phase,) is (S, N) in the table.
 MESH_CYCLE: dict[str, Variable] = {
     "boundary": Variable(
@@ -94,35 +95,25 @@ MESH_CYCLE: dict[str, Variable] = {
     ),
     "side": Variable(("pair",), "1", "+1 driving flanks, -1 back flanks"),
     "in_contact": Variable(
-        ("phase", "pair"),
+        _PAIR,
         "1",
         "1 where the pair is on the theoretical path of contact; elsewhere its values mean nothing",
     ),
-    "pressure_angle": Variable(("phase", "pair"), "rad", "angle of the common normal to the pitch tangent"),
-    "signed_distance": Variable(
-        ("phase", "pair"), "m", "distance from pitch point to contact, negative in approach"
-    ),
+    "pressure_angle": Variable(_PAIR, "rad", "angle of the common normal to the pitch tangent"),
+    "signed_distance": Variable(_PAIR, "m", "distance from pitch point to contact, negative in approach"),
     "equivalent_radius": Variable(
-        ("phase", "pair"), "m", "one over the sum of the flanks' curvatures, at the very point of contact"
+        _PAIR, "m", "one over the sum of the flanks' curvatures, at the very point of contact"
     ),
     "pinion_speed": Variable(
-        ("phase", "pair"), "m/rad", "speed of the contact along the pinion's flank per pinion speed"
+        _PAIR, "m/rad", "speed of the contact along the pinion's flank per pinion speed"
     ),
-    "gear_speed": Variable(
-        ("phase", "pair"), "m/rad", "speed of the contact along the gear's flank per pinion speed"
-    ),
-    "compliance": Variable(
-        ("phase", "pair"), "m/N", "deflection of one pair along its normal per normal load"
-    ),
-    "gap": Variable(
-        ("phase", "pair"), "m", "static transmission error; for back flanks the backlash along the normal"
-    ),
+    "gear_speed": Variable(_PAIR, "m/rad", "speed of the contact along the gear's flank per pinion speed"),
+    "compliance": Variable(_PAIR, "m/N", "deflection of one pair along its normal per normal load"),
+    "gap": Variable(_PAIR, "m", "static transmission error; for back flanks the backlash along the normal"),
     "line_load_friction": Variable(
-        ("phase", "pair"), "1", "line load at which friction acts as on the uneven face, over the mean"
+        _PAIR, "1", "line load at which friction acts as on the uneven face, over the mean"
     ),
-    "line_load_peak": Variable(
-        ("phase", "pair"), "1", "maximum line load along the face over the mean, K_Hbeta"
-    ),
+    "line_load_peak": Variable(_PAIR, "1", "maximum line load along the face over the mean, K_Hbeta"),
     "coupling": Variable(
         ("phase", "pair", "other_pair"),
         "m/N",

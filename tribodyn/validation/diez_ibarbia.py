@@ -34,9 +34,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     """All rows of the paper."""
     base = drive()
     by_hoehn, by_integral = loss_factors(base)
-    values: dict[str, tuple[Any, str]] = {
-        "diez/contact-ratio": (sum(tip_contact_ratios(FAMILY, base)), ""),
-    }
+    values: dict[str, tuple[Any, str]] = {"diez/contact-ratio": (sum(tip_contact_ratios(FAMILY, base)), "")}
     efficiency, at_load = {}, {}
     flexible = elastic(base)
     for count, name in enumerate(CONDITIONS):

@@ -18,7 +18,7 @@ from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_throu
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.geometry.families.parabolic import maximum_coefficient, published_limits
+from tribodyn.geometry.families.parabolic import maximum_coefficient
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Modifications
 from tribodyn.geometry.path import kinematics
 from tribodyn.studies.gear_pair.case import Case
@@ -27,6 +27,7 @@ from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.validation.rows import Row, compare, published
 
 Name = Literal["involute", "parabolic"]
+DRIVES: tuple[Name, Name] = ("involute", "parabolic")
 
 PINION_TORQUE = 134.0  # N m
 ARC_MINUTE = math.radians(1.0 / 60.0)
@@ -148,54 +149,59 @@ def face_load(name: Name, state: FaceState = FaceState()) -> tuple[np.ndarray, n
 
 
 PAPER = "jia-2022"
-#: Reliefs y1 = y2 (µm) and unmodified lengths y3 (mm) of Table 3.
-RELIEFS = [(relief, unmodified) for unmodified in (0, 8) for relief in (4, 8, 12)]
 # Pairs closer to the pitch point, degrees, are left out where pressures of the two families are compared.
 _NEAR = 2.0
 _PRESSURES = "Hertz pressures"
 
 
-def contact_ratio(case: Case) -> float:
-    """Transverse contact ratio of a case's drive."""
-    return assemble(family(case.family), case.drive).contact_ratio
-
-
-def pressure_at_pitch_point(case: Case) -> float:
-    """Hertz pressure (Pa) of one pair at the pitch point under the whole torque."""
-    path = family(case.family).working_path(case.drive)
-    at = kinematics(path, 0.0)
-    line_load = case.operating.gear_torque / float(at.gear_normal_arm) / case.drive.gear.face_width
-    modulus = 2.0 / sum((1 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials)
-    return float(hertz_pressure(line_load, float(at.relative_curvature), modulus))
-
-
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
     """All rows of the paper; no run is recorded, so that `folder` stays empty."""
     values = geometry()
-    parts = (
-        lambda: _misaligned("involute", "unmodified", FaceState()),
-        lambda: _misaligned("involute", "crowned", CROWNED),
-        lambda: _misaligned("parabolic", "unmodified", FaceState()),
-        lambda: _misaligned("parabolic", "crowned", CROWNED),
-        lambda: _relieved() | _families(),
-    )
-    for done, part in enumerate(parts, start=1):
-        values |= part()
+    # Tables 4 and 5 over their own value without misalignment, Table 3 over the unmodified
+    ratios: dict[str, tuple[Name, FaceState, FaceState, bool]] = {
+        f"jia/misaligned-{name}-{sort}-{minutes}": (
+            name,
+            base._replace(misalignment=float(minutes)),
+            base,
+            minutes == 3,
+        )
+        for name in DRIVES
+        for sort, base in (("unmodified", FaceState()), ("crowned", CROWNED))
+        for minutes in (1, 2, 3)
+    }
+    ratios |= {
+        f"jia/crown-{relief}-{relief}-{unmodified}": (
+            "parabolic",
+            FaceState(float(relief), float(unmodified)),
+            FaceState(),
+            relief == 8,
+        )
+        for unmodified in (0, 8)
+        for relief in (4, 8, 12)
+    }
+    for done, (key, given) in enumerate(ratios.items(), start=1):
+        values[key] = _ratio(*given)
         if progress:
-            progress(done / len(parts))
+            progress(done / len(ratios))
+    values |= _families()
     table = published(PAPER)
     return [compare(table[key], *values[key]) for key in table]
 
 
 def geometry() -> dict[str, tuple[Any, ...]]:
     """Rows of limits of the geometry, contact ratios and the pressure at the pitch point: value and note."""
-    parabolic, involute = case_of("parabolic"), case_of("involute")
-    pinion, gear = parabolic.drive.pinion.teeth, parabolic.drive.gear.teeth
-    lowest, highest_k1 = published_limits(gear)
-    _, most_k2 = published_limits(pinion)
+    case = case_of("involute")
+    parabolic, involute = (assemble(family(name), case_of(name).drive) for name in ("parabolic", "involute"))
+    lowest, highest_k1 = published_limits(parabolic.drive.gear.teeth)
+    _, most_k2 = published_limits(parabolic.drive.pinion.teeth)
     actual = [maximum_coefficient(parabolic.drive, half) for half in (1, -1)]
     true = "by the geometry, with the mate's actual tip: below {:.3f}"
-    pressure, ratio = pressure_at_pitch_point(involute), contact_ratio(involute)
+    # of one pair at the pitch point under the whole torque
+    at = kinematics(involute.path, 0.0)
+    line_load = case.operating.gear_torque / float(at.gear_normal_arm) / involute.drive.gear.face_width
+    modulus = 2.0 / sum((1 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials)
+    pressure = float(hertz_pressure(line_load, float(at.relative_curvature), modulus))
+    ratio = involute.contact_ratio
     # Z_ε of ISO 6336-2 for spur gears, which takes off the part of the load that a second pair carries
     factor = math.sqrt((4.0 - ratio) / 3.0)
     return {
@@ -206,7 +212,7 @@ def geometry() -> dict[str, tuple[Any, ...]]:
             "by the geometry there is no such limit: smaller k only steepens the path",
             ("actual tip, no limit", None),
         ),
-        "jia/cr-novel": (contact_ratio(parabolic), ""),
+        "jia/cr-novel": (parabolic.contact_ratio, ""),
         "jia/cr-involute": (ratio, ""),
         "jia/hertz-pitch": (
             factor * pressure,
@@ -216,24 +222,16 @@ def geometry() -> dict[str, tuple[Any, ...]]:
     }
 
 
-def _misaligned(name: Name, sort: str, base: FaceState) -> dict[str, tuple[Any, ...]]:
-    """Rows of Tables 4 and 5: over their own value without misalignment."""
-    return {
-        f"jia/misaligned-{name}-{sort}-{minutes}": _ratio(
-            name, base._replace(misalignment=float(minutes)), base, apart=minutes == 3
-        )
-        for minutes in (1, 2, 3)
-    }
+def published_limits(teeth: float) -> tuple[float, float]:
+    """Minimum and maximum k without undercut by Jia's (42) and (44), from the teeth of the wheel it rolls in.
 
-
-def _relieved() -> dict[str, tuple[Any, ...]]:
-    """Rows of Table 3: over the unmodified."""
-    return {
-        f"jia/crown-{relief}-{relief}-{unmodified}": _ratio(
-            "parabolic", FaceState(float(relief), float(unmodified)), FaceState(), apart=relief == 8
-        )
-        for relief, unmodified in RELIEFS
-    }
+    sin(π/(2z)) < (1 − 2k)/(2√(k(1 − k))) ≤ (1 − 2k)/(1 − k), the latter two being the sines of the paper's β
+    and u_t at the critical point. Its β is read off as sin β = y/O₂M where the geometry gives x/O₂M, so that
+    the lower limit (always 1/5) is an artefact; `parabolic.maximum_coefficient` is the actual upper one.
+    """
+    # with s = sin(π/2z): (1 − 2k)² = 4 s² k (1 − k), a quadratic in k
+    sine = math.sin(math.pi / (2 * teeth))
+    return 0.2, (1 - sine / math.sqrt(1 + sine**2)) / 2
 
 
 def _ratio(

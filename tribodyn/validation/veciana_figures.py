@@ -210,10 +210,7 @@ def figure_9(arrays: Arrays) -> Figure:
     right.grid(False)
     right.spines["right"].set_visible(True)
     for name, line in PROFILES.items():
-        for label, key, colour in (
-            ("$V_r$", "sum of speeds", PALETTE[0]),
-            ("$V_s$", "sliding", PALETTE[2]),
-        ):
+        for label, key, colour in (("$V_r$", "sum of speeds", PALETTE[0]), ("$V_s$", "sliding", PALETTE[2])):
             values = arrays[f"{key}, {name} [m per s]"]
             a.plot(degrees, values, line, color=colour, label=f"{label} {name}")
         if line != ":":

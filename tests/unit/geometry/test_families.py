@@ -136,17 +136,8 @@ def test_the_largest_parabola_reaches_zero_speed_at_the_mates_tip(half, name):
             parabolic.check(drive._replace(shape=drive.shape._replace(**{name: wrong})))
 
 
-def test_published_limits_of_jias_parabolas():
-    """At the upper one both sides of (42) are equal: sin(π/2z) = (1 − 2k)/(2√(k(1 − k)))."""
-    for teeth in (17.0, 29.0):
-        low, high = parabolic.published_limits(teeth)
-        assert low == 0.2
-        left = (1 - 2 * high) / (2 * math.sqrt(high * (1 - high)))
-        assert left == pytest.approx(math.sin(math.pi / (2 * teeth)), rel=1e-12)
-
-
 @pytest.mark.parametrize(
-    ("module", "name", "value", "said"),
+    ("module", "name", "value", "message"),
     [
         (circular_arc, "approach_diameter", 0.0, "needs a diameter"),
         (circular_arc, "recess_diameter", 2e-3, "use a larger one"),
@@ -157,17 +148,17 @@ def test_published_limits_of_jias_parabolas():
         (cycloidal, "recess_circle", 3e-3, "another circle"),
     ],
 )  # fmt: skip
-def test_arcs_that_draw_no_flank_are_refused(module, name, value, said):
+def test_arcs_that_draw_no_flank_are_refused(module, name, value, message):
     drive, _, _ = path_of("circular-arc-23-47" if module is circular_arc else "cycloidal-23-47")
     with pytest.raises(InputError) as error:
         module.check(drive._replace(shape=drive.shape._replace(**{name: value})))
-    assert said in str(error.value)
+    assert message in str(error.value)
     assert error.value.key == f"drive.shape.{name}"
 
 
 @pytest.mark.parametrize("module", [circular_arc, cycloidal, parabolic, crc])
 def test_other_families_than_involutes_take_no_shift(module):
-    name = next(one for one, there in SHIPPED.items() if there is module)
+    name = next(name for name, family in SHIPPED.items() if family is module)
     drive = path_of(name)[0]
     module.check(drive)
     with pytest.raises(InputError, match="profile-shifted"):

@@ -14,11 +14,7 @@ from tribodyn.compliance.sharing.flank_gap import check_modifications, maximum_a
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, SharedLoad, half_width
 from tribodyn.errors import InputError
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, roll_at_gap
-from tribodyn.geometry.flanks.modification import (
-    MINIMUM_SLICES,
-    too_few_slices,
-    vary_along_lead,
-)
+from tribodyn.geometry.flanks.modification import MINIMUM_SLICES, too_few_slices, vary_along_lead
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
 

@@ -185,9 +185,7 @@ def end_modes(ends: FreeEnds, width: float, slices: int) -> Float[Array, "2 slic
 
 
 def _add_free_ends(
-    matrix: Float[Array, "position pair slice pair slice"],
-    flexible: PairFlexibility,
-    geometry: PairGeometry,
+    matrix: Float[Array, "position pair slice pair slice"], flexible: PairFlexibility, geometry: PairGeometry
 ) -> None:
     pairs, slices = matrix.shape[1:3]
     reaches = geometry.pinion_radius, geometry.gear_radius

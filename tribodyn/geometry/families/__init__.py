@@ -43,9 +43,7 @@ class Family(NamedTuple):
     about: str = ""
 
 
-def unshifted(
-    working_path: Callable[[Drive], Path],
-) -> Callable[[Drive, Side], tuple[Path, Any]]:
+def unshifted(working_path: Callable[[Drive], Path]) -> Callable[[Drive, Side], tuple[Path, Any]]:
     """Generating path of a family whose rack and mate share the one path of contact.
 
     The rack of such a family cannot be shifted; its path is the working one, seen from the body.

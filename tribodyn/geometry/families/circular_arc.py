@@ -130,10 +130,7 @@ FAMILY = Family(
             example='"45 mm"',
         ),
         Parameter(
-            "recess_diameter",
-            "signed length",
-            "of the arc on which it recedes from P",
-            example='"45 mm"',
+            "recess_diameter", "signed length", "of the arc on which it recedes from P", example='"45 mm"'
         ),
     ),
     corner=True,

@@ -74,18 +74,6 @@ def working_path(drive: Drive) -> ParabolaPath:
     return ParabolaPath(r_p, r_g, 2 * drive.shape.k2 * r_p, 2 * drive.shape.k1 * r_g)
 
 
-def published_limits(teeth: float) -> tuple[float, float]:
-    """Minimum and maximum k without undercut by Jia's (42) and (44), from the teeth of the wheel it rolls in.
-
-    sin(π/(2z)) < (1 − 2k)/(2√(k(1 − k))) ≤ (1 − 2k)/(1 − k), the latter two being the sines of the paper's β
-    and u_t at the critical point. Its β is read off as sin β = y/O₂M where the geometry gives x/O₂M, so that
-    the lower limit (always 1/5) is an artefact; `maximum_coefficient` has the actual one.
-    """
-    # with s = sin(π/2z): (1 − 2k)² = 4 s² k (1 − k), a quadratic in k
-    sine = math.sin(math.pi / (2 * teeth))
-    return 0.2, (1 - sine / math.sqrt(1 + sine**2)) / 2
-
-
 def maximum_coefficient(drive: Drive, half: int) -> float:
     """Maximum k at which the mate's actual tip still meets sound flank: k1 for half = +1, k2 for −1.
 

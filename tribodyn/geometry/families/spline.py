@@ -72,9 +72,7 @@ def working_path(drive: Drive) -> PointsPath:
     path = PointsPath(
         *reference_radii(drive),
         xp.concatenate([knots[:1] - first, knots, knots[-1:] + last]),
-        xp.concatenate(
-            [angles[:1] - left[:1] * first / 2, angles, angles[-1:] + right[-1:] * last / 2],
-        ),
+        xp.concatenate([angles[:1] - left[:1] * first / 2, angles, angles[-1:] + right[-1:] * last / 2]),
         xp.concatenate([still, left, right[-1:]]),
         xp.concatenate([left[:1], right, still]),
         0.0 * xp.concatenate([still, knots, still]),
