@@ -48,25 +48,26 @@ class Comparison(NamedTuple):
 
 
 def compare(records: Sequence[Record], reported: Reported) -> Comparison:
-    """Set complete records whose quantities can be compared side by side; their labels become distinct.
+    """Set complete records whose `reported` quantities can be compared side by side.
 
-    Parameters
-    ----------
-    reported : heading -> quantities that are compared
-
-    Raises
-    ------
-    InputError
-        Fewer than two records, one of them twice, or an unfinished one.
+    Their labels become distinct. Raises InputError for fewer than two records, one of them twice, or an
+    unfinished one.
     """
     _refuse(records)
     for record, label in zip(records, distinct_labels(records), strict=True):
         record.label = label
-    summaries = [_with_loss(record.summary) for record in records]
+    summaries = [dict(record.summary) for record in records]
+    for summary in summaries:
+        if summary.get("efficiency") is not None:
+            summary[LOSS.name] = 1.0 - summary["efficiency"]
     groups = {}
-    for heading, some in reported.items():
-        with_loss = (*some, LOSS) if any(one.name == "efficiency" for one in some) else some
-        rows = (ComparedRow(one, tuple(summary.get(one.name) for summary in summaries)) for one in with_loss)
+    for heading, quantities in reported.items():
+        if any(quantity.name == "efficiency" for quantity in quantities):
+            quantities = (*quantities, LOSS)
+        rows = (
+            ComparedRow(quantity, tuple(summary.get(quantity.name) for summary in summaries))
+            for quantity in quantities
+        )
         groups[heading] = tuple(row for row in rows if any(value is not None for value in row.values))
     return Comparison(
         tuple(record.label for record in records),
@@ -106,11 +107,6 @@ def distinct_labels(records: Sequence[Record]) -> list[str]:
     return labels
 
 
-def _with_loss(summary: Mapping[str, Any]) -> dict[str, Any]:
-    efficiency = summary.get("efficiency")
-    return {**summary, **({} if efficiency is None else {LOSS.name: 1.0 - efficiency})}
-
-
 def _relative(first: Any, value: Any) -> float | None:
     if first is None or value is None or np.ndim(first) or np.ndim(value) or isinstance(first, str):
         return None
@@ -143,8 +139,8 @@ def _flat(key: str, value: Any) -> Iterator[tuple[str, str]]:
 
 
 def _differing(conditions: Sequence[Mapping[str, str]]) -> dict[str, tuple[str, ...]]:
-    keys = dict.fromkeys(key for one in conditions for key in one)
-    values = {key: tuple(one.get(key, "–") for one in conditions) for key in keys}
+    keys = dict.fromkeys(key for known in conditions for key in known)
+    values = {key: tuple(known.get(key, "–") for known in conditions) for key in keys}
     different = {key: value for key, value in values.items() if len(set(value)) > 1}
     if "kind" in different:
         # another kind of study has no such key, which says nothing
@@ -180,12 +176,16 @@ def comparison_table(comparison: Comparison) -> Group:
             for value, difference in zip(written[1:], _differences(row), strict=True):
                 cells += [value, difference]
             table.add_row(f"  {row.quantity.title}", *cells, row.quantity.unit)
-    warned = [
-        Text(f"Warning, {label}: {warning}", style="bold red")
-        for label, some in zip(comparison.labels, comparison.warnings, strict=True)
-        for warning in some
-    ]
-    parts += ["", table, "", *warned, *_conditions_text(comparison)]
+    parts += ["", table, ""]
+    for label, warnings_of_record in zip(comparison.labels, comparison.warnings, strict=True):
+        parts += [Text(f"Warning, {label}: {warning}", style="bold red") for warning in warnings_of_record]
+    if comparison.conditions:
+        parts.append(Text("What besides the drive differs between the runs", style="bold cyan"))
+    else:
+        parts.append(
+            Text("Speed, load, lubricant, friction law, bearings and mesh are the same in all runs.")
+        )
+    parts += [Text(f"  {key}: {' / '.join(values)}") for key, values in comparison.conditions.items()]
     return Group(*parts)
 
 
@@ -200,15 +200,6 @@ def _differences(row: ComparedRow) -> list[str]:
         else:
             texts.append(f"{100 * relative:+.1f} %")
     return texts
-
-
-def _conditions_text(comparison: Comparison) -> list[Text]:
-    if not comparison.conditions:
-        return [Text("Speed, load, lubricant, friction law, bearings and mesh are the same in all runs.")]
-    lines = [Text("What besides the drive differs between the runs", style="bold cyan")]
-    for key, values in comparison.conditions.items():
-        lines.append(Text(f"  {key}: {' / '.join(values)}"))
-    return lines
 
 
 def as_json(comparison: Comparison) -> dict[str, Any]:

@@ -21,13 +21,9 @@ EXCEEDED = "Limits of the"
 def summary_table(record: Record, reported: Reported, sentences: Sequence[str]) -> Group:
     """Lay out the summary of a record for the terminal (a rich renderable), in engineers' units.
 
-    Parameters
-    ----------
-    reported : what the study of the record has in its summary
-    sentences : what it says of how far the record is to be trusted
+    `reported` is what the study of the record has in its summary, `sentences` say how far to trust it.
     """
-    title = Text(str(record.scenario.get("title", record.path.stem)), style="bold")
-    parts: list[Any] = [title]
+    parts: list[Any] = [Text(str(record.scenario.get("title", record.path.stem)), style="bold")]
     if record.status != "complete":
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
     if record.trust == trust.OUTSIDE:
@@ -40,31 +36,27 @@ def summary_table(record: Record, reported: Reported, sentences: Sequence[str]) 
     table.add_column(no_wrap=True)
     withheld = reasons(record.summary)
     for group, quantities in reported.items():
-        present = [
-            quantity
-            for quantity in quantities
-            if record.summary.get(quantity.name) is not None or quantity.name in withheld
-        ]
-        if not present:
-            continue
-        table.add_row(Text(group, style="bold cyan"), "", "")
-        for quantity in present:
-            label = quantity.in_table
+        rows = []
+        for quantity in quantities:
+            label, value = quantity.in_table, record.summary.get(quantity.name)
             if quantity.name in withheld:
-                table.add_row(f"  {label}", "withheld", "")
-                continue
-            value = record.summary[quantity.name]
-            if np.ndim(value) and not quantity.listed:
-                label += f", pairs {', '.join(str(pair) for pair in reversed(record.pairs))}"
-            table.add_row(f"  {label}", quantity.written(value), quantity.unit)
-    parts.append(table)
-    parts.append(Text("How far to trust it", style="bold cyan"))
-    unfinished = f"The run is {record.status}: {record.samples} samples were written."
-    said = [*sentences, *([] if record.status == "complete" else [unfinished])]
+                rows.append((f"  {label}", "withheld", ""))
+            elif value is not None:
+                if np.ndim(value) and not quantity.listed:
+                    label += f", pairs {', '.join(str(pair) for pair in reversed(record.pairs))}"
+                rows.append((f"  {label}", quantity.written(value), quantity.unit))
+        if rows:
+            table.add_row(Text(group, style="bold cyan"), "", "")
+        for row in rows:
+            table.add_row(*row)
+    parts += [table, Text("How far to trust it", style="bold cyan")]
     parts += [Text(f"  Warning: {warning}.", style="bold red") for warning in warnings(record.summary)]
+    lines = [*sentences]
+    if record.status != "complete":
+        lines.append(f"The run is {record.status}: {record.samples} samples were written.")
     parts += [
-        Text(f"  {sentence}", style="yellow" if sentence.startswith(EXCEEDED) else "")
-        for sentence in said or ["The record has no summary."]
+        Text(f"  {line}", style="yellow" if line.startswith(EXCEEDED) else "")
+        for line in lines or ["The record has no summary."]
     ]
     return Group(*parts)
 
@@ -145,9 +137,9 @@ def exceeded(summary: Mapping[str, Any], name: str, law: str) -> list[str]:
     if not isinstance(found, Mapping) or not found:
         return []
     parts = []
-    for one in found.values():
-        factor = f" by up to {float(one['factor']):.3g} times" if "factor" in one else ""
-        parts.append(f"{one['limit']}{factor} in {_percent(float(one['share']), up=True)}")
+    for excess in found.values():
+        factor = f" by up to {float(excess['factor']):.3g} times" if "factor" in excess else ""
+        parts.append(f"{excess['limit']}{factor} in {_percent(float(excess['share']), up=True)}")
     return [f"{EXCEEDED} {law} exceeded: {'; '.join(parts)} of the contact."]
 
 

@@ -20,139 +20,142 @@ ENDS_SHOWN = 12
 
 
 def sweep_table(record: SweepRecord, quantities: Sequence[Quantity]) -> Group:
-    """Lay out a sweep for the terminal: minimum and maximum of every figure, and where they are.
+    """Lay out a sweep for the terminal: minimum and maximum of every quantity, and where they are.
 
-    Parameters
-    ----------
-    quantities : those shown; none: all, as the record describes them
+    Of no quantities all are shown, as the record describes them.
     """
-    # a record of an older version lacks figures that have been added since
-    columns = [one for one in quantities if one.name in record]
-    columns = columns or [described(record, name) for name in record.quantities]
+    # a record of an older version lacks quantities that have been added since
+    shown_ones = [quantity for quantity in quantities if quantity.name in record]
+    shown_ones = shown_ones or [described(record, name) for name in record.quantities]
     parts: list[Any] = [Text(str(record.scenario.get("title", record.label)), style="bold")]
     if record.status != "complete":
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
-    head, tail = _head(record), _tail(record)
-    parts += map(Text, head)
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for title in ("", "minimum", "at", "maximum", "at", ""):
-        table.add_column(title, justify="right" if title in ("minimum", "maximum") else "left", no_wrap=True)
-    for row in sweep_rows(record, columns):
-        table.add_row(*row)
-    parts.append(table)
-    parts += _spread_table(record, columns)
-    parts += _mean_table(record, columns)
-    parts += map(Text, tail)
+    parts += map(Text, _head(record))
+    titles = ("", "minimum", "at", "maximum", "at", "")
+    parts.append(_table(titles, (1, 3), sweep_rows(record, shown_ones)))
+    parts += _tables_over_all(record, shown_ones)
+    parts += map(Text, _tail(record))
     parts += [Text(f"Warning: {warning}", style="bold red") for warning in sweep_warnings(record)]
     return Group(*parts)
 
 
+def _table(titles: Sequence[str], numbers: Sequence[int], rows: Sequence[Sequence[str]]) -> Table:
+    """A table with titles above its columns; `numbers`: which of the columns are such."""
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for place, title in enumerate(titles):
+        table.add_column(title, justify="right" if place in numbers else "left", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def _values(record: SweepRecord, name: str) -> np.ndarray | None:
+    """A dataset of one number per case, NaN where the case is not done; None for others."""
+    if record[name].dtype.kind not in "fiu" or record[name].ndim != len(record.dims):
+        return None
+    return np.where(record["status"] == DONE, record[name], np.nan)
+
+
 def spread(record: SweepRecord, name: str) -> dict[str, np.ndarray] | None:
-    """Median, 5 and 95 % of a figure over all samples, for every value of the other parameters.
+    """Median, 5 and 95 % of a quantity over all samples, for every value of the other parameters.
 
     None where no samples are varied. Failed cases are left out; NaN where none is left.
     """
     drawn = record.settings.get("drawn", [])
     over = tuple(number for number, dim in enumerate(record.dims) if dim in drawn)
-    if not over or record[name].dtype.kind not in "fiu" or record[name].ndim != len(record.dims):
-        return None
-    values = np.where(record["status"] == DONE, record[name], np.nan)
-    return scatter(values, over)
-
-
-def _spread_table(record: SweepRecord, columns: Sequence[Quantity]) -> list[Any]:
-    """Scatter over the samples, where nothing else is varied."""
-    drawn = record.settings.get("drawn", [])
-    if not drawn or any(dim not in drawn for dim in record.dims):
-        return []
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column(f"scatter of {record.count()['done']} samples", no_wrap=True)
-    for name, percentile in SPREAD.items():
-        title = name if name == "median" else f"{percentile:g} %"
-        table.add_column(title, justify="right", no_wrap=True)
-    table.add_column("", no_wrap=True)
-    for column in columns:
-        found = spread(record, column.name)
-        if found is not None and np.isfinite(found["median"]):
-            cells = [column.written(float(found[name])) for name in SPREAD]
-            table.add_row(column.title, *cells, column.unit)
-    return [Text(""), table]
+    values = _values(record, name)
+    return scatter(values, over) if over and values is not None else None
 
 
 def weighted_mean(record: SweepRecord, name: str) -> np.ndarray | None:
-    """Mean of a figure over weighed cases, such as duties by their time, for every value of the others.
+    """Mean of a quantity over weighed cases, such as duties by their time, for every value of the others.
 
     None where nothing weighed is varied. Failed cases are left out; NaN where none is left.
     """
     weights = record.settings.get("weights", {})
-    if not weights or record[name].dtype.kind not in "fiu" or record[name].ndim != len(record.dims):
+    values = _values(record, name)
+    if not weights or values is None:
         return None
-    values = np.where(record["status"] == DONE, record[name], np.nan)
     weight = np.ones(values.shape)
     for number, dim in enumerate(record.dims):
         if dim in weights:
-            weight = weight * np.expand_dims(
-                np.asarray(weights[dim], dtype=float), tuple(i for i in range(values.ndim) if i != number)
-            )
+            others = tuple(other for other in range(values.ndim) if other != number)
+            weight = weight * np.expand_dims(np.asarray(weights[dim], dtype=float), others)
     over = tuple(number for number, dim in enumerate(record.dims) if dim in weights)
-    weight = np.where(np.isfinite(values), weight, 0.0)
-    total = weight.sum(axis=over)
-    mean = np.where(weight > 0.0, weight * values, 0.0).sum(axis=over)
-    return np.where(total > 0.0, mean / np.where(total > 0.0, total, 1.0), np.nan)
+    mean = np.ma.average(np.ma.masked_invalid(values), axis=over, weights=weight)
+    return np.ma.filled(mean, np.nan)
 
 
-def _mean_table(record: SweepRecord, columns: Sequence[Quantity]) -> list[Any]:
-    """Means over weighed cases, where nothing else is varied."""
-    weights = record.settings.get("weights", {})
-    if not weights or any(dim not in weights for dim in record.dims):
-        return []
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column(f"weighted mean of {record.count()['done']} cases", no_wrap=True)
-    table.add_column("", justify="right", no_wrap=True)
-    table.add_column("", no_wrap=True)
-    for column in columns:
-        found = weighted_mean(record, column.name)
-        if found is not None and np.isfinite(found):
-            table.add_row(column.title, column.written(float(found)), column.unit)
-    return [Text(""), table]
+def _tables_over_all(record: SweepRecord, quantities: Sequence[Quantity]) -> list[Any]:
+    """Scatter over the samples, means over weighed cases, each where nothing else is varied."""
+    parts: list[Any] = []
+    drawn, weights = record.settings.get("drawn", []), record.settings.get("weights", {})
+    done = record.count()["done"]
+    if drawn and all(dim in drawn for dim in record.dims):
+        titles = [name if name == "median" else f"{percentile:g} %" for name, percentile in SPREAD.items()]
+        rows = []
+        for quantity in quantities:
+            found = spread(record, quantity.name)
+            if found is not None and np.isfinite(found["median"]):
+                cells = [quantity.written(float(found[name])) for name in SPREAD]
+                rows.append([quantity.title, *cells, quantity.unit])
+        parts += [Text(""), _table((f"scatter of {done} samples", *titles, ""), (1, 2, 3), rows)]
+    if weights and all(dim in weights for dim in record.dims):
+        rows = []
+        for quantity in quantities:
+            mean = weighted_mean(record, quantity.name)
+            if mean is not None and np.isfinite(mean):
+                rows.append([quantity.title, quantity.written(float(mean)), quantity.unit])
+        parts += [Text(""), _table((f"weighted mean of {done} cases", "", ""), (1,), rows)]
+    return parts
 
 
 def sweep_remarks(record: SweepRecord) -> list[str]:
-    """What a sweep found besides its figures: cases, sorts of motion, ends of branches, failures."""
+    """What a sweep found besides its quantities: cases, sorts of motion, ends of branches, failures."""
     return [*_head(record), *_tail(record)]
 
 
-def sweep_rows(record: SweepRecord, columns: Sequence[Quantity]) -> list[list[str]]:
-    """Rows of the table: name, minimum and where, maximum and where, unit; of figures with any value."""
+def sweep_rows(record: SweepRecord, quantities: Sequence[Quantity]) -> list[list[str]]:
+    """Rows of the table: name, minimum and where, maximum and where, unit; of quantities with any value."""
     rows = []
-    for column in columns:
-        values = np.where(record["status"] == DONE, record[column.name], np.nan)
-        if np.isfinite(values).any():
-            rows.append(_row(record, column, values))
+    for quantity in quantities:
+        values = np.where(record["status"] == DONE, record[quantity.name], np.nan)
+        if not np.isfinite(values).any():
+            continue
+        row = [quantity.title]
+        for find in (np.nanargmin, np.nanargmax):
+            place = tuple(int(i) for i in np.unravel_index(int(find(values)), values.shape))
+            row += [quantity.written(float(values[place])), _place(record, record.at(place))]
+        rows.append([*row, quantity.unit])
     return rows
 
 
 def _head(record: SweepRecord) -> list[str]:
     count = record.count()
-    axes = ", ".join(f"{len(one.values)} of {one.key}" for one in record.parameters)
+    axes = ", ".join(f"{len(parameter.values)} of {parameter.key}" for parameter in record.parameters)
     both = f", {' and '.join(record.directions)}" if record.directions else ""
-    kinds = _kinds(record)
-    return [
-        f"{count['cases']} cases ({axes}{both}): {_counted(count)}",
-        *([f"motion: {kinds}"] if kinds else []),
-    ]
+    states = ", ".join(f"{count[name]} {name}" for name in ("done", "failed", "waiting") if count[name])
+    lines = [f"{count['cases']} cases ({axes}{both}): {states}"]
+    if "solution" in record:
+        solutions = record["solution"]
+        found = solutions[(solutions != "") & (solutions != "failed")]
+        motions = ", ".join(
+            f"{number} {name}" for name, number in zip(*np.unique(found, return_counts=True), strict=True)
+        )
+        lines += [f"motion: {motions}"] if motions else []
+    return lines
 
 
 def _tail(record: SweepRecord) -> list[str]:
     ends = branch_ends(record)
-    said = [_end_line(record, end) for end in ends[:ENDS_SHOWN]]
+    lines = [_end_line(record, end) for end in ends[:ENDS_SHOWN]]
     if len(ends) > ENDS_SHOWN:
-        said.append(f"and {len(ends) - ENDS_SHOWN} more ends of branches, see end_value in the record")
+        lines.append(f"and {len(ends) - ENDS_SHOWN} more ends of branches, see end_value in the record")
     failures = record.failures()
-    said += [f"failed at {_place(record, at)}: {why}" for at, why in failures[:FAILURES_SHOWN]]
+    lines += [f"failed at {_place(record, at)}: {why}" for at, why in failures[:FAILURES_SHOWN]]
     if len(failures) > FAILURES_SHOWN:
-        said.append(f"and {len(failures) - FAILURES_SHOWN} more, see message in the record")
-    return said
+        lines.append(f"and {len(failures) - FAILURES_SHOWN} more, see message in the record")
+    return lines
 
 
 def branch_ends(record: SweepRecord) -> list[dict[str, Any]]:
@@ -201,15 +204,15 @@ def _beyond(record: SweepRecord, place: tuple[int, ...]) -> dict[str, Any]:
 
 
 def _end_line(record: SweepRecord, end: dict[str, Any]) -> str:
-    said = f"a branch of period {end['period']} ends at {_place(record, end['at'])}: {end['kind']}"
+    line = f"a branch of period {end['period']} ends at {_place(record, end['at'])}: {end['kind']}"
     beyond = end.get("unstable")
     if beyond is None:
-        return said
+        return line
     units = record.parameters[0].units
     low, high, finish = (shown(beyond[name], units) for name in ("from", "to", "finish_value"))
     goes = f"{beyond['finish']} at {finish}" if np.isfinite(beyond["finish_value"]) else "no end in the range"
     return (
-        f"{said}\n  beyond, period {beyond['period']} unstable between {low} and {high}, "
+        f"{line}\n  beyond, period {beyond['period']} unstable between {low} and {high}, "
         f"multiplier at most {beyond['multiplier_modulus_max']:.4g}: {goes}"
     )
 
@@ -226,35 +229,14 @@ def described(record: SweepRecord, name: str) -> Quantity:
     return Quantity(name, label[:1].upper() + label[1:], shown_unit(record.units(name))[0])
 
 
-def _counted(count: dict[str, int]) -> str:
-    return ", ".join(f"{count[name]} {name}" for name in ("done", "failed", "waiting") if count[name])
-
-
-def _kinds(record: SweepRecord) -> str:
-    """How often each sort of motion was found; nothing where no motion was sought."""
-    if "solution" not in record:
-        return ""
-    solutions = record["solution"]
-    names, numbers = np.unique(solutions[(solutions != "") & (solutions != "failed")], return_counts=True)
-    return ", ".join(f"{number} {name}" for name, number in zip(names, numbers, strict=True))
-
-
-def _row(record: SweepRecord, column: Quantity, values: np.ndarray) -> list[str]:
-    cells = [column.title]
-    for find in (np.nanargmin, np.nanargmax):
-        place = tuple(int(i) for i in np.unravel_index(int(find(values)), values.shape))
-        cells += [column.written(float(values[place])), _place(record, record.at(place))]
-    return [*cells, column.unit]
-
-
 def _place(record: SweepRecord, at: dict[str, Any]) -> str:
     """Name a case by its values in engineers' units, in the order of the dimensions."""
-    units = {one.name: one.units for one in record.parameters}
+    units = {parameter.name: parameter.units for parameter in record.parameters}
     return ", ".join(shown(value, units.get(name, "")) for name, value in at.items())
 
 
 def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
-    """Turn a sweep into what JSON takes: axes, figures as nested lists in SI, failures; NaN becomes None."""
+    """Turn a sweep into what JSON takes: axes, quantities as nested lists in SI, failures; NaN as None."""
     dims = len(record.dims)
     names = [name for name in record if name not in ("message", "status") and record[name].ndim == dims]
     return {
@@ -264,7 +246,7 @@ def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
         "message": record.message,
         **{name: record.attrs[name] for name in ("created", "tribodyn_version", "scenario_sha256")},
         **record.count(),
-        "parameters": [one._asdict() for one in record.parameters],
+        "parameters": [parameter._asdict() for parameter in record.parameters],
         "directions": list(record.directions),
         "settings": record.settings,
         "figures": {name: {"units": record.units(name), "values": record[name]} for name in names},
