@@ -105,7 +105,7 @@ def key_points(record: Record) -> list[KeyPoint]:
     for name, place in places.items():
         passed = int(np.floor(place + _SAME_PHASE))
         phase = max(float(place) - passed, 0.0)
-        known = next((one for one in points if abs(one - phase) < _SAME_PHASE), phase)
+        known = next((other for other in points if abs(other - phase) < _SAME_PHASE), phase)
         points.setdefault(known, {})[1 - passed] = name
     return [KeyPoint(phase, names) for phase, names in sorted(points.items())]
 

@@ -200,13 +200,13 @@ def draw_speed(axes: Axes, record: Record, view: View) -> None:
         for values in (abscissa(window, view)[:-1], pinion * 30 / np.pi, power / gear)
     )
     right = axes.twinx()
-    for one, values, color, label in (
+    for side, values, color, label in (
         (axes, speed, PALETTE[0], "Pinion speed (rpm)"),
         (right, torque, PALETTE[1], "Torque on the gear (N m)"),
     ):
-        one.plot(x, values, color=color)
-        one.set_ylabel(label, color=color)
-        scale(one, [values])
+        side.plot(x, values, color=color)
+        side.set_ylabel(label, color=color)
+        scale(side, [values])
     right.spines["right"].set_visible(True)
     right.grid(False)
     axes.set_xlabel(abscissa_label(view))

@@ -17,18 +17,14 @@ from tribodyn.record.reader import Record
 
 
 def key_positions(record: Record) -> dict[str, tuple[float, float]]:
-    """Find the key points of the path, m."""
-    table = record.mesh_cycle
-    rolls = key_rolls(*path_limits(record), 2 * np.pi / table["pinion_teeth"])
-    return {name: contact_position(record, roll) for name, roll in rolls.items()}
-
-
-def contact_position(record: Record, roll: float) -> tuple[float, float]:
-    """Find the point of contact of a pair of driving flanks at a roll angle (0 at the pitch point), m."""
-    distance, angle = (
-        np.interp(roll, *pair_history(record, name)) for name in ("signed_distance", "pressure_angle")
+    """Find the key points of the path, m: where a pair of driving flanks touches at their roll angles."""
+    rolls = key_rolls(*path_limits(record), 2 * np.pi / record.mesh_cycle["pinion_teeth"])
+    distances, angles = (
+        np.interp(list(rolls.values()), *pair_history(record, name))
+        for name in ("signed_distance", "pressure_angle")
     )
-    return float(distance * np.cos(angle)), float(distance * np.sin(angle))
+    places = zip((distances * np.cos(angles)).tolist(), (distances * np.sin(angles)).tolist(), strict=True)
+    return dict(zip(rolls, places, strict=True))
 
 
 def gears_in_mesh(record: Record, phase: float) -> tuple[np.ndarray, np.ndarray]:
@@ -41,10 +37,10 @@ def gears_in_mesh(record: Record, phase: float) -> tuple[np.ndarray, np.ndarray]
     return placed(geometry["pinion_outline"], geometry["gear_outline"], _pitch_radii(record), roll)
 
 
-def draw_path(axes: Axes, record: Record, phase: float = 0.0) -> None:
-    """Draw both gears at a phase, what bounds the path, and the path with its key points; axes in mm."""
+def draw_path(axes: Axes, record: Record) -> None:
+    """Draw both gears as a pair enters, what bounds the path, the path and its key points; axes in mm."""
     geometry = record.geometry
-    pinion, gear = gears_in_mesh(record, phase)
+    pinion, gear = gears_in_mesh(record, 0.0)
     tips = geometry["pinion_tip_radius"], geometry["gear_tip_radius"]
     path = geometry["path_of_contact"]
     draw_gears(axes, GearsInMesh(pinion, gear, path, _pitch_radii(record), tips, key_positions(record)))

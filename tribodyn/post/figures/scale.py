@@ -23,7 +23,7 @@ def scale(axes: Axes, curves: Sequence[np.ndarray], from_zero: bool = False) -> 
     A constant is shown about its value with a tenth on either side, zero throughout is said to be that.
     Where few points are far from all others, the axis is that of the others and the extreme is written.
     """
-    values = np.concatenate([np.ravel(one) for one in curves]) if len(curves) else np.empty(0)
+    values = np.concatenate([np.ravel(curve) for curve in curves]) if len(curves) else np.empty(0)
     values = values[np.isfinite(values)]
     if not values.size:
         axes.annotate("nothing to show", (0.5, 0.5), xycoords="axes fraction", ha="center", color=QUIET)
@@ -49,15 +49,11 @@ def scale(axes: Axes, curves: Sequence[np.ndarray], from_zero: bool = False) -> 
         beyond = sign * (ends[side] - float(inner[side]))
         if needed > 0.0 and beyond > needed * (1.0 / HIDDEN - 1.0) and not (from_zero and side == 0):
             extreme, ends[side] = ends[side], float(inner[side]) + sign * 0.6 * needed
-            _say(axes, extreme, side)
+            mark, place, align = (("▼ down to", 0.03, "bottom"), ("▲ up to", 0.97, "top"))[side]
+            text = f"{mark} {extreme:.3g}, cut off"
+            axes.annotate(
+                text, (0.98, place), xycoords="axes fraction", ha="right", va=align, fontsize=7, color=QUIET
+            )
     low, high = ends
     margin = MARGIN * (high - low)
     axes.set_ylim(0.0 if from_zero and low >= 0.0 else low - margin, high + margin)
-
-
-def _say(axes: Axes, extreme: float, side: int) -> None:
-    mark, place, align = (("▼ down to", 0.03, "bottom"), ("▲ up to", 0.97, "top"))[side]
-    text = f"{mark} {extreme:.3g}, cut off"
-    axes.annotate(
-        text, (0.98, place), xycoords="axes fraction", ha="right", va=align, fontsize=7, color=QUIET
-    )

@@ -69,11 +69,8 @@ def in_engineers_units(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
 def series_of(record: Record, records: int = 1) -> list[Series]:
     """Datasets of numbers along a record's axis, but for the axis: one curve, or one per pair.
 
-    Without those of several units at once, and without those that are integrals of others (`INTEGRALS`).
-
-    Parameters
-    ----------
-    records : how many records share the page, and the points that it may have
+    Without those of several units at once, and without those that are integrals of others (`INTEGRALS`). So
+    many `records` share the page, and the points that it may have.
     """
     names = [
         name
@@ -92,25 +89,18 @@ def series_of(record: Record, records: int = 1) -> list[Series]:
     for name in names:
         dims = record.dims_of(name)
         values, unit = in_engineers_units(np.asarray(record[name]), record.units(name))
-        title = record.long_name(name)
         curves = [Curve("", *thinned(values, most))] if values.ndim == 1 else []
         for across in dims[1:]:
             labels = record[across] if across in record else np.arange(values.shape[1])
-            word = across.replace("_", " ")
+            word = f"{across.replace('_', ' ')} " if np.asarray(labels).dtype.kind in "iu" else ""
             curves = [
-                Curve(
-                    f"{word} {label}" if np.asarray(label).dtype.kind in "iu" else str(label),
-                    *thinned(one, most),
-                )
-                for label, one in _in_order(across, list(zip(labels, values.T, strict=True)))
+                Curve(f"{word}{label}", *thinned(column, most))
+                for label, column in zip(labels, values.T, strict=True)
             ]
-        found.append(Series(name, title, unit, tuple(curves)))
+            if across == "pair":
+                curves.reverse()  # the one that entered last comes first
+        found.append(Series(name, record.long_name(name), unit, tuple(curves)))
     return found
-
-
-def _in_order(dim: str, curves: list[Any]) -> list[Any]:
-    """Of pairs, the one that entered last comes first."""
-    return curves[::-1] if dim == "pair" else curves
 
 
 def extrapolated(record: Record) -> dict[str, list[list[int]]]:
@@ -163,11 +153,10 @@ def packed(values: np.ndarray, kind: str = "<f4") -> str:
 def series_data(series: Series) -> dict[str, Any]:
     """A series as the page reads it; `whole` where no sample is left out."""
     curves = []
-    for one in series.curves:
-        whole = len(one.places) == int(one.places[-1]) + 1 if len(one.places) else True
-        curves.append(
-            {"label": one.label, "y": packed(one.values), "i": None if whole else packed(one.places, "<u4")}
-        )
+    for label, places, values in series.curves:
+        whole = len(places) == int(places[-1]) + 1 if len(places) else True
+        index = None if whole else packed(places, "<u4")
+        curves.append({"label": label, "y": packed(values), "i": index})
     short = series.name.replace("_", " ")
     return {"name": series.name, "title": series.title, "unit": series.unit, "curves": curves, "short": short}
 
@@ -216,16 +205,16 @@ class Profiles(NamedTuple):
 def profiles_data(record: Record, found: Profiles) -> dict[str, Any]:
     """Profiles as the page reads them, in engineers' units; samples × places, row after row."""
     rows = []
-    for one in found.rows:
-        values, unit = in_engineers_units(np.asarray(record[one.name]), record.units(one.name))
+    for profile in found.rows:
+        values, unit = in_engineers_units(np.asarray(record[profile.name]), record.units(profile.name))
         finite = values[np.isfinite(values)]
         top = float(finite.max()) if finite.size else 1.0
-        if one.top is not None and top > 0.0:
-            top *= one.top / float(np.nanmax(record[one.name]))
+        if profile.top is not None and top > 0.0:
+            top *= profile.top / float(np.nanmax(record[profile.name]))
         rows.append(
             {
-                "name": one.name,
-                "title": record.long_name(one.name),
+                "name": profile.name,
+                "title": record.long_name(profile.name),
                 "unit": unit,
                 "low": min(float(finite.min()), 0.0) if finite.size else 0.0,
                 "high": top,

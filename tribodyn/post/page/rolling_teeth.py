@@ -58,14 +58,20 @@ class _Places(NamedTuple):
 
 def _of_the_table(record: Record, cycle: dict[str, Any]) -> _Places | None:
     """Places by the mesh cycle's table."""
-    phase = _phase(record, cycle)
-    if phase is None:
+    if "pinion_angle" in record:
+        phase = np.asarray(record["pinion_angle"]) * cycle["pinion_teeth"] / (2.0 * np.pi)
+    elif record.axis == "phase":
+        phase = np.asarray(record["phase"])
+    else:
         return None
-    within = phase % 1.0
     front = np.flatnonzero(np.asarray(cycle["side"]) > 0)
-    touching = _at(within, cycle, "in_contact")[:, front] > 0.5
-    distance = np.where(touching, _at(within, cycle, "signed_distance")[:, front], np.nan)
-    angle = _at(within, cycle, "pressure_angle")[:, front]
+
+    def at_phase(name: str) -> np.ndarray:
+        columns = np.asarray(cycle[name]).T[front]
+        return np.stack([np.interp(phase % 1.0, cycle["phase"], column) for column in columns], axis=1)
+
+    distance = np.where(at_phase("in_contact") > 0.5, at_phase("signed_distance"), np.nan)
+    angle = at_phase("pressure_angle")
     roll = cycle["roll_start"] + phase * 2.0 * np.pi / cycle["pinion_teeth"]
     return _Places(roll, distance * np.cos(angle), distance * np.sin(angle), angle)
 
@@ -97,28 +103,12 @@ def _of_the_roll_angles(record: Record, shape: dict[str, Any], cycle: dict[str, 
     radii = float(cycle["pinion_pitch_radius"]), float(cycle["gear_pitch_radius"])
     before, behind = np.minimum(rolled - roll[0], 0.0), np.maximum(rolled - roll[-1], 0.0)
     x, y = found * np.cos(slope), found * np.sin(slope)
-    x, y = _turned(x, y, 0.0, -radii[0], -behind)
-    x, y = _turned(x, y, 0.0, radii[1], before * radii[0] / radii[1])
+    x, y = _turned(x, y, -radii[0], -behind)
+    x, y = _turned(x, y, radii[1], before * radii[0] / radii[1])
     return _Places(rolled[0, 0] + np.asarray(record["pinion_angle"]), x, y, slope)
 
 
-def _turned(
-    x: np.ndarray, y: np.ndarray, x_axis: float, y_axis: float, by: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Points turned about an axis, anticlockwise."""
-    c, s, dx, dy = np.cos(by), np.sin(by), x - x_axis, y - y_axis
-    return x_axis + c * dx - s * dy, y_axis + s * dx + c * dy
-
-
-def _phase(record: Record, cycle: dict[str, Any]) -> np.ndarray | None:
-    """Mesh cycles since the start, of every sample."""
-    if "pinion_angle" in record:
-        return np.asarray(record["pinion_angle"]) * cycle["pinion_teeth"] / (2.0 * np.pi)
-    return np.asarray(record["phase"]) if record.axis == "phase" else None
-
-
-def _at(phase: np.ndarray, cycle: dict[str, Any], name: str) -> np.ndarray:
-    """A quantity of every pair slot at phases; each segment of the table by itself."""
-    nodes, values = np.asarray(cycle["phase"]), np.asarray(cycle[name])
-    columns = [np.interp(phase, nodes, column) for column in values.T]
-    return np.stack(columns, axis=1)
+def _turned(x: np.ndarray, y: np.ndarray, centre: float, by: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Points turned about an axis on the line of centres, anticlockwise."""
+    c, s, along = np.cos(by), np.sin(by), y - centre
+    return c * x - s * along, centre + s * x + c * along
