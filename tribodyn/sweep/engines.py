@@ -34,13 +34,7 @@ class Engine(Protocol):
 
 
 class LocalEngine:
-    """One chunk after the other in this process, its cases over all cores.
-
-    Parameters
-    ----------
-    workers : threads; by default one per core
-    width : see `Engine`
-    """
+    """One chunk after the other in this process, its cases over so many threads, by default one per core."""
 
     def __init__(self, workers: int | None = None, width: int = 1) -> None:
         self.workers = workers
@@ -53,21 +47,12 @@ class LocalEngine:
 
 
 class DaskEngine:
-    """Chunks over the workers of a Dask scheduler; one whose worker dies is done again by another.
-
-    Parameters
-    ----------
-    client : distributed.Client
-    """
+    """Chunks over the workers of a Dask client; one whose worker dies is done again by another."""
 
     width = 1
 
     def __init__(self, client: Any) -> None:
         self.client = client
-
-    def _under_way(self) -> int:
-        """Two chunks per worker, so that none waits for the next one to be sent; this bounds the memory."""
-        return 2 * workers_of(self.client)
 
     def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
         """See `Engine`."""
@@ -85,7 +70,8 @@ class DaskEngine:
                 running.add(future)
                 return
 
-        for _ in range(self._under_way()):
+        # two chunks per worker, so that none waits for the next one to be sent; this bounds the memory
+        for _ in range(2 * workers_of(self.client)):
             send()
         for future in running:
             if future.status == "error":
@@ -97,25 +83,18 @@ class DaskEngine:
             yield chunk, block
 
 
-def _jax_width() -> int:
-    from tribodyn.solve.jax.ensemble import width_here
-
-    return width_here()
-
-
 @contextmanager
 def engine_of(name: str, workers: int | None, scheduler: str | None) -> Iterator[Engine]:
-    """Give the engine of a name; a local cluster lives as long as the block.
-
-    Raises
-    ------
-    InputError
-        If Dask is not there, or no scheduler answers at that address.
-    """
-    if name != DASK:
-        if scheduler is not None:
-            raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
-        yield LocalEngine(workers, _jax_width() if name == JAX else 1)
+    """Give the engine of a name; a local cluster lives as long as the block. Raises as `client_of`."""
+    if name == DASK:
+        with client_of(workers, scheduler) as client:
+            yield DaskEngine(client)
         return
-    with client_of(workers, scheduler) as client:
-        yield DaskEngine(client)
+    if scheduler is not None:
+        raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
+    width = 1
+    if name == JAX:
+        from tribodyn.solve.jax.ensemble import width_here
+
+        width = width_here()
+    yield LocalEngine(workers, width)

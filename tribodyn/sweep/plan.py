@@ -23,11 +23,8 @@ USUAL_CASES, A_CASE = 1000, 24.0
 def estimate_of(grid: Grid, settings: Any, directions: int, width: int = 1) -> Estimate:
     """What a sweep takes, from its cases at both ends of the grid.
 
-    Parameters
-    ----------
-    settings : from `sweep.run.settings_of`
-    directions : senses in which the first parameter is followed; 0: cases begin by themselves
-    width : see `engines.Engine`
+    `settings` are from `sweep.run.settings_of`, `directions` is the number of senses in which the first
+    parameter is followed, 0 where cases begin by themselves; `width`: see `engines.Engine`.
     """
     cases = float(np.prod(grid.shape, dtype=float)) * max(1, directions)
     together = int(min(cases, 10.0**9))
@@ -50,13 +47,7 @@ def _tables(grid: Grid) -> float:
 
 
 def refuse_large(estimate: Estimate, allow_large: bool) -> None:
-    """Refuse a sweep that takes more than a run may, or has more than `MOST_CASES`, unless it is allowed.
-
-    Raises
-    ------
-    InputError
-        It names what is furthest above what is usual.
-    """
+    """Refuse a sweep that takes more than a run may, or has more than `MOST_CASES`, unless it is allowed."""
     cost.refuse_large(estimate, allow_large)
     cases = estimate.drivers[0].value
     if cases > MOST_CASES and not allow_large:
@@ -73,13 +64,7 @@ Recorded = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 def single_steps(grid: Grid, waiting: np.ndarray, size: int) -> Iterator[list[Chunk]]:
-    """All cases on their own, in one step; those that share costly work one after the other.
-
-    Parameters
-    ----------
-    waiting : (cases,) bool, which are still to be done
-    size : cases in a chunk
-    """
+    """All cases that wait, (cases,) bool, on their own; those that share costly work one after the other."""
     numbers = _by_table(grid)
     numbers = numbers[waiting[numbers]]
     for part in range(0, len(numbers), size):

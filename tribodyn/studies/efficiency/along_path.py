@@ -35,44 +35,29 @@ _OF_SURFACE = (
 
 
 class PathState(NamedTuple):
-    """Loads and friction at `Places`; arrays (K, Q) unless said, SI.
+    """Loads and friction at `Places`; arrays (K, Q) unless another shape stands beside them, SI."""
 
-    Attributes
-    ----------
-    normal_load, friction_coefficient : N, 1
-    friction_force : on the pinion along the tangent, positive in recess, N
-    entrainment, sliding : m/s; the sliding negative in approach, whichever gear drives
-    radius : equivalent radius, averaged over the contact where it vanishes at the pitch point, m
-    asperity_load_ratio, central_film_thickness, flash_temperature_rise, hertz_pressure, closure_in_range,
-    friction_in_range
-        As in `SurfaceState`, where the line load along the face is highest.
-    closure_shares, friction_shares : (K, Q, limits), see `surface_state.range_shares`
-    deflection : (K,), r_p θ_p − r_g θ_g, m; NaN where the load sharing knows no elasticity
-    pinion_torque, gear_torque : (K,), N m; on the gear against its motion, on the pinion with it
-    power_in, power_out, power_friction : (K,); from the pinion, to the gear, and lost, W; the first two < 0
-        where the gear drives
-    """
-
-    normal_load: Array
+    normal_load: Array  # N
     friction_coefficient: Array
-    friction_force: Array
-    entrainment: Array
-    sliding: Array
-    radius: Array
+    friction_force: Array  # on the pinion along the tangent, positive in recess, N
+    entrainment: Array  # m/s
+    sliding: Array  # m/s; negative in approach, whichever gear drives
+    radius: Array  # equivalent, averaged over the contact where it vanishes at the pitch point, m
+    # as in `SurfaceState`, where the line load along the face is highest
     asperity_load_ratio: Array
     central_film_thickness: Array
     flash_temperature_rise: Array
     hertz_pressure: Array
     closure_in_range: Array
     friction_in_range: Array
-    closure_shares: Array
+    closure_shares: Array  # (K, Q, limits), see `surface_state.range_shares`
     friction_shares: Array
-    deflection: Array
-    pinion_torque: Array
-    gear_torque: Array
-    power_in: Array
-    power_out: Array
-    power_friction: Array
+    deflection: Array  # (K,), r_p θ_p − r_g θ_g, m; NaN where the load sharing knows no elasticity
+    pinion_torque: Array  # (K,), with its motion, N m
+    gear_torque: Array  # (K,), against its motion, N m
+    power_in: Array  # (K,), from the pinion, W; < 0 where the gear drives, as the next
+    power_out: Array  # (K,), to the gear, W
+    power_friction: Array  # (K,), lost, W
 
 
 class MeshDuty(NamedTuple):
@@ -149,7 +134,7 @@ class CycleEfficiency(NamedTuple):
     """Means over a mesh cycle, by energy."""
 
     efficiency: float  # as `mesh.power_flow` defines it
-    #: power_in, power_out, power_friction: W, as in `PathState`
+    # W, as in `PathState`
     power_in: float
     power_out: float
     power_friction: float
@@ -165,15 +150,9 @@ def cycle_efficiency(
 ) -> CycleEfficiency:
     """Integrate power in, out and lost over a mesh cycle.
 
-    The quadrature is split where the set of loaded pairs changes and crowds towards the pitch points, so that
-    the degenerate contact there is resolved.
-
-    Parameters
-    ----------
-    cycle : of concrete numbers
-    path : the working path that the table was made from
-    points : nodes between two breaks
-    flanks : optional; as in `places`
+    The quadrature is split where the set of loaded pairs changes, with so many `points` between two breaks,
+    and crowds towards the pitch points, so that the degenerate contact there is resolved. Arguments as in
+    `places`.
     """
     pitch = cycle.pitch_point_phase - np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
     breaks = np.unique(np.concatenate([cycle.boundary, (cycle.pitch_point_phase + np.array([0.5])) % 1.0]))
@@ -227,7 +206,7 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
     touching = (cycle.in_contact > 0) & (state.normal_load > 0)
     angle = over.turned * cycle.pitch_angle
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
-    zero = np.zeros_like(angle)
+    zero, speed = np.zeros_like(angle), np.full_like(angle, duty.pinion_speed)
 
     def contacting(values: Array) -> Array:
         return np.where(touching, values, np.nan)
@@ -237,9 +216,7 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
         "time": angle / duty.pinion_speed,
         "pinion_angle": angle,
         "displacement": np.stack([zero, zero, zero, zero, angle, gear_angle], axis=-1),
-        "velocity": np.stack(
-            [zero, zero, zero, zero, zero + duty.pinion_speed, zero + duty.pinion_speed * ratio], -1
-        ),
+        "velocity": np.stack([zero, zero, zero, zero, speed, ratio * speed], axis=-1),
         "transmission_error_normal": contacting(
             duty.way * state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])
         ),
@@ -247,18 +224,13 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
         "normal_load": state.normal_load,
         "friction_force": state.friction_force,
         "friction_coefficient": contacting(state.friction_coefficient),
-        "asperity_load_ratio": contacting(state.asperity_load_ratio),
-        "central_film_thickness": contacting(state.central_film_thickness),
         "film_parameter": contacting(state.central_film_thickness / duty.closure.surfaces.roughness),
-        "flash_temperature_rise": contacting(state.flash_temperature_rise),
-        "hertz_pressure": contacting(state.hertz_pressure),
         "equivalent_radius": contacting(state.radius),
         "entrainment_speed": contacting(state.entrainment),
         "sliding_speed": contacting(state.sliding),
         "pressure_angle": contacting(cycle.pressure_angle[:, 0]),
         "mesh_stiffness": np.where(touching, 1.0 / cycle.compliance[:, 0], 0.0),
-        "closure_in_range": contacting(state.closure_in_range),
-        "friction_in_range": contacting(state.friction_in_range),
+        **{name: contacting(getattr(state, name)) for name in _OF_SURFACE},
         "drive_torque": state.pinion_torque,
         "power_in": state.power_in,
         "power_out": state.power_out,

@@ -35,11 +35,9 @@ def from_pitch_point(end: float, points: int) -> tuple[Array, Array]:
 def piecewise(breaks: Array, pitch_points: Array, points: int) -> tuple[Array, Array]:
     """Nodes and weights between the first and the last break, crowded towards the pitch points.
 
-    Parameters
-    ----------
-    breaks : (n,), increasing; where the integrand may jump, both ends included
-    pitch_points : (m,), those inside are breaks as well; a piece between two of them is split in its middle
-    points : nodes per piece
+    The integrand may jump at `breaks` (n,), increasing, both ends included, with so many points between two;
+    `pitch_points` (m,) that lie inside are breaks as well, and a piece between two of them is split in its
+    middle.
     """
     start, end = breaks[0], breaks[-1]
     pitch = pitch_points[(pitch_points >= start) & (pitch_points <= end)]
@@ -98,7 +96,7 @@ def places(
     sharing: Sharing = "elastic",
     flanks: LoadedFlanks | None = None,
 ) -> Places:
-    """Look up the mesh at phases 0 … 1: compliance and gap from the table, kinematics from the path.
+    """Look up the mesh at phases (K,), 0 … 1: compliance and gap from the table, kinematics from the path.
 
     Raises InputError if one pair shall carry the load over a pitch that its contact does not cover.
 
@@ -106,11 +104,9 @@ def places(
     ----------
     cycle : of concrete numbers
     path : the working path that the table was made from
-    phase : (K,), mesh cycles
-    sharing : one of `SHARINGS`
-    flanks : LoadedFlanks, optional
-        The load contact model that the table was made from (`tabulate_loaded`). Pairs that share elastically
-        then touch beyond the path as well, where a corner meets a flank; the others know the path only.
+    flanks : the load contact model that the table was made from (`tabulate_loaded`). Pairs that share
+        elastically then touch beyond the path as well, where a corner meets a flank; others know the path
+        only
     """
     pairs = cycle.front_pairs
     segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)

@@ -74,15 +74,11 @@ def path_contact(
     exact_speeds: bool = True,
     averaged: bool = True,
 ) -> UnitContact:
-    """A pair on any path of contact.
+    """A pair on any path of contact, at rotations (ψ, weights), by default those of `rotations`.
 
-    Parameters
-    ----------
-    pinion_teeth : z1
-    rotation : (ψ, weights), default: `rotations`
-    exact_speeds : the rolling speeds contain the motion of the contact along the path, r κ, which Veciana
-        leave out
-    averaged : average radius and entrainment over the contact's width where they vanish at the pitch point
+    With `exact_speeds` the rolling speeds contain the motion of the contact along the path, r κ, which
+    Veciana leave out; `averaged`: radius and entrainment over the contact's width where they vanish at the
+    pitch point.
     """
     psi, weight = rotation or rotations(pinion_teeth)
     motion = kinematics(path, path.signed_distance(psi))
@@ -114,12 +110,7 @@ def torque_ratio(
     """Solve load and friction together: N = Γ_1/(A_1 + s μ T_1), Γ_2 = N (A_2 + s μ T_2), s = sgn ψ.
 
     Where the gear drives, the gears exchange their places and the flanks slide the other way, s = −sgn ψ.
-
-    Raises SimulationError as `equilibrium.settled`.
-
-    Parameters
-    ----------
-    input_torque, pinion_speed, face_width : Γ_1 (of the gear, where that drives: Γ_2) N m, ω_1 rad/s, b m
+    The input torque is Γ_1, where the gear drives Γ_2. Raises SimulationError as `equilibrium.settled`.
     """
     normal_arm = np.stack([pair.pinion_normal_arm, pair.gear_normal_arm])
     friction_arm = np.stack([pair.pinion_friction_arm, pair.gear_friction_arm])
@@ -171,14 +162,8 @@ def tip_contact_ratios(family: Family, drive: Drive) -> tuple[float, float]:
 def hoehn(pinion_tip: float, gear_tip: float, pinion_teeth: float, ratio: float) -> float:
     """H_v = π (u + 1)/(z1 u) (1 − ε_α + ε1² + ε2²), Diez-Ibarbia (10).
 
-    Valid for ε1, ε2 ≤ 1 ≤ ε1 + ε2 only, with the pitch point where one pair alone carries the load; beyond,
-    see `exact`.
-
-    Parameters
-    ----------
-    pinion_tip, gear_tip : ε1, ε2
-    pinion_teeth : z1
-    ratio : u = z2/z1
+    For ε1 and ε2 (`pinion_tip`, `gear_tip`) ≤ 1 ≤ ε1 + ε2 only, with the pitch point where one pair alone
+    carries the load; beyond, see `exact`. `pinion_teeth` is z1, `ratio` u = z2/z1.
     """
     total = 1.0 - (pinion_tip + gear_tip) + pinion_tip**2 + gear_tip**2
     return math.pi * (ratio + 1.0) / (pinion_teeth * ratio) * total

@@ -17,7 +17,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.geometry.sheet import specific_sliding_max
-from tribodyn.mesh.by_compliance import compliance_remark
+from tribodyn.mesh.by_compliance import compliance_remark, loaded_flanks_of, mesh_cycle_of
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.power_flow import driving_gear, power_put_in
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
@@ -71,13 +71,12 @@ SPECTRUM = (
 
 @dataclass(frozen=True)
 class PreparedEfficiency(PreparedGears[EfficiencyCase]):
-    """A case made ready, with what the mesh has to do.
-
-    `flanks` are those of the load contact model that shares the load, where the scenario asks for it.
-    """
+    """A case made ready, with what the mesh has to do."""
 
     duty: MeshDuty
-    flanks: LoadedFlanks | None
+    flanks: (
+        LoadedFlanks | None
+    )  # of the load contact model that shares the load, where the scenario asks for it
 
     @property
     def path(self) -> PathOfContact:
@@ -91,8 +90,6 @@ def prepare(case: EfficiencyCase) -> PreparedEfficiency:
     Raises InputError where the teeth cannot be made or cannot run together, or the load sharing does not fit
     them.
     """
-    from tribodyn.mesh.by_compliance import loaded_flanks_of, mesh_cycle_of
-
     assembly, mesh = assembled(case), case.mesh
     if case.operating.gear_torque < 0.0:  # the gear drives: the back flanks carry
         behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
@@ -124,22 +121,18 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
-    """Run a case and write its record; see `study.Study.run`.
-
-    It covers one mesh cycle.
-    """
+    """Run a case and write its record, which covers one mesh cycle; see `study.Study.run`."""
     path = target(case, output, force)
     begun = perf_counter()
     study = prepare(case)
     over, mesh, state = _sampled(study)
     summary = _quantities(study, over, mesh, state) | spectrum_quantities(case)
     summary["wall_time"] = perf_counter() - begun
-    groups = {
-        "mesh_cycle": as_arrays(study.cycle),
-        "geometry": geometry_arrays(study.assembly),
+    more = {
+        "groups": {"mesh_cycle": as_arrays(study.cycle), "geometry": geometry_arrays(study.assembly)},
+        "scales": scales_of(study.cycle.side),
     }
-    scales = scales_of(study.cycle.side)
-    with writer(case, path, LAYOUT, len(over.turned), groups=groups, scales=scales, force=force) as record:
+    with writer(case, path, LAYOUT, len(over.turned), force=force, **more) as record:
         record.write(0, record_arrays(over, mesh, state, study.duty))
         if progress:
             progress(1.0)
@@ -233,18 +226,16 @@ def _by_loss_factor(study: PreparedEfficiency) -> dict[str, float]:
     return results
 
 
-def _effective_contact_ratio(mesh: Places, state: PathState, duty: MeshDuty) -> dict[str, float]:
-    """Contact ratio under load, where the load sharing knows corner contact."""
-    if mesh.flanks is None:
-        return {}
-    roll, friction = mesh.roll[:-1], duty.way * state.friction_coefficient[:-1]
-    shared = mesh.flanks.share(roll, abs(duty.gear_torque), friction)
-    return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
-
-
 def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: PathState) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
     means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
+    under_load = {}
+    if mesh.flanks is not None:  # the load sharing knows corner contact
+        roll, friction = mesh.roll[:-1], duty.way * state.friction_coefficient[:-1]
+        shared = mesh.flanks.share(roll, abs(duty.gear_torque), friction)
+        under_load["contact_ratio_effective"] = effective_contact_ratio(
+            roll, shared, float(cycle.pitch_angle)
+        )
     loaded = state.normal_load > 0
     share = 1.0 / len(state.power_in[:-1])
     balance = means.power_in - means.power_out - means.power_friction
@@ -262,7 +253,7 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
     summary = {
         "contact_ratio": float(cycle.contact_ratio),
         "specific_sliding_max": specific_sliding_max(study.assembly),
-        **_effective_contact_ratio(mesh, state, duty),
+        **under_load,
         "load_sharing": duty.sharing,
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
         "normal_load_max": float(np.max(along("normal_load"))),
@@ -291,21 +282,20 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
         "averaging_cycles": 1,
         **efficiencies(study, {duty.sharing: means}),
     }
-    return summary | _judged(study, mesh, state, summary)
+    return summary | _trust(study, mesh, state, summary)
 
 
-def _judged(
+def _trust(
     study: PreparedEfficiency, mesh: Places, state: PathState, summary: dict[str, Any]
 ) -> dict[str, Any]:
     """Whether the study lies within its model, see `record.trust`."""
+    loaded, judge = state.normal_load > 0, Judge()
     quantities = {
         "deflection": state.normal_load * mesh.cycle.compliance[:, 0] / study.case.drive.module,
         "friction_coefficient": state.friction_coefficient,
         "hertz_pressure": state.hertz_pressure,
         **heat_of(state.flash_temperature_rise, study.case.lubricant.temperature),
     }
-    loaded = state.normal_load > 0
-    judge = Judge()
     judge.take({name: np.where(loaded, values, np.nan) for name, values in quantities.items()})
     judge.take({"efficiency": summary["efficiency"]})
     judge.take(heat_of(summary["flash_temperature_max"], study.case.lubricant.temperature))

@@ -112,16 +112,12 @@ def _radians(case: Case) -> float:
     """Radians of about the fastest oscillation in a mesh cycle: of the mesh, or of a gear on its bearing."""
     mesh, drive = case.mesh, case.drive
     bodies = [body_of(drive, side) for side in SIDES]
-    modulus, density = (
-        min(getattr(material, name) for material in case.materials) for name in ("youngs_modulus", "density")
-    )
+    modulus = min(material.youngs_modulus for material in case.materials)
+    density = min(material.density for material in case.materials)
     width = min(body.face_width for body in bodies)
     stiffness = mesh.stiffness if mesh.stiffness is not None else _MESH_STIFFNESS * modulus * width
-    bores = [(drive.module * body.teeth / 2) ** 2 - body.bore_radius**2 for body in bodies]
-    masses = [
-        max(density * math.pi * area * body.face_width, 1e-9)
-        for area, body in zip(bores, bodies, strict=True)
-    ]
+    areas = [math.pi * ((drive.module * body.teeth / 2) ** 2 - body.bore_radius**2) for body in bodies]
+    masses = [max(density * area * body.face_width, 1e-9) for area, body in zip(areas, bodies, strict=True)]
     bearings = [max(bearing.stiffness_x, bearing.stiffness_y) for bearing in case.bearings]
     of_mesh = stiffness * (2.0 / masses[0] + 2.0 / masses[1])
     fastest = math.sqrt(max(of_mesh, *(k / m for k, m in zip(bearings, masses, strict=True))))

@@ -87,11 +87,8 @@ _MESH_NOT_IN_TABLE = {"damping_ratio": 0.0, "formulation": "classical", "contact
 
 def table_key(case: Case) -> Hashable:
     """Everything that the table of a case depends on: equal keys mean equal tables, bit for bit."""
-    parts: list[Any] = [
-        getattr(case, one.name)
-        for one in dataclasses.fields(case)
-        if one.name not in (*_NOT_IN_TABLE, "mesh")
-    ]
+    left_out = (*_NOT_IN_TABLE, "mesh")
+    parts: list[Any] = [getattr(case, f.name) for f in dataclasses.fields(case) if f.name not in left_out]
     parts.append(dataclasses.replace(case.mesh, **_MESH_NOT_IN_TABLE))
     if case.mesh.at_load:
         parts.append(case.operating.gear_torque)
@@ -103,7 +100,7 @@ def _hashable(value: Any) -> Hashable:
     if isinstance(value, np.ndarray):
         return value.shape, value.tobytes()
     if dataclasses.is_dataclass(value):
-        value = [getattr(value, one.name) for one in dataclasses.fields(value)]
+        value = [getattr(value, field.name) for field in dataclasses.fields(value)]
     if isinstance(value, Mapping):
         value = sorted(value.items())
     return tuple(map(_hashable, value)) if isinstance(value, (list, tuple)) else value
@@ -112,15 +109,8 @@ def _hashable(value: Any) -> Hashable:
 def prepare(case: Case, tabulated: Tabulated | None = None) -> PreparedPair:
     """Check the geometry, tabulate the mesh cycle and assemble the model.
 
-    Parameters
-    ----------
-    tabulated : Tabulated, optional
-        From a case with the same `table_key`; made here where it is not given.
-
-    Raises
-    ------
-    InputError
-        Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
+    `tabulated` is of a case with the same `table_key`; it is made here where it is not given. Raises
+    InputError where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
     cycle, table, (pinion, gear), assembly, _ = made = tabulated or tables(case)
     warm, thermal = at_tooth_temperature(case, assembly, _quasi_static_loss(made))
@@ -153,8 +143,8 @@ def tables(case: Case) -> Tabulated:
     assembly = assembled(case)
     back, torque = case.mesh.backlash is not None, case.operating.gear_torque
     cycle = mesh_cycle_of(assembly, case.materials, case.mesh, torque, back)
-    given = [(one.mass, one.inertia) for one in case.masses]
-    pinion, gear = body_masses(assembly, given, [one.density for one in case.materials])
+    given = [(body.mass, body.inertia) for body in case.masses]
+    pinion, gear = body_masses(assembly, given, [material.density for material in case.materials])
 
     @cache
     def split() -> MeshCycle:
@@ -204,7 +194,7 @@ def _mechanics(
 
     rigid = 0.0 if operating.shaft_stiffness is not None else operating.drive_inertia
     balance = operating.gear_torque * pinion_radius / gear_radius
-    times, torques = operating.torque_table or (np.empty(0), np.empty(0))
+    times, torques = (np.asarray(values, dtype=float) for values in operating.torque_table or ((), ()))
     harmonics = np.array(operating.torque_harmonics, dtype=float).reshape(-1, 3)
     return Mechanics(
         pinion_mass=pinion[0],
@@ -230,9 +220,9 @@ def _mechanics(
         shaft_damping=operating.shaft_damping,
         load_torque=operating.gear_torque,
         load_damping=operating.load_damping,
-        load_times=np.asarray(times, dtype=float),
-        load_torques=np.asarray(torques, dtype=float),
-        load_slopes=_monotone_slopes(np.asarray(times, dtype=float), np.asarray(torques, dtype=float)),
+        load_times=times,
+        load_torques=torques,
+        load_slopes=_monotone_slopes(times, torques),
         load_amplitudes=np.ascontiguousarray(harmonics[:, 0]),
         load_frequencies=np.ascontiguousarray(harmonics[:, 1]),
         load_phases=np.ascontiguousarray(harmonics[:, 2]) + np.pi / 2.0,  # cosines, as a scenario gives them

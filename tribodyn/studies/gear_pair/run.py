@@ -98,14 +98,11 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         **law_quantities(case),
         "lubricant": oil_data(case.lubricant),
     }
-    groups = {
-        "mesh_cycle": as_arrays(cycle),
-        "geometry": geometry_arrays(prepared.assembly),
+    more = {
+        "groups": {"mesh_cycle": as_arrays(cycle), "geometry": geometry_arrays(prepared.assembly)},
+        "scales": scales_of(cycle.side),
     }
-    scales = scales_of(cycle.side)
-    with writer(
-        case, path, LAYOUT, cycles * samples + 1, groups=groups, scales=scales, force=force
-    ) as record:
+    with writer(case, path, LAYOUT, cycles * samples + 1, force=force, **more) as record:
         begun = perf_counter()
         try:
             state = initial_state(model, case.solver.initial)
@@ -143,17 +140,10 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
             summary |= statistics.judge.summary()
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
-        last = statistics.window()
+        last, work, speed = statistics.window(), statistics.window_work(), case.operating.pinion_speed
         touching = last["normal_load"] > 0.0
         summary |= exceeded_limits(case, *(last[name][touching] for name in UNRECORDED))
-        summary |= steady_quantities(
-            last,
-            statistics.window_work(),
-            cycle,
-            samples,
-            case.operating.pinion_speed,
-            statistics.in_window,
-        )
+        summary |= steady_quantities(last, work, cycle, samples, speed, statistics.in_window)
         summary |= thermal_quantities(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
         summary |= contact_quantities(case.lubricant, summary)
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)

@@ -103,15 +103,16 @@ class RunningExtremes:
 
     def where(self, name: str, cycle: MeshCycle) -> dict[str, float]:
         """Roll angle (rad, 0 at the pitch point) at which a driving pair has an extreme, by summary name."""
-        one = self.by_name.get(name)
-        if one is None or one.pair is None or one.pair > 1:
+        extreme = self.by_name.get(name)
+        if extreme is None or extreme.pair is None or extreme.pair > 1:
             return {}
-        roll = float(cycle.roll_start) + (one.mesh_cycle % 1.0 + 1 - one.pair) * float(cycle.pitch_angle)
+        turned = extreme.mesh_cycle % 1.0 + 1 - extreme.pair
+        roll = float(cycle.roll_start) + turned * float(cycle.pitch_angle)
         return {f"{name}_roll_angle": roll}
 
     def described(self) -> dict[str, dict[str, Any]]:
         """All extremes by name, for a summary."""
-        return {name: one._asdict() for name, one in self.by_name.items()}
+        return {name: extreme._asdict() for name, extreme in self.by_name.items()}
 
     def spread(self, name: str) -> float:
         """Maximum less minimum of an error."""
@@ -141,26 +142,16 @@ def energy_residual(first: np.ndarray, last: np.ndarray, stored: float) -> float
 def friction_work_on_vibration(work: np.ndarray) -> float | None:
     """Work of friction on the vibration, as a share of the loss that the rotation alone has; > 0: fed.
 
-    What friction takes of the moving bodies, Σ F_f v_rel, is what it would take of bodies that only rotate,
-    Σ F_f v_s, less what it gives to the vibration. None without friction.
-
-    Parameters
-    ----------
-    work : (STATES,); change of the state over whole mesh cycles
+    What friction takes of the moving bodies, Σ F_f v_rel, is what it would take of bodies that only rotate, Σ
+    F_f v_s, less what it gives to the vibration. None without friction. `work` (STATES,) is the change of the
+    state over whole mesh cycles.
     """
     nominal, taken = float(work[WORK_SLIDING]), float(work[WORK_FRICTION])
     return (nominal - taken) / abs(nominal) if nominal != 0.0 else None
 
 
 def warning_of(share: float | None, sliding: str) -> str | None:
-    """Warn where friction feeds the vibration with more than `FEEDS` of its loss.
-
-    Parameters
-    ----------
-    share : see `friction_work_on_vibration`
-    sliding : {"kinematic", "dynamic"}
-        `friction.sliding` of the case.
-    """
+    """Warn where the share of `friction_work_on_vibration` is above `FEEDS`; `sliding`: the case's."""
     if share is None or not share > FEEDS:
         return None
     return (
@@ -185,8 +176,7 @@ def steady_quantities(
     window : the record's arrays over whole cycles, last sample not included
     work : (STATES,); change of the state over them: its works are integrated, so that no mean power depends
         on the sampling
-    samples : samples per mesh cycle
-    nominal_speed : of the pinion, rad/s
+    samples, nominal_speed : per mesh cycle; of the pinion, rad/s
     extremes : over the same mesh cycles
     """
     error = window["transmission_error_rotational"]
@@ -199,12 +189,10 @@ def steady_quantities(
     cycles = len(error) / samples
     duration = float(cycles * cycle.pitch_angle / nominal_speed + work[LAG])
     frequency = cycles / duration
-    spectrum = amplitude_spectrum(error, samples)
-    orders, amplitudes = spectrum
-    powers = work[[WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING]] / duration
-    power_in, power_out, power_friction, power_damping = powers
+    orders, amplitudes = spectrum = amplitude_spectrum(error, samples)
+    mean_powers = work[[WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING]] / duration
+    power_in, power_out, power_friction, power_damping = mean_powers
     stiffness = total_stiffness(window["mesh_stiffness"], window["pressure_angle"])
-    share = friction_work_on_vibration(work)
     # the mean load by its work over the gear's rotation: neither depends on the sampling
     turned = cycle.pinion_pitch_radius * cycle.pitch_angle * cycles - work[XI]
     force = float(work[WORK_OUT] / turned)
@@ -233,7 +221,7 @@ def steady_quantities(
         "mesh_stiffness_mean": float(np.mean(stiffness)),
         "mesh_stiffness_peak_to_peak": float(np.ptp(stiffness)),
         **extremes.where("film_parameter_min", cycle),
-        "friction_work_on_vibration": share,
+        "friction_work_on_vibration": friction_work_on_vibration(work),
         "driving_gear": driving_gear(power_in, power_out),
         "power_in_mean": float(power_put_in(power_in, power_out)),
         "power_friction_mean": float(power_friction),

@@ -33,13 +33,13 @@ def quality_of(
     grades: Sequence[float | None], tolerances: Sequence[FlankTolerances | None]
 ) -> Quality | None:
     """Return the quality of both gears; None where one has none."""
-    known = [one for one in tolerances if one is not None]
+    known = [of_gear for of_gear in tolerances if of_gear is not None]
     if len(known) < len(tolerances):
         return None
     return Quality(
         max(float(grade) for grade in grades if grade is not None),
-        max(one.single_pitch for one in known),
-        max(one.profile_form for one in known),
+        max(of_gear.single_pitch for of_gear in known),
+        max(of_gear.profile_form for of_gear in known),
     )
 
 
@@ -63,15 +63,10 @@ def rated(
     duty: tuple[float, float],
     application_factor: float = 1.0,
 ) -> Rated:
-    """Rate a drive whose pinion drives; no tip relief is credited.
+    """Rate an involute drive whose pinion drives; no tip relief is credited.
 
-    Parameters
-    ----------
-    assembly : of an involute drive
-    materials : (MaterialData, MaterialData)
-    bodies : ((mass kg, inertia kg m²), …); of pinion and gear alone
-    duty : (pinion speed rad/s, gear torque N m)
-    application_factor : K_A
+    `bodies` are (mass kg, inertia kg m²) of pinion and gear alone, `duty` is (pinion speed rad/s, gear torque
+    N m), `application_factor` K_A.
     """
     drive, path = assembly.drive, assembly.path
     speed, torque = duty

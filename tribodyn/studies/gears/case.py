@@ -63,13 +63,10 @@ class GearCase(CaseHead):
 
     family: str  # name of the family of paths of contact
     drive: Drive  # geometry of both gears
-    #: materials, masses: pairs of MaterialData and of BodyMass
     materials: tuple[MaterialData, MaterialData]
     masses: tuple[BodyMass, BodyMass]
-    #: roughness, mean_roughness: composite rms roughness σ of the flanks, and their arithmetic mean roughness
-    #: Ra, m
-    roughness: float
-    mean_roughness: float
+    roughness: float  # composite rms roughness σ of the flanks, m
+    mean_roughness: float  # arithmetic mean roughness Ra, m
     operating: OperatingData
     mesh: MeshData
     quality: Quality | None  # deviations of the gears by ISO 1328-1; None: the drive has no tolerance class

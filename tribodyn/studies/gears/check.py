@@ -66,7 +66,7 @@ def remarks_in_brief(toml: str) -> list[str]:
 
 
 #: Factor to the unit that is shown, and that unit, by SI unit.
-_SHOWN = {"Pa s": (1e3, "mPa s"), "1/Pa": (1e9, "1/GPa"), "1": (1.0, "")}
+_SHOWN = {"Pa s": (1e3, "mPa s"), "1/Pa": (1e9, "1/GPa"), "1": (1.0, ""), "m2/s": (1e6, "mm2/s")}
 
 
 def oil_data(lubricant: LubricantData) -> dict[str, Any]:
@@ -86,24 +86,22 @@ def oil_data(lubricant: LubricantData) -> dict[str, Any]:
         origin = "bulk temperature of the teeth" if warmer else "that of the oil"
         found["temperature"] = {"value": lubricant.temperature, "unit": "K", "origin": origin}
         found["kinematic_viscosity"] = {"value": kinematic, "unit": "m2/s", "origin": "ASTM D341"}
-    for name, one in oil_values(lubricant).items():
-        found[name] = {"value": float(one.value), "unit": one.unit, "origin": one.origin}
-        if one.spread is not None:
-            found[name]["spread"] = list(one.spread)
+    for name, number in oil_values(lubricant).items():
+        found[name] = {"value": float(number.value), "unit": number.unit, "origin": number.origin}
+        if number.spread is not None:
+            found[name]["spread"] = list(number.spread)
     return found
 
 
 def oil_table(lubricant: LubricantData) -> TextTable:
     """Return the same as a table."""
     rows = []
-    for name, one in oil_data(lubricant).items():
+    for name, number in oil_data(lubricant).items():
         if name in ("type", "oil_temperature", "temperature"):
             continue
-        factor, unit = (
-            (1e6, "mm2/s") if one["unit"] == "m2/s" else _SHOWN.get(one["unit"], (1.0, one["unit"]))
-        )
-        spread = " to ".join(f"{factor * end:.4g}" for end in one.get("spread", ()))
-        rows.append((name, f"{factor * one['value']:.4g}", unit, one["origin"], spread))
+        factor, unit = _SHOWN.get(number["unit"], (1.0, number["unit"]))
+        spread = " to ".join(f"{factor * end:.4g}" for end in number.get("spread", ()))
+        rows.append((name, f"{factor * number['value']:.4g}", unit, number["origin"], spread))
     title = "Lubricant"
     if (sheet := lubricant.sheet) is not None:
         where = ", bulk temperature of the teeth" if lubricant.supply is not None else ""
@@ -128,14 +126,9 @@ _NAMES = {"closure_exceeded": "film law", "friction_exceeded": "friction law"}
 def check_gears(
     prepared: PreparedGears[Any], closure: Closure | None = None, masses: Any = None
 ) -> CheckResult:
-    """What `check` prints of gears whose mesh is tabulated.
+    """What `check` prints of gears whose mesh is tabulated, with the laws in use where there are any.
 
-    Parameters
-    ----------
-    closure : Closure, optional
-        Laws in use, where the study has any.
-    masses : sequence of (mass kg, inertia kg m²), optional
-        Of pinion and gear, where they are to stand in the sheet.
+    `masses`, (mass kg, inertia kg m²) of pinion and gear, stand in the sheet where they are given.
     """
     case, assembly = prepared.case, prepared.assembly
     pair = single_pair(prepared.cycle, case.operating.gear_torque)
@@ -187,29 +180,22 @@ def sheet_and_stiffness(
     masses: Any = None,
     remark: str = "",
 ) -> CheckResult:
-    """The sheet of gears, and how stiff they are.
+    """The sheet of gears that were checked, and how stiff they are.
 
-    Parameters
-    ----------
-    assembly : checked
-    materials : (MaterialData, MaterialData)
-    method : how the stiffness was worked out
-    pair : (float, float); normal load of a single pair at the pitch point, N, and its stiffness at that load,
-        N/m
-    masses : sequence of (mass kg, inertia kg m²), optional
-        Of pinion and gear, where they are to stand in the sheet.
-    remark : what is to be said of the stiffness
+    `pair` is the normal load of a single pair at the pitch point, N, and its stiffness at that load, N/m, by
+    a `method`, with a `remark` on it; `masses` are those of `check_gears`.
     """
     from tribodyn.geometry.sheet import geometry_sheet
 
     normal_load, stiffness = pair
     width = float(assembly.common_width)
     per_width = {method: stiffness / width}
-    reference, tables, remarks = None, [], [remark] if remark else []
+    reference, tables, remarks = {}, [], [remark] if remark else []
     if assembly.family.involute:
-        reference, table, remark_on_reference = _reference(assembly, materials, normal_load)
-        per_width["ISO 6336-1 c', factors below"] = reference["single_pair"]
-        per_width["ISO 6336-1 c'_th, theory"] = reference["theoretical"]
+        iso, table, remark_on_reference = _reference(assembly, materials, normal_load)
+        reference = {"iso_6336_1": iso}
+        per_width["ISO 6336-1 c', factors below"] = iso["single_pair"]
+        per_width["ISO 6336-1 c'_th, theory"] = iso["theoretical"]
         tables.append(table)
         remarks.append(remark_on_reference)
     by = {name: {"per_width": value, "stiffness": value * width} for name, value in per_width.items()}
@@ -223,9 +209,7 @@ def sheet_and_stiffness(
             for name, value in by.items()
         ],
     )
-    about = {"line_load": line_load, "by": by, "remark": remark}
-    if reference is not None:
-        about["iso_6336_1"] = reference
+    about = {"line_load": line_load, "by": by, "remark": remark} | reference
     data = {"geometry": sheet, "stiffness": about}
     return CheckResult(data, (*sheet_tables(sheet), table, *tables), remarks)
 

@@ -80,17 +80,10 @@ class _DriveAlone(Table):
 def load_drive(model: str | Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> DriveModel:
     """Read the gear pair of a drive file or of a scenario.
 
-    Parameters
-    ----------
-    model : name of a shipped drive or scenario, or the path of a file of either sort; or what a drive file
-        holds
-    overrides : mapping, optional
-        Dotted key, as in a scenario, to value: ``{"drive.pinion.profile_shift": "0.3"}``.
-
-    Raises
-    ------
-    InputError
-        If there is no such file, it describes no pair of gears, or anything in it is wrong.
+    `model` is the name of a shipped drive or scenario, the path of a file of either sort, or what a drive
+    file holds; `overrides` are dotted keys, as in a scenario, to values: ``{"drive.pinion.profile_shift":
+    "0.3"}``. Raises InputError if there is no such file, it describes no pair of gears, or anything in it is
+    wrong.
     """
     if isinstance(model, Mapping):
         return _of_table(dict(model), Path("drive"), overrides or {})
@@ -157,18 +150,10 @@ class SplineDrive(NamedTuple):
 
 
 def as_spline(model: DriveModel, values: int, key: str = "n") -> SplineDrive:
-    """Fit a free-form path to a pair's.
+    """Fit a free-form path of so many angles to that of a pair of any family that passes the checks.
 
-    Parameters
-    ----------
-    model : A pair that passes the checks; of any family
-    values : number of angles
-    key : what messages call it
-
-    Raises
-    ------
-    InputError
-        For too few or too many values, gears that cannot be made, and a fit of which none can be made.
+    `key` is what messages call their number. Raises InputError for too few or too many, gears that cannot be
+    made, and a fit of which none can be made.
     """
     if not FEWEST <= values <= MOST:
         raise InputError(key, values, f"a path has {FEWEST} to {MOST} values", "use 9")

@@ -45,28 +45,16 @@ class Thermal(NamedTuple):
 
 
 def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], float]) -> Thermal | None:
-    """Return bulk temperature and losses of a case; None where it asks for neither.
+    """Return bulk temperature and losses of a lubricated case; None where it asks for neither.
 
-    Parameters
-    ----------
-    case : case
-        With `lubricant`, `operating`, `temperature` and `losses`.
-    assembly : its gears
-    mesh_loss : (case, its lubricant at some temperature) -> mean loss to tooth friction, W
-
-    Raises
-    ------
-    InputError
-        If the teeth get hotter than the oil is known.
-    SimulationError
-        If the temperature does not settle.
+    `mesh_loss` gives the mean loss to tooth friction, W, of the case with its lubricant at some temperature.
+    Raises InputError if the teeth get hotter than the oil is known, SimulationError if nothing settles.
     """
-    asked: TemperatureData | None = case.temperature
-    if asked is None:
+    wanted: TemperatureData | None = case.temperature
+    if wanted is None:
         if case.losses is None:
             return None
-        losses = idle_losses(case, assembly, case.lubricant)
-        lost = mesh_loss(case)
+        losses, lost = idle_losses(case, assembly, case.lubricant), mesh_loss(case)
         return Thermal(case.lubricant, lost, losses, None, _heat(lost, losses, housing=False), None)
     oil: LubricantData = case.lubricant
     supplied = float(oil.temperature)
@@ -75,31 +63,25 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
     def step(here: tuple[float, float]) -> tuple[float, float]:
         bulk, around = here
         lubricant = replace(lubricant_at(oil, bulk), supply=around)
-        lost = asked.mesh_loss
-        if lost is None:
-            lost = mesh_loss(replace(case, lubricant=lubricant))
+        known = wanted.mesh_loss
+        lost = mesh_loss(replace(case, lubricant=lubricant)) if known is None else known
         losses = idle_losses(case, assembly, lubricant_at(oil, around))
-        heat = _heat(lost, losses, asked.housing_ambient > 0.0)
-        found, given_off = _temperatures(case, assembly, asked, heat, lost, supplied)
+        heat = _heat(lost, losses, wanted.housing_ambient > 0.0)
+        found, given_off = _temperatures(case, assembly, wanted, heat, lost, supplied)
         latest[:] = [Thermal(lubricant, lost, losses, found, heat, given_off)]
         return found.bulk, found.oil
 
-    for one in fixed_point(step, (supplied, supplied), TEMPERATURE_RANGE):
-        _refuse_unknown(one, asked)
+    for temperature in fixed_point(step, (supplied, supplied), TEMPERATURE_RANGE):
+        _refuse_unknown(temperature, wanted)
     return latest[0]
 
 
 def at_own_temperature(case: Any, bulk_temperature: float | None, mesh_loss: float) -> Any | None:
     """Return the case at the bulk temperature that its motion's loss gives; None where it was run there.
 
-    A case begins at the temperature of its quasi-static loss, from which vibration moves it.
-
-    Parameters
-    ----------
-    case : case
-        As it was run, its oil as it enters the mesh.
-    bulk_temperature : at which it was run, K; None: it asks for none
-    mesh_loss : mean loss of its motion to tooth friction, W
+    A case begins at the temperature of its quasi-static loss, from which vibration moves it. It is given as
+    it was run, with its oil as that enters the mesh; with the temperature at which it was run, K, None where
+    it asks for none; and with the mean loss of its motion to tooth friction, W.
     """
     if bulk_temperature is None or not mesh_loss >= 0.0:
         return None
@@ -112,14 +94,12 @@ def at_own_temperature(case: Any, bulk_temperature: float | None, mesh_loss: flo
 
 def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, Loss]:
     """Return the load-independent losses that a case asks for, in the oil at its own temperature."""
-    asked: LossData | None = case.losses
-    if asked is None:
+    wanted: LossData | None = case.losses
+    if wanted is None:
         return {}
     drive, path, speed = case.drive, assembly.path, case.operating.pinion_speed
-    radii, depths = (
-        (path.pinion_pitch_radius, path.gear_pitch_radius),
-        (asked.pinion_immersion, asked.gear_immersion),
-    )
+    radii = path.pinion_pitch_radius, path.gear_pitch_radius
+    depths = wanted.pinion_immersion, wanted.gear_immersion
 
     def wheel(side: Side) -> Wheel:
         body, place = body_of(drive, side), SIDES.index(side)
@@ -134,17 +114,14 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
             depths[place],
         )
 
-    pinion, gear = wheel("pinion"), wheel("gear")
-    return losses_of_pair(asked, (pinion, gear), float(oil.inlet_viscosity), float(oil.density))
+    wheels = wheel("pinion"), wheel("gear")
+    return losses_of_pair(wanted, wheels, float(oil.inlet_viscosity), float(oil.density))
 
 
 def thermal_quantities(thermal: Thermal | None, power_in: float, efficiency: float) -> dict[str, Any]:
     """Quantities of temperatures and load-independent losses for a summary; SI, temperatures in K.
 
-    Parameters
-    ----------
-    power_in : that the driving gear puts in, without load-independent losses, W
-    efficiency : of the mesh
+    `power_in` is that of the driving gear without load-independent losses, `efficiency` that of the mesh.
     """
     if thermal is None:
         return {}
@@ -160,32 +137,31 @@ def thermal_quantities(thermal: Thermal | None, power_in: float, efficiency: flo
         if thermal.given_off is not None:
             quantities |= {"housing_temperature": found.housing, "heat_given_off": thermal.given_off}
     if thermal.losses:
-        idle = sum(one.power for one in thermal.losses.values())
-        quantities |= {f"power_{name}": one.power for name, one in thermal.losses.items()}
+        power = {f"power_{name}": loss.power for name, loss in thermal.losses.items()}
+        idle = sum(power.values())
+        quantities |= power
         quantities |= {
             "power_load_independent": idle,
             "efficiency_with_losses": efficiency * power_in / (power_in + idle),
         }
-        outside = [f"{name}: {limit}" for name, one in thermal.losses.items() for limit in one.exceeded]
+        outside = [f"{name}: {limit}" for name, loss in thermal.losses.items() for limit in loss.exceeded]
         if outside:
             quantities["losses_outside"] = "; ".join(outside)
     return quantities
 
 
-def contact_quantities(lubricant: LubricantData, quantities: Mapping[str, Any]) -> dict[str, float]:
+def contact_quantities(lubricant: LubricantData, summary: Mapping[str, Any]) -> dict[str, float]:
     """Maximum contact temperature, K: bulk of the teeth, else of the oil, and the maximum flash temperature.
 
     Nothing where neither temperature is known.
     """
-    warm = quantities.get("bulk_temperature", lubricant.temperature)
-    return (
-        {} if warm is None else {"contact_temperature_max": float(warm + quantities["flash_temperature_max"])}
-    )
+    warm = summary.get("bulk_temperature", lubricant.temperature)
+    return {} if warm is None else {"contact_temperature_max": float(warm + summary["flash_temperature_max"])}
 
 
 def _heat(mesh_loss: float, losses: dict[str, Loss], housing: bool) -> Heat:
     """Heat by where it arises: that of bearings in the housing, where there is one."""
-    power = {name: one.power for name, one in losses.items()}
+    power = {name: loss.power for name, loss in losses.items()}
     bearings = power.get("bearings", 0.0)
     in_oil = power.get("churning", 0.0) + power.get("windage", 0.0)
     to_oil, to_housing = (in_oil, bearings) if housing else (in_oil + bearings, 0.0)
@@ -193,36 +169,36 @@ def _heat(mesh_loss: float, losses: dict[str, Loss], housing: bool) -> Heat:
 
 
 def _temperatures(
-    case: Any, assembly: Assembly, asked: TemperatureData, heat: Heat, lost: float, supplied: float
+    case: Any, assembly: Assembly, wanted: TemperatureData, heat: Heat, lost: float, supplied: float
 ) -> tuple[Temperatures, float | None]:
-    if asked.model == "iso":
+    if wanted.model == "iso":
         centre = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
         width = float(min(case.drive.pinion.face_width, case.drive.gear.face_width))
-        supply = LUBRICATION_FACTORS[asked.lubrication] / asked.tip_relief_factor
+        supply = LUBRICATION_FACTORS[wanted.lubrication] / wanted.tip_relief_factor
         bulk = supplied + bulk_rise(lost, 1.0, 1.0, centre, width, supply)
         return Temperatures(bulk, bulk, supplied, supplied), None
     sheet = case.lubricant.sheet
-    flow = asked.oil_flow * float(case.lubricant.density) * float(specific_heat(sheet.density_15, supplied))
+    flow = wanted.oil_flow * float(case.lubricant.density) * float(specific_heat(sheet.density_15, supplied))
     network = Network(
-        asked.pinion_oil,
-        asked.gear_oil,
+        wanted.pinion_oil,
+        wanted.gear_oil,
         flow,
-        asked.oil_housing,
-        asked.housing_ambient,
-        asked.ambient_temperature,
+        wanted.oil_housing,
+        wanted.housing_ambient,
+        wanted.ambient_temperature,
     )
     found = network_temperatures(network, heat, supplied)
     return found, heat_given_off(network, found, supplied)
 
 
-def _refuse_unknown(temperature: float, asked: TemperatureData) -> None:
+def _refuse_unknown(temperature: float, wanted: TemperatureData) -> None:
     """Refuse a temperature for which the oil's data sheet gives no numbers."""
-    low, high = (round(one - ZERO_CELSIUS) for one in TEMPERATURE_RANGE)
+    low, high = (round(limit - ZERO_CELSIUS) for limit in TEMPERATURE_RANGE)
     theta = temperature - ZERO_CELSIUS
     if not low <= theta <= high:
         raise InputError(
             "temperature.model",
-            f'"{asked.model}"',
+            f'"{wanted.model}"',
             f"teeth or oil would reach {theta:.0f} degC, and the oil is known from {low} to {high} degC",
             "let more heat off (oil_flow, conductances), lower the load, or leave the table out"
             if theta > high
@@ -244,13 +220,7 @@ class PreparedGears(Generic[AnyCase]):
 
 
 def assembled(case: GearCase) -> Assembly:
-    """Put the gears of a case together.
-
-    Raises
-    ------
-    InputError
-        Where the teeth cannot be made or cannot run together.
-    """
+    """Put the gears of a case together; InputError where teeth cannot be made or cannot run together."""
     from tribodyn.geometry.limits.checks import check
 
     return check(family(case.family), case.drive)
@@ -259,9 +229,6 @@ def assembled(case: GearCase) -> Assembly:
 def at_tooth_temperature(
     case: AnyCase, assembly: Assembly, mesh_loss: Callable[[AnyCase], float]
 ) -> tuple[AnyCase, Thermal | None]:
-    """Return a case with its oil at the temperature of its teeth, and what that follows from.
-
-    Arguments and errors as those of `temperature.thermal_state`.
-    """
+    """Return a case with its oil at the temperature of its teeth, and the `thermal_state` that it is of."""
     thermal = thermal_state(case, assembly, mesh_loss)
     return (case if thermal is None else replace(case, lubricant=thermal.lubricant)), thermal

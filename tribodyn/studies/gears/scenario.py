@@ -101,14 +101,9 @@ def oil_fields(scenario: Any) -> dict[str, Any]:
 def mesh_of(scenario: Any, *, every_tooth: bool = False, error: Any = None, **own: Any) -> MeshData:
     """Return what a scenario says of its mesh, by finite elements where it names no compliance.
 
-    Parameters
-    ----------
-    scenario
-        Its table [mesh] may lack any key.
-    every_tooth : whether the study knows teeth that differ
-    error : transmission error of a pair over roll angle (rad, m), to which a sample of deviations adds
-    own
-        Fields of `MeshData` that are not plain keys of the table.
+    Its table [mesh] may lack any key. `every_tooth` is for studies that know teeth that differ; to `error`, a
+    pair's transmission error over roll angle (rad, m), a sample of deviations adds; `own` are fields of
+    `MeshData` that are not plain keys of the table.
     """
     drive, mesh = scenario.drive, scenario.mesh
     modifications = modifications_of(drive, getattr(mesh, "misalignment", _ALIGNED))
@@ -117,25 +112,17 @@ def mesh_of(scenario: Any, *, every_tooth: bool = False, error: Any = None, **ow
         modifications = with_sample(drive, modifications, sample, every_tooth=every_tooth, slices=slices)
     else:
         error = error_with_sample(drive, error, sample)
-    given = {one.name for one in fields(MeshData)} & set(type(mesh).model_fields)
+    given = {field.name for field in fields(MeshData)} & set(type(mesh).model_fields)
     values = {"compliance": "fem", "damping_ratio": 0.0} | {name: getattr(mesh, name) for name in given}
-    made = {
-        "modifications": modifications,
-        "slices": slices_of(slices, modifications),
-        "error_table": error,
-    }
-    return MeshData(**values | made | own)
+    values |= {"modifications": modifications, "slices": slices_of(slices, modifications)}
+    return MeshData(**values | {"error_table": error} | own)
 
 
 def broken_gear_rules(scenario: Any, *, every_duty: bool = False, oil: bool = True) -> Iterator[InputError]:
     """Go through the broken rules of drive, duty, oil, temperatures, losses and mesh.
 
-    Parameters
-    ----------
-    scenario
-        Tables and keys that its kind does not have count as absent.
-    every_duty : whether the study runs all duties of a load spectrum at a time
-    oil : whether the lubricant is looked at
+    Tables and keys that the scenario's kind does not have count as absent. `every_duty` says whether the
+    study runs all duties of a load spectrum at a time, `oil` whether the lubricant is looked at.
     """
     drive, mesh, lubricant = scenario.drive, scenario.mesh, scenario.lubricant
     yield from broken_drive_rules(drive)

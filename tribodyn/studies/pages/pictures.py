@@ -21,17 +21,20 @@ OVERVIEW = "overview"
 
 
 def study_of_record(record: Record) -> Study:
-    """Return the study that a record is of.
+    """Return the study that a record is of; InputError if no installed package knows it."""
+    return _installed(record, record.kind, "study")
 
-    Raises
-    ------
-    InputError
-        If it is of a kind that no installed package knows.
-    """
-    if record.kind not in STUDIES:
-        rule = f'a study of kind "{record.kind}", which nothing that is installed knows'
+
+def study_of_sweep(record: "SweepRecord") -> Study:
+    """Return the study whose cases a sweep has; raises as `study_of_record`."""
+    return _installed(record, record.kind_of_study, "sweep")
+
+
+def _installed(record: "Record | SweepRecord", kind: str, what: str) -> Study:
+    if kind not in STUDIES:
+        rule = f'a {what} of kind "{kind}", which nothing that is installed knows'
         raise InputError("record", str(record.path), rule, "install the package that offers it")
-    return STUDIES[record.kind]
+    return STUDIES[kind]
 
 
 def names(records: Sequence[Record]) -> tuple[str, ...]:
@@ -42,7 +45,7 @@ def names(records: Sequence[Record]) -> tuple[str, ...]:
 def drawable(records: Sequence[Record]) -> "Mapping[str, Drawing]":
     """Figures that these records hold enough for, by name."""
     known = drawings(records)
-    return {name: one for name, one in known.items() if all(one.fits(record) for record in records)}
+    return {name: drawn for name, drawn in known.items() if all(map(drawn.fits, records))}
 
 
 def drawings(records: Sequence[Record]) -> "Mapping[str, Drawing]":
@@ -56,7 +59,7 @@ def drawings(records: Sequence[Record]) -> "Mapping[str, Drawing]":
             rule = f"of kind {record.kind}, the first of {first.kind}"
             raise InputError("record", str(record.path), rule, "draw them apart")
         also = other.drawings()
-        known = {name: one for name, one in known.items() if name in also}
+        known = {name: drawn for name, drawn in known.items() if name in also}
     return known
 
 
@@ -96,10 +99,7 @@ def figure(
         raise InputError("cycles", cycles, "at least one mesh cycle is drawn", "1 or more")
     known = drawings(records)
     if name not in known:
-        offered = drawable(records)
-        near = near_name(name, offered)
-        hint = f"did you mean {near}? " if near else ""
-        raise InputError("plot", name, "no such figure", f"{hint}There are: {', '.join(offered)}")
+        raise _unknown(name, "no such figure", drawable(records))
     whole = cycles == "auto" and any(transient(record) for record in records)
     number = (None if whole else 2) if cycles == "auto" else cycles
     with house_style():
@@ -121,13 +121,7 @@ def summary_table(record: Record) -> "Group":
 
 
 def compare(records: Sequence[Record]) -> "Comparison":
-    """Set complete records side by side; see `tribodyn.post.compare`.
-
-    Raises
-    ------
-    InputError
-        Also for records whose quantities cannot be compared.
-    """
+    """Set complete records side by side; see `tribodyn.post.compare`. InputError where they cannot be."""
     from tribodyn.post import compare as comparing
 
     studies = [study_of_record(record) for record in records]
@@ -137,8 +131,7 @@ def compare(records: Sequence[Record]) -> "Comparison":
             raise InputError("record", str(record.path), rule, "compare records of one kind")
         if not study.compared:
             rule = f"{study.about}: it has no means over a run to compare"
-            remedy = "draw them into one figure"
-            raise InputError("record", str(record.path), rule, remedy)
+            raise InputError("record", str(record.path), rule, "draw them into one figure")
     return comparing.compare(records, _compared(studies))
 
 
@@ -151,14 +144,6 @@ def _compared(studies: Sequence[Study]) -> "Reported":
             for quantity in study.reported().get(heading, ()):
                 some.setdefault(quantity.name, quantity)
     return {heading: tuple(some.values()) for heading, some in headings.items()}
-
-
-def study_of_sweep(record: "SweepRecord") -> Study:
-    """Return the study whose cases a sweep has; raises as `study_of_record`."""
-    if record.kind_of_study not in STUDIES:
-        rule = f'a sweep of kind "{record.kind_of_study}", which nothing that is installed knows'
-        raise InputError("record", str(record.path), rule, "install the package that offers it")
-    return STUDIES[record.kind_of_study]
 
 
 def sweep_names(records: "Sequence[SweepRecord]") -> tuple[str, ...]:
@@ -198,11 +183,15 @@ def sweep_figure(
     known = drawable_of_sweep(records)
     name = next(iter(known)) if name == OVERVIEW else name
     if name not in known:
-        near = near_name(name, known)
-        hint = f"did you mean {near}? " if near else ""
-        raise InputError("plot", name, "no such figure of a sweep", f"{hint}There are: {', '.join(known)}")
+        raise _unknown(name, "no such figure of a sweep", known)
     with house_style():
         return known[name].draw(records, at or {})
+
+
+def _unknown(name: str, rule: str, known: Mapping[str, object]) -> InputError:
+    near = near_name(name, known)
+    hint = f"did you mean {near}? " if near else ""
+    return InputError("plot", name, rule, f"{hint}There are: {', '.join(known)}")
 
 
 def sweep_table(record: "SweepRecord") -> "Group":

@@ -44,35 +44,26 @@ WORTH_SAYING = 0.05
 
 
 def record_bytes(layout: Layout, sizes: Mapping[str, int]) -> float:
-    """Bytes of a record.
-
-    Parameters
-    ----------
-    sizes : dimension -> values along it; datasets with another dimension are left out
-    """
-    return HEAD + variable_bytes(
-        (*layout.along.values(), *layout.scales.values(), *layout.others.values()), sizes
-    )
+    """Bytes of a record with so many values along its dimensions; datasets with another one are left out."""
+    every = *layout.along.values(), *layout.scales.values(), *layout.others.values()
+    return HEAD + variable_bytes(every, sizes)
 
 
 def variable_bytes(variables: Iterable[Variable], sizes: Mapping[str, int]) -> float:
-    """Bytes of datasets, those along an axis without a size left out."""
+    """Bytes of datasets, those along an axis without a size left out.
+
+    NumPy's names of types end in the bytes of a number: "<f8", "i1", "S24".
+    """
     return sum(
-        math.prod(float(sizes[dim]) for dim in one.dims) * _bytes(one.dtype)
-        for one in variables
-        if all(dim in sizes for dim in one.dims)
+        math.prod(float(sizes[dim]) for dim in variable.dims) * int(variable.dtype.lstrip("<>|=")[1:])
+        for variable in variables
+        if all(dim in sizes for dim in variable.dims)
     )
-
-
-def _bytes(dtype: str) -> int:
-    """Bytes of a number of a type as NumPy names it: "<f8", "i1", "S24"."""
-    return int(dtype.lstrip("<>|=")[1:])
 
 
 def share_of_limits(estimate: Estimate) -> float:
     """The largest of what is taken over what is allowed."""
-    pairs = zip(estimate[:3], LIMITS[:3], strict=True)
-    return max(taken / most for taken, most in pairs)
+    return max(taken / most for taken, most in zip(estimate[:3], LIMITS[:3], strict=True))
 
 
 def described(estimate: Estimate) -> str:
@@ -93,17 +84,11 @@ def as_data(estimate: Estimate) -> dict[str, float]:
 
 
 def refuse_large(estimate: Estimate, allow_large: bool) -> None:
-    """Refuse what takes more than `LIMITS`, unless it is allowed.
-
-    Raises
-    ------
-    InputError
-        It names the key whose value is furthest above a usual one.
-    """
+    """Refuse what takes more than `LIMITS`, unless it is allowed; name the key furthest above usual."""
     whole = estimate._replace(seconds=estimate.seconds + estimate.shared)
     if allow_large or share_of_limits(whole) <= 1.0 or not estimate.drivers:
         return
-    worst = max(estimate.drivers, key=lambda one: one.value / one.usual)
+    worst = max(estimate.drivers, key=lambda driver: driver.value / driver.usual)
     allowed = f"{_size(LIMITS.memory)}, {_size(LIMITS.record)} and {_time(LIMITS.seconds)}"
     raise InputError(
         worst.key,

@@ -48,14 +48,8 @@ def evaluated_quantities(study: Study) -> dict[str, Quantity]:
 def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) -> list[dict[str, Any] | str]:
     """Work out the quantities of cases without a record; a text instead where one fails: why.
 
-    Cases of a study with a `batch` are steady states.
-
-    Parameters
-    ----------
-    cases : sequence of cases or str
-        A text where the case could not even be made.
-    workers : int, optional
-        Threads of a study that evaluates cases together; default: one per core.
+    A text among the cases is why one could not even be made. Cases of a study with a `batch` are steady
+    states, evaluated by so many threads; default: one per core.
     """
     batch = study.batch()
     found = _together(study, batch, cases, workers) if batch else [alone(study, case) for case in cases]
@@ -104,12 +98,7 @@ class NoSettings(NamedTuple):
 
 
 class OneByOne:
-    """See `sweeping.batch.Batch`.
-
-    Parameters
-    ----------
-    study : one with `swept` quantities
-    """
+    """Cases of a study without a `batch`, one after the other; see `sweeping.batch.Batch`."""
 
     states = 0
 

@@ -28,18 +28,7 @@ _CHOSEN = "involute"
 
 
 def filled(kind: str, title: str) -> str:
-    """Return the template of a kind of study with everything put in.
-
-    Parameters
-    ----------
-    kind : as scenarios name it
-    title : of the scenario
-
-    Raises
-    ------
-    InputError
-        For an unknown kind.
-    """
+    """Return the template of a kind of study with title, other kinds and a drive put in."""
     text = STUDIES[kind].template()
     if "\nDRIVE\n" in text:
         drive = resources.files("tribodyn.studies").joinpath("drive_template.toml")
@@ -68,8 +57,8 @@ def _own_keys(family: Family) -> list[str]:
     """What else changes in [drive] where this family is chosen."""
     lines = [] if family.pressure_angle else ["#   it has no pressure_angle"]
     if family.parameters:
-        offered = [one for one in family.parameters if not one.optional or one.example]
-        values = ", ".join(f"{one.name} = {example_of(one)}" for one in offered)
+        offered = [key for key in family.parameters if not key.optional or key.example]
+        values = ", ".join(f"{key.name} = {example_of(key)}" for key in offered)
         lines.append(f"#   shape = {{ {values} }}")
     return lines
 
@@ -118,12 +107,9 @@ def table_of(data: Mapping[str, Any]) -> Any:
 
 
 def loaded_from(resolved: Resolved, path: Path) -> Loaded:
-    """Return the case of a scenario whose references and overrides have been put in; raises as `load` does.
+    """Return the case of a scenario's file whose references and overrides have been put in; raises as `load`.
 
-    Parameters
-    ----------
-    resolved : its data may have been changed since; it is not changed here but for a missing name
-    path : the scenario's file
+    The data of `resolved` may have been changed since; they are not changed here but for a missing name.
     """
     data, origins, unresolved = resolved
     data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")
@@ -138,7 +124,7 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     except ValidationError as error:
         # a reference that could not be followed has been complained of already
         known = unresolved_keys(unresolved)
-        mistakes = [one for one in explain(error, model) if one.key not in known]
+        mistakes = [mistake for mistake in explain(error, model) if mistake.key not in known]
         raise _located([*unresolved, *mistakes], origins) from None
     # of a key whose value only its family knows to be a file
     if errors := unresolved or list(_broken_rules(study, scenario)):
@@ -154,8 +140,8 @@ def _broken_rules(study: Study, scenario: Any) -> Iterator[InputError]:
         yield from broken
         return
     known: set[str] = set()
-    for number, (_, one) in enumerate(spectrum_of(scenario), start=1):
-        for error in study.broken_rules(one):
+    for number, (_, duty) in enumerate(spectrum_of(scenario), start=1):
+        for error in study.broken_rules(duty):
             if str(error) not in known:
                 known.add(str(error))
                 yield of_duty(error, number)

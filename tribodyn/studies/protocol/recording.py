@@ -1,9 +1,8 @@
 """A case's head, its record, and what its run and its check end in."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:  # `tribodyn --help` imports this file
@@ -64,13 +63,7 @@ class CheckResult(NamedTuple):
 
 
 def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
-    """Where a case's record goes.
-
-    Raises
-    ------
-    InputError
-        If it cannot be written there, see `record.writer.check_target`; so it is checked before any work.
-    """
+    """Where a case's record goes; InputError, before any work, where it cannot be written there."""
     from tribodyn.record.writer import check_target
 
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
@@ -83,13 +76,9 @@ def writer(
     path: Path,
     layout: "Layout",
     samples: int,
-    *,
-    groups: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
-    scales: Mapping[str, Any] = MappingProxyType({}),
-    force: bool = False,
-    code: str = "",
+    **more: Any,
 ) -> "RecordWriter":
-    """The writer of a case's record; arguments as those of `RecordWriter`."""
+    """The writer of a case's record; `more`, such as groups and scales, as `RecordWriter` takes it."""
     from tribodyn.record.writer import RecordWriter
 
     return RecordWriter(
@@ -99,8 +88,5 @@ def writer(
         scenario_toml=case.toml,
         sha256=case.sha256,
         samples=samples,
-        groups=groups,
-        scales=scales,
-        force=force,
-        code=code,
+        **more,
     )

@@ -2,7 +2,6 @@
 
 import hashlib
 import tomllib
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
@@ -69,20 +68,10 @@ def run(
 
 
 def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw) -> CaseHead:
-    """Return the case under a law from Python, which its scenario then names as such.
+    """Return the case under a law from Python in place of its law in `table`, "film" or "friction".
 
-    The record of a run holds that scenario. It cannot be loaded again: the law is not in it.
-
-    Parameters
-    ----------
-    case
-    table : {"film", "friction"}
-        Which law it takes the place of.
-
-    Raises
-    ------
-    InputError
-        If the case has no such law, or what is given is none.
+    Its scenario, which the record of a run holds, names the law as one from Python: it cannot be loaded
+    again. Raises InputError if the case has no such law, or what is given is none.
     """
     due = FilmLaw if table == "film" else FrictionLaw
     if not isinstance(law, due):
@@ -96,16 +85,9 @@ def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw) -> CaseHead
         law = replace(law, name=FROM_PYTHON + law.name)
     data = tomllib.loads(case.toml)
     kept = {key: value for key, value in data.get(table, {}).items() if key not in ("law", *old.values)}
-    data[table] = {**kept, "law": law.name, **_written(law)}
+    own = {key.name: in_toml(key, key.default) for key in law.keys if key.default is not None}
+    data[table] = {**kept, "law": law.name, **own}
     toml = tomli_w.dumps(data)
     named = replace(case, toml=toml, sha256=hashlib.sha256(toml.encode()).hexdigest())
-    return with_laws(
-        cast(Any, named),
-        film=law if isinstance(law, FilmLaw) else None,
-        friction=law if isinstance(law, FrictionLaw) else None,
-    )
-
-
-def _written(law: FilmLaw | FrictionLaw) -> Mapping[str, Any]:
-    """Values of the law's own keys as a scenario would give them."""
-    return {key.name: in_toml(key, key.default) for key in law.keys if key.default is not None}
+    laws: dict[str, Any] = {table: law}
+    return with_laws(cast(Any, named), **laws)

@@ -38,38 +38,22 @@ class Chunk(NamedTuple):
 
 
 class Batch(Protocol):
-    """Evaluates cases of one kind; its results for a case do not depend on the others beside it.
+    """Evaluates cases of one kind; its results for a case do not depend on the others beside it."""
 
-    Attributes
-    ----------
-    states : numbers from which a neighbouring case can continue; 0: every case begins by itself
-    """
-
-    states: int
+    states: int  # numbers from which a neighbouring case can continue; 0: every case begins by itself
 
     def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> Any:
-        """How cases are evaluated, as a named tuple of plain data.
+        """How cases are evaluated, as a named tuple of plain data; InputError for what no such study knows.
 
-        Parameters
-        ----------
-        cases : those at both ends of the grid
-        transient : mesh cycles to march instead of seeking a steady state
-        engine : where: "native", "jax", "dask"
-
-        Raises
-        ------
-        InputError
-            For what such a study does not know.
+        Of the cases at both ends of a grid, with the mesh cycles to march instead of seeking a steady state;
+        `engine` says where: "native", "jax", "dask".
         """
         ...
 
     def following(self, settings: Any, unstable: bool) -> Any:
         """The settings of a sweep whose cases go on from each other, and maybe continue branches unstably.
 
-        Raises
-        ------
-        InputError
-            Where there are no such branches.
+        Raises InputError where there are no such branches.
         """
         ...
 
@@ -111,11 +95,7 @@ def case_between(first: Any, last: Any, share: float) -> Any:
 
     Numbers of a case are in SI units and proportional to what a scenario says, up to a constant; so for a
     varied quantity this is the case of the value in between. A share above 1 goes on beyond the last case.
-
-    Raises
-    ------
-    NothingBetween
-        Where the cases differ in a name, a switch, a whole number, or the number of numbers.
+    Raises NothingBetween where they differ in a name, a switch, a whole number, or the number of numbers.
     """
     if share == 0.0:
         return first

@@ -11,17 +11,10 @@ from tribodyn.numerics.child import isolated_environment
 
 @contextmanager
 def client_of(workers: int | None, scheduler: str | None) -> Iterator[Any]:
-    """Give a client; a cluster of this machine lives as long as the block.
+    """Give a client of the scheduler at an address, ``tcp://host:8786``, or of a cluster of this machine.
 
-    Parameters
-    ----------
-    workers : processes of a cluster of this machine; default: one per core
-    scheduler : address of a scheduler, ``tcp://host:8786``
-
-    Raises
-    ------
-    InputError
-        If Dask is not there, or no scheduler answers at that address.
+    That lives as long as the block and has so many processes; default: one per core. Raises InputError if
+    Dask is not there, or no scheduler answers.
     """
     try:
         from distributed import Client, LocalCluster
@@ -45,12 +38,8 @@ def client_of(workers: int | None, scheduler: str | None) -> Iterator[Any]:
     try:
         client = Client(scheduler, timeout="10s")
     except (OSError, ValueError) as error:
-        raise InputError(
-            "--scheduler",
-            scheduler,
-            f"no scheduler answers there ({error})",
-            "start one: dask scheduler",
-        ) from None
+        rule = f"no scheduler answers there ({error})"
+        raise InputError("--scheduler", scheduler, rule, "start one: dask scheduler") from None
     with client:
         yield client
 
