@@ -40,5 +40,6 @@ def test_a_search_of_motions_may_bound_the_teeth():
             },
         }
     )
-    assert [constraint.quantity for constraint in found.constraints] == ["contact_ratio", "tip_thickness_pinion"]
+    names = [constraint.quantity for constraint in found.constraints]
+    assert names == ["contact_ratio", "tip_thickness_pinion"]
     assert found.constraints[1].limit == pytest.approx(0.9e-3)
