@@ -20,10 +20,7 @@ _REMEDY = "write it for scalars, with arithmetic and tribodyn.numerics.elementar
 def try_laws(film: FilmLaw, friction: FrictionLaw, closure: Closure) -> None:
     """Try the laws that are not this package's own, on numbers and on arrays.
 
-    Raises
-    ------
-    InputError
-        If a law calls what kernels cannot compile, fails, or gives what is no film or coefficient.
+    Raises InputError if a law calls what kernels cannot compile, fails, or gives no film or coefficient.
     """
     for law in (film, friction):
         if (law.function.__module__ or "").partition(".")[0] != "tribodyn":

@@ -31,7 +31,10 @@ def _response(records: Sequence[Record]) -> Figure:
         for direction in (UP, DOWN):
             color = _color(records, number, direction)
             _branch(upper, record, direction, color)
-            _ends(upper, record, direction, color)
+            if "end_frequency" in record:  # marked at the lower edge
+                at = record["end_frequency"][record["end_direction"] == direction]
+                low = {"transform": upper.get_xaxis_transform(), **END}
+                upper.plot(at, np.full(len(at), 0.02), "^", color=color, **low)
             _unstable(upper, record, direction, color, "rms_displacement")
             _unstable(lower, record, direction, color, "contact_loss_fraction", 100.0)
             free = 100.0 * record["contact_loss_fraction"][:, direction]
@@ -73,13 +76,6 @@ def _branch(axes: Axes, record: Record, direction: int, color: str) -> None:
             xytext=(x[start], y[start]),
             arrowprops={"arrowstyle": "-|>", "color": color, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0},
         )
-
-
-def _ends(axes: Axes, record: Record, direction: int, color: str) -> None:
-    """Mark where branches end, at the lower edge."""
-    if "end_frequency" in record:
-        at = record["end_frequency"][record["end_direction"] == direction]
-        axes.plot(at, np.full(len(at), 0.02), "^", color=color, transform=axes.get_xaxis_transform(), **END)
 
 
 def _unstable(axes: Axes, record: Record, direction: int, color: str, name: str, factor: float = 1.0) -> None:

@@ -140,10 +140,6 @@ def _transient(record: Record, drawn: Figure) -> None:
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="x-small")
 
 
-def _with_squeeze(record: Record) -> bool:
-    return "transient_central_film_thickness" in record
-
-
 DRAWINGS: dict[str, Drawing] = {
     "overview": _drawing("film and friction beside every law, Hertz pressure", _overview, 3.0),
     "profiles": _drawing("pressure, film, temperature and shear at chosen places", _profiles, 2.2),
@@ -153,7 +149,7 @@ DRAWINGS: dict[str, Drawing] = {
         "film and friction with squeeze beside the steady ones",
         _transient,
         3.0,
-        _with_squeeze,
+        lambda record: "transient_central_film_thickness" in record,
         ("transient", "the record has no film with squeeze", "set contact.transient = true"),
     ),
     "traction": _drawing("friction over slide-to-roll ratio, where the load is highest", _traction, 1.4),
@@ -182,7 +178,8 @@ def _rows(axes: Axes, laws: Sequence[Any]) -> None:
         axes.plot([law.median], [row], "o", color=PALETTE[1], ms=4, zorder=4)
     axes.set_xscale("log")
     axes.axvline(1.0, color=QUIET, lw=0.8)
-    axes.set_yticks(range(len(laws)), [_name(law) for law in laws])
+    names = [f"{law.law} ({law.against})" if law.what == "film" else law.law for law in laws]
+    axes.set_yticks(range(len(laws)), list(map(literal, names)))
     axes.set_ylim(len(laws) - 0.5, -0.5)
     shown = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
     axes.set_xticks(shown, [f"{ratio:g}" for ratio in shown])
@@ -190,7 +187,3 @@ def _rows(axes: Axes, laws: Sequence[Any]) -> None:
     every = [value for law in laws for value in (law.minimum, law.maximum, *np.ravel(law.map))]
     known = [value for value in every if np.isfinite(value)]
     axes.set_xlim(max(min([*known, 0.5]) / 1.2, 0.05), min(max([*known, 2.0]) * 1.2, 20.0))
-
-
-def _name(law: Any) -> str:
-    return literal(f"{law.law} ({law.against})" if law.what == "film" else law.law)

@@ -151,10 +151,7 @@ def judgement(
 ) -> LawsJudged:
     """Compare every law with the solved contact of a case of any study, over factors on load and speed too.
 
-    Raises
-    ------
-    InputError
-        As `case_for`.
+    Raises InputError as `case_for`.
     """
     ratios = ratios_over(case_for(case, positions), factors, factors, progress)
     return LawsJudged(case.title, positions, factors, factors, ratios)
@@ -163,10 +160,7 @@ def judgement(
 def case_for(case: CaseHead, positions: int) -> EhlCase:
     """Return the solved contact of a case's drive, oil and duty, of whatever kind it is.
 
-    Raises
-    ------
-    InputError
-        For a scenario without a drive of two gears, a lubricant and a duty, or whose load is not positive.
+    Raises InputError for a scenario without a drive of two gears, a lubricant and a duty, or a positive load.
     """
     data = tomllib.loads(case.toml)
     if missing := [name for name in _TABLES if not isinstance(data.get(name), dict)]:
@@ -192,13 +186,7 @@ def case_for(case: CaseHead, positions: int) -> EhlCase:
 def ratios_over(
     case: EhlCase, loads: Sequence[float] = (), speeds: Sequence[float] = (), progress: Progress | None = None
 ) -> list[LawRatio]:
-    """Compare every law with the solved contact.
-
-    Parameters
-    ----------
-    loads, speeds : factors on torque and speed that span a map; none: no map
-    progress : called with the share done, 0 … 1
-    """
+    """Compare every law with the solved contact; factors on torque and speed span a map, none: no map."""
     report = progress or (lambda _share: None)
     points = [(torque, speed) for torque in loads for speed in speeds]
     done = case.positions / (case.positions + AT_A_POINT * len(points))
@@ -232,11 +220,12 @@ def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
                 meant, stated = "friction_coefficient", FRICTION_LAWS[law]
             ratio = values / arrays[meant]
             ratio = ratio[np.isfinite(ratio)]
-            inside = _inside(study, over, stated)
             low = middle = high = float("nan")
+            right = 0.0
             if len(ratio):
                 low, middle, high = (float(function(ratio)) for function in (np.min, np.median, np.max))
-            right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what])) if len(ratio) else 0.0
+                right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what]))
+            inside = _inside(study, over, stated)
             ratios = LawRatio(what, law, low, middle, high, *inside, right)
             found.append(ratios._replace(against=AGAINST[meant], range=stated.stated))
     return found

@@ -6,7 +6,7 @@ position. Where the pair loses its load, or no instant can be solved, it begins 
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -33,17 +33,14 @@ PREFIX = "transient_"
 
 
 class SteadyContact(NamedTuple):
-    """What is kept of a position's steady contact; arrays over the places ξ of its own grid.
-
-    `whole` is the pressure of fluid and asperities over Hertz's, `rise` the temperature of the layers.
-    """
+    """What is kept of a position's steady contact; arrays over the places ξ of its own grid."""
 
     problem: LineContact
     state: FilmState
     node: Array
-    whole: Array
+    whole: Array  # pressure of fluid and asperities over Hertz's
     closure: FlowCorrection
-    rise: Array
+    rise: Array  # temperature of the layers
 
 
 class Stretch(NamedTuple):
@@ -120,7 +117,7 @@ def _carried(stretch: Stretch, begin: int) -> Iterator[tuple[int, Solution]]:
     try:
         start = _begun(stretch, begin)
         times, marks = _times(stretch, begin)
-        for number, solution in enumerate(march(_Instants(stretch), times, start), start=1):
+        for number, solution in enumerate(march(_instants(stretch), times, start), start=1):
             at = marks.get(number)
             if at == begin + 1:
                 yield begin, start
@@ -159,31 +156,27 @@ def _times(stretch: Stretch, at: int) -> tuple[Array, dict[int, int]]:
     return np.array(times), marks
 
 
-class _Instants:
+def _instants(stretch: Stretch) -> Callable[[float], Instant]:
     """The contact at any time of a stretch."""
+    problems = [position.problem for position in stretch.steady]
+    values = [(known.radius, known.entrainment_speed, known.sliding_speed) for known in problems]
+    smooth, numbers = CubicSpline(stretch.times, np.array(values)), np.arange(len(stretch.times))
 
-    def __init__(self, stretch: Stretch) -> None:
-        self._stretch = stretch
-        values = [
-            (position.problem.radius, position.problem.entrainment_speed, position.problem.sliding_speed)
-            for position in stretch.steady
-        ]
-        self._smooth = CubicSpline(stretch.times, np.array(values))
-
-    def __call__(self, time: float) -> Instant:
-        stretch = self._stretch
-        place = np.interp(time, stretch.times, np.arange(len(stretch.times)))
+    def at(time: float) -> Instant:
+        place = np.interp(time, stretch.times, numbers)
         low = min(int(place), len(stretch.times) - 2)
         part = place - low
         closure = (1.0 - part) * stretch.closures[low] + part * stretch.closures[low + 1]
-        radius, entrainment, sliding = map(float, self._smooth(time))
-        problem = stretch.steady[0].problem._replace(
+        radius, entrainment, sliding = map(float, smooth(time))
+        problem = problems[0]._replace(
             line_load=float(np.interp(time, *stretch.loads)),
             radius=radius,
             entrainment_speed=entrainment,
             sliding_speed=sliding,
         )
         return Instant(problem, FlowCorrection(*closure))
+
+    return at
 
 
 def _put(arrays: dict[str, Array], at: int, solution: Solution, contact: Contact, rise: Array) -> None:

@@ -90,7 +90,12 @@ def run(
     except SimulationError as error:
         loaded, failure = None, error.reason
     groups = {"mesh_cycle": _numbers(study), "geometry": geometry_arrays(study.flexible.assembly)}
-    samples, scales = 0 if loaded is None else len(loaded.phase), _scales(study, loaded)
+    scales: dict[str, Any] = {"pair": np.zeros(0, dtype=int), "slice": np.zeros(0), "body": np.array(BODIES)}
+    if loaded is not None:
+        scales |= {"pair": pair_numbers(study, loaded), "slice": np.asarray(loaded.slice_position)}
+    if case.gear_torques:
+        scales["torque"] = np.array(case.gear_torques)
+    samples = 0 if loaded is None else len(loaded.phase)
     layout = LAYOUT if case.lubricated is None else OILED
     with writer(case, path, layout, samples, groups=groups, scales=scales, force=force) as record:
         if loaded is None:
@@ -278,14 +283,6 @@ def _numbers(study: PreparedTeeth) -> dict[str, float]:
         "roll_start": start,
         "roll_end": end,
     }
-
-
-def _scales(study: PreparedTeeth, loaded: LoadedContact | None) -> dict[str, np.ndarray]:
-    pairs = np.zeros(0, dtype=int) if loaded is None else pair_numbers(study, loaded)
-    places = np.zeros(0) if loaded is None else np.asarray(loaded.slice_position)
-    scales: dict[str, np.ndarray] = {"pair": pairs, "slice": places, "body": np.array(BODIES)}
-    torques = study.case.gear_torques
-    return scales | ({"torque": np.array(torques)} if torques else {})
 
 
 def pair_numbers(study: PreparedTeeth, loaded: LoadedContact) -> Int[Array, " pair"]:

@@ -138,8 +138,13 @@ def engage(
     rolling = load * friction.rolling_arm * spin
     cam = rolling + load * friction.sliding_coefficient * sliding
     lost = cam + rolling
-    power_in = input_speed * shaft_torque(drive, angle, load)
-    power_out = input_speed / drive.ratio * cam_torque(drive, angle, load) - lost.sum(axis=-1)
+    normal = normal_direction(drive, angle)
+    # the shaft presses the cam at its centre, on the eccentric; every normal passes through P, which lies on
+    # the x axis at the cam's pitch radius from its centre
+    shaft_torque = drive.eccentricity * np.sum(load[..., None] * normal, axis=-2)[..., 1]
+    cam_torque = np.sum(load * drive.cam_pitch_radius * normal[..., 1], axis=-1)
+    power_in = input_speed * shaft_torque
+    power_out = input_speed / drive.ratio * cam_torque - lost.sum(axis=-1)
     by_energy = power_out / power_in
     distance = pitch_point_distance(drive, angle)
     return ElementStates(
@@ -155,16 +160,3 @@ def engage(
         power_out=power_out,
         efficiency=by_energy if mode == "corrected" else np.prod(1.0 - lost / input_power, axis=-1),
     )
-
-
-def shaft_torque(drive: RollingDrive, angle: Array, load: Array) -> Array:
-    """Torque (time,) that the shaft must give, N m, to press the cam at its centre, on the eccentric."""
-    pressing = np.sum(load[..., None] * normal_direction(drive, angle), axis=-2)
-    return drive.eccentricity * pressing[..., 1]
-
-
-def cam_torque(drive: RollingDrive, angle: Array, load: Array) -> Array:
-    """Torque (time,) of the normal loads on the cam about its centre, N m, positive as the cam turns."""
-    normal = normal_direction(drive, angle)
-    # every normal passes through P, which lies on the x axis at the cam's pitch radius from its centre
-    return np.sum(load * drive.cam_pitch_radius * normal[..., 1], axis=-1)

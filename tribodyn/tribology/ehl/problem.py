@@ -223,27 +223,17 @@ def check(problem: LineContact) -> None:
 def _check_size(problem: LineContact) -> None:
     """Raise InputError outside of what the equations are made for."""
     width, load, material = problem.half_width, problem.moes_load, problem.moes_material
+    given = "line_load", f"{problem.line_load:g} N/m"
     if width > problem.radius:
-        raise InputError(
-            "line_load",
-            f"{problem.line_load:g} N/m",
-            f"the contact is wider ({2.0 * width:.3g} m) than cylinders of {problem.radius:.3g} m radius",
-            "half spaces need a lower load, a larger radius or a stiffer material",
-        )
+        rule = f"the contact is wider ({2.0 * width:.3g} m) than cylinders of {problem.radius:.3g} m radius"
+        raise InputError(*given, rule, "half spaces need a lower load, a larger radius or a stiffer material")
     if not LEAST_LOAD <= load <= GREATEST_LOAD:
-        raise InputError(
-            "line_load",
-            f"{problem.line_load:g} N/m",
-            f"Moes' load parameter M is {load:.3g}, solved is {LEAST_LOAD:g} … {GREATEST_LOAD:g}",
-            "check load, speed and viscosity, and their units",
-        )
+        rule = f"Moes' load parameter M is {load:.3g}, solved is {LEAST_LOAD:g} … {GREATEST_LOAD:g}"
+        raise InputError(*given, rule, "check load, speed and viscosity, and their units")
     if material > GREATEST_MATERIAL:
-        raise InputError(
-            "pressure_viscosity",
-            f"{problem.fluid.pressure_viscosity:g} 1/Pa",
-            f"Moes' material parameter L is {material:.3g}, solved is up to {GREATEST_MATERIAL:g}",
-            "check its unit: 1e-8 … 4e-8 1/Pa of oils",
-        )
+        value = f"{problem.fluid.pressure_viscosity:g} 1/Pa"
+        rule = f"Moes' material parameter L is {material:.3g}, solved is up to {GREATEST_MATERIAL:g}"
+        raise InputError("pressure_viscosity", value, rule, "check its unit: 1e-8 … 4e-8 1/Pa of oils")
 
 
 def check_roughness(roughness: Roughness) -> None:

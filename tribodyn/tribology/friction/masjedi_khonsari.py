@@ -56,24 +56,17 @@ def log_roelands_viscosity(pressure, temperature_rise, log_inlet_viscosity, inde
 
 
 @law
-def limiting_shear_share(asperity_share, coefficient, limiting_share):
-    """Shear stress that the fluid cannot exceed over the pressure, τ_lim/p = Λ_lim (1 − λ); Liu & Ni (20).
-
-    With `limiting_share` 0 it is Λ_lim: the variant that brings Liu & Ni's friction levels closest.
-    """
-    return coefficient * (1.0 - limiting_share * asperity_share)
-
-
-@law
 def sheared(contact, film, surfaces, parameters):
-    """Share λ of the asperities, τ_lim/p, and the stress over its limit, η |v_s|/(τ_lim h_c)."""
+    """Share λ of the asperities, τ_lim/p, and the stress over its limit, η |v_s|/(τ_lim h_c).
+
+    The fluid cannot exceed τ_lim/p = Λ_lim (1 − λ); Liu & Ni (20). With `limiting_share` 0 it is Λ_lim: the
+    variant that brings Liu & Ni's friction levels closest.
+    """
     log_smooth, rough, share = film_at(film, contact, surfaces)
     sliding = absolute(contact.sliding)
     half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
     pressure = contact.line_load / (2.0 * half_width)
-    shear_share = limiting_shear_share(
-        share, parameters.limiting_shear_coefficient, parameters.limiting_share
-    )
+    shear_share = parameters.limiting_shear_coefficient * (1.0 - parameters.limiting_share * share)
     log_viscosity = log_roelands_viscosity(
         parameters.viscosity_pressure_factor * pressure * (1.0 - share),
         _temperature_rise(contact, share, half_width, pressure, parameters),
