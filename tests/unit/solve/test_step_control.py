@@ -6,27 +6,28 @@ import numpy as np
 import pytest
 
 from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES
-from tribodyn.solve.march.step_control import MINIMUM_STEP, refused, unbounded
+from tribodyn.solve.integrator import Status
+from tribodyn.solve.march.step_control import MINIMUM_STEP, refusal, unbounded
 
 SMALL, USUAL, LIMIT = MINIMUM_STEP / 2, 1e-3, 10
 
 
 @pytest.mark.parametrize(
-    ("steps", "step", "speed", "reasons"),
+    ("steps", "step", "speed", "status"),
     [
-        (0, USUAL, 1.0, (False, False, False)),
-        (LIMIT, USUAL, 1.0, (True, False, False)),
-        (0, SMALL, 1.0, (False, True, False)),
+        (0, USUAL, 1.0, Status.DONE),
+        (LIMIT, USUAL, 1.0, Status.TOO_MANY_STEPS),
+        (0, SMALL, 1.0, Status.STEP_TOO_SMALL),
         # steps vanish as the pinion stops; a light one still turns at a hundredth of its nominal speed then
-        (0, SMALL, 0.01, (False, True, True)),
-        (0, USUAL, 0.01, (False, False, False)),
+        (0, SMALL, 0.01, Status.STALLED),
+        (0, USUAL, 0.01, Status.DONE),
         # an engagement has taken all its kinetic energy
-        (0, USUAL, 0.0, (False, False, True)),
+        (0, USUAL, 0.0, Status.STALLED),
     ],
 )
-def test_reasons(steps, step, speed, reasons):
-    """Too many steps, steps too small, the pinion at rest; speeds over a nominal 1 rad/s."""
-    assert refused(steps, LIMIT, step, speed, 1.0) == reasons
+def test_no_step_is_taken(steps, step, speed, status):
+    """Speeds over a nominal 1 rad/s."""
+    assert refusal(steps, LIMIT, step, speed, 1.0) == status
 
 
 @pytest.mark.parametrize("place", range(STATES))

@@ -81,7 +81,6 @@ def exp_lanes(x):
 
 
 @part_for(elementary.expm1, LANES)
-@part
 def expm1_lanes(x):
     """exp(x) − 1, accurate for small x."""
     bounded = select(x < 710.0, select(x > -50.0, x, -50.0), 710.0)
@@ -115,7 +114,6 @@ def log_lanes(x):
 
 
 @part_for(elementary.log1p, LANES)
-@part
 def log1p_lanes(x):
     """log(1 + x), accurate for small x."""
     sum_ = 1.0 + x
@@ -163,7 +161,6 @@ def turned(q, r, lost):
 
 
 @part_for(elementary.sin, LANES)
-@part
 def sin_lanes(x):
     """Sine."""
     q, r, lost = quadrant(x)
@@ -171,7 +168,6 @@ def sin_lanes(x):
 
 
 @part_for(elementary.cos, LANES)
-@part
 def cos_lanes(x):
     """Cosine."""
     q, r, lost = quadrant(x)

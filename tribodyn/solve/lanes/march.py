@@ -13,7 +13,6 @@ from tribodyn.kernels.lanes.vectors import WIDTH, any_of
 from tribodyn.kernels.native import kernel
 from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import maximum, minimum, where
-from tribodyn.solve.integrator import Status
 from tribodyn.solve.lanes.queue import (
     CASE,
     CUT,
@@ -118,15 +117,8 @@ def choose_step(model, block, queue, march):
     cut, step = rules.cut_at_stop(rows[PHASE], rows[STEP], rows[LIMIT])
     rows[CUT] = where(running & cut, 1.0, 0.0)
     rows[STEP] = where(running, step, rows[STEP])
-    too_many, vanishing, at_rest = rules.refused(
-        rows[STEPS] - rows[STEPS_BEFORE],
-        march.max_steps,
-        rows[STEP],
-        nominal_speed + rows_of(block.y)[SLIP],
-        nominal_speed,
-    )
-    failure = where(too_many, Status.TOO_MANY_STEPS.value, where(vanishing, Status.STEP_TOO_SMALL.value, 0.0))
-    failure = where(at_rest & ~too_many, Status.STALLED.value, failure)
+    taken, speed = rows[STEPS] - rows[STEPS_BEFORE], nominal_speed + rows_of(block.y)[SLIP]
+    failure = rules.refusal(taken, march.max_steps, rows[STEP], speed, nominal_speed)
     failed = running & (failure > 0.0)
     if any_of(failed):
         fail(where(failed, failure, 0.0), block, queue, march)
@@ -147,23 +139,14 @@ def judge(evaluations, segment, model, block, queue, march):
     running = phase < rows[END]
     cut = rows[CUT] > 0.0
     rows[EVALUATIONS] = rows[EVALUATIONS] + where(running, 1.0 * evaluations, 0.0)
-    worst, total = 0.0 * step, 0.0 * step
-    for i in range(STATES):
-        rtol = march.rtol * rules.RELATIVE[i]
-        weighed = rules.weighed_error(buffer[ERROR, i], y[i], new[i], atol[i], rtol)
-        worst, total = rules.collected(worst, total, weighed)
+    worst, total = rules.collected_errors(buffer[ERROR], y, new, atol, march.rtol)
     error = rules.step_error(worst, total)
-    speed_after = model.mechanics.nominal_speed + new[SLIP]
-    accepted, undefined, lost, stalled = rules.step_outcome(error, step, speed_after)
-    stalled, lost = running & stalled, running & lost
-    accepted = running & accepted & ~stalled
-    runaway = accepted & rules.unbounded(new, model.table)
-    accepted = accepted & ~runaway
-    ended = stalled | lost | runaway
-    if any_of(ended):
-        failure = where(lost, Status.NOT_FINITE.value, where(runaway, Status.UNBOUNDED.value, 0.0))
-        fail(where(stalled, Status.STALLED.value, failure), block, queue, march)
-        running = running & ~ended
+    accepted, undefined, failure = rules.step_outcome(error, step, new, model)
+    failed = running & (failure > 0.0)
+    if any_of(failed):
+        fail(where(failed, failure, 0.0), block, queue, march)
+    running = running & ~failed
+    accepted = accepted & running
     turned, shorter = accepted & ~accepted, step
     if model.options.sliding == SLIDING_DYNAMIC:
         too_far, shorter = rules.turn_of(step, segment, model, work)

@@ -12,7 +12,7 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE, Model
 from tribodyn.kernels.native import kernel, packed
-from tribodyn.numerics.elementary import largest_slope, maximum, minimum, plain
+from tribodyn.numerics.elementary import largest_slope, maximum, minimum
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.integrator import IntegratedCycles, March, Status
 from tribodyn.solve.march import step_control as rules
@@ -107,47 +107,28 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                 limit = control.stops[segment, stop]
                 uncut_step = step
                 cut, step = rules.cut_at_stop(phase, step, limit)
-                too_many, vanishing, at_rest = rules.refused(
-                    steps - steps_before, march.max_steps, step, nominal_speed + y[SLIP], nominal_speed
-                )
-                if too_many:
-                    return Status.TOO_MANY_STEPS.value, cycle + phase, step, steps, evaluations, written
-                if at_rest:
-                    return Status.STALLED.value, cycle + phase, step, steps, evaluations, written
-                if vanishing:
-                    return Status.STEP_TOO_SMALL.value, cycle + phase, step, steps, evaluations, written
+                taken, speed = steps - steps_before, nominal_speed + y[SLIP]
+                failure = rules.refusal(taken, march.max_steps, step, speed, nominal_speed)
+                if failure > 0.0:
+                    return int(failure), cycle + phase, step, steps, evaluations, written
                 place = Place(phase, whole, segment, end)
                 evaluations += method.attempt(fresh, step, place, y, control, model, work, buffer)
                 fresh = False
-                worst, total = 0.0, 0.0
-                for i in range(STATES):
-                    weighed = rules.weighed_error(
-                        plain(buffer[ERROR, i]),
-                        plain(y[i]),
-                        plain(buffer[STATE, i]),
-                        control.atol[i],
-                        march.rtol * rules.RELATIVE[i],
-                    )
-                    worst, total = rules.collected(worst, total, weighed)
+                new = buffer[STATE]
+                worst, total = rules.collected_errors(buffer[ERROR], y, new, control.atol, march.rtol)
                 for i in range(MECHANICAL):  # of the derivatives, where numbers carry them
                     weighed = rules.weighed_error(
                         largest_slope(buffer[ERROR, i]),
                         largest_slope(y[i]),
-                        largest_slope(buffer[STATE, i]),
+                        largest_slope(new[i]),
                         control.slope_tolerance * control.scale[i],
                         control.slope_tolerance,
                     )
                     worst, total = rules.collected(worst, total, weighed)
                 error = rules.step_error(worst, total)
-                accepted, undefined, lost, stalled = rules.step_outcome(
-                    error, step, nominal_speed + buffer[STATE, SLIP]
-                )
-                if lost:
-                    return Status.NOT_FINITE.value, cycle + phase, step, steps, evaluations, written
-                if stalled:
-                    return Status.STALLED.value, cycle + phase, step, steps, evaluations, written
-                if accepted and rules.unbounded(buffer[STATE], table):
-                    return Status.UNBOUNDED.value, cycle + phase, step, steps, evaluations, written
+                accepted, undefined, failure = rules.step_outcome(error, step, new, model)
+                if failure > 0.0:
+                    return int(failure), cycle + phase, step, steps, evaluations, written
                 if undefined:
                     step *= rules.RETRY
                     continue
@@ -173,7 +154,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                     method.stepped(method, True, place, step, y, model, work, buffer, search)
                 phase = next_phase
                 for i in range(STATES):
-                    y[i] = buffer[STATE, i]
+                    y[i] = new[i]
                 fresh = method.accept(buffer)
                 steps += 1
                 if cut:

@@ -15,8 +15,9 @@ import numpy as np
 
 from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.equations import locate
-from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES, WORKS, X_G, X_P, XI, Y_G, Y_P
+from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES, WORKS, X_G, X_P, XI, Y_G, Y_P
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, plain, where
+from tribodyn.solve.integrator import Status
 
 #: First step to try and the smallest one, mesh cycles; a step is the last if it ends this close to the end.
 FIRST_STEP, MINIMUM_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
@@ -32,6 +33,8 @@ STANDSTILL = 0.05
 #: Factor on a step that gives no finite numbers, and the step below which it is given up, mesh cycles.
 RETRY, MINIMUM_RETRY = 0.1, 1e-9
 INFINITE = float("inf")
+#: As floats, which lanes hold.
+_DONE, STEP_TOO_SMALL, TOO_MANY_STEPS, NOT_FINITE, STALLED, _GAVE_UP, UNBOUNDED = map(float, Status)
 
 
 @law
@@ -42,15 +45,16 @@ def cut_at_stop(phase, step, stop):
 
 
 @law
-def refused(steps, max_steps, step, speed, nominal_speed):
-    """Whether no step can be taken: too many in this mesh cycle; too small; the pinion comes to rest.
+def refusal(steps, max_steps, step, speed, nominal_speed):
+    """The `Status` for which no step can be taken, as a number; 0.0 where one can.
 
-    It does where steps vanish as it stops, and at once where an engagement takes all its kinetic energy.
-    Steps are those accepted in this mesh cycle, and allowed; speeds are the pinion's.
+    Too many in this mesh cycle; the pinion comes to rest, as it does where steps vanish as it stops, and at
+    once where an engagement takes all its kinetic energy; or too small. Speeds are the pinion's.
     """
     vanishing = step < MINIMUM_STEP
     at_rest = (vanishing & (speed < STANDSTILL * nominal_speed)) | (speed <= 0.0)
-    return steps >= max_steps, vanishing, at_rest
+    failure = where(at_rest, STALLED, where(vanishing, STEP_TOO_SMALL, 0.0))
+    return where(steps >= max_steps, TOO_MANY_STEPS, failure)
 
 
 @law
@@ -66,6 +70,17 @@ def collected(worst, total, weighed):
 
 
 @law
+def collected_errors(difference, before, after, atol, rtol):
+    """Largest error of all states over their tolerances, and the sum of them."""
+    worst, total = 0.0, 0.0
+    for i in range(STATES):
+        relative = rtol * RELATIVE[i]
+        weighed = weighed_error(plain(difference[i]), plain(before[i]), plain(after[i]), atol[i], relative)
+        worst, total = collected(worst, total, weighed)
+    return worst, total
+
+
+@law
 def step_error(worst, total):
     """Error of a step over its tolerance, that of the worst state: a mean would let states at rest dilute it.
 
@@ -75,14 +90,17 @@ def step_error(worst, total):
 
 
 @law
-def step_outcome(error, step, speed_after):
-    """What a step attempted is: accepted; not finite; not finite and too small to try again; at rest.
+def step_outcome(error, step, after, model):
+    """Whether a step is accepted, whether it is not finite, and the `Status` that ends the march, or 0.0.
 
     `error` is over the tolerance, and not a number where any state's is not.
     """
     accepted = error <= 1.0
     undefined = (error != error) | (error >= INFINITE)
-    return accepted, undefined, undefined & (step < MINIMUM_RETRY), accepted & (speed_after <= 0.0)
+    at_rest = accepted & (model.mechanics.nominal_speed + after[SLIP] <= 0.0)
+    failure = where(accepted & unbounded(after, model.table), UNBOUNDED, 0.0)
+    failure = where(at_rest, STALLED, failure)
+    return accepted, undefined, where(undefined & (step < MINIMUM_RETRY), NOT_FINITE, failure)
 
 
 @law
