@@ -189,10 +189,7 @@ class _Law:
     def made(self, given: LawInput, values: dict[str, Any]) -> Any:
         """Make the parameters; keys without a value take their default.
 
-        Raises
-        ------
-        InputError
-            If a value is unknown or missing, or has no meaning under these conditions.
+        Raises InputError if a value is unknown or missing, or has no meaning under these conditions.
         """
         known = {key.name: key.default for key in self.keys}
         for name, value in values.items():
@@ -238,7 +235,7 @@ class FilmLaw(_Law):
 
     table: ClassVar[str] = "film"
     in_range: Callable[..., Any] = film_range_not_stated
-    thickness: Literal["central", "minimum"] = "central"
+    thickness: Literal["central", "minimum"] = "central"  # which thickness of the film it gives
 
     @property
     def functions(self) -> FilmFunctions:
@@ -253,17 +250,13 @@ class FrictionLaw(_Law):
     `function` is (contact: LocalContact, film: ActiveFilm, surfaces: Surfaces, parameters) -> friction
     coefficient ≥ 0; it evaluates the film, where it needs one, with `film_at`. `in_range` takes the same
     arguments.
-
-    Parameters
-    ----------
-    flash_temperature : (contact, film, surfaces, parameters, coefficient) -> temperature rise, K. Default: of
-        the heat that the coefficient makes.
-    film : name of the film law that goes with it where the scenario names none
     """
 
     table: ClassVar[str] = "friction"
+    #: (contact, film, surfaces, parameters, coefficient) -> temperature rise, K; default: of the heat that
+    #: the coefficient makes
     flash_temperature: Callable[..., Any] = heat_of_friction
-    film: str = "masjedi-khonsari"
+    film: str = "masjedi-khonsari"  # name of the film law that goes with it where the scenario names none
 
     @property
     def functions(self) -> FrictionFunctions:

@@ -42,12 +42,8 @@ def changenet_velex(wheel: Wheel, viscosity: float, density: float, oil_volume: 
     Re > 9000: C_m = 3.644 (h/D)^0.1 (V_0/D³)^−0.35 Fr^−0.88 (b/D)^0.85; between, linear in Re.
 
     C. Changenet, P. Velex, J. Mech. Des. 129 (2007) 128; from memory of the paper, not checked against it.
-    A single spur gear, immersed at most to its axis.
-
-    Parameters
-    ----------
-    viscosity, density : dynamic, of the oil in the sump, Pa·s; kg/m³
-    oil_volume : V_0, m³
+    A single spur gear, immersed at most to its axis. Viscosity (dynamic, Pa·s) and density (kg/m³) are those
+    of the oil in the sump, `oil_volume` V_0, m³.
     """
     radius, width = wheel.pitch_radius, wheel.face_width
     diameter = 2.0 * radius
@@ -79,11 +75,7 @@ def iso_14179_1(wheel: Wheel, viscosity: float, density: float) -> Loss:
     P = 7.37 f_g ν n³ D^4.7 b R_f/(√tan 10° A_g 10²⁶) of the teeth and 1.474 f_g ν n³ D^5.7/(A_g 10²⁶) of both
     sides, kW, with ν in mm²/s, n in rpm, D the tip diameter and b in mm, R_f = 7.93 − 4.648/m, A_g = 0.2, f_g
     from 0 (not immersed) to 1 (immersed wholly); below 10° of helix angle the standard takes 10°. From memory
-    of the report.
-
-    Parameters
-    ----------
-    viscosity, density : dynamic, of the oil in the sump, Pa·s; kg/m³
+    of the report. Viscosity (dynamic, Pa·s) and density (kg/m³) are those of the oil in the sump.
     """
     diameter, width = 2e3 * wheel.tip_radius, 1e3 * wheel.face_width
     dip = min(wheel.immersion / (2.0 * wheel.tip_radius), 1.0)

@@ -177,13 +177,9 @@ def _conductances(film: Array, feedback: Array, thermal: HeatProperties) -> tupl
 def _coupling(response: tuple[Array, Array], conductance: tuple[Array, Array, Array]) -> tuple[Array, Array]:
     """Factors of what couples the surfaces nearly alone: conduction across the film."""
     own_1, between, own_2 = conductance
-    count = len(between)
-    matrix = np.empty((2 * count, 2 * count))
-    np.multiply(response[0], own_1, out=matrix[:count, :count])
-    np.multiply(response[0], -between, out=matrix[:count, count:])
-    np.multiply(response[1], -between, out=matrix[count:, :count])
-    np.multiply(response[1], own_2, out=matrix[count:, count:])
-    matrix[np.diag_indices(2 * count)] += 1.0
+    first, second = response
+    matrix = np.block([[first * own_1, first * -between], [second * -between, second * own_2]])
+    matrix[np.diag_indices(len(matrix))] += 1.0
     return lu_factor(matrix, overwrite_a=True, check_finite=False)
 
 

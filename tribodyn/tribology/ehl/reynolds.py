@@ -248,19 +248,25 @@ def _store(
     matrix[:size, size + 1] += behind(by_film * (state.end + grid.node))
 
 
-def least_pressure(pressure: Array, suction: float) -> Array:
-    """Lowest pressures that a step of Newton's method may lead to."""
-    return KEPT_PRESSURE * np.maximum(pressure, 0.0) - suction
+def moved(state: FilmState, change: Array, suction: float = 0.0, height: float = 0.0) -> FilmState:
+    """Take a step of Newton's method, held where it would leave the meaning of an unknown.
 
-
-def moved(state: FilmState, change: Array, suction: float = 0.0) -> FilmState:
-    """Take a step of Newton's method, held where it would leave the meaning of an unknown."""
-    pressure = state.pressure.copy()
-    pressure[1:-1] = np.maximum(pressure[1:-1] + change[:-3], least_pressure(pressure[1:-1], suction))
-    rigid_film, flow, end = map(float, change[-3:])
+    Between rough surfaces of σ = `height` no film changes by more than 2 σ and half of itself.
+    """
+    part, films, inner = 1.0, state.film, len(change) - 3
+    if films is not None:
+        inner -= len(films)
+        most = 2.0 * height + 0.5 * np.abs(films)
+        part = min(1.0, float(1.0 / np.max(np.abs(change[inner:-3]) / most)))
+        films = films + part * change[inner:-3]
+    pressure, within = state.pressure.copy(), slice(1, inner + 1)
+    least = KEPT_PRESSURE * np.maximum(pressure[within], 0.0) - suction
+    pressure[within] = np.maximum(pressure[within] + part * change[:inner], least)
+    rigid_film, flow, end = (part * float(step) for step in change[-3:])
     return FilmState(
         pressure,
         state.rigid_film + rigid_film,
         max(state.flow + flow, KEPT_FLOW * state.flow),
         state.end + min(max(end, -LONGEST_WAY), LONGEST_WAY),
+        films,
     )

@@ -19,14 +19,11 @@ from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import HERTZ_LOAD, FilmGrid, at_faces
 from tribodyn.tribology.ehl.reynolds import (
-    KEPT_FLOW,
-    LONGEST_WAY,
     FilmState,
     FlowCorrection,
     SmoothReduced,
     Squeeze,
     cells,
-    least_pressure,
     mean_fluidity,
     mesh_speed,
     stored,
@@ -188,28 +185,6 @@ def rough_residual(
         by_pressure = np.broadcast_to((length * growth * mean[film])[1:last], (last, inner))
         matrix[:last, :inner] += np.triu(by_pressure)
     return values, matrix
-
-
-def rough_moved(
-    state: FilmState, change: Array, grid: FilmGrid, reduced: RoughReduced, suction: float = 0.0
-) -> FilmState:
-    """Take a step of Newton's method, held where films would change by more than roughness and own size."""
-    inner = grid.end - 1
-    most = 2.0 * reduced.roughness.height / reduced.film_unit + 0.5 * np.abs(state.film)
-    films = change[inner:-3]
-    part = min(1.0, float(1.0 / np.max(np.abs(films) / most)))
-    pressure = state.pressure.copy()
-    within = slice(1, grid.end)
-    least = least_pressure(pressure[within], suction)
-    pressure[within] = np.maximum(pressure[within] + part * change[:inner], least)
-    rigid_film, flow, end = (part * float(step) for step in change[-3:])
-    return FilmState(
-        pressure,
-        state.rigid_film + rigid_film,
-        max(state.flow + flow, KEPT_FLOW * state.flow),
-        state.end + min(max(end, -LONGEST_WAY), LONGEST_WAY),
-        state.film + part * films,
-    )
 
 
 def with_films(state: FilmState, reduced: RoughReduced, grid: FilmGrid) -> FilmState:

@@ -27,7 +27,6 @@ from tribodyn.tribology.ehl.reynolds import (
 from tribodyn.tribology.ehl.rough import (
     Reduced,
     RoughReduced,
-    rough_moved,
     rough_residual,
     with_films,
 )
@@ -131,8 +130,10 @@ def converged(
     most_steps: int = MOST_STEPS,
 ) -> tuple[FilmState, int, float]:
     """Take steps of Newton's method; returns the state, the number of steps, the imbalance (NaN: failed)."""
-    equations: Any = rough_residual if isinstance(reduced, RoughReduced) else residual
-    imbalance = math.inf
+    equations: Any = residual
+    suction, height, imbalance = 0.0 if squeeze is None else SUCTION, 0.0, math.inf
+    if isinstance(reduced, RoughReduced):
+        equations, height = rough_residual, reduced.roughness.height / reduced.film_unit
     for number in range(most_steps + 1):
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             values, matrix = equations(state, reduced, grid, closure, squeeze)
@@ -143,11 +144,7 @@ def converged(
             change = np.linalg.solve(matrix, -values)
         except np.linalg.LinAlgError:
             return state, number, math.nan
-        suction = 0.0 if squeeze is None else SUCTION
-        if isinstance(reduced, RoughReduced):
-            state = rough_moved(state, change, grid, reduced, suction)
-        else:
-            state = moved(state, change, suction)
+        state = moved(state, change, suction, height)
     return state, most_steps, imbalance
 
 

@@ -152,12 +152,8 @@ def _mixed(
 ) -> MixedFriction:
     """Return the parameters.
 
-    Parameters
-    ----------
-    limiting_share, peclet_sliding, viscosity_pressure_factor
-        As in `MixedFriction`.
-    heat_capacity : whether the Péclet numbers contain ρ_s c_p of the solids, as they must to be numbers
-    lubricant_heat : whether the density in them is the lubricant's
+    `heat_capacity`: whether the Péclet numbers contain ρ_s c_p of the solids, as they must to be numbers;
+    `lubricant_heat`: whether the density in them is the lubricant's; the others as in `MixedFriction`.
     """
     surfaces, lubricant = given.surfaces, given.lubricant
     heat = [surfaces.pinion_heat_capacity, surfaces.gear_heat_capacity]

@@ -182,30 +182,28 @@ def test_rough_steps_are_held_where_films_would_jump(rng):
     """No film changes by more than 2 σ and half of itself: the whole step is as much shorter."""
     nodes = np.concatenate([NODES, BEYOND])
     grid, count = made(nodes), len(nodes)
-    surfaces = Roughness(3e-7)
-    reduced = rough.RoughReduced(0.3, SCALE, FLUID, surfaces, 2.2e11, 5e-7)
     pressure = np.where(np.arange(count) < grid.end, rng.uniform(0.5, 1.0, count), 0.0)
     pressure[0] = 0.0
     state = reynolds.FilmState(pressure, 0.4, 0.9, 0.2, rng.uniform(0.5, 1.4, count))
     inner = grid.end - 1
     change = np.concatenate([rng.uniform(-0.1, 0.1, inner + count), [0.03, -0.02, 0.05]])
-    small = rough.rough_moved(state, change, grid, reduced)
+    small = reynolds.moved(state, change, 0.0, 3e-7 / 5e-7)
     np.testing.assert_allclose(small.pressure[1 : grid.end], pressure[1 : grid.end] + change[:inner])
     np.testing.assert_allclose(small.film, state.film + change[inner:-3])
     assert (small.rigid_film, small.flow, small.end) == pytest.approx((0.43, 0.88, 0.25))
     assert np.all(small.pressure[grid.end :] == 0.0)
     # one film that would change by four times what it may
     change[inner + 3] = 4.0 * (2 * 3e-7 / 5e-7 + 0.5 * state.film[3])
-    held = rough.rough_moved(state, change, grid, reduced)
+    held = reynolds.moved(state, change, 0.0, 3e-7 / 5e-7)
     np.testing.assert_allclose(held.film, state.film + 0.25 * change[inner:-3])
     np.testing.assert_allclose(held.pressure[1 : grid.end], pressure[1 : grid.end] + 0.25 * change[:inner])
     assert (held.rigid_film, held.flow, held.end) == pytest.approx((0.4075, 0.895, 0.2125))
     far = np.concatenate([np.full(inner, -50.0), np.full(count, 1e-12), [0.0, -9.0, 7.0]])
-    bound = rough.rough_moved(state, far, grid, reduced)
+    bound = reynolds.moved(state, far, 0.0, 3e-7 / 5e-7)
     np.testing.assert_allclose(bound.pressure[1 : grid.end], 0.2 * pressure[1 : grid.end])
     assert (bound.flow, bound.end) == pytest.approx((0.3 * 0.9, 0.5))
     far[-1] = -7.0
-    sucked = rough.rough_moved(state, far, grid, reduced, 0.05)
+    sucked = reynolds.moved(state, far, 0.05, 3e-7 / 5e-7)
     np.testing.assert_allclose(sucked.pressure[1 : grid.end], 0.2 * pressure[1 : grid.end] - 0.05)
     assert sucked.end == pytest.approx(-0.1)
 
