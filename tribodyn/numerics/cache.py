@@ -120,33 +120,27 @@ def kept_or_made(
         cannot use it.
     make : () -> the thing, and its content; None: it is not kept
     """
-    found = _known(folder, name, read)
-    if found is not None:
+
+    def known() -> T | None:
+        content = read_kept(folder, name)
+        with suppress(ValueError, KeyError, TypeError):  # whole, but of another layout
+            return None if content is None else read(content)
+        return None
+
+    if (found := known()) is not None:
         return found
     with alone(folder, name):
-        found = _known(folder, name, read)  # another process may have kept it meanwhile
-        if found is not None:
+        if (found := known()) is not None:  # another process has kept it meanwhile
             return found
         made, content = make()
         if content is not None:
-            _remove_left(folder, name)
+            trusted = trusted_folder(folder)
+            # what killed processes left of the file; whoever still writes it does without
+            for remains in trusted.glob(f"{escape(name)}.*.tmp") if trusted else ():
+                with suppress(OSError):
+                    remains.unlink()
             keep(folder, name, content)
     return made
-
-
-def _remove_left(folder: str, name: str) -> None:
-    """Remove what killed processes left of a file; whoever still writes it does without."""
-    trusted = trusted_folder(folder)
-    for remains in trusted.glob(f"{escape(name)}.*.tmp") if trusted else ():
-        with suppress(OSError):
-            remains.unlink()
-
-
-def _known(folder: str, name: str, read: Callable[[bytes], T | None]) -> T | None:
-    content = read_kept(folder, name)
-    with suppress(ValueError, KeyError, TypeError):  # whole, but of another layout
-        return None if content is None else read(content)
-    return None
 
 
 def arrays_kept_or_made(
@@ -239,13 +233,11 @@ def alone(folder: str, name: str) -> Iterator[None]:
     place = int.from_bytes(hashlib.sha256(name.encode()).digest()[:4], "big")
     end = time.monotonic() + LONGEST_WAIT
     try:
-        while True:
+        while time.monotonic() < end:
             try:
                 fcntl.lockf(number, fcntl.LOCK_EX | fcntl.LOCK_NB, 1, place)
                 break
             except (BlockingIOError, PermissionError):
-                if time.monotonic() > end:
-                    break
                 time.sleep(0.02)
             except OSError:
                 break

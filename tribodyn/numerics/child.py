@@ -93,14 +93,9 @@ def start(
 ) -> "subprocess.Popen[bytes]":
     """Start a process of Python that calls a function of this package; the caller has to `end` it.
 
-    Parameters
-    ----------
-    target : ``module:function``. What it writes to standard output is the answer. Its standard input has no
-        end: where the caller closes it, the child is killed.
-    *words : arguments of the function
-    environment : variables that differ from this process's
-
-    Raises OSError if it cannot be started.
+    The `target` is ``module:function``, its arguments are `words`. What it writes to standard output is the
+    answer. Its standard input has no end: where the caller closes it, the child is killed. Variables of the
+    environment are this process's but for those given. Raises OSError if it cannot be started.
     """
     import subprocess
 
@@ -145,7 +140,7 @@ def tell(process: "subprocess.Popen[bytes]", content: bytes) -> None:
 def answer(process: "subprocess.Popen[bytes]", limit: float, *, line: bool = False) -> bytes:
     """What a child answers: all that it writes, or the next line.
 
-    Raises TimeoutError if it does not do so within the limit, s. It is killed then.
+    It is killed, and TimeoutError raised, if it does not answer within the limit, s.
     """
     assert process.stdout is not None
     late = threading.Event()
@@ -212,12 +207,7 @@ def copies_are_safe() -> bool:
 def in_a_copy(work: Callable[[], bytes], limit: float) -> bytes:
     """Result of a function, at most 64 KiB, that is called in a copy of this process.
 
-    Raises
-    ------
-    TimeoutError
-        If it does not end within the limit, s.
-    ChildProcessError
-        If the copy crashes.
+    Raises TimeoutError if it does not end within the limit, s, and ChildProcessError if the copy crashes.
     """
     import select
     import warnings
@@ -272,12 +262,8 @@ def installed_program(names: Sequence[str]) -> str | None:
 def run_program(command: Sequence[str], limit: float) -> "subprocess.CompletedProcess[str]":
     """Run a program that is not ours to its end, by a child that ends it with this process.
 
-    Raises
-    ------
-    TimeoutError
-        If it does not end within the limit, s. It is killed then, with all that it started.
-    OSError
-        If it cannot be started.
+    It is killed, with all that it started, and TimeoutError raised, if it does not end within the limit, s.
+    Raises OSError if it cannot be started.
     """
     import pickle
     import subprocess

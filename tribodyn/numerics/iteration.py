@@ -19,16 +19,9 @@ def iterate(step: Callable[[State], State], state: State, steps: int, differenti
     """Apply `step` to `state` (an array or a tuple of arrays) `steps` ≥ 1 times.
 
     From the first step on the state must keep its shapes and types; one that has them from the start makes
-    half the program.
-
-    Parameters
-    ----------
-    step : state -> state
-    state : where to start
-    steps : how often
-    differentiated : under JAX only so many of the last steps are differentiated, 0: all. For iterations that
-        forget where they started: where a step shrinks the error by the factor q, derivatives have an error
-        of q to that power.
+    half the program. Under JAX only the last `differentiated` steps are differentiated, 0: all. That is for
+    iterations that forget where they started: where a step shrinks the error by the factor q, derivatives
+    have an error of q to that power.
     """
     if namespace(state) is np:
         state, steps = step(state), steps - 1
@@ -54,15 +47,9 @@ def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -
 
     Under JAX only the last step is differentiated: at the root that is the implicit function theorem, because
     the derivative of a Newton step by its start vanishes there. First derivatives are exact (in both modes),
-    higher ones are not. The step must be Newton's with the exact slope, or become it at the root.
-
-    Parameters
-    ----------
-    step : (state, *parameters) -> state of the same shape; must not close over anything that is
-        differentiated
-    start : where to start; near enough to converge in count − 1 steps
-    count : number of steps
-    *parameters : what the root depends on
+    higher ones are not. The step, (state, *parameters) -> state of the same shape, must be Newton's with the
+    exact slope, or become it at the root, and close over nothing that is differentiated. The start must be
+    near enough to converge in count − 1 steps.
     """
     xp = namespace(start, *parameters)
     if xp.__name__ == "numpy":

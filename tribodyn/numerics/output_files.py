@@ -38,11 +38,8 @@ def replacing(file: Path, scratch: Path | None = None) -> Iterator[Path]:
     """Write a file under another name and give it its own by renaming, so that no reader sees half of it.
 
     Yields the path to write to. If that ends with an error, nothing is left behind and `file` is as before.
-
-    Parameters
-    ----------
-    file : its folder is made if it is not there
-    scratch : in the same folder; by default a name that no other thread or process uses
+    `scratch` lies in the same folder; by default it is a name that no other thread or process uses, and the
+    folder is made if it is not there.
     """
     if scratch is None:
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -58,20 +55,11 @@ def replacing(file: Path, scratch: Path | None = None) -> Iterator[Path]:
 
 
 def write_output(path: str | Path, content: bytes | str, *, force: bool = False) -> Path:
-    """Write a file, or leave what was there as it is.
+    """Write a file in a folder that is there, a text as UTF-8, or leave what was there as it is.
 
-    Parameters
-    ----------
-    path : in a folder that is there
-    content : a text becomes UTF-8
-    force : replace also what this program did not write, and a link (not what it leads to)
-
-    Raises
-    ------
-    InputError
-        As `check_output`, and where the system does not let this user write there.
-    OutputError
-        Where there is no room.
+    With `force` it replaces also what this program did not write, and a link (not what it leads to). Raises
+    InputError as `check_output`, and where the system does not let this user write there; OutputError where
+    there is no room.
     """
     path = Path(path)
     check_output(path, force)

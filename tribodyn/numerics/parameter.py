@@ -39,22 +39,14 @@ class Parameter(NamedTuple):
 
 
 class Variable(NamedTuple):
-    """One dataset: its dimensions, SI unit (as xarray and pint read it), meaning, and how it is stored.
+    """One dataset: its dimensions, unit, meaning, and how it is stored."""
 
-    Parameters
-    ----------
-    dims : dimensions; none of a single number
-    dtype : type in the file, as NumPy names it
-    fill : stands where nothing was written
-    flags : meanings of whole numbers that stand for words, the first of them being `fill`; empty: none
-    """
-
-    dims: tuple[str, ...]
-    units: str
+    dims: tuple[str, ...]  # none of a single number
+    units: str  # SI, as xarray and pint read it
     long_name: str
-    dtype: str = "<f8"
-    fill: float | bytes = math.nan
-    flags: str = ""
+    dtype: str = "<f8"  # in the file, as NumPy names it
+    fill: float | bytes = math.nan  # stands where nothing was written
+    flags: str = ""  # meanings of whole numbers that stand for words, the first being `fill`; empty: none
 
 
 def flag(dims: tuple[str, ...], long_name: str, meanings: str, first: int = -1) -> Variable:

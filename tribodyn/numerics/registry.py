@@ -70,16 +70,13 @@ class Registry(Generic[T]):
             except InputError as error:
                 if name in self._places:
                     raise
-                self._warn(name, error)
+                if name not in self._warned:
+                    import logging
+
+                    self._warned.add(name)
+                    logging.getLogger(__name__).warning("left out: %s", error)
             else:
                 yield name, result
-
-    def _warn(self, name: str, error: InputError) -> None:
-        if name not in self._warned:
-            self._warned.add(name)
-            import logging
-
-            logging.getLogger(__name__).warning("left out: %s", error)
 
     def __getitem__(self, name: str) -> T:
         """Return what a name stands for.
@@ -96,34 +93,27 @@ class Registry(Generic[T]):
             return cast(T, getattr(import_module(module), attribute))
         if name.startswith(FROM_PYTHON):
             rule = f"this {self.what} was handed over from Python; a scenario cannot name it"
-            raise InputError(
-                self.key, quoted(name), rule, "run it from Python again, or offer it in a package"
-            )
+            remedy = "run it from Python again, or offer it in a package"
+            raise InputError(self.key, quoted(name), rule, remedy)
         if name not in self._outside:
             raise unknown_name(self.key, name, self, self.what)
-        first, *others = self._outside[name]
-        if others:
-            packages = " and ".join(sorted({package_of(entry) for entry in (first, *others)}))
-            raise InputError(
-                self.key, quoted(name), f"offered more than once, by {packages}", "uninstall one"
-            )
+        entries = self._outside[name]
+        packages = [entry.dist.name if entry.dist else entry.value for entry in entries]
+        if len(entries) > 1:
+            rule = f"offered more than once, by {' and '.join(sorted(set(packages)))}"
+            raise InputError(self.key, quoted(name), rule, "uninstall one")
         try:
-            thing = first.load()
+            thing = entries[0].load()
         except Exception as error:
-            raise cannot_be_loaded(self.key, name, package_of(first), error) from error
-        if not isinstance(thing, self._of):
-            rule = f"{package_of(first)} offers a {type(thing).__name__}, expected a {self._of.__name__}"
-            raise InputError(self.key, quoted(name), rule, f"mend or uninstall {package_of(first)}")
+            raise cannot_be_loaded(self.key, name, packages[0], error) from error
         own = getattr(thing, "name", None) or getattr(thing, "kind", None)
-        if own != name:
-            rule = f"{package_of(first)} offers it by this name, but it calls itself {quoted(own)}"
-            raise InputError(self.key, quoted(name), rule, f"mend or uninstall {package_of(first)}")
-        return thing
-
-
-def package_of(entry: Any) -> str:
-    """Name of the package that an entry point belongs to."""
-    return entry.dist.name if entry.dist else entry.value
+        if not isinstance(thing, self._of):
+            rule = f"{packages[0]} offers a {type(thing).__name__}, expected a {self._of.__name__}"
+        elif own != name:
+            rule = f"{packages[0]} offers it by this name, but it calls itself {quoted(own)}"
+        else:
+            return thing
+        raise InputError(self.key, quoted(name), rule, f"mend or uninstall {packages[0]}")
 
 
 def cannot_be_loaded(key: str, name: str, package: str, error: Exception) -> InputError:

@@ -36,12 +36,7 @@ _DOCSTRING = re.compile(rb':\n\s*r?"""[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*"""[ \t]
 
 
 def modules_behind(*names: str) -> dict[str, Path]:
-    """Files of modules and of all modules that they import, and these in turn, by the modules' names.
-
-    Parameters
-    ----------
-    *names : names of modules, imported or not; those without a source file are left out
-    """
+    """Files of modules, imported or not, and of all that they import in turn, by name, where there is one."""
     followed = {name.partition(".")[0] for name in names} | {_OWN}
     files: dict[str, Path] = {}
     waiting = [part for name in names for part in _with_packages(name)]
