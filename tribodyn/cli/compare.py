@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -89,17 +89,15 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     from tribodyn.studies.protocol.load import load
 
     if len(what) < 2:
-        raise InputError(
-            "compare", f'"{what[0]}"', "there is nothing to compare it with", "name at least two"
-        )
+        rule = "there is nothing to compare it with"
+        raise InputError("compare", f'"{what[0]}"', rule, "name at least two")
     again = next((word for number, word in enumerate(what) if word in what[:number]), None)
     if again is not None:
         raise InputError("compare", f'"{again}"', "given twice", "name each once")
     scenarios = {word: load(word, settings) for word in what if not _is_record(word)}
     if settings and not scenarios:
-        raise InputError(
-            "--set", None, "nothing is run: records are as they are", "name scenarios, or omit it"
-        )
+        rule = "nothing is run: records are as they are"
+        raise InputError("--set", None, rule, "name scenarios, or omit it")
     studies: dict[str, Study] = {}
     cases: dict[str, str] = {}
     for word in what:
@@ -133,10 +131,9 @@ def _run(loaded: "Loaded", folder: Path, force: bool, allow_large: bool) -> Path
     from tribodyn.record.withheld import warnings
     from tribodyn.studies.protocol.run import run as run_case
 
-    name = loaded.case.name
-    with loaded.naming(), progress_bar(name) as progress:
-        options: dict[str, Any] = {"force": force, "progress": progress, "allow_large": allow_large}
-        result = run_case(loaded.case, folder / f"{name}.h5", **options)
+    case, record = loaded.case, folder / f"{loaded.case.name}.h5"
+    with loaded.naming(), progress_bar(case.name) as progress:
+        result = run_case(case, record, force=force, progress=progress, allow_large=allow_large)
     for warning in warnings(result.summary):
         complain(f"{loaded.path}: warning: {warning}")
     if result.status != "complete":

@@ -62,15 +62,8 @@ def gear(
     sheet = loaded.sheet(assembly)
     files = written + (_draw(loaded, assembly, output, points, force) if output is not None else [])
     if json:
-        print_json(
-            {
-                "model": str(loaded.path),
-                "title": loaded.title,
-                "family": loaded.family,
-                "geometry": sheet,
-                "files": [str(file) for file in files],
-            }
-        )
+        head = {"model": str(loaded.path), "title": loaded.title, "family": loaded.family}
+        print_json({**head, "geometry": sheet, "files": [str(file) for file in files]})
         return
     print_prose(f"{loaded.path}: {loaded.title}: {loaded.family}")
     print_findings(sheet_tables(sheet))

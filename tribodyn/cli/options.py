@@ -123,9 +123,8 @@ def overrides(settings: list[str] | None) -> dict[str, str]:
         key, equals, value = setting.partition("=")
         key = key.strip()
         if not equals or len(key) > LONGEST_KEY or not all(key.split(".")):
-            raise InputError(
-                "--set", quoted(setting), "not KEY=VALUE", "write it like --set solver.cycles=40"
-            )
+            remedy = "write it like --set solver.cycles=40"
+            raise InputError("--set", quoted(setting), "not KEY=VALUE", remedy)
         parsed[key] = value.strip()
     return parsed
 

@@ -72,25 +72,30 @@ def plot(
     """Draw figures of records; several are compared."""
     from contextlib import ExitStack
 
-    from tribodyn.cli.pictures import draw
+    from tribodyn.cli.pictures import draw, save_all
     from tribodyn.cli.printing import print_files, print_json
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
-    from tribodyn.record.sweep_reader import is_sweep
+    from tribodyn.record.sweep_reader import SweepRecord, is_sweep
     from tribodyn.scenario.sources import is_file
     from tribodyn.studies.pages.pictures import names as figure_names
+    from tribodyn.studies.pages.pictures import sweep_figure, sweep_names
 
     paths = [word for word in what if word.endswith((".h5", ".hdf5")) or is_file(Path(word))]
     names = [word for word in what if word not in paths]
     if not paths:
         raise InputError("record", f'"{what[0]}"', "no such file", "name a record that tribodyn run wrote")
     beside = output / f"{'-'.join(Path(path).stem for path in paths)}.{format.value}"
-    if is_sweep(paths[0]):
-        pictures = _draw_sweeps(paths, names, beside, at or [], force)
-    else:
-        with ExitStack() as stack:
+    everything = not names or "all" in names
+    with ExitStack() as stack:
+        if is_sweep(paths[0]):
+            sweeps = [stack.enter_context(SweepRecord(path)) for path in paths]
+            place = _place(sweeps[0], at or [])
+            chosen = sweep_names(sweeps) if everything else names
+            pictures = save_all(chosen, beside, lambda name: sweep_figure(name, sweeps, place), force=force)
+        else:
             records = [stack.enter_context(open_record(path)) for path in paths]
-            chosen = figure_names(records) if not names or "all" in names else names
+            chosen = figure_names(records) if everything else names
             shown = "auto" if cycles is None else cycles or None
             how = against and against.value
             pictures = draw(records, chosen, beside, cycles=shown, against=how, force=force)
@@ -98,23 +103,6 @@ def plot(
         print_json({"pictures": [str(picture) for picture in pictures]})
     else:
         print_files("picture", pictures)
-
-
-def _draw_sweeps(
-    paths: Sequence[str], names: Sequence[str], beside: Path, at: Sequence[str], force: bool
-) -> list[Path]:
-    """Draw figures of sweeps."""
-    from contextlib import ExitStack
-
-    from tribodyn.cli.pictures import save_all
-    from tribodyn.record.sweep_reader import SweepRecord
-    from tribodyn.studies.pages.pictures import sweep_figure, sweep_names
-
-    with ExitStack() as stack:
-        records = [stack.enter_context(SweepRecord(path)) for path in paths]
-        place = _place(records[0], at)
-        chosen = sweep_names(records) if not names or "all" in names else names
-        return save_all(chosen, beside, lambda name: sweep_figure(name, records, place), force=force)
 
 
 def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
@@ -127,9 +115,8 @@ def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
     for option in at:
         name, equals, text = (part.strip() for part in option.partition("="))
         if not equals:
-            raise InputError(
-                "--at", f'"{option}"', "not NAME=VALUE", "write it like --at pinion_speed=3000rpm"
-            )
+            remedy = "write it like --at pinion_speed=3000rpm"
+            raise InputError("--at", f'"{option}"', "not NAME=VALUE", remedy)
         if name not in units:
             place[name] = text
             continue

@@ -127,8 +127,9 @@ WIDTH_OF_A_PIPE = 160
 def print_json(data: Any) -> None:
     """Write `data` to stdout as JSON; NumPy numbers and arrays become plain ones, NaN becomes null."""
     text = json.dumps(plain(data), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-    # JSON leaves some characters that a terminal obeys as they are
-    sys.stdout.write(text if harmless(text) == text else _escaped(text))
+    if harmless(text) != text:  # JSON leaves some characters that a terminal obeys as they are
+        text = "".join(char if char.isprintable() or char == "\n" else f"\\u{ord(char):04x}" for char in text)
+    sys.stdout.write(text)
 
 
 def write_json(path: Path, data: dict[str, Any], force: bool) -> None:
@@ -137,10 +138,6 @@ def write_json(path: Path, data: dict[str, Any], force: bool) -> None:
 
     marked = {"generator": "tribodyn", **plain(data)}
     write_output(path, json.dumps(marked, indent=2, ensure_ascii=False) + "\n", force=force)
-
-
-def _escaped(text: str) -> str:
-    return "".join(char if char.isprintable() or char == "\n" else f"\\u{ord(char):04x}" for char in text)
 
 
 def plain(data: Any) -> Any:
@@ -235,11 +232,8 @@ def quoted_path(path: Any) -> str:
     text = str(path)
     if harmless(text) == text:
         return shlex.quote(text)
-    escaped = "".join(
-        char if harmless(char) == char else _bytes_of(char) for char in text.replace("\\", r"\\")
-    )
-    return "$'" + escaped.replace("'", r"\'") + "'"
 
+    def escaped(char: str) -> str:
+        return char if harmless(char) == char else "".join(f"\\x{byte:02x}" for byte in os.fsencode(char))
 
-def _bytes_of(character: str) -> str:
-    return "".join(f"\\x{byte:02x}" for byte in os.fsencode(character))
+    return "$'" + "".join(map(escaped, text.replace("\\", r"\\"))).replace("'", r"\'") + "'"

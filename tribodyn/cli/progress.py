@@ -2,30 +2,25 @@
 
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, Protocol
 
 from tribodyn.numerics.work import listened, watched
-
-
-class Report(Protocol):
-    """Called with the fraction done, 0 … 1."""
-
-    def __call__(self, fraction: float, /) -> None:
-        """Report."""
-
 
 PATIENCE = 1.0  # s
 
 
 @contextmanager
-def progress_bar(label: str) -> Iterator[Report]:
+def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
     """Give a function that takes the fraction done; a bar appears when a second has passed."""
     if not sys.stderr.isatty():
         yield lambda _fraction: None
         return
-    bar = _bar()
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn
+
+    columns = SpinnerColumn(), *Progress.get_default_columns()
+    bar = Progress(*columns, console=Console(stderr=True), transient=True)
     task = bar.add_task(label, total=1.0)
     reached, doing = 0.0, label
 
@@ -56,12 +51,3 @@ def progress_bar(label: str) -> Iterator[Report]:
         patience.cancel()
         patience.join()
         bar.stop()
-
-
-def _bar() -> Any:
-    from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn
-
-    return Progress(
-        SpinnerColumn(), *Progress.get_default_columns(), console=Console(stderr=True), transient=True
-    )

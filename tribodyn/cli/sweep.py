@@ -2,7 +2,7 @@
 
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -15,9 +15,6 @@ from tribodyn.cli.options import (
     overrides,
     require_one_way,
 )
-
-if TYPE_CHECKING:
-    from tribodyn.sweep.run import SweepResult
 
 EXAMPLES = (
     "\b\nValues of --vary, the unit once at the end:\n"
@@ -111,10 +108,13 @@ def sweep(
 ) -> None:
     """Vary keys of a scenario, one record of all cases."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
-    from tribodyn.cli.printing import print_files
+    from tribodyn.cli.printing import print_files, print_json, print_rich
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
+    from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
+    from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.record.sweep_schema import DIRECTIONS
+    from tribodyn.studies.pages.pictures import sweep_table
     from tribodyn.sweep.engines import engine_of
     from tribodyn.sweep.grid import Grid, default_output
     from tribodyn.sweep.run import run, settings_of
@@ -141,25 +141,15 @@ def sweep(
             follow=lambda done, total: progress(done / total),
             allow_large=allow_large,
         )
-    _print(result, json)
+    with SweepRecord(result.path) as written:
+        if json:
+            print_json(sweep_as_json(written))
+        else:
+            print_rich(sweep_table(written))
+        for warning in sweep_warnings(written):
+            complain(f"{result.path}: warning: {warning}")
     if not json:
         print_files("record", [result.path])
     if result.status != "complete":
         complain(f"{grid.path}: all {result.cases} cases failed; their reasons: {result.path}")
         raise typer.Exit(SIMULATION_FAILED)
-
-
-def _print(result: "SweepResult", json: bool) -> None:
-    from tribodyn.cli.outcome import complain
-    from tribodyn.cli.printing import print_json, print_rich
-    from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
-    from tribodyn.record.sweep_reader import SweepRecord
-    from tribodyn.studies.pages.pictures import sweep_table
-
-    with SweepRecord(result.path) as record:
-        if json:
-            print_json(sweep_as_json(record))
-        else:
-            print_rich(sweep_table(record))
-        for warning in sweep_warnings(record):
-            complain(f"{result.path}: warning: {warning}")
