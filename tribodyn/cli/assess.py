@@ -35,7 +35,7 @@ def assess(
     json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
 ) -> None:
     """Assess a drive: loads, vibration, film, temperatures, losses, margins; one folder, one report."""
-    from tribodyn.cli.outcome import SIMULATION_FAILED, complain
+    from tribodyn.cli.outcome import SIMULATION_FAILED, end
     from tribodyn.cli.printing import print_files, print_json, write_json
     from tribodyn.cli.progress import progress_bar
     from tribodyn.cli.show import print_summary
@@ -61,8 +61,8 @@ def assess(
             loaded.case, folder / RECORD, force=force, progress=progress, allow_large=allow_large
         )
     if result.status != "complete":
-        complain(f"{loaded.path}: the simulation failed: {result.message}; partial record: {result.path}")
-        raise typer.Exit(SIMULATION_FAILED)
+        reason = f"the simulation failed: {result.message}; partial record: {result.path}"
+        end(SIMULATION_FAILED, f"{loaded.path}: {reason}")
     with open_record(result.path) as record:
         page = write_report([record], folder / PAGE, force=force)
         head = as_json(record)

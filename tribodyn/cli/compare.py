@@ -126,7 +126,7 @@ def _is_record(word: str) -> bool:
 
 def _run(loaded: "Loaded", folder: Path, force: bool, allow_large: bool) -> Path:
     """Run a scenario into a folder; return its record."""
-    from tribodyn.cli.outcome import SIMULATION_FAILED, complain
+    from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
     from tribodyn.cli.progress import progress_bar
     from tribodyn.record.withheld import warnings
     from tribodyn.studies.protocol.run import run as run_case
@@ -137,6 +137,5 @@ def _run(loaded: "Loaded", folder: Path, force: bool, allow_large: bool) -> Path
     for warning in warnings(result.summary):
         complain(f"{loaded.path}: warning: {warning}")
     if result.status != "complete":
-        complain(f"{loaded.path}: the simulation failed: {result.message}")
-        raise typer.Exit(SIMULATION_FAILED)
+        end(SIMULATION_FAILED, f"{loaded.path}: the simulation failed: {result.message}")
     return result.path

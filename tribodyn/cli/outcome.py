@@ -82,11 +82,9 @@ def verb(function: Callable[..., None]) -> Callable[..., None]:
             function(*args, **kwargs)
             sys.stdout.flush()
         except (InputError, SimulationError, OutputError) as error:
-            complain(str(error))
-            raise Exit(BAD_INPUT if isinstance(error, InputError) else SIMULATION_FAILED) from None
+            end(BAD_INPUT if isinstance(error, InputError) else SIMULATION_FAILED, str(error))
         except KeyboardInterrupt as error:
-            complain(message_of(error))
-            raise Exit(status_of(error)) from None
+            end(status_of(error), message_of(error))
         except BrokenPipeError:
             # the reader of a pipe has gone
             silence(sys.stdout)
@@ -96,9 +94,8 @@ def verb(function: Callable[..., None]) -> Callable[..., None]:
         except OSError as error:
             if error.errno not in NO_ROOM:
                 _report_bug(error)
-            complain(f"{error.filename or 'the output'}: cannot be written: {error.strerror}")
             silence(sys.stdout)
-            raise Exit(SIMULATION_FAILED) from None
+            end(SIMULATION_FAILED, f"{error.filename or 'the output'}: cannot be written: {error.strerror}")
         except Exception as error:
             _report_bug(error)
 
@@ -107,13 +104,18 @@ def verb(function: Callable[..., None]) -> Callable[..., None]:
 
 def _report_bug(error: Exception) -> NoReturn:
     """Say that this should not have happened; with TRIBODYN_TRACEBACK=1, where."""
-    from typer import Exit
-
     if os.environ.get("TRIBODYN_TRACEBACK"):
         raise error
     what = " ".join(f"{type(error).__name__}: {error}".split())
-    complain(f"a bug in tribodyn: {what}; set TRIBODYN_TRACEBACK=1 to see the traceback, and report it")
-    raise Exit(BUG) from None
+    end(BUG, f"a bug in tribodyn: {what}; set TRIBODYN_TRACEBACK=1 to see the traceback, and report it")
+
+
+def end(status: int, message: str) -> NoReturn:
+    """End a verb with a message on stderr and an exit status."""
+    from typer import Exit
+
+    complain(message)
+    raise Exit(status) from None
 
 
 def complain(message: str) -> None:

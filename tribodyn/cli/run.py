@@ -75,7 +75,7 @@ def run_loaded(
     **how: Any,
 ) -> None:
     """Run the case that `made` gives and show what became of it; `how` as of `protocol.run.run`."""
-    from tribodyn.cli.outcome import SIMULATION_FAILED, complain
+    from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
     from tribodyn.cli.pictures import draw_pictures, drawer, overview_path
     from tribodyn.cli.printing import print_files, print_json
     from tribodyn.cli.progress import progress_bar
@@ -132,5 +132,5 @@ def run_loaded(
     for warning in warnings(result.summary):
         complain(f"{loaded.path}: warning: {warning}")
     if failed:
-        complain(f"{loaded.path}: the simulation failed: {result.message}; partial record: {result.path}")
-        raise typer.Exit(SIMULATION_FAILED)
+        reason = f"the simulation failed: {result.message}; partial record: {result.path}"
+        end(SIMULATION_FAILED, f"{loaded.path}: {reason}")

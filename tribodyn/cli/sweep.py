@@ -107,7 +107,7 @@ def sweep(
     json: Annotated[bool, typer.Option("--json", help="Print axes and quantities as JSON.")] = False,
 ) -> None:
     """Vary keys of a scenario, one record of all cases."""
-    from tribodyn.cli.outcome import SIMULATION_FAILED, complain
+    from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
     from tribodyn.cli.printing import print_files, print_json, print_rich
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
@@ -151,5 +151,5 @@ def sweep(
     if not json:
         print_files("record", [result.path])
     if result.status != "complete":
-        complain(f"{grid.path}: all {result.cases} cases failed; their reasons: {result.path}")
-        raise typer.Exit(SIMULATION_FAILED)
+        reason = f"all {result.cases} cases failed; their reasons: {result.path}"
+        end(SIMULATION_FAILED, f"{grid.path}: {reason}")

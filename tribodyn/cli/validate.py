@@ -32,7 +32,7 @@ def validate(
     from tempfile import TemporaryDirectory
 
     from tribodyn import validation
-    from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, complain
+    from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, end
     from tribodyn.cli.printing import print_files, print_json, print_table
     from tribodyn.cli.progress import progress_bar
     from tribodyn.numerics.output_files import check_output
@@ -65,5 +65,4 @@ def validate(
         print_files("picture", pictures)
     failed = [row.id for row in rows if row.verdict == "fail"]
     if failed:
-        complain(f"{paper}: outside tolerance: {', '.join(failed)}")
-        raise typer.Exit(OUTSIDE_TOLERANCE)
+        end(OUTSIDE_TOLERANCE, f"{paper}: outside tolerance: {', '.join(failed)}")

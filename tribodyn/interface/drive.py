@@ -21,12 +21,17 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh
 from tribodyn.studies.gears.check import sheet_tables
-from tribodyn.studies.gears.drive_file import as_spline, load_drive
+from tribodyn.studies.gears.drive_file import DriveModel, as_spline, load_drive
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+
+def _loaded(model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None) -> DriveModel:
+    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
+    return load_drive(in_toml(model) if isinstance(model, Mapping) else str(model), changes)
 
 
 class GearPair:
@@ -50,9 +55,7 @@ class GearPair:
     def __init__(
         self, model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None = None
     ) -> None:
-        changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
-        written = in_toml(model) if isinstance(model, Mapping) else str(model)
-        self._model = load_drive(written, changes)
+        self._model = _loaded(model, overrides)
         self.title, self.family = self._model.title, self._model.family
         with self._model.origins.naming():
             self._assembly = check(family(self.family), self._model.drive)
@@ -235,6 +238,5 @@ def constraints(
     """
     if isinstance(model, GearPair):
         return model.constraints
-    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
-    loaded = load_drive(in_toml(model) if isinstance(model, Mapping) else str(model), changes)
+    loaded = _loaded(model, overrides)
     return plain_distances(assemble(family(loaded.family), loaded.drive))

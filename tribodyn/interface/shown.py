@@ -1,6 +1,6 @@
 """What results are in a notebook: xarray datasets, and tables and small pictures as HTML in one piece."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -21,36 +21,27 @@ if TYPE_CHECKING:
 
 def of_run(record: Record) -> "Dataset":
     """All datasets along a record's axis, which is their first dimension, in SI units."""
-    from xarray import Dataset  # with pandas half the start of a program that only runs
-
-    variables, coordinates = {}, {}
-    for name in record:
-        variables[name] = _variable(record, name, record.dims_of(name))
-    for name in {dim for variable in variables.values() for dim in variable[0]}:
-        if name in record:
-            coordinates[name] = _variable(record, name, (name,))
-    data = {name: variable for name, variable in variables.items() if name not in coordinates}
-    return Dataset(data, coordinates, _named(record))
+    dimensions = {dim for name in record for dim in record.dims_of(name)}
+    return _dataset(record, record, {dim: _variable(record, dim, (dim,)) for dim in dimensions & {*record}})
 
 
 def of_sweep(record: SweepRecord) -> "Dataset":
     """All quantities of a sweep over its parameters, in SI units; NaN where a case is not done."""
-    from xarray import Dataset
-
-    names = (*record, *(name for name in ("status", "message") if name not in set(record)))
-    variables = {name: _variable(record, name, record.dims_of(name)) for name in names}
     coordinates: dict[str, Any] = {
         parameter.name: (parameter.name, parameter.values, {"units": parameter.units, "key": parameter.key})
         for parameter in record.parameters
     }
     if record.directions:
         coordinates["direction"] = ("direction", np.array(record.directions))
-    data = {name: variable for name, variable in variables.items() if name not in coordinates}
-    return Dataset(data, coordinates, _named(record))
+    return _dataset(record, dict.fromkeys((*record, "status", "message")), coordinates)
 
 
-def _named(record: Record | SweepRecord) -> dict[str, str]:
-    return {"title": str(record.scenario.get("title", "")), "status": record.status}
+def _dataset(record: Record | SweepRecord, names: Iterable[str], coordinates: Mapping[str, Any]) -> "Dataset":
+    from xarray import Dataset  # with pandas half the start of a program that only runs
+
+    data = {name: _variable(record, name, record.dims_of(name)) for name in names if name not in coordinates}
+    attributes = {"title": str(record.scenario.get("title", "")), "status": record.status}
+    return Dataset(data, coordinates, attributes)
 
 
 def _variable(record: Record | SweepRecord, name: str, dims: tuple[str, ...]) -> Any:
