@@ -27,13 +27,8 @@ class ScenarioHead(Table):
 
 def head_of(scenario: Any, toml: str, sha256: str) -> dict[str, str]:
     """Return the fields of `protocol.study.CaseHead` for a scenario, a `ScenarioHead` with its `kind`."""
-    return {
-        "title": scenario.title,
-        "name": scenario.name or "scenario",
-        "kind": scenario.kind,
-        "toml": toml,
-        "sha256": sha256,
-    }
+    named = {"title": scenario.title, "name": scenario.name or "scenario", "kind": scenario.kind}
+    return named | {"toml": toml, "sha256": sha256}
 
 
 RollAngles = Annotated[Column, units.ANGLE_KIND]

@@ -9,7 +9,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from tribodyn.errors import InputError, harmless, near_name, printable, printable_path, quoted
 from tribodyn.scenario.messages import Key
@@ -77,9 +77,8 @@ def broken_bounds(value: Any, key: Key = ()) -> Iterator[InputError]:
     if isinstance(value, Mapping):
         for name, item in value.items():
             if len(str(name)) > LONGEST_KEY:
-                yield InputError(
-                    _dotted((*key, name)), None, f"a key of {len(str(name))} characters", "remove it"
-                )
+                rule = f"a key of {len(str(name))} characters"
+                yield InputError(_dotted((*key, name)), None, rule, "remove it")
             else:
                 yield from broken_bounds(item, (*key, name))
     elif isinstance(value, (list, tuple)):
@@ -137,13 +136,18 @@ def names(folder: Path) -> list[str]:
 def find_scenario(name: str) -> Path:
     """Return the file of a scenario that is given by path or by the name of a shipped one."""
     path = Path(name)
-    if path.suffix == ".toml" or is_file(path):
-        if is_file(path):
-            return path
-        near = near_name(path.stem, names(path.parent))
-        remedy = f'did you mean "{path.with_name(near + ".toml")}"?' if near else "check the path"
-        raise InputError("scenario", quoted(name), "no such file", remedy)
+    if is_file(path):
+        return path
+    if path.suffix == ".toml":
+        _missing("scenario", name, path, "no such file")
     return _named("scenario", name, "scenario", [shipped(SCENARIOS)])
+
+
+def _missing(key: str, name: str, path: Path, rule: str) -> NoReturn:
+    """Refuse a path at which there is no file, and name one of its folder that is spelled much the same."""
+    near = near_name(path.stem, names(path.parent))
+    remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
+    raise InputError(key, quoted(name), rule, remedy)
 
 
 def find_drive_or_scenario(name: str) -> Path:
@@ -154,22 +158,13 @@ def find_drive_or_scenario(name: str) -> Path:
 
 
 def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
-    """Return the file of a model that `referring` names.
+    """Return the file of a model that `referring` names at a key: a path relative to it (.toml), or a name.
 
-    Parameters
-    ----------
-    name : a path (it ends in .toml) relative to the referring file, or a name
-    kind : folder of `models/`: "drives", "materials", …; or `SCENARIOS`
-    key : where the name stands, for messages
-    referring : the file that it stands in
+    `kind` is the model's folder of `models/`: "drives", "materials", …; or `SCENARIOS`.
     """
     if name.endswith(".toml"):
         path = referring.parent / name
-        if is_file(path):
-            return path
-        near = near_name(path.stem, names(path.parent))
-        remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
-        raise InputError(key, quoted(name), f"no such file: {printable_path(path)}", remedy)
+        return path if is_file(path) else _missing(key, name, path, f"no such file: {printable_path(path)}")
     if kind == SCENARIOS:
         return _named(key, name, "scenario", [referring.resolve().parent, shipped(SCENARIOS)])
     above = referring.resolve().parent.parent
@@ -198,14 +193,11 @@ def read_text(path: Path, most: int) -> str:
         with path.open("rb") as file:
             content = file.read(most + 1)
         if len(content) > most:
-            raise InputError(
-                "file", rule=f"larger than {most >> 20} MiB", remedy="shorten it", file=str(path)
-            )
+            raise InputError("file", None, f"larger than {most >> 20} MiB", "shorten it", str(path))
         return content.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
-        raise InputError(
-            f"byte {error.start}", rule="not UTF-8 text", remedy="save it as UTF-8", file=str(path)
-        ) from None
+        place = f"byte {error.start}"
+        raise InputError(place, None, "not UTF-8 text", "save it as UTF-8", str(path)) from None
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise InputError("file", rule=f"cannot be read: {reason}", file=str(path)) from None
@@ -220,16 +212,11 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError("file", rule=str(error), remedy="a scenario needs none", file=str(path)) from None
     except tomllib.TOMLDecodeError as error:
         what, _, place = str(error).partition(" (at ")
-        line = re.match(r"line (\d+)", place)
-        number = int(line[1]) if line else len(text.splitlines())
-        lines = text.splitlines()
+        line, lines = re.match(r"line (\d+)", place), text.splitlines()
+        number = int(line[1]) if line else len(lines)
         given = lines[number - 1].strip() if 0 < number <= len(lines) else ""
-        raise InputError(
-            f"line {number}",
-            rule=f"not TOML: {what[0].lower()}{what[1:]}" + (f" in {quoted(given)}" if given else ""),
-            remedy=_toml_remedy(given),
-            file=str(path),
-        ) from None
+        rule = f"not TOML: {what[0].lower()}{what[1:]}" + (f" in {quoted(given)}" if given else "")
+        raise InputError(f"line {number}", None, rule, _toml_remedy(given), str(path)) from None
 
 
 def _toml_remedy(line: str) -> str:

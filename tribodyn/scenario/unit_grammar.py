@@ -124,10 +124,7 @@ def decimal_comma(value: str) -> tuple[str, str] | None:
 def spelling(number: str, unit: str, what: str) -> tuple[str, str] | None:
     """Rule and remedy for a unit that is not spelled as here, or is of something close; None: no hint.
 
-    Parameters
-    ----------
-    number, unit : the parts of the quantity as they were given; no number for a unit alone
-    what : name of the kind of quantity that is due
+    Number (empty for a unit alone) and unit are as they were given; `what` is the kind of quantity due.
     """
     unit = unit.strip()
 

@@ -5,7 +5,6 @@
 """
 
 import re
-from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -64,18 +63,15 @@ def axes_of(options: list[str], table: type[BaseModel]) -> list[Axis]:
     does not know is left to the reading of the scenario, which suggests another.
     """
     if not options:
-        raise InputError(
-            VARY, None, "nothing is varied", f"add {VARY} operating.pinion_speed=100:6000:200rpm"
-        )
+        remedy = f"add {VARY} operating.pinion_speed=100:6000:200rpm"
+        raise InputError(VARY, None, "nothing is varied", remedy)
     if len(options) > MOST_AXES:
         raise InputError(VARY, len(options), "too many keys at once", f"vary at most {MOST_AXES}")
     axes: list[Axis] = []
     for option in options:
         axis = _axis(option, table)
         if any(axis.key == other.key for other in axes):
-            raise InputError(
-                VARY, quoted(option), f"{axis.key} is varied twice", "list all its values at once"
-            )
+            raise _refusal(option, f"{axis.key} is varied twice", "list all its values at once")
         axes.append(axis)
     return _named_apart(axes)
 
@@ -129,11 +125,8 @@ def _by_step(option: str, start: Decimal, stop: Decimal, step: Decimal) -> list[
     if step == 0:
         raise _refusal(option, "the step is zero", "write a step, or a list of values")
     if (stop - start) * step < 0:
-        raise _refusal(
-            option,
-            f"the step {step} leads away from {stop}",
-            f"write {start}:{stop}:{-step} or swap the ends",
-        )
+        remedy = f"write {start}:{stop}:{-step} or swap the ends"
+        raise _refusal(option, f"the step {step} leads away from {stop}", remedy)
     count = int((stop - start) / step) + 1
     _not_too_many(option, count)
     return [f"{(start + i * step).normalize():f}" for i in range(count)]
@@ -149,9 +142,8 @@ def _by_count(option: str, start: Fraction, stop: Fraction, count: int) -> list[
 
 def _not_too_many(option: str, count: int) -> None:
     if count > MOST_VALUES:
-        raise _refusal(
-            option, f"{count:.3g} values", f"at most {MOST_VALUES} of one key; choose a larger step"
-        )
+        remedy = f"at most {MOST_VALUES} of one key; choose a larger step"
+        raise _refusal(option, f"{count:.3g} values", remedy)
 
 
 def _in_si(
@@ -224,11 +216,11 @@ def _is_table(mark: Any) -> bool:
 
 def _named_apart(axes: list[Axis]) -> list[Axis]:
     """Lengthen names that two axes share: pinion_profile_shift and gear_profile_shift."""
-    names: Mapping[str, int] = {axis.name: [a.name for a in axes].count(axis.name) for axis in axes}
+    names = [axis.name for axis in axes]
     named = []
     for axis in axes:
         parts = axis.key.split(".")
-        reserved = names[axis.name] > 1 or axis.name in RESERVED or axis.name.isdecimal()
+        reserved = names.count(axis.name) > 1 or axis.name in RESERVED or axis.name.isdecimal()
         named.append(axis._replace(name="_".join(parts[-2:] if reserved else parts[-1:])))
     if len({axis.name for axis in named}) < len(named):
         named = [axis._replace(name=axis.key.replace(".", "_")) for axis in axes]

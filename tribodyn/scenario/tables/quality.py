@@ -27,10 +27,8 @@ def broken_sample_rules(
     """Refuse what is taken from the tolerances of gears without a quality."""
     if None not in tolerances_of(drive):
         return
-    for key, value in (
-        ("mesh.deviation_sample", sample),
-        ("mesh.misalignment.from_quality", misalignment.from_quality or None),
-    ):
+    share = misalignment.from_quality or None
+    for key, value in (("mesh.deviation_sample", sample), ("mesh.misalignment.from_quality", share)):
         if value is not None:
             rule = "is taken from the tolerances of both gears, and they have no quality"
             yield InputError(key, value, rule, "add quality = 6 to [drive]")
@@ -46,10 +44,7 @@ def with_sample(
 ) -> Modifications:
     """Add the sample of deviations to what is taken off the flanks; without one, return that.
 
-    Parameters
-    ----------
-    every_tooth : whether the study knows teeth that differ
-    slices : as given; with a single one nothing varies along the face, the helix included
+    With a single slice nothing varies along the face, the helix included; `every_tooth`: teeth may differ.
     """
     if sample is None:
         return modifications
