@@ -216,7 +216,8 @@ def test_a_good_record_is_looked_through_once(path: Path, monkeypatch):
 def kept():
     """Processes that are kept for looks end with the test."""
     yield lookout._kept
-    lookout.end_all()
+    while lookout._processes:
+        lookout._processes.popitem()[1].end()
 
 
 @needs_fork

@@ -1,6 +1,7 @@
 """Records with known contents for the tests of writer, reader and plots."""
 
 from collections.abc import Mapping
+from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -8,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.recorded import DOF, SAMPLES, scales_of
+from tribodyn.record.layout import Head
 from tribodyn.record.writer import RecordWriter
 from tribodyn.studies.gears.case import LAYOUT
 
@@ -76,17 +78,11 @@ def gear_pair_writer(
 ) -> RecordWriter:
     """The writer of a gear pair's record; its mesh cycle is that of `mesh_cycle` where none is given."""
     table = mesh_cycle() if table is None else table
-    return RecordWriter(
-        path,
-        layout=LAYOUT,
-        kind="gear-pair",
-        scenario_toml=scenario_toml,
-        sha256=sha256,
-        samples=samples,
-        groups={"mesh_cycle": table, "geometry": outlines},
-        scales=scales_of(table["side"]),
-        force=force,
+    groups = {"mesh_cycle": table, "geometry": outlines}
+    head = Head(
+        "gear-pair", LAYOUT, scenario_toml, sha256, datetime.now(UTC), groups, scales_of(table["side"])
     )
+    return RecordWriter(path, head, samples, force=force)
 
 
 def block(start: int, stop: int, pairs: int = 2) -> dict[str, np.ndarray]:

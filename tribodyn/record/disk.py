@@ -31,12 +31,7 @@ class Blank(NamedTuple):
 
 
 class Layered(io.RawIOBase):
-    """A file for h5py: reads what is below, keeps in memory what is written.
-
-    Parameters
-    ----------
-    below : open for reading; without it the file begins empty
-    """
+    """A file for h5py: reads what is below, or nothing, and keeps in memory what is written."""
 
     def __init__(self, below: BinaryIO | None = None) -> None:
         self._below = below
@@ -45,26 +40,10 @@ class Layered(io.RawIOBase):
         #: What was written: (offset, bytes), in order.
         self.written: list[tuple[int, bytes]] = []
 
-    def readable(self) -> bool:
-        """See io."""
-        return True
-
-    def writable(self) -> bool:
-        """See io."""
-        return True
-
-    def seekable(self) -> bool:
-        """See io."""
-        return True
-
     def seek(self, offset: int, whence: int = os.SEEK_SET) -> int:
         """See io."""
         start = {os.SEEK_SET: 0, os.SEEK_CUR: self._place, os.SEEK_END: self.size}[whence]
         self._place = start + offset
-        return self._place
-
-    def tell(self) -> int:
-        """See io."""
         return self._place
 
     def truncate(self, size: int | None = None) -> int:

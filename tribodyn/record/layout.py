@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from datetime import datetime
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, BinaryIO, NamedTuple
 
 import h5py
@@ -25,13 +26,16 @@ class Head(NamedTuple):
     """What is known of a run before it starts."""
 
     kind: str  # kind of study
-    layout: Layout
+    layout: Layout  # what the records of the study hold
     #: scenario, sha256: the resolved scenario as TOML, and its digest
     scenario: str
     sha256: str
     created: datetime
-    groups: dict[str, dict[str, Any]]  # name of a group of the layout -> arrays and numbers by name
-    scales: dict[str, Any]  # values along the axes that the run does not go on along
+    #: name of a group of the layout -> arrays and numbers by name: the mesh cycle, outlines
+    groups: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
+    scales: Mapping[str, Any] = MappingProxyType(
+        {}
+    )  # values along the axes that the run does not go on along
     code: str = ""  # see `schema.CODE`; empty: nothing goes on with such a record
 
 

@@ -29,16 +29,9 @@ CRASHED = "HDF5 crashes on it"
 
 
 def through_a_child(look: Look, path: Path) -> str:
-    """Call a function of a path in a child process.
+    """Call a function at module level of a path in a child process.
 
-    Parameters
-    ----------
-    look : at module level; says what is wrong with a file, "" where nothing is
-
-    Returns
-    -------
-    str
-        What it says, or that it hung or crashed.
+    Returns what it says is wrong with the file, "" where nothing is, or that it hung or crashed.
     """
     return forked(look, path) if child.copies_are_safe() else _kept(look).answer(path)
 
@@ -65,6 +58,7 @@ class _Kept:
         self.owner = os.getpid()
         self._lock = threading.Lock()
         self._process = child.start(f"{__name__}:serve", look.__module__, look.__name__)
+        atexit.register(self.end)  # it would end by itself, but with a warning of Python's
 
     def alive(self) -> bool:
         return self._process.poll() is None
@@ -111,13 +105,6 @@ def _kept(look: Look) -> _Kept:
                 known.end()
             known = _processes[look] = _Kept(look)
         return known
-
-
-@atexit.register
-def end_all() -> None:
-    """End the processes that are kept; they would end by themselves, but with a warning of Python's."""
-    while _processes:
-        _processes.popitem()[1].end()
 
 
 def serve(module: str, name: str) -> None:

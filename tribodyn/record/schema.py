@@ -49,22 +49,15 @@ SAMPLES_WRITTEN = Variable((), "1", "number of samples, from the first, that hol
 
 
 class Layout(NamedTuple):
-    """What the records of a study hold; a record names all of it, so that a reader needs none of this.
+    """What the records of a study hold; a record names all of it, so that a reader needs none of this."""
 
-    Parameters
-    ----------
-    axis : scale of the axis on which a run goes on: time, phase of the mesh, frequency
-    samples : datasets along that axis, by name
-    scales : scales of the other axes
-    others : datasets along other axes; left out where an axis of theirs has no scale
-    groups : name of a group -> its arrays and numbers. Arrays bring their dimensions with them; numbers
-        become attributes.
-    """
-
-    axis: Variable
-    samples: Mapping[str, Variable]
-    scales: Mapping[str, Variable] = MappingProxyType({})
+    axis: Variable  # scale of the axis on which a run goes on: time, phase of the mesh, frequency
+    samples: Mapping[str, Variable]  # datasets along that axis, by name
+    scales: Mapping[str, Variable] = MappingProxyType({})  # of the other axes
+    #: datasets along other axes; left out where an axis of theirs has no scale
     others: Mapping[str, Variable] = MappingProxyType({})
+    #: name of a group -> its arrays and numbers. Arrays bring their dimensions with them; numbers become
+    #: attributes
     groups: Mapping[str, Mapping[str, Variable]] = MappingProxyType({})
 
     @property

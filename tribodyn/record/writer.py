@@ -9,10 +9,9 @@ last. What ends the run (summary, status) goes into a copy that replaces the rec
 import os
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType, TracebackType
+from types import TracebackType
 from typing import Any, Self
 
 import h5py
@@ -21,8 +20,8 @@ import numpy as np
 from tribodyn.errors import InputError, OutputError
 from tribodyn.numerics.output_files import replacing, unwritable
 from tribodyn.record import disk, trust
-from tribodyn.record import layout as file_layout
-from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, Layout, partial_path
+from tribodyn.record.layout import Head, create, encode, write_summary, write_trimmed
+from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, partial_path
 from tribodyn.record.soundness import remember_own
 from tribodyn.record.withheld import samples_withheld
 from tribodyn.record.writing_lock import WritingLock, refuse_if_written, remove_orphans, scratch_path
@@ -95,50 +94,29 @@ class RecordWriter:
     Parameters
     ----------
     path : final name of the record
-    layout : what the records of the study hold
-    kind : kind of the study
-    scenario_toml, sha256 : the resolved scenario and its SHA-256
+    head : what is known of the run before it starts
     samples : number of samples that a complete run has
-    groups : name of a group of the layout -> arrays and numbers: the mesh cycle, outlines
-    scales : values along the axes that the run does not go on along, by name
     force : replace an existing record, and the remains of an unfinished run
-    code : see `schema.CODE`
 
     Raises InputError as `check_target`, and where the file system refuses the file or has no room for it.
     """
 
-    def __init__(
-        self,
-        path: str | Path,
-        *,
-        layout: Layout,
-        kind: str,
-        scenario_toml: str,
-        sha256: str,
-        samples: int,
-        groups: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
-        scales: Mapping[str, Any] = MappingProxyType({}),
-        force: bool = False,
-        code: str = "",
-    ) -> None:
+    def __init__(self, path: str | Path, head: Head, samples: int, *, force: bool = False) -> None:
         self.path = Path(path)
         self.partial = partial_path(self.path)
         self.samples = samples
         self.written = 0
         self._open = False
-        self._axis = layout.axis_name
-        self._variables = {**layout.along, **layout.others}
-        copied = {name: dict(arrays) for name, arrays in groups.items()}
-        self._head = file_layout.Head(
-            kind, layout, scenario_toml, sha256, datetime.now(UTC), copied, dict(scales), code
-        )
+        self._axis = head.layout.axis_name
+        self._variables = {**head.layout.along, **head.layout.others}
+        self._head = head
         check_target(self.path, force)
         self._lock: WritingLock | None = None
         try:
             self._lock = WritingLock(self.path)
             remove_orphans(self.path)
             refuse_existing(self.path, force)  # another may just have ended
-            blank = file_layout.create(self._head, samples)
+            blank = create(head, samples)
             self._place = blank.places
             with replacing(self.partial, scratch_path(self.path)) as scratch:
                 disk.write_new(scratch, blank.content, blank.blanks)
@@ -202,7 +180,7 @@ class RecordWriter:
     def _piece(self, name: str, values: Any, row: int, rows: tuple[int, ...] = ()) -> tuple[int, np.ndarray]:
         """Where the values of a row, or of several from it on, go in the file, and what the file holds."""
         place = self._place[name]
-        array = file_layout.encode(self._variables[name], samples_withheld(name, values))
+        array = encode(self._variables[name], samples_withheld(name, values))
         if array.shape != (*rows, *place.row):
             raise ValueError(f"{name}: shape {array.shape}, not {(*rows, *place.row)}")
         return place.offset + row * place.stride, array
@@ -210,12 +188,9 @@ class RecordWriter:
     def finish(self, summary: Mapping[str, Any], trim: bool = False) -> Path:
         """Add the summary, mark the record complete and give it its final name, which is returned.
 
-        Parameters
-        ----------
-        trim : whether it may have fewer samples than it has room for
-
-        Raises ValueError if samples are missing, OutputError if there is no room for the copy with the
-        summary: the samples are kept under the temporary name.
+        With `trim` it may have fewer samples than it has room for. Raises ValueError if samples are missing,
+        OutputError if there is no room for the copy with the summary: the samples are kept under the
+        temporary name.
         """
         if self.written != self.samples and not trim:
             raise ValueError(f"{self.written} of {self.samples} samples written")
@@ -237,10 +212,7 @@ class RecordWriter:
     def fail(self, message: str, summary: Mapping[str, Any] | None = None) -> Path:
         """Trim the record to what was written and mark it failed; it keeps the name `<name>.partial.h5`.
 
-        Parameters
-        ----------
-        message : when and why the run stopped
-        summary : what can be said of the part that was done
+        The message says when and why the run stopped, the summary what can be said of the part that was done.
         """
         self._close()
         try:
@@ -255,7 +227,7 @@ class RecordWriter:
     def _write_trimmed(self, scratch: Path, change: Callable[[h5py.File], None]) -> None:
         """Write a copy with the samples written, and with what concludes it."""
         with self.partial.open("rb") as source:
-            file_layout.write_trimmed(self._head, self.written, (source, self._place), scratch, change)
+            write_trimmed(self._head, self.written, (source, self._place), scratch, change)
 
     def _so_far(self) -> str:
         return f"the first {self.written} of {self.samples} samples: {self.partial}"
@@ -280,7 +252,7 @@ class RecordWriter:
 
 def conclude(status: str, message: str, summary: Mapping[str, Any], file: h5py.File) -> None:
     """Put into a record what ends it."""
-    file_layout.write_summary(file, summary)
+    write_summary(file, summary)
     file.attrs["status"] = status
     file.attrs["message"] = message
     for name, text in trust.attributes(summary).items():

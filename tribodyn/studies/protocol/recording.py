@@ -72,21 +72,13 @@ def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
 
 
 def writer(
-    case: CaseHead,
-    path: Path,
-    layout: "Layout",
-    samples: int,
-    **more: Any,
+    case: CaseHead, path: Path, layout: "Layout", samples: int, *, force: bool = False, **more: Any
 ) -> "RecordWriter":
-    """The writer of a case's record; `more`, such as groups and scales, as `RecordWriter` takes it."""
+    """The writer of a case's record; `more`, such as groups and scales, as `record.layout.Head` takes it."""
+    from datetime import UTC, datetime
+
+    from tribodyn.record.layout import Head
     from tribodyn.record.writer import RecordWriter
 
-    return RecordWriter(
-        path,
-        layout=layout,
-        kind=case.kind,
-        scenario_toml=case.toml,
-        sha256=case.sha256,
-        samples=samples,
-        **more,
-    )
+    head = Head(case.kind, layout, case.toml, case.sha256, datetime.now(UTC), **more)
+    return RecordWriter(path, head, samples, force=force)
