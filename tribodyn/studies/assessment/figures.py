@@ -85,21 +85,14 @@ def along_path(records: Sequence[Record], _view: View) -> Figure:
     panels = figure.subplots(1, 3)
     for number, record in enumerate(records):
         roll, colour = record["roll_angle"] * 180.0 / math.pi, PALETTE[number % len(PALETTE)]
-        for axes, values in zip(
-            panels,
-            (
-                record["hertz_pressure"] * 1e-9,
-                record["contact_temperature"] - ZERO_CELSIUS,
-                record["specific_film"],
-            ),
-            strict=True,
-        ):
+        curves = {
+            "Hertz pressure (GPa)": record["hertz_pressure"] * 1e-9,
+            "Contact temperature (°C)": record["contact_temperature"] - ZERO_CELSIUS,
+            "Specific film λ_GF": record["specific_film"],
+        }
+        for axes, (label, values) in zip(panels, curves.items(), strict=True):
             axes.plot(roll, values, color=colour)
-    for axes, label in zip(
-        panels, ("Hertz pressure (GPa)", "Contact temperature (°C)", "Specific film λ_GF"), strict=True
-    ):
-        axes.set_title(label)
-        axes.set_xlabel("Roll angle (°)")
+            axes.set(title=label, xlabel="Roll angle (°)")
     return figure
 
 

@@ -80,13 +80,7 @@ def parts(request: Request) -> tuple[Part, ...]:
 
 
 def case_of(task: Task, overrides: Mapping[str, Any] = MappingProxyType({})) -> Any:
-    """The case of a task.
-
-    Raises
-    ------
-    InputError
-        If it cannot be run.
-    """
+    """The case of a task; raises InputError if it cannot be run."""
     path = Path(f"{task.name}.toml")
     data = json.loads(json.dumps(task.scenario))
     return loaded_from(resolve_table(data, path, overrides, table_of), path).case
@@ -102,11 +96,8 @@ def results(
 ) -> dict[str, TaskResult]:
     """Run every task, or take up what an earlier call left; results by name of the task.
 
-    Raises
-    ------
-    InputError, SimulationError
-        If a task that is needed cannot be run; before any work where a part was changed since it was written,
-        unless `force` is given: then it is computed again.
+    Raises InputError or SimulationError if a task that is needed cannot be run; before any work where a part
+    was changed since it was written, unless `force` is given: then it is computed again.
     """
     every = [(part.study, task) for part in all_parts for task in part.tasks]
     for _, task in every:  # whatever is wrong is said before any work
@@ -137,10 +128,7 @@ def results(
 def kept(all_parts: tuple[Part, ...], folder: Path) -> dict[str, TaskResult] | None:
     """Results that an earlier call left, as `results` gives them; None where a needed one is missing.
 
-    Raises
-    ------
-    InputError
-        If a part was changed since it was written.
+    Raises InputError if a part was changed since it was written.
     """
     done: dict[str, TaskResult] = {}
     for part in all_parts:

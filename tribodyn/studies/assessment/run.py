@@ -60,7 +60,8 @@ def run(
     try:
         local, summary = assessed(case, parts.folder_of(path), progress, force)
     except SimulationError as error:
-        return _failed(case, path, str(error), force)
+        with writer(case, path, LAYOUT, 0, force=force) as record:
+            return RunResult(record.fail(str(error), {}), "failed", str(error), {})
     except KeyboardInterrupt as error:
         # what is left of the part in work is done again
         error.__notes__ = [f"the parts done so far: {parts.folder_of(path)}, the same call goes on"]
@@ -72,7 +73,7 @@ def run(
 
 
 def quantities_of(case: AssessmentCase) -> dict[str, Any]:
-    """Figures of a case without a record; nothing is kept of its parts."""
+    """Quantities of a case without a record; nothing is kept of its parts."""
     with TemporaryDirectory(prefix="tribodyn-") as folder:
         _, summary = assessed(case, Path(folder))
     return summary
@@ -83,44 +84,41 @@ def assessed(
 ) -> tuple[LocalValues, dict[str, Any]]:
     """Run the parts into a folder and put them together: values along the path, and the summary.
 
-    Raises
-    ------
-    InputError, SimulationError
-        If a part that is needed cannot be run; see also `parts.results`.
+    Raises InputError or SimulationError if a part that is needed cannot be run; see also `parts.results`.
     """
     begun = perf_counter()
     assembly = assembled(case)
     request = parts.request_of(case)
     taking_part = parts.parts(request)
     done = parts.results(taking_part, folder, progress, force=force)
-    found_there: dict[str, Any] = {}
+    found: dict[str, Any] = {}
     along: dict[str, Any] = {}
     spread: dict[str, dict[str, float]] = {}
     for _, answer in parts.answers(taking_part, request, done):
-        found_there |= answer.quantities
+        found |= answer.quantities
         along |= answer.along
         spread |= {name: _scatter(values) for name, values in answer.spread.items()}
-    local = local_of(case, assembly, along, found_there)
-    involute = assembly.family.involute
-    found = standard_of(case, assembly, found_there["face_load_factor"]) if involute else None
-    own = simulated_part(case, assembly, local, found_there, spread)
-    iso = iso_part(case, found) if found else {}
+    local = local_of(case, assembly, along, found)
+    by_standard = None
+    if assembly.family.involute:
+        by_standard = standard_of(case, assembly, found["face_load_factor"])
+    simulated = simulated_part(case, assembly, local, found, spread)
     summary: dict[str, Any] = {
         "duty": {
             "pinion_speed": case.operating.pinion_speed,
             "gear_torque": case.operating.gear_torque,
             "oil_temperature": case.oil_temperature,
         },
-        **found_there,
+        **found,
         "contact_temperature_max": float(local.films.bulk_temperature + np.nanmax(local.films.flash_rise)),
-        "specific_film_min": own["lambda_GF"]["worst"],
-        **({"transverse_load_factor_method_b": found.transverse} if found else {}),
-        "iso": iso,
-        "simulated": own,
+        "specific_film_min": simulated["lambda_GF"]["worst"],
+        **({"transverse_load_factor_method_b": by_standard.transverse} if by_standard else {}),
+        "iso": iso_part(case, by_standard) if by_standard else {},
+        "simulated": simulated,
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
         **{f"{name}_spread": [values[part] for part in SPREAD] for name, values in spread.items()},
-        **margins_and_limits(case, found, strength_of(case), local, found_there, spread),
-        "assumed": _numbered(assumed(case, found is not None)),
+        **margins_and_limits(case, by_standard, strength_of(case), local, found, spread),
+        "assumed": _numbered(assumed(case, by_standard is not None)),
         "extrapolated": _numbered(extrapolated(taking_part, done)),
         **_trust(done, {task.name for part in taking_part for task in part.tasks if task.needed}),
         "wall_time": perf_counter() - begun,
@@ -150,11 +148,6 @@ def _scatter(values: np.ndarray) -> dict[str, float]:
     """Median, 5 and 95 % over the samples, and how many of them are known."""
     known = {name: float(value) for name, value in scatter(values).items()}
     return known | {"samples": int(np.sum(np.isfinite(values)))}
-
-
-def _failed(case: AssessmentCase, path: Path, message: str, force: bool) -> RunResult:
-    with writer(case, path, LAYOUT, 0, force=force) as record:
-        return RunResult(record.fail(message, {}), "failed", message, {})
 
 
 def _arrays(local: LocalValues) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from tribodyn.studies.design.report import quantity_of
 #: Duties that are drawn as bars, at most.
 MOST_BARS = 6
 #: Characters of a line beside an axis.
-LONGEST = 28
+LONGEST = 29
 START, BEST = QUIET, PALETTE[1]
 
 
@@ -34,25 +35,16 @@ class _Shown:
         about = record.long_name(name).removeprefix("objective: ")
         plain = Quantity(about, about.replace("_", " "), "" if units == "1" else units)
         self.quantity = quantity_of(record.scenario, about) or plain
-        value = record.summary.get("objective")
-        down = value is not None and float(np.atleast_1d(value)[place]) * _least(record, name) < 0
-        self.factor = -self.quantity.factor if down else self.quantity.factor
+        more = "maximise" in record.scenario["design"]
+        self.factor = -self.quantity.factor if more else self.quantity.factor
         self.values = self.factor * record[name][searched(record)]
 
     @property
     def label(self) -> str:
         """Label of an axis, over two lines where it is long."""
-        words, lines = literal(self.quantity.title).split(), [""]
-        for word in words:
-            if len(lines[-1]) + len(word) > LONGEST:
-                lines.append("")
-            lines[-1] = f"{lines[-1]} {word}".strip()
-        return "\n".join(lines) + (f" ({literal(self.quantity.unit)})" if self.quantity.unit else "")
-
-
-def _least(record: Record, name: str) -> float:
-    values = record[name][record["feasible"] == 1]
-    return float(np.nanmin(values)) if values.size else np.nan
+        title = literal(self.quantity.title)
+        lines = fill(title, LONGEST, break_long_words=False, break_on_hyphens=False)
+        return lines + (f" ({literal(self.quantity.unit)})" if self.quantity.unit else "")
 
 
 def _feasible(record: Record) -> np.ndarray:
@@ -127,7 +119,7 @@ def _draw_duties(axes: Axes, record: Record) -> None:
         heights = [[abs(shown.factor) * _first(record, name)] for name in ("objective_start", "objective")]
         names = [""]
     else:
-        heights = [shown.factor * np.asarray(duties[one]) for one in ("start", "best")]
+        heights = [shown.factor * np.asarray(duties[end]) for end in ("start", "best")]
     place = np.arange(len(names))
     bars = len(names) <= MOST_BARS
     for number, (values, color, label) in enumerate(
@@ -201,7 +193,7 @@ def _number(value: Any, entry: Mapping[str, Any]) -> float:
     from tribodyn.scenario.vary import base_units
 
     if "choices" in entry:
-        return float([str(one) for one in entry["choices"]].index(str(value)))
+        return float(list(map(str, entry["choices"])).index(str(value)))
     base = base_units(value)
     return float(value) if base is None else base[0]
 
@@ -209,14 +201,13 @@ def _number(value: Any, entry: Mapping[str, Any]) -> float:
 def _draw_sensitivities(axes: Axes, record: Record) -> None:
     """Change of the objective with one key or tolerance moved about the best."""
     shown, design = _Shown(record), record.scenario["design"]
-    keys = [naming_key(one["key"]) for one in design["free"]]
+    keys = [naming_key(entry["key"]) for entry in design["free"]]
     names = [f"{name.replace('_', ' ')} ± 2 %" for name in apart(keys)]
     tolerances = design.get("tolerance", ())
+    of_tolerances = apart([tolerance["key"] for tolerance in tolerances])
     names += [
         f"{name.replace('_', ' ')} ± {tolerance['plus_minus']}"
-        for name, tolerance in zip(
-            apart([tolerance["key"] for tolerance in tolerances]), tolerances, strict=True
-        )
+        for name, tolerance in zip(of_tolerances, tolerances, strict=True)
     ]
     best = float(np.atleast_1d(record.summary["objective"])[0]) * abs(shown.factor)
     place = np.arange(len(names))
@@ -251,8 +242,8 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
         if start is not None:
             x, y = (abs(view.factor) * value for view, value in zip(views, start, strict=True))
             axes.plot(x, y, "s", color=START, label="start")
-        ends = zip(views, record.summary["objective"], strict=True)
-        x, y = (abs(view.factor) * value for view, value in ends)
+        best = record.summary["objective"]
+        x, y = (abs(view.factor) * value for view, value in zip(views, best, strict=True))
         axes.plot(x, y, "D", color=BEST, label="compromise")
     axes.set_xlabel(first.label)
     axes.set_ylabel(second.label)

@@ -12,7 +12,7 @@ from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.archive import FACTORS, Candidate, Unfinished
 from tribodyn.studies.design.candidates.candidates import Overrides, samples_of, shapes_gears, value_at
 from tribodyn.studies.design.candidates.evaluation import Results
-from tribodyn.studies.design.candidates.sources import units_by_figure
+from tribodyn.studies.design.candidates.sources import units_by_name
 from tribodyn.studies.design.case import DesignCase, Free, Objective
 
 #: Bytes kept of a message.
@@ -36,7 +36,7 @@ def names_of(case: DesignCase, start: Results) -> tuple[str, ...]:
 
 def _known_units(case: DesignCase) -> dict[str, str]:
     """SI units of all quantities by name."""
-    return units_by_figure({name: study_of(data) for name, data in case.scenarios.items()})
+    return units_by_name({name: study_of(data) for name, data in case.scenarios.items()})
 
 
 def _units(case: DesignCase, objective: Objective) -> str:

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import tomli_w
 
 from tribodyn.errors import printable
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
 from tribodyn.studies.design.candidates.archive import Archive, Candidate
 from tribodyn.studies.design.candidates.evaluation import loaded_source
-from tribodyn.studies.design.candidates.sources import standing
+from tribodyn.studies.design.candidates.sources import BASE, standing
 from tribodyn.studies.design.case import DesignCase
 
 #: First line of a file with the best scenario, before the title of the search.
@@ -36,21 +37,20 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force:
     Raises as `write_output`.
     """
     files: list[Path] = []
-    loaded = None
-    for name in case.scenarios:
-        source = loaded_source(case.scenarios, name, values)
-        loaded = loaded or source
+    every = {name: loaded_source(case.scenarios, name, values) for name in case.scenarios}
+    for name, source in every.items():
         data = tomllib.loads(source.case.toml)
         more = f"-{name}" if name else ""
         data |= {"title": f"{data['title']}: best of {case.name}", "name": f"{case.name}-best{more}"}
         text = f"{HEAD}{printable(case.title)}\n{tomli_w.dumps(data)}"
         files.append(write_output(best_path(record, "toml", name), text, force=force))
-    if loaded and loaded.study.has_gears:
+    if every[BASE].study.has_gears:
         from tribodyn.drawing.cad import write_pair
         from tribodyn.geometry.families import family
         from tribodyn.geometry.limits.checks import check
 
-        assembly = check(family(loaded.case.family), loaded.case.drive)
+        gears = every[BASE].case
+        assembly = check(family(gears.family), gears.drive)
         files.append(write_pair(best_path(record, "dxf"), assembly, force=force))
     return files
 
@@ -70,7 +70,7 @@ def headline(case: DesignCase, archive: Archive, searched: Archive | None = None
         "start_feasible": score.feasible,
         "evaluations": len(scores),
         "evaluations_without_figures": sum(bool(other.message) for other in scores),
-        "evaluations_feasible": sum(candidate.score.feasible for candidate in searched.evaluations),
+        "evaluations_feasible": sum(other.feasible for other in scores),
     }
     if score.message:
         summary["start_message"] = score.message
@@ -82,16 +82,10 @@ def headline(case: DesignCase, archive: Archive, searched: Archive | None = None
     summary["best"] = {
         key: value if isinstance(value, (int, float)) else str(value) for key, value in best.values.items()
     }
-    summary["start"] = {
-        key: value
-        for key in best.values
-        if (value := standing(case.scenarios, key)) is not None and _plain(value)
-    }
+    start = {key: standing(case.scenarios, key) for key in best.values}
+    summary["start"] = {key: value for key, value in start.items() if isinstance(value, (int, float, str))}
     if len(case.duties) > 1:
-        summary["duties"] = {
-            "start": list(map(float, score.by_duty)),
-            "best": list(map(float, best.score.by_duty)),
-        }
+        summary["duties"] = {"start": list(score.by_duty), "best": list(best.score.by_duty)}
     if case.constraints:
         summary["constraints_start"] = scoring.constrained(scoring.start)
         summary["constraints_best"] = scoring.constrained(best.found)
@@ -108,16 +102,12 @@ def headline(case: DesignCase, archive: Archive, searched: Archive | None = None
 
 
 def signed(case: DesignCase, objectives: tuple[float, ...]) -> Any:
-    """Objectives with the signs of their figures; of one objective that number alone."""
+    """Objectives with the signs of their quantities; of one objective that number alone."""
     found = [
         -objective if aim.name.startswith("-") else objective
         for objective, aim in zip(objectives, case.objectives, strict=True)
     ]
     return found[0] if len(found) == 1 else found
-
-
-def _plain(value: Any) -> bool:
-    return isinstance(value, (int, float, str))
 
 
 def chosen_best(case: DesignCase, archive: Archive) -> Candidate | None:
@@ -127,11 +117,7 @@ def chosen_best(case: DesignCase, archive: Archive) -> Candidate | None:
     points = archive.front()
     if not points:
         return None
-    columns = list(zip(*(point.score.objectives for point in points), strict=True))
-    lows, spans = [min(column) for column in columns], [max(column) - min(column) for column in columns]
-
-    def distance(candidate: Candidate) -> float:
-        parts = zip(candidate.score.objectives, lows, spans, strict=True)
-        return sum(((value - low) / (span or 1.0)) ** 2 for value, low, span in parts)
-
-    return min(points, key=distance)
+    objectives = np.array([point.score.objectives for point in points])
+    spans = np.ptp(objectives, axis=0)
+    shares = (objectives - objectives.min(axis=0)) / np.where(spans > 0.0, spans, 1.0)
+    return points[int(np.argmin((shares**2).sum(axis=1)))]

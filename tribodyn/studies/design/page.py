@@ -37,19 +37,19 @@ def page(record: Record) -> str:
 
 
 def before_and_after(record: Record) -> tuple[TextTable, ...]:
-    """Free keys, and all figures that a summary has a line for, at the start and at the best."""
+    """Free keys, and all quantities that a summary has a line for, at the start and at the best."""
     summary = record.summary
     if "best" not in summary:
         return ()
     start, best = (summary.get(name, {}) for name in ("start", "best"))
     keys = [(key, str(start.get(key, "–")), str(value)) for key, value in best.items()]
     before, after = (summary.get(f"figures_{name}", {}) for name in ("start", "best"))
-    figures = [
+    rows = [
         row for name, value in after.items() if (row := _row(record.scenario, name, before.get(name), value))
     ]
     found = [TextTable("Before and after", ("key", "start", "best"), keys)]
     columns = ("figure", "start", "best", "unit", "change")
-    return (*found, TextTable("Figures before and after", columns, figures))
+    return (*found, TextTable("Figures before and after", columns, rows))
 
 
 def _row(search: Mapping[str, Any], name: str, before: Any, after: Any) -> tuple[str, ...] | None:

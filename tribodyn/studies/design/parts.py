@@ -13,10 +13,10 @@ from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
 from tribodyn.studies.design.candidates.candidates import PITCH_ERRORS, PROFILE_ERROR
 from tribodyn.studies.design.candidates.sources import (
     Sources,
-    figure_name,
+    quantity_name,
     refused,
     require_key,
-    units_by_figure,
+    units_by_name,
 )
 from tribodyn.studies.design.case import (
     DRAWN,
@@ -149,8 +149,8 @@ def _number(place: str, value: Any, kind: Kind | None) -> _Number:
         found = _Number(float(value))
     elif (base := base_units(value)) is not None:
         unit = unit_of(str(value)) or ""
-        one = base_units(f"1 {unit}")
-        found = _Number(base[0], unit, base[1], one[0] if one else 1.0)
+        single = base_units(f"1 {unit}")
+        found = _Number(base[0], unit, base[1], single[0] if single else 1.0)
     else:
         raise InputError(place, quoted(value), "neither a number nor a quantity", 'write 0.3 or "3 mm"')
     if not isfinite(found.value):
@@ -178,7 +178,7 @@ def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[
         )
         raise InputError("design.minimise", None, rule, remedy)
     if table.maximise is not None:
-        name = figure_name("design.maximise", table.maximise, studies)
+        name = quantity_name("design.maximise", table.maximise, studies)
         return (Objective(f"-{name}", ((name, -1.0),)),)
     given = table.minimise
     if not isinstance(given, (str, list, tuple)) or given in ([], ()):
@@ -192,7 +192,7 @@ def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[
     if len(places) > 2:
         rule = f"{len(places)} objectives; a front has two"
         raise InputError("design.minimise", quoted(list(given)), rule, "bound the others: subject_to")
-    names = [figure_name(place, name, studies) for place, name in places.items()]
+    names = [quantity_name(place, name, studies) for place, name in places.items()]
     if len(set(names)) < len(names):
         raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another figure")
     return tuple(Objective(name, ((name, 1.0),)) for name in names)
@@ -209,7 +209,7 @@ def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> Objective:
         number = isinstance(weight, (int, float)) and not isinstance(weight, bool)
         if not number or not isfinite(weight) or not weight:
             raise InputError(f"{place}.weight", quoted(weight), "not a weight", "write a number such as 0.5")
-        terms.append((figure_name(f"{place}.figure", entry["figure"], studies), float(weight)))
+        terms.append((quantity_name(f"{place}.figure", entry["figure"], studies), float(weight)))
     return Objective(" + ".join(f"{weight:g} {name}" for name, weight in terms), tuple(terms))
 
 
@@ -218,11 +218,11 @@ def _constraint(place: str, text: str, studies: Mapping[str, Study]) -> Constrai
     if match is None:
         remedy = 'write "contact_ratio >= 1.3" or "hertz_pressure_max <= 1.5 GPa"'
         raise InputError(place, quoted(text), "not FIGURE <= LIMIT or FIGURE >= LIMIT", remedy)
-    name = figure_name(place, match[1], studies)
+    name = quantity_name(place, match[1], studies)
     sign = 1.0 if match[2] in ("<=", "≤", "<") else -1.0
     if match[3] == START:
         return Constraint(text, name, sign, START)
-    unit = units_by_figure(studies)[name]
+    unit = units_by_name(studies)[name]
     value = toml_value(match[3])
     if isinstance(value, float) and not isfinite(value):
         raise InputError(place, quoted(text), "not a finite limit", "write a number, with its unit if any")

@@ -49,7 +49,7 @@ def sentences(record: Record) -> list[str]:
     before, after = summary.get("constraints_start", {}), summary.get("constraints_best", {})
     known = summary.get("figures_best", {})
     for text, value in after.items():
-        if name := _figure_in(text, known):
+        if name := _quantity_in(text, known):
             found.append(f"{text}: at its worst {_change(search, name, before.get(text), value)}.")
     if "resolution" in summary:
         found.append(_resolution(search, names, summary))
@@ -66,7 +66,7 @@ def sentences(record: Record) -> list[str]:
 
 
 def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mapping[str, Any]) -> str:
-    """Say on which resolution the figures stand, and what the best is on the one that was searched on."""
+    """Say on which resolution the quantities stand, and what the best is on the one that was searched on."""
     sought = [_quantity_or_name(search, name) for name in names]
     fine, coarse = (
         ", ".join(f"{key} = {value}" for key, value in summary[name].items())
@@ -80,9 +80,9 @@ def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mappin
     return f"Figures are those of {fine}, and {stands}; searched with {coarse}, where the best has {before}."
 
 
-def _figure_in(text: str, figures: Mapping[str, Any]) -> str:
+def _quantity_in(text: str, known: Mapping[str, Any]) -> str:
     name = text.split()[0].split("<")[0].split(">")[0]
-    return name if name in figures else ""
+    return name if name in known else ""
 
 
 def quantity_of(search: Mapping[str, Any], name: str) -> Quantity | None:

@@ -198,7 +198,7 @@ def _search(case: DesignCase, archive: Archive, name: str) -> None:
 
 
 def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Candidate) -> dict[str, Any]:
-    """On which resolution the figures stand, and what the best is on the one that was searched on."""
+    """On which resolution the quantities stand, and what the best is on the one that was searched on."""
     if end.stands is None:
         return {}
     before = searched.scoring.score(searched.found_of(best.values).result()).objectives
@@ -226,7 +226,7 @@ def _unfinished(case: DesignCase, path: Path) -> Unfinished | None:
 
 
 def _why_none(case: DesignCase, archive: Archive) -> str:
-    """Why there is no best: what the nearest candidate misses, or why none has figures."""
+    """Why there is no best: what the nearest candidate misses, or why none has quantities."""
     nearest = archive.nearest()
     if nearest is None:
         reason = archive.evaluations[-1].score.message if archive.evaluations else "none was evaluated"

@@ -20,10 +20,7 @@ FREE = "--free"
 def entries(free: Mapping[str, Any] | Sequence[Any]) -> list[Any]:
     """Entries of `design.free`, from a mapping of keys to bounds, or from texts as `free_of` reads them.
 
-    Raises
-    ------
-    InputError
-        For bounds that are none.
+    Raises InputError for bounds that are none.
     """
     if isinstance(free, Mapping):
         return [{"key": str(key), **_bounds(str(key), bounds)} for key, bounds in free.items()]
@@ -48,10 +45,7 @@ def _is_word(value: Any) -> bool:
 def free_of(option: str) -> dict[str, Any]:
     """Read ``KEY=FROM:TO`` or ``KEY=VALUE,VALUE,…``; a unit may stand once, at the end.
 
-    Raises
-    ------
-    InputError
-        For what is neither.
+    Raises InputError for what is neither.
     """
     key, equals, text = option.partition("=")
     keys = [part.strip() for part in key.split("+")]
@@ -80,13 +74,7 @@ def _refusal(option: str) -> InputError:
 
 
 def parts_of(options: Sequence[str]) -> dict[str, str]:
-    """Read several ``NAME=SCENARIO``.
-
-    Raises
-    ------
-    InputError
-        For what is none.
-    """
+    """Read several ``NAME=SCENARIO``; raises InputError for what is none."""
     parts: dict[str, str] = {}
     for option in options:
         name, equals, scenario = (part.strip() for part in option.partition("="))
@@ -103,17 +91,13 @@ def loaded_search(
 ) -> Loaded:
     """Make the case of a search.
 
+    Raises InputError for what cannot be searched, and where nothing says what is free and what is sought.
+
     Parameters
     ----------
-    source : str, Path, mapping or case
-        The scenario to search through, or a search: name, file, tables, or a case.
+    source : the scenario to search through, or a search: name, file, tables, or a case
     design : keys of its table `[design]`; they take the place of those of a search
     overrides : dotted key to value, of the scenario to search through
-
-    Raises
-    ------
-    InputError
-        For what cannot be searched, and where nothing says what is free and what is sought.
     """
     if isinstance(source, CaseHead):
         path, data = Path("scenario"), tomllib.loads(source.toml)
@@ -122,22 +106,18 @@ def loaded_search(
     else:
         path = find_scenario(str(source))
         data = read_toml(path)
-    data = dict(data)
     if data.get("kind") == KIND:
-        data["design"] = {**data.get("design", {}), **design}
-        return loaded_from(resolve_table(data, path, _prefixed(overrides), table_of), path)
-    name = str(data.get("name", path.stem))
-    search = {
-        "title": f"Search through {data.get('title', name)}",
-        "name": f"{name}-design",
-        "kind": KIND,
-        "scenario": data,
-        "design": {"free": [], **design},
-    }
-    return loaded_from(resolve_table(search, path, _prefixed(overrides), table_of), path)
-
-
-def _prefixed(overrides: Mapping[str, Any]) -> dict[str, Any]:
-    """Keys of the scenario within; those of the search itself stay."""
+        search = data | {"design": {**data.get("design", {}), **design}}
+    else:
+        name = str(data.get("name", path.stem))
+        search = {
+            "title": f"Search through {data.get('title', name)}",
+            "name": f"{name}-design",
+            "kind": KIND,
+            "scenario": data,
+            "design": {"free": [], **design},
+        }
+    # keys of the scenario within, but for those of the search itself
     own = (f"{KIND}.", "scenario.")
-    return {key if key.startswith(own) else f"scenario.{key}": value for key, value in overrides.items()}
+    within = {key if key.startswith(own) else f"scenario.{key}": value for key, value in overrides.items()}
+    return loaded_from(resolve_table(search, path, within, table_of), path)

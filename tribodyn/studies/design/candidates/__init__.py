@@ -1,1 +1,1 @@
-"""Candidates of a search: from free keys to cases, figures and worth."""
+"""Candidates of a search: from free keys to cases, quantities and scores."""

@@ -73,9 +73,10 @@ def shares_of(case: DesignCase, values: Mapping[str, Any]) -> Float[Array, " fre
 
 def chosen(case: DesignCase, shares: Sequence[float] | np.ndarray) -> Overrides:
     """Values of all free keys at shares of their ranges."""
-    return {
-        key: value_at(free, share) for free, share in zip(case.free, shares, strict=True) for key in free.keys
-    }
+    values: Overrides = {}
+    for free, share in zip(case.free, shares, strict=True):
+        values |= dict.fromkeys(free.keys, value_at(free, share))
+    return values
 
 
 def cases_of(
@@ -90,12 +91,12 @@ def cases_of(
     ----------
     free : values of free keys; none: the base scenario as it stands
     more : further keys, for all
-    alone : (number of a tolerance, deviation), optional
-        Takes the place of all samples: the others do not deviate.
+    alone : number and deviation of the one tolerance that deviates, in place of all samples
     """
     found = []
-    rows = samples_of(case)
-    if alone is not None:
+    if alone is None:
+        rows = samples_of(case)
+    else:
         rows = [np.where(np.arange(len(case.tolerances)) == alone[0], alone[1], 0.0)]
     for duty in case.duties:
         nominal = Nominal(case, {**free, **duty.set, **(more or {})})
@@ -135,16 +136,11 @@ def shapes_gears(case: DesignCase) -> bool:
 
 
 class Nominal:
-    """A candidate under one duty, before anything deviates.
+    """A candidate under one duty, before anything deviates: its keys and their values."""
 
-    Parameters
-    ----------
-    keys : its keys and their values
-    """
-
-    def __init__(self, case: DesignCase, keys: Mapping[str, Any]) -> None:
+    def __init__(self, case: DesignCase, keys: Overrides) -> None:
         self.case = case
-        self.keys = dict(keys)
+        self.keys = keys
 
     def at(self, key: str) -> Any:
         """The value of a key; None where there is none."""
@@ -163,9 +159,7 @@ class Nominal:
 def deviating(tolerance: Tolerance, deviation: float, nominal: Nominal) -> dict[str, Any]:
     """The keys that a tolerance changes, and their values; none without deviation.
 
-    Parameters
-    ----------
-    deviation : −1 … 1. Of what is drawn point by point, or is a number of a sample, it stands for a seed.
+    The deviation is −1 … 1; of what is drawn point by point, or numbers samples, it stands for a seed.
     """
     if deviation == 0.0:
         return {}

@@ -87,7 +87,7 @@ def _with(known: dict[str, Any] | str, name: str, more: dict[str, Any] | str) ->
         return known
     if isinstance(more, str):
         return f"{name}: {more}" if name else more
-    return known | {f"{name}.{figure}" if name else figure: value for figure, value in more.items()}
+    return known | {f"{name}.{key}" if name else key: value for key, value in more.items()}
 
 
 def _figures(data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None) -> Results:
@@ -122,11 +122,11 @@ def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) 
     return min(value / (module if LIMITS[name] == "m" else 1.0) for name, value in found.items())
 
 
-def numbers(figures: Mapping[str, Any]) -> dict[str, float]:
+def numbers(quantities: Mapping[str, Any]) -> dict[str, float]:
     """The quantities that are single finite numbers."""
     return {
         name: float(value)
-        for name, value in figures.items()
+        for name, value in quantities.items()
         if isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)
     }
 

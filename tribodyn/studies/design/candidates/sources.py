@@ -35,46 +35,36 @@ Sources = Mapping[str, Source]
 
 def sources_of(datas: Mapping[str, Mapping[str, Any]]) -> dict[str, Source]:
     """Studies and schemas of scenarios by name."""
-    found = {}
-    for name, data in datas.items():
-        study = study_of(data)
-        found[name] = Source(study, study.table(data))
-    return found
+    return {name: Source(study_of(data), study_of(data).table(data)) for name, data in datas.items()}
 
 
-def units_by_figure(studies: Mapping[str, Study]) -> dict[str, str]:
-    """SI units of all figures by their full names."""
+def units_by_name(studies: Mapping[str, Study]) -> dict[str, str]:
+    """SI units of all quantities by their full names."""
     return {
-        _joined(name, figure): quantity.si
+        _joined(name, key): quantity.si
         for name, study in studies.items()
-        for figure, quantity in evaluated_quantities(study).items()
+        for key, quantity in evaluated_quantities(study).items()
     }
 
 
-def figure_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
-    """Return the full name of a quantity.
-
-    Raises
-    ------
-    InputError
-        For a name that is none; it suggests another.
-    """
+def quantity_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
+    """Return the full name of a quantity; raises InputError for a name that is none, suggesting another."""
     if not isinstance(name, str):
         first = next(iter(evaluated_quantities(studies[BASE])), "")
         raise InputError(place, quoted(name), "not the name of a quantity", f"such as {first}")
-    part, dot, figure = name.partition(".")
+    part, dot, plain = name.partition(".")
     if not dot:
-        part, figure = BASE, name
+        part, plain = BASE, name
     elif part not in studies:
         names = [study for study in studies if study != BASE]
         remedy = f"there is: {', '.join(names)}" if names else "add [design.part]"
         raise InputError(place, quoted(name), f"there is no part {quoted(part)}", remedy)
     study = studies[part]
     known = evaluated_quantities(study)
-    full = study.short_names().get(figure, figure)
+    full = study.short_names().get(plain, plain)
     if full not in known:
         what = f"quantity of studies of kind {study.kind}"
-        raise unknown_name(place, figure, [*study.short_names(), *known], what)
+        raise unknown_name(place, plain, [*study.short_names(), *known], what)
     return _joined(part, full)
 
 
@@ -83,7 +73,7 @@ def _joined(part: str, name: str) -> str:
 
 
 def split(key: str, names: Any) -> tuple[str, str]:
-    """Name of the source that a key or a figure belongs to, and the rest of it."""
+    """Name of the source that a key or a quantity belongs to, and the rest of it."""
     part, dot, rest = key.partition(".")
     return (part, rest) if dot and part in names else (BASE, key)
 
@@ -104,10 +94,7 @@ def own(name: str, schema: type[Table], overrides: Mapping[str, Any], names: Any
 def require_key(place: str, key: str, sources: Sources) -> tuple[Source, str]:
     """Return the source of a key, and the key within it.
 
-    Raises
-    ------
-    InputError
-        For a key that the schema of its scenario does not know; it suggests another.
+    Raises InputError for a key that the schema of its scenario does not know; it suggests another.
     """
     part, rest = split(key, sources)
     if (missing := unknown_part(rest, sources[part].schema)) is not None:
@@ -123,14 +110,11 @@ def refused(place: str, key: str, value: Any, source: Source) -> InputError | No
 
     Keys of a family or of a law are left to the scenario's own rules.
     """
-    at: Any = source.schema
     field: Any = None
-    for part in key.split("."):
-        fields = getattr(at, "model_fields", None)
+    for part, fields in _fields_along(key, source.schema):
         if fields is None or part not in fields:
             return None
         field = fields[part]
-        at = next(_tables_in(field), None)
     model: Any = create_model("Value", value=(field.annotation, field))
     try:
         model.model_validate({"value": value})
@@ -145,21 +129,24 @@ def unknown_part(key: str, schema: type[Table]) -> tuple[list[str], str, list[st
 
     None where it knows the key. Keys of a family or of a law are known: the scenario's own rules judge them.
     """
-    at: Any = schema
     above: list[str] = []
-    for part in key.split("."):
-        fields = getattr(at, "model_fields", None)
+    for part, fields in _fields_along(key, schema):
         if fields is None or part.isdecimal():
             return None
         if part not in fields:
             return None if "law" in fields or "shape" in above else (above, part, list(fields))
-        at = next(_tables_in(fields[part]), None)
         above.append(part)
     return None
 
 
-def _tables_in(field: Any) -> Iterator[type[Table]]:
-    return (part for part in parts_of(field) if isinstance(part, type) and issubclass(part, Table))
+def _fields_along(key: str, schema: type[Table]) -> Iterator[tuple[str, Mapping[str, Any] | None]]:
+    """Parts of a dotted key, and the fields among which each stands; None below the tables."""
+    at: Any = schema
+    for part in key.split("."):
+        fields = getattr(at, "model_fields", None)
+        yield part, fields
+        marks = parts_of(fields[part]) if fields and part in fields else ()
+        at = next((mark for mark in marks if isinstance(mark, type) and issubclass(mark, Table)), None)
 
 
 def standing(scenarios: Mapping[str, Mapping[str, Any]], key: str) -> Any:

@@ -42,10 +42,7 @@ SMOOTH = ("cobyqa", "slsqp", "trust-constr", "epsilon-constraint")
 def method_of(case: DesignCase) -> tuple[str, str]:
     """Name of the method for a search, and why it is that one.
 
-    Raises
-    ------
-    InputError
-        For a method that does not fit what is searched, or whose package is not installed.
+    Raises InputError for a method that does not fit what is searched, or whose package is not installed.
     """
     name, reason = _fitting(case)
     package = PACKAGES.get(name)

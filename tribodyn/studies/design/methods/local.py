@@ -203,7 +203,7 @@ def _curvature() -> Any:
 
 
 def derivatives_of(case: DesignCase) -> Derivatives | None:
-    """Derivatives of a search's figures through JAX; None where they cannot be differentiated."""
+    """Derivatives of a search's quantities through JAX; None where they cannot be differentiated."""
     try:
         return Derivatives(case)
     except InputError:
