@@ -72,9 +72,9 @@ def test_a_deviating_tooth_and_samples_stand_beside_accurate_teeth(assessed: dic
     assert 1.0 < own["K_Halpha"] <= whole / accurate * (1.0 + 1e-9)
     spread = own["spread"]
     assert {"K_v", "K_Halpha", "K_Hbeta", "loaded_transmission_error_peak_to_peak"} <= set(spread)
-    for name, one in spread.items():
-        assert one["p5"] <= one["median"] <= one["p95"], name
-        assert one["samples"] == 2
+    for name, scatter in spread.items():
+        assert scatter["p5"] <= scatter["median"] <= scatter["p95"], name
+        assert scatter["samples"] == 2
     assert spread["K_Hbeta"]["p5"] > own["K_Hbeta"]  # inclined teeth
     assert spread["K_Halpha"]["p95"] <= whole / accurate * (1.0 + 1e-9)
     assert assessed["dynamic_factor_spread"] == [spread["K_v"][name] for name in ("median", "p5", "p95")]
@@ -87,7 +87,7 @@ def test_every_number_has_a_unit(assessed: dict):
         if name in units or isinstance(value, str):
             return []
         if isinstance(value, dict):
-            return [missing for inner, one in value.items() for missing in without(inner, one)]
+            return [missing for inner, number in value.items() for missing in without(inner, number)]
         return [name]
 
     parts = ("duty", "iso", "simulated", "load_factors", "margins", "point_angles", "loss_by_law")
@@ -110,7 +110,7 @@ def test_points_of_the_path_are_those_of_the_standard():
 
 def test_a_stopped_call_goes_on_and_limits_are_judged(assessed: dict, folder: Path):
     parts = folder / "out" / "assessment-parts"
-    before = {one.name: one.stat().st_mtime_ns for one in parts.iterdir()}
+    before = {file.name: file.stat().st_mtime_ns for file in parts.iterdir()}
     (parts / "efficiency-niemann.h5").unlink()  # as if the call had been stopped before it
     seal = parts / "efficiency-masjedi-khonsari.origin"  # as if other code had computed it
     seal.write_text(seal.read_text().replace(seal.read_text().split()[0], "0" * 64))
@@ -118,12 +118,12 @@ def test_a_stopped_call_goes_on_and_limits_are_judged(assessed: dict, folder: Pa
     limits = {"dynamic_factor": 1.001, "hertz_pressure": "9 GPa", "micropitting": 1e-6}
     options = [word for name, value in limits.items() for word in ("--set", f"limits.{name}={value}")]
     again = assess(folder, *options)
-    after = {one.name: one.stat().st_mtime_ns for one in parts.iterdir()}
+    after = {file.name: file.stat().st_mtime_ns for file in parts.iterdir()}
     renewed = {Path(name).stem for name in after if after[name] != before[name]}
     assert renewed == {"efficiency-niemann", "efficiency-masjedi-khonsari"}
     assert again["iso"] == assessed["iso"]
     assert again["simulated"] == assessed["simulated"]
-    kept = {name: one["kept"] for name, one in again["limits"].items()}
+    kept = {name: limit["kept"] for name, limit in again["limits"].items()}
     assert again["limits"]["dynamic_factor"]["p95"] == again["simulated"]["spread"]["K_v"]["p95"]
     assert not again["limits"]["dynamic_factor"]["kept_p95"]
     assert (kept["dynamic_factor"], kept["hertz_pressure"], kept["micropitting"]) == (False, True, True)

@@ -178,7 +178,7 @@ def test_film_at_every_point(found: tuple[dict[str, Any], Any]):
 def test_load_factors_under_more_load(harder: Standard):
     """K_A makes the teeth stiffer below 100 N/mm; K_A K_v K_Hβ share deviations among more pairs."""
     line = APPLICATION * TORQUE * 1e3 / (MODULE * TEETH[0] / 2.0) / WIDTH
-    single, mesh = (one * APPLICATION**0.25 for one in stiffness())
+    single, mesh = (value * APPLICATION**0.25 for value in stiffness())
     pitch, _ = deviations()
     assert line < 100.0
     assert harder.stiffness.single_pair == pytest.approx(single * 1e9, rel=1e-9)

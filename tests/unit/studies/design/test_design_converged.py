@@ -75,12 +75,12 @@ class Sampled:
 
     def submit(self, several: Any) -> "Future[Any]":
         found: Future[Any] = Future()
-        found.set_result([self._of(one) for one in several])
+        found.set_result([self._of(overrides) for overrides in several])
         return found
 
-    def _of(self, one: Any) -> dict[str, float]:
-        factor = one.get("output.positions_per_cycle", 60) // 60
-        x, y = (float(one.get(key, 3.0)) for key in KEYS)
+    def _of(self, overrides: Any) -> dict[str, float]:
+        factor = overrides.get("output.positions_per_cycle", 60) // 60
+        x, y = (float(overrides.get(key, 3.0)) for key in KEYS)
         self.asked.append((factor, x, y))
         error = -0.05 / factor if y == 0.02 else 0.0
         residual = 2.0 - 1.5 / factor if x == 2.0 else 0.0
@@ -93,7 +93,7 @@ def test_a_front_is_that_of_a_resolution_at_which_all_its_members_stand():
     case, pool = loaded_search("load-contact-18-36", TWO, {}).case, Sampled()
     at = cache(lambda factor: Archive(case, pool, factor=factor))  # pyright: ignore[reportArgumentType]
     for values in ((-1.0, 0.0), (0.0, 0.02), (0.01, 0.0), (1.0, 0.0), (2.0, 0.0), (0.5, 0.8)):
-        at(1).score([share_of(one, value) for one, value in zip(case.free, values, strict=True)])
+        at(1).score([share_of(free, value) for free, value in zip(case.free, values, strict=True)])
     before, searched = len(pool.asked), headline(case, at(1))["front"]
     assert searched["objective"] == pytest.approx([2.0, 2.97, 4.0, 5.0])
     end = converged(case, at, "epsilon-constraint")
@@ -108,8 +108,8 @@ def test_a_front_is_that_of_a_resolution_at_which_all_its_members_stand():
 
 def test_an_estimate_counts_the_last_stage():
     """A case takes as long as its positions are many; the last stage at most as many times as factors go."""
-    one, case = load_scenario("load-contact-18-36"), loaded_search("load-contact-18-36", TWO, {}).case
-    alone = study_of(case.base).estimate(one)
+    single, case = load_scenario("load-contact-18-36"), loaded_search("load-contact-18-36", TWO, {}).case
+    alone = study_of(case.base).estimate(single)
     found = estimate(case)
     assert 1.5 * case.search.evaluations < found.seconds / alone.seconds < 47 * case.search.evaluations
     assert found.memory >= alone.memory

@@ -26,12 +26,12 @@ def search(*tolerances: dict[str, Any], overrides: Any = FEM) -> Any:
 
 def test_an_error_along_the_profile_covers_the_path_and_stays_within_its_bounds():
     case = search({"key": PROFILE, "plus_minus": "3 um"})
-    known = [one[PROFILE]["error"] for one in cases_of(case, chosen(case, [0.3]))]
+    known = [overrides[PROFILE]["error"] for overrides in cases_of(case, chosen(case, [0.3]))]
     for share in (0.0, 1.0):
         cases = cases_of(case, chosen(case, [share]))
-        curves = [one[PROFILE] for one in cases]
-        assert [one["error"] for one in curves] == known  # for every candidate the same
-        errors = np.array([one["error"]["values"] for one in curves])
+        curves = [overrides[PROFILE] for overrides in cases]
+        assert [curve["error"] for curve in curves] == known  # for every candidate the same
+        errors = np.array([curve["error"]["values"] for curve in curves])
         assert np.abs(errors).max() <= 3.0
         assert np.ptp(errors, axis=0).min() > 0.0
         loaded = loaded_case(case.base, cases[0]).case
@@ -59,7 +59,7 @@ def test_the_distance_of_the_axes_deviates_about_that_of_nominal_teeth():
     thin = {f"drive.{side}.thickness_allowance": "-80 um" for side in ("pinion", "gear")}
     case = search({"key": DISTANCE, "plus_minus": "50 um", "distribution": "ends"}, overrides=thin)
     cases = cases_of(case, chosen(case, [0.0]))
-    distances = [float(one[DISTANCE].split()[0]) * 1e-6 for one in cases]
+    distances = [float(overrides[DISTANCE].split()[0]) * 1e-6 for overrides in cases]
     np.testing.assert_allclose(sorted(distances), [0.08095] * 2 + [0.08105] * 2, rtol=1e-9)
     rows: list[Any] = evaluate(case.scenarios, cases)
     order = np.argsort(distances)  # the further apart, the shorter the contact
@@ -83,7 +83,7 @@ def test_every_tooth_deviates_by_itself_within_its_bounds():
     short = {"output.positions_per_cycle": 8, "mesh.slices": 3}
     case = loaded_search("load-contact-18-36", given, short).case
     cases = cases_of(case, chosen(case, [0.3]))
-    errors = np.array([[float(error.removesuffix(" um")) for error in one[PITCH]] for one in cases])
+    errors = np.array([[float(error.split()[0]) for error in overrides[PITCH]] for overrides in cases])
     assert errors.shape == (2, 18)
     assert np.abs(errors).max() <= 3.0
     assert np.ptp(errors, axis=0).min() > 0.0

@@ -45,9 +45,9 @@ def test_the_chain_rule(over: str, over_duties: str, weighted: bool):
     expected = [(up.objectives[0] - down.objectives[0]) / (2 * step) for up, down in around]
     found = scoring.objective_slope(case.objectives[0], figures(x), slopes)
     np.testing.assert_allclose(found, expected, rtol=1e-6)
-    for place, one in enumerate(case.constraints):
+    for place, constraint in enumerate(case.constraints):
         expected = [(up.margins[place] - down.margins[place]) / (2 * step) for up, down in around]
-        np.testing.assert_allclose(scoring.margin_slope(one, figures(x), slopes), expected, rtol=1e-6)
+        np.testing.assert_allclose(scoring.margin_slope(constraint, figures(x), slopes), expected, rtol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -83,8 +83,8 @@ def test_jax_agrees_with_differences(scenario: str):
     np.testing.assert_allclose(
         value, [(up.objectives[0] - down.objectives[0]) / (2 * step) for up, down in around], rtol=1e-2
     )
-    for place, one in enumerate(case.constraints):
-        margin = scoring.margin_slope(one, found(x), slopes)
+    for place, constraint in enumerate(case.constraints):
+        margin = scoring.margin_slope(constraint, found(x), slopes)
         expected = [(up.margins[place] - down.margins[place]) / (2 * step) for up, down in around]
         # samples do not meet the narrow peak of a cycloid's pressure at the pitch point to the last digit
-        np.testing.assert_allclose(margin, expected, rtol=1e-3, atol=5e-3, err_msg=one.text)
+        np.testing.assert_allclose(margin, expected, rtol=1e-3, atol=5e-3, err_msg=constraint.text)

@@ -43,7 +43,7 @@ def test_figures_of_every_scenario_are_those_of_its_own_run(tmp_path: Path):
         sensitivities=False,
     )
     assert found.status == "complete"
-    start, best = (found.summary[f"figures_{one}"] for one in ("start", "best"))
+    start, best = (found.summary[f"figures_{end}"] for end in ("start", "best"))
     contact = td.run(str(tmp_path / "a-best.toml")).summary
     name = "loaded_transmission_error_peak_to_peak"
     assert contact[name] == pytest.approx(best[name], rel=1e-9)
@@ -68,10 +68,10 @@ def test_two_objectives_of_two_kinds():
 def test_a_part_takes_the_keys_that_it_has():
     """Misalignment is none of the efficiency's; the speed of a duty is that of the part alone."""
     tolerance = {"key": "mesh.misalignment.in_plane", "plus_minus": "1 arcmin", "distribution": "ends"}
-    duties = [{"set": {"efficiency.operating.pinion_speed": f"{one} rpm"}} for one in (500, 1000)]
+    duties = [{"set": {"efficiency.operating.pinion_speed": f"{speed} rpm"}} for speed in (500, 1000)]
     case = search(tolerance=[tolerance], robust={"samples": 2}, duty=duties)
     found = evaluate(case.scenarios, cases_of(case, chosen(case, [0.5])))
-    assert not any(isinstance(one, str) for one in found)
+    assert not any(isinstance(quantities, str) for quantities in found)
     rows: list[Any] = list(found)
     contact, loss = "face_load_factor", "efficiency.power_friction_mean"
     assert rows[0][loss] < rows[2][loss]

@@ -79,7 +79,7 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
         place = NAMES.index(name)
         each = [over_samples(list(duty[:, place]), over, share, sign) for duty in values]
         if over_duties == "mean":
-            return sum(w * one for w, one in zip(WEIGHTS, each, strict=True)) / sum(WEIGHTS)
+            return sum(w * value for w, value in zip(WEIGHTS, each, strict=True)) / sum(WEIGHTS)
         return max(each) if sign > 0 else min(each)
 
     def first_at(values: np.ndarray) -> float:
@@ -90,7 +90,7 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
     first = 0.7 * figure(FOUND, "a", 1.0) / figure(START, "a", 1.0)
     first -= 1.3 * figure(FOUND, "b", -1.0) / figure(START, "b", 1.0)
     assert found.objectives == pytest.approx((first, -2.0 * figure(FOUND, "c", -1.0)))
-    assert found.by_duty == pytest.approx([first_at(one) for one in FOUND])
+    assert found.by_duty == pytest.approx([first_at(values) for values in FOUND])
     assert found.quantities == pytest.approx({name: figure(FOUND, name, 1.0) for name in NAMES})
     assert scoring.at_start == pytest.approx({name: figure(START, name, 1.0) for name in NAMES})
 
@@ -106,7 +106,7 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
         (limit - worst(FOUND, "c", 1.0)) / limit,
     ]
     assert found.margins == pytest.approx(margins)
-    assert found.violation == pytest.approx(sum(max(0.0, -one) for one in margins))
+    assert found.violation == pytest.approx(sum(max(0.0, -margin) for margin in margins))
     assert not found.feasible
     assert found.shape == 0.3
     assert scoring.constrained(rows_of(FOUND)) == pytest.approx(
@@ -119,7 +119,9 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
 
 
 def test_samples_fill_their_distributions_evenly():
-    tolerances = tuple(Tolerance("k", "k", 1.0, "", one) for one in ("uniform", "normal", "ends"))
+    tolerances = tuple(
+        Tolerance("k", "k", 1.0, "", distribution) for distribution in ("uniform", "normal", "ends")
+    )
     case = case_with(tolerances=tolerances, robust=Robust(samples=10, seed=4))
     uniform, normal, ends = np.array(samples_of(case)).T
     assert sorted(((uniform + 1.0) * 5.0).astype(int)) == list(range(10))
