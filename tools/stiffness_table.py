@@ -22,7 +22,7 @@ from tribodyn.compliance.energy import (
 )
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.compliance.iso6336 import MEASURED_CORRECTION, theoretical_stiffness
-from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
 from tribodyn.geometry.families import Family, crc, involute
@@ -127,7 +127,7 @@ def rims(_: object) -> str:
         tooth = loaded_tooth(assembly, "pinion")
         cosine = math.cos(float(assembly.path.pressure_angle(0.0)))
         torque = LINE_LOAD * WIDTH * cosine * float(assembly.path.gear_pitch_radius)
-        loaded = share_load(flexibility(assembly, (STEEL, STEEL)), np.zeros((1, 1)), torque)
+        loaded = LoadedFlanks(flexibility(assembly, (STEEL, STEEL))).share(np.zeros((1, 1)), torque)
         elements = LINE_LOAD / (float(loaded.deflection[0]) * cosine)
         rim = teeth / 2 - 1.25 - float(tooth.body.bore_radius) / 0.003
         row = [teeth, ratio, f"{rim:.1f}", f"{polynomials_over_ring(tooth, STEEL):.2f}"]

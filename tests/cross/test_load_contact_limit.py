@@ -7,7 +7,7 @@ import pytest
 
 from tests.support.closures import known
 from tribodyn.compliance.sharing.flank_gap import flank_gap
-from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility, share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.dynamics.outputs import outputs, segment_of
 from tribodyn.geometry.assembly import assemble
@@ -57,7 +57,7 @@ def test_creeping_run_is_the_load_contact_model(prepared, modified, slices):
         pair_geometry(flexible.assembly, roll),
         face_positions(flexible.width, slices),
     )
-    shared = share_load(flexible, roll, case.operating.gear_torque, 0.0, gap, slices)
+    shared = LoadedFlanks(flexible, slices=slices).share(roll, case.operating.gear_torque, 0.0, gap)
     expected = shared.normal_load
     np.testing.assert_allclose(found[:SAMPLES], expected, atol=0.01 * expected.max())
     # early and late contact: some load outside the theoretical path, unless the tips are relieved

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 from tribodyn.compliance.sharing.flank_gap import flank_gap
-from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
@@ -56,4 +56,4 @@ def model(case, cycle, modified, slices, torque, coupled=True):
     roll = roll.reshape(-1, pairs)
     face = face_positions(flexible.width, slices)
     gap = flank_gap(flexible.assembly, modified, pair_geometry(flexible.assembly, roll), face)
-    return share_load(flexible, roll, torque, 0.0, gap, slices, coupled)
+    return LoadedFlanks(flexible, slices=slices, coupled=coupled).share(roll, torque, 0.0, gap)

@@ -7,7 +7,7 @@ from jaxtyping import TypeCheckError
 
 from tribodyn.compliance.energy import section_integrals
 from tribodyn.compliance.sharing.condensed import condense
-from tribodyn.compliance.sharing.load_sharing import extended_rolls, flexibility, share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, extended_rolls, flexibility
 from tribodyn.drawing.cad import tooth_profile
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import gear_polygon, rack_outline
@@ -43,7 +43,7 @@ def main() -> None:
     flexible = flexibility(assembly, case.materials, level=1)
     roll = extended_rolls(assembly, assembly.roll_limits, 5)
     gap = np.zeros((*roll.shape, 3))
-    shared = share_load(flexible, roll, 500.0, gap=gap, slices=3, coupled=False)
+    shared = LoadedFlanks(flexible, slices=3, coupled=False).share(roll, 500.0, gap=gap)
     condense(flexible, pair_geometry(assembly, roll), gap, shared, 1.0, coupled=False)
 
     def traced(module: jax.Array) -> jax.Array:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.sharing.load_sharing import share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.studies.efficiency.published import tip_contact_ratios
@@ -85,7 +85,7 @@ def _step_at_pitch_point(flexible: PairFlexibility) -> tuple[bool, str]:
     angle = float(path.pressure_angle(0.0))
     full = torque / (path.gear_pitch_radius * math.cos(angle))
     beside = np.array([[-1e-7], [1e-7]])
-    before, after = share_load(flexible, beside, torque, mu).normal_load[:, 0] / full
+    before, after = LoadedFlanks(flexible).share(beside, torque, mu).normal_load[:, 0] / full
     slope = mu * math.tan(angle)
     agree = bool(abs(before * (1.0 - slope) - 1.0) < 1e-4 and abs(after * (1.0 + slope) - 1.0) < 1e-4)
     return agree, f"OC4: {before:.4f} to {after:.4f}"

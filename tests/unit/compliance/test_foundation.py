@@ -19,7 +19,7 @@ from tribodyn.compliance.foundation import (
     sainsot_velex,
 )
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek
-from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import involute
@@ -137,7 +137,7 @@ def test_ring_follows_finite_elements_down_to_thin_rims(teeth, ratio):
     tooth, path = loaded_tooth(assembly, "pinion"), assembly.path
     cosine, line_load = np.cos(path.pressure_angle(0.0)), 235e3
     torque = line_load * 0.02 * cosine * path.gear_pitch_radius
-    loaded = share_load(flexibility(assembly, (steel, steel)), np.zeros((1, 1)), torque)
+    loaded = LoadedFlanks(flexibility(assembly, (steel, steel))).share(np.zeros((1, 1)), torque)
     contact = contact_in_tooth_frame(tooth.path, tooth.pitch_half_angle, np.zeros(1))
     depth = float(contact.y[0] / np.cos(contact.load_angle[0]))
     curvature = kinematics(path, np.zeros(1)).relative_curvature

@@ -9,12 +9,12 @@ from tests.support.faces_in_slices import DRIVE, STEEL
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.compliance.sharing import load_sharing
 from tribodyn.compliance.sharing.load_sharing import (
+    LoadedFlanks,
     SharedLoad,
     contact_deflection,
     effective_contact_ratio,
     extended_rolls,
     half_width,
-    share_load,
 )
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
@@ -91,7 +91,7 @@ def test_where_the_radii_vanish_the_contact_s_own_width_sees_more_of_them():
 def test_torques_balance_with_the_friction_s_arm(pair, friction):
     """About the gear's axis: normal loads, and friction that turns at the pitch point."""
     roll = np.array([[0.21, -0.139], [0.3, -0.049], [0.02, -0.329]])
-    shared = share_load(pair, roll, 150.0, friction)
+    shared = LoadedFlanks(pair).share(roll, 150.0, friction)
     base = 54e-3 * np.cos(np.radians(20.0))
     for t in range(3):
         torque = 0.0
@@ -105,9 +105,9 @@ def test_torques_balance_with_the_friction_s_arm(pair, friction):
 
 def test_loads_do_not_know_of_batches(monkeypatch, pair):
     roll = extended_rolls(pair.assembly, (-0.3, 0.4), 5)
-    whole = share_load(pair, roll, 200.0, 0.05, 2e-6 * np.cos(9.0 * roll), slices=3)
+    whole = LoadedFlanks(pair, slices=3).share(roll, 200.0, 0.05, 2e-6 * np.cos(9.0 * roll))
     monkeypatch.setattr(load_sharing, "_ENTRIES", 300)
     for one, other in zip(
-        whole, share_load(pair, roll, 200.0, 0.05, 2e-6 * np.cos(9.0 * roll), 3), strict=True
+        whole, LoadedFlanks(pair, slices=3).share(roll, 200.0, 0.05, 2e-6 * np.cos(9.0 * roll)), strict=True
     ):
         np.testing.assert_allclose(one, other, rtol=1e-12)

@@ -9,7 +9,6 @@ from tribodyn.compliance.sharing.load_sharing import (
     effective_contact_ratio,
     extended_rolls,
     flexibility,
-    share_load,
 )
 from tribodyn.compliance.sharing.loaded_contact import loaded_error, mean_pairs, reach, roll_through
 from tribodyn.compliance.sharing.slices import face_positions
@@ -64,7 +63,7 @@ def pair():
 def test_nothing_modified_is_the_plane_model(pair):
     found = rolled(pair, UNMODIFIED, TORQUE, 60)
     sliced = rolled(pair, UNMODIFIED, TORQUE, 60, slices=9, coupled=False)
-    plane = share_load(pair, found.roll, TORQUE)
+    plane = LoadedFlanks(pair).share(found.roll, TORQUE)
     np.testing.assert_allclose(found.normal_load, plane.normal_load, rtol=1e-9, atol=1e-6)
     np.testing.assert_allclose(sliced.normal_load, plane.normal_load, rtol=1e-8, atol=1e-5)
     np.testing.assert_allclose(sliced.deflection, found.deflection, rtol=1e-9)
@@ -73,7 +72,7 @@ def test_nothing_modified_is_the_plane_model(pair):
     np.testing.assert_allclose(sliced.root_tension, found.root_tension * np.ones(9), rtol=1e-6, atol=1e3)
     limits = reach(LoadedFlanks(pair), TORQUE)
     roll = extended_rolls(pair.assembly, limits, 60)
-    expected = effective_contact_ratio(roll, share_load(pair, roll, TORQUE), PITCH)
+    expected = effective_contact_ratio(roll, LoadedFlanks(pair).share(roll, TORQUE), PITCH)
     assert found.contact_ratio == pytest.approx(expected, abs=2e-3)
 
 
@@ -119,7 +118,7 @@ def test_equal_gears_with_equal_tips_and_crowning_share_symmetrically():
         pair_geometry(twins.assembly, roll),
         face_positions(WIDTH, 7),
     )
-    shared = share_load(twins, roll, 300.0, gap=gap, slices=7, coupled=False)
+    shared = LoadedFlanks(twins, slices=7, coupled=False).share(roll, 300.0, gap=gap)
     load = shared.slice_load[:, :, 0] / shared.slice_load.max()
     np.testing.assert_allclose(load, shared.slice_load[:, :, 6] / shared.slice_load.max(), atol=1e-9)
     order = np.argsort(roll, axis=None)
@@ -228,7 +227,8 @@ def test_pairs_reach_as_far_as_deflections_gaps_and_errors_let_their_corners_tou
     # of one pair at the pitch point, from first touch
     middle = np.zeros((1, 1))
     gap = flank_gap(assembly, modified, pair_geometry(assembly, middle), face)
-    most = share_load(pair, middle, TORQUE, 0.0, gap, 3).deflection[0] * np.cos(ANGLE) - np.min(gap)
+    deflection = LoadedFlanks(pair, slices=3).share(middle, TORQUE, 0.0, gap).deflection[0]
+    most = deflection * np.cos(ANGLE) - np.min(gap)
     most *= factor
     # what is open at the worst phase while nothing is loaded
     left = []

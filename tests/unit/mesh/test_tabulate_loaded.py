@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from tribodyn.compliance.sharing.load_sharing import (
+    LoadedFlanks,
     effective_contact_ratio,
     extended_rolls,
     flexibility,
-    share_load,
 )
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
@@ -48,7 +48,7 @@ def rolls(cycle):
 
 def loads_of_model(case, cycle):
     flexible = flexibility(assemble(family(case.family), case.drive), case.materials)
-    return share_load(flexible, rolls(cycle), case.operating.gear_torque)
+    return LoadedFlanks(flexible).share(rolls(cycle), case.operating.gear_torque)
 
 
 @pytest.mark.parametrize("torque", ["80 N*m", "318.3 N*m", "1274 N*m"])
@@ -195,5 +195,5 @@ def test_effective_contact_ratio_of_a_shipped_drive():
     assembly = assemble(family(case.family), case.drive)
     flexible = flexibility(assembly, case.materials)
     roll = extended_rolls(assembly, roll_at_gap(assembly, 8e-5), 240)
-    ratio = effective_contact_ratio(roll, share_load(flexible, roll, 318.3), 2 * np.pi / 18)
+    ratio = effective_contact_ratio(roll, LoadedFlanks(flexible).share(roll, 318.3), 2 * np.pi / 18)
     assert ratio == pytest.approx(1.733, abs=0.02)

@@ -116,51 +116,6 @@ def half_width(
     return hertz_half_width(line_load, 1.0 / radius, *flexible.materials)
 
 
-@one_blas_thread()
-def share_load(
-    flexible: PairFlexibility,
-    roll: Float[Array, "position pair"],
-    gear_torque: float,
-    friction_coefficient: Float[Array, "..."] | float = 0.0,
-    gap: Float[Array, "..."] | float = 0.0,
-    slices: int = 1,
-    coupled: bool = True,
-) -> SharedLoad:
-    """Share the gear's torque among the pairs that can touch, and along their faces.
-
-    Raises SimulationError if no state of contact is found.
-
-    Parameters
-    ----------
-    roll : pinion angles of the pairs from the pitch point, rad, one pitch apart, the pair that entered first
-        in front; enough of them on either side of the path for all that the load can make touch
-    gear_torque : T_g > 0, N m
-    friction_coefficient : μ of the pairs; < 0 where the gear drives, for the flanks then slide the other way
-    gap : what is missing between the flanks beside the corners' gap, m: errors and modifications
-    coupled : whether slices hold each other through the teeth and bodies
-    """
-    geometry = pair_geometry(flexible.assembly, roll)
-    motion = geometry.motion
-    side = np.sign(motion.signed_distance)
-    lever = motion.gear_normal_arm + side * friction_coefficient * motion.gear_friction_arm
-    extra = np.asarray(gap, dtype=float)
-    extra = extra if extra.ndim == 3 else extra[..., None]
-    whole = np.broadcast_to(geometry.gap[..., None] + extra, (*roll.shape, slices))
-    parts = [
-        press_pairs(
-            flexible,
-            motion.relative_curvature[rows],
-            slice_compliance(flexible, part_of(geometry, rows), slices, coupled),
-            np.cos(motion.pressure_angle[rows]),
-            lever[rows],
-            whole[rows],
-            np.full(len(roll[rows]), float(gear_torque)),
-        )
-        for rows in in_batches(whole.shape)
-    ]
-    return SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
-
-
 def in_batches(shape: tuple[int, ...]) -> list[slice]:
     """Part positions of arrays (position, pair, slice) so that the systems of a part bound the memory."""
     positions, pairs, slices = shape
@@ -208,7 +163,7 @@ def press_pairs(
 def extended_rolls(
     assembly: Assembly, limits: tuple[float, float], positions: int
 ) -> Float[Array, "position pair"]:
-    """Roll angles (position, pair) over one pitch of all pairs between the limits, for `share_load`."""
+    """Roll angles (position, pair) over one pitch of all pairs between the limits."""
     pitch = assembly.pitch_angle
     count = int(np.ceil((limits[1] - limits[0]) / pitch))
     phase = (np.arange(positions) + 0.5) / positions
@@ -247,19 +202,44 @@ class LoadedFlanks(NamedTuple):
         """What modifications and misalignment leave open, `flank_gap`, m; pitch errors apart."""
         return flank_gap(self.flexible.assembly, self.modifications, geometry, self.face())
 
+    @one_blas_thread()
     def share(
         self,
         roll: Float[Array, "position pair"],
         gear_torque: float,
-        friction_coefficient: Float[Array, "position pair"] | float = 0.0,
-        gap: Float[Array, "position pair slice"] | None = None,
+        friction_coefficient: Float[Array, "..."] | float = 0.0,
+        gap: Float[Array, "..."] | None = None,
     ) -> SharedLoad:
-        """Share the gear's torque among pairs at the roll angles (position, pair), see `share_load`.
+        """Share the gear's torque among the pairs that can touch, and along their faces.
 
-        `gap`: default that of `gap`.
+        Raises SimulationError if no state of contact is found.
+
+        Parameters
+        ----------
+        roll : pinion angles of the pairs from the pitch point, rad, one pitch apart, the pair that entered
+            first in front; enough of them on either side of the path for all that the load can make touch
+        gear_torque : T_g > 0, N m
+        friction_coefficient : μ of the pairs; < 0 where the gear drives, for the flanks then slide the other
+            way
+        gap : what is missing between the flanks beside the corners' gap, m; default: that of `gap`
         """
-        if gap is None:
-            gap = self.gap(pair_geometry(self.flexible.assembly, roll))
-        return share_load(
-            self.flexible, roll, gear_torque, friction_coefficient, gap, self.slices, self.coupled
-        )
+        geometry = pair_geometry(self.flexible.assembly, roll)
+        motion = geometry.motion
+        side = np.sign(motion.signed_distance)
+        lever = motion.gear_normal_arm + side * friction_coefficient * motion.gear_friction_arm
+        extra = self.gap(geometry) if gap is None else np.asarray(gap, dtype=float)
+        extra = extra if extra.ndim == 3 else extra[..., None]
+        whole = np.broadcast_to(geometry.gap[..., None] + extra, (*roll.shape, self.slices))
+        parts = [
+            press_pairs(
+                self.flexible,
+                motion.relative_curvature[rows],
+                slice_compliance(self.flexible, part_of(geometry, rows), self.slices, self.coupled),
+                np.cos(motion.pressure_angle[rows]),
+                lever[rows],
+                whole[rows],
+                np.full(len(roll[rows]), float(gear_torque)),
+            )
+            for rows in in_batches(whole.shape)
+        ]
+        return SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility, share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, loaded_error, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.errors import SimulationError
@@ -265,7 +265,7 @@ def _judged(study: PreparedTeeth, loaded: LoadedContact, film: Mapping[str, Any]
 def single_pair_stiffness(study: PreparedTeeth) -> float:
     """Load over deflection along the normal of one unmodified pair alone at the pitch point, N/m."""
     alone = np.zeros((1, 1))
-    shared = share_load(study.flexible, alone, study.case.operating.gear_torque)
+    shared = LoadedFlanks(study.flexible).share(alone, study.case.operating.gear_torque)
     angle = pair_geometry(study.flexible.assembly, alone).motion.pressure_angle
     return float(shared.normal_load[0, 0] / (shared.deflection[0] * np.cos(angle[0, 0])))
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from tribodyn.compliance.sharing.load_sharing import (
+    LoadedFlanks,
     contact_deflection,
     effective_contact_ratio,
     extended_rolls,
     flexibility,
-    share_load,
 )
 from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
@@ -45,7 +45,7 @@ def stiffness_at_pitch_point(flexible):
 def history(flexible, gear_torque, friction=0.0, positions=240):
     limits = roll_at_gap(flexible.assembly, 3e-5 + 2e-7 * gear_torque)
     roll = extended_rolls(flexible.assembly, limits, positions)
-    return roll, share_load(flexible, roll, gear_torque, friction)
+    return roll, LoadedFlanks(flexible).share(roll, gear_torque, friction)
 
 
 def test_stiffness_at_the_pitch_point(pair):
@@ -121,7 +121,7 @@ def test_friction_steps_at_the_pitch_point(pair):
     # Diez-Ibarbia et al., OC4: F/F_N = 1/(1 ∓ μ tan φ), 1.0213 to 0.9797
     friction = 0.05708
     rolls = np.array([[-1e-6], [1e-6]])
-    shared = share_load(pair, rolls, 2 * 637.0, friction)
+    shared = LoadedFlanks(pair).share(rolls, 2 * 637.0, friction)
     full = 2 * 637.0 / (2 * PITCH_RADIUS * np.cos(ANGLE))
     slope = friction * np.tan(ANGLE)
     np.testing.assert_allclose(shared.normal_load[:, 0] / full, [1 / (1 - slope), 1 / (1 + slope)], rtol=1e-4)
@@ -146,7 +146,7 @@ def test_equal_gears_share_symmetrically():
     twins = flexibility(assemble(FAMILY, Drive(3e-3, ANGLE, body, body)), (STEEL, STEEL), level=1)
     pitch = 2 * np.pi / 24
     roll = extended_rolls(twins.assembly, (-pitch, pitch), 240)
-    shared = share_load(twins, roll, 300.0)
+    shared = LoadedFlanks(twins).share(roll, 300.0)
     order = np.argsort(roll, axis=None)
     angle, load = roll.ravel()[order], shared.normal_load.ravel()[order]
     np.testing.assert_allclose(angle, -angle[::-1], atol=1e-9)
