@@ -42,7 +42,7 @@ def test_every_change_is_one_other_program(package):
 
 
 def test_tests_are_those_that_name_a_module_and_those_that_depend_on_it():
-    stages = mutants.tests_of("tribodyn.mesh.power_flow", HERE / PACKAGE, HERE / "tests")
+    stages = mutants.tests_of("tribodyn.mesh.quasi_static", HERE / PACKAGE, HERE / "tests")
     near, near_rest, far, far_rest = ({Path(one).name for one in some} for some in stages)
     assert "test_power_flow.py" in near
     assert not near_rest

@@ -16,8 +16,7 @@ from tribodyn.geometry.limits.limits import distances
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
-from tribodyn.mesh.power_flow import friction_loss, mean_efficiency
-from tribodyn.mesh.quasi_static import QuasiStatic, cycle_mean, quasi_static
+from tribodyn.mesh.quasi_static import QuasiStatic, cycle_mean, friction_loss, mean_efficiency, quasi_static
 from tribodyn.mesh.tabulate import tabulate
 from tribodyn.numerics.elementary import absolute, cos, minimum, namespace
 from tribodyn.quantities.motion import LIMITS

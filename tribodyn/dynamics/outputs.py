@@ -24,7 +24,7 @@ from tribodyn.dynamics.parameters import (
     Model,
 )
 from tribodyn.dynamics.recorded import UNRECORDED
-from tribodyn.mesh.power_flow import efficiency
+from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import LocalContact
 from tribodyn.tribology.surface_state import limits_last, surface_and_limits

@@ -28,7 +28,7 @@ from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
 from tribodyn.geometry.path import kinematics
-from tribodyn.mesh.power_flow import efficiency
+from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.elementary import cos, sin, sqrt
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.efficiency.published import exact, hoehn, tip_contact_ratios

@@ -42,6 +42,11 @@ class Steady(NamedTuple):
     pitch_point: float
     contact_ratio: float
 
+    @property
+    def error(self) -> np.ndarray:
+        """Rotational transmission error, m."""
+        return self.data["transmission_error_rotational"]
+
     def single(self) -> np.ndarray:
         """Where one pair alone carries the load."""
         return np.sum(self.data["normal_load"] > 0.0, axis=1) == 1
@@ -108,19 +113,17 @@ def _numbers(crc: Steady, involute: Steady, crc_dry: Steady) -> dict[str, tuple[
     load = float(np.mean(np.sum(crc_dry.data["normal_load"], axis=1)[crc_dry.single()]))
     spectrum = crc_dry.summary["spectrum_amplitudes"], crc_dry.summary["spectrum_frequencies"]
     first = 1 + int(np.argmax(spectrum[0][1:]))
-    friction_crc, friction_involute = (s.summary["friction_force_mean"] for s in (crc, involute))
     weak = "bearings 1e9 N/m"
     return {
         "liu-ni/contact-ratio-crc": (crc.contact_ratio, ""),
         "liu-ni/contact-ratio-involute": (involute.contact_ratio, ""),
         "liu-ni/mesh-frequency": (float(spectrum[1][first]), "largest line of the DTE spectrum"),
-        "liu-ni/load-stcp-6dof": (load, ""),
-        "liu-ni/load-stcp-mbd": (load, ""),
-        "liu-ni/load-stcp-fem": (load, ""),
-        "liu-ni/friction-pair1-crc": (float(friction_crc[1]), weak),
-        "liu-ni/friction-pair0-crc": (float(friction_crc[0]), weak),
-        "liu-ni/friction-pair1-involute": (float(friction_involute[1]), weak),
-        "liu-ni/friction-pair0-involute": (float(friction_involute[0]), weak),
+        **{f"liu-ni/load-stcp-{model}": (load, "") for model in ("6dof", "mbd", "fem")},
+        **{
+            f"liu-ni/friction-pair{pair}-{name}": (float(found.summary["friction_force_mean"][pair]), weak)
+            for name, found in (("crc", crc), ("involute", involute))
+            for pair in (1, 0)
+        },
         "liu-ni/efficiency-crc": (crc.summary["efficiency"], ""),
         "liu-ni/efficiency-involute": (involute.summary["efficiency"], weak),
     }
@@ -142,7 +145,7 @@ def _above(name: str, upper: Steady, lower: Steady) -> tuple[float, str]:
 
 def _jump(wet: Steady, dry: Steady) -> tuple[float, float]:
     """What friction adds to the DTE across the pitch point, and at most elsewhere in single contact, m."""
-    added = wet.data["transmission_error_rotational"] - dry.data["transmission_error_rotational"]
+    added = wet.error - dry.error
 
     def step(at: float) -> float:
         after = (wet.phase > at + NEAR) & (wet.phase < at + FAR)
@@ -161,16 +164,12 @@ def _jump(wet: Steady, dry: Steady) -> tuple[float, float]:
 def _claims(
     crc: Steady, involute: Steady, crc_dry: Steady, involute_dry: Steady
 ) -> dict[str, tuple[Any, str]]:
-    error = {name: s.data["transmission_error_rotational"] for name, s in (("crc", crc), ("inv", involute))}
-    share = float(np.mean(error["crc"] > error["inv"]))
+    share = float(np.mean(crc.error > involute.error))
+    means = [float(np.mean(s.error)) * 1e6 for s in (crc, involute)]
     stiffness = [s.summary["stiffness_single_pair_at_pitch_point"] / 1e6 for s in (crc, involute)]
-    ranges = [
-        float(np.ptp(s.data["transmission_error_rotational"])) * 1e6
-        for s in (crc, crc_dry, involute, involute_dry)
-    ]
+    ranges = [float(np.ptp(s.error)) * 1e6 for s in (crc, crc_dry, involute, involute_dry)]
     raised = [
-        float(end(wet.data["transmission_error_rotational"]) - end(dry.data["transmission_error_rotational"]))
-        * 1e6
+        float(end(wet.error) - end(dry.error)) * 1e6
         for wet, dry in ((crc, crc_dry), (involute, involute_dry))
         for end in (np.max, np.min)
     ]
@@ -192,10 +191,9 @@ def _claims(
     prefix = "liu-ni/claim-"
     return {
         f"{prefix}dte-of-the-crc-drive-above-the-involute-s-lower": (
-            bool(np.mean(error["crc"]) > np.mean(error["inv"])),
-            f"rotational DTE, mean {np.mean(error['crc']) * 1e6:.1f} against "
-            f"{np.mean(error['inv']) * 1e6:.1f} µm, above at {share:.0%} of the phases; "
-            f"through the lower contact ratio: a single CRC pair is the "
+            means[0] > means[1],
+            f"rotational DTE, mean {means[0]:.1f} against {means[1]:.1f} µm, above at {share:.0%} of the "
+            "phases; through the lower contact ratio: a single CRC pair is the "
             f"stiffer, {stiffness[0]:.0f} against {stiffness[1]:.0f} N/µm",
         ),
         f"{prefix}friction-widens-the-range-of-the-dte": (

@@ -116,15 +116,8 @@ class DriveUnderLaw(NamedTuple):
         exact_speeds: bool = False,
     ) -> UnitContact:
         """Return the cycloid with generating circles d_g1, d_g2 over d_1 (one given: both)."""
-        return cycloid_contact(
-            PINION_TEETH,
-            self.pinion_radius,
-            self.ratio,
-            approach_circle,
-            approach_circle if recess_circle is None else recess_circle,
-            rotation,
-            exact_speeds,
-        )
+        circles = approach_circle, approach_circle if recess_circle is None else recess_circle
+        return cycloid_contact(PINION_TEETH, self.pinion_radius, self.ratio, *circles, rotation, exact_speeds)
 
     def involute(self) -> float:
         """Efficiency of the involute."""

@@ -6,8 +6,16 @@ import pytest
 from tests.support.sample_drives import STANDARD
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.flanks.deviations import Limits, deviating, profile_curve, sampled, summed
-from tribodyn.geometry.flanks.modification import FlankModification, Misalignment, Modifications
+from tribodyn.geometry.flanks.modification import (
+    FlankModification,
+    Limits,
+    Misalignment,
+    Modifications,
+    deviating,
+    profile_curve,
+    sampled,
+    summed,
+)
 
 LIMITS = Limits(8e-6, 30e-6, 7e-6, 9e-6, 8e-6)
 SAMPLES = [sampled(LIMITS, 40, seed, 0) for seed in range(400)]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
+from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in
 
 
 def test_what_the_driving_gear_puts_in_less_the_loss():

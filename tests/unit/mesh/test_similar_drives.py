@@ -12,8 +12,7 @@ from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.sheet import geometry_sheet
-from tribodyn.mesh.power_flow import mean_efficiency
-from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static
+from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, mean_efficiency, quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import tabulate
 

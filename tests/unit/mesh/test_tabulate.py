@@ -20,8 +20,7 @@ from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.by_compliance import compliance_remark
-from tribodyn.mesh.power_flow import mean_efficiency
-from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
+from tribodyn.mesh.quasi_static import cycle_mean, mean_efficiency, quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.numerics.curve import interpolate

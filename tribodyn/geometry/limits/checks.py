@@ -19,7 +19,7 @@ from tribodyn.geometry.assembly import (
 from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, tip_circle_radius
 from tribodyn.geometry.families import Family
 from tribodyn.geometry.limits.sizes import advice, boundary, check_sizes, millimetres, replaced, require
-from tribodyn.geometry.tooth import Tooth, flank_point, thickness_half_angle
+from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
 # An overlap below this share of the module is the chord error of the fillet's points.
 _OVERLAP_TOLERANCE = 1e-5
@@ -89,12 +89,17 @@ def _check_root(assembly: Assembly, side: Side) -> None:
         raise InputError(f"drive.{side}.bore_radius", millimetres(body.bore_radius), rule, "use less")
 
 
+def _changed(assembly: Assembly, side: Side, **changes: float) -> Assembly:
+    """Put the drive together with some numbers of one body changed."""
+    return Assembly(assembly.family, replaced(assembly.drive, side, **changes))
+
+
 def _check_rack_corners(assembly: Assembly, side: Side) -> None:
     def fits(**changes: float) -> bool:
-        tooth = Assembly(assembly.family, replaced(assembly.drive, side, **changes)).tooth(side)
+        tooth = _changed(assembly, side, **changes).tooth(side)
         return bool(tooth.corner_x <= tooth.corner_limit)
 
-    if assembly.tooth(side).corner_x <= assembly.tooth(side).corner_limit:
+    if fits():
         return
     body = body_of(assembly.drive, side)
     maximum = boundary(lambda value: fits(fillet_radius=value), body.fillet_radius, 0.0)
@@ -113,23 +118,25 @@ def _check_undercut(assembly: Assembly, side: Side) -> None:
     """Refuse undercut that reaches the active flank; below the lowest contact it does no harm."""
     if not _undercut(assembly, side):
         return
-    family, drive, body = assembly.family, assembly.drive, body_of(assembly.drive, side)
-    tooth = assembly.tooth(side)
+    body, tooth = body_of(assembly.drive, side), assembly.tooth(side)
 
-    def shifted(shift: float) -> Assembly:
-        return Assembly(family, replaced(drive, side, profile_shift=shift))
+    def sound(shift: float) -> bool:
+        return bool(_changed(assembly, side, profile_shift=shift).tooth(side).overrun <= 0)
+
+    def harmless(shift: float) -> bool:
+        return not _undercut(_changed(assembly, side, profile_shift=shift), side)
 
     rule = (
         f"the rack undercuts the working part of the flank up to the radius {millimetres(tooth.form_radius)}"
     )
     otherwise = "use more teeth, a larger pressure angle or a smaller dedendum"
-    if family.parameters:
+    if assembly.family.parameters:
         otherwise = "use more teeth, another shape of the path or a smaller dedendum"
-    if family.shiftable:
+    if assembly.family.shiftable:
         shift = body.profile_shift
-        minimum = boundary(lambda value: bool(shifted(value).tooth(side).overrun <= 0), shift, shift + 2)
+        minimum = boundary(sound, shift, shift + 2)
         if minimum is not None:  # less will do where the undercut stays below the lowest contact
-            minimum = boundary(lambda value: not _undercut(shifted(value), side), shift, minimum)
+            minimum = boundary(harmless, shift, minimum)
         remedy = advice(minimum, "at least", otherwise)
         raise InputError(f"drive.{side}.profile_shift", body.profile_shift, rule, remedy)
     raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, otherwise)
@@ -145,30 +152,29 @@ def _undercut(assembly: Assembly, side: Side) -> bool:
 
 
 def _check_tip(assembly: Assembly, side: Side) -> None:
-    family, drive, tooth = assembly.family, assembly.drive, assembly.tooth(side)
-    body = body_of(drive, side)
+    drive, tooth, body = assembly.drive, assembly.tooth(side), body_of(assembly.drive, side)
 
-    def thickness(cut: Tooth) -> float:
+    def thickness(pair: Assembly) -> float:
+        cut = pair.tooth(side)
         return 2 * float(flank_point(cut, cut.tip_distance)[1])
-
-    def blunt(changed: Drive) -> bool:
-        return thickness(Assembly(family, changed).tooth(side)) > 0
 
     if not tooth.tip_radius > tooth.form_radius:
         rule = f"nothing is left of the flank, which begins at the radius {millimetres(tooth.form_radius)}"
         raise InputError(*_tip_key(drive, side), rule, "use a larger one")
-    if thickness(tooth) > 0:
+    if thickness(assembly) > 0:
         _check_rounding(assembly, side)
         return
-    rule = f"the tip is pointed (thickness {millimetres(thickness(tooth))})"
-    if body.tip_radius is None and family.shiftable and body.profile_shift > 0:
-        maximum = boundary(
-            lambda shift: blunt(replaced(drive, side, profile_shift=shift)), body.profile_shift, 0.0
-        )
+    rule = f"the tip is pointed (thickness {millimetres(thickness(assembly))})"
+    if body.tip_radius is None and assembly.family.shiftable and body.profile_shift > 0:
+
+        def blunt(shift: float) -> bool:
+            return thickness(_changed(assembly, side, profile_shift=shift)) > 0
+
+        maximum = boundary(blunt, body.profile_shift, 0.0)
         if maximum is not None:
             key = f"drive.{side}.profile_shift"
             raise InputError(key, body.profile_shift, rule, f"use at most {maximum:.7g}")
-    _refuse_tip(drive, side, rule, blunt, tooth.form_radius)
+    _refuse_tip(assembly, side, rule, lambda pair: thickness(pair) > 0)
 
 
 def _check_rounding(assembly: Assembly, side: Side) -> None:
@@ -193,31 +199,28 @@ def _tip_key(drive: Drive, side: Side) -> tuple[str, Any]:
     return f"drive.{side}.tip_radius", millimetres(body.tip_radius)
 
 
-def _refuse_tip(drive: Drive, side: Side, rule: str, holds: Callable[[Drive], bool], minimum: float) -> None:
-    """Refuse a tip circle that is too large, naming the largest usable one above the radius `minimum` (m)."""
-    body = body_of(drive, side)
+def _refuse_tip(assembly: Assembly, side: Side, rule: str, holds: Callable[[Assembly], bool]) -> None:
+    """Refuse a tip circle that is too large, naming the largest usable one above the form circle."""
+    body = body_of(assembly.drive, side)
+
+    def usable_at(size: float) -> bool:
+        changes = {"addendum": size} if body.tip_radius is None else {"tip_radius": size / 1e3}
+        return holds(_changed(assembly, side, **changes))
+
     if body.tip_radius is None:
-        usable = boundary(lambda height: holds(replaced(drive, side, addendum=height)), body.addendum, 0.0)
-        unit = ""
+        usable, unit = boundary(usable_at, body.addendum, 0.0), ""
     else:
-        usable = boundary(
-            lambda length: holds(replaced(drive, side, tip_radius=length / 1e3)),
-            1e3 * body.tip_radius,
-            1e3 * minimum,
-        )
-        unit = " mm"
+        smallest = 1e3 * assembly.tooth(side).form_radius
+        usable, unit = boundary(usable_at, 1e3 * body.tip_radius, smallest), " mm"
     remedy = "use a smaller one" if usable is None else f"use at most {usable:.7g}{unit}"
-    raise InputError(*_tip_key(drive, side), rule, remedy)
+    raise InputError(*_tip_key(assembly.drive, side), rule, remedy)
 
 
 def _check_clearance(assembly: Assembly, side: Side) -> None:
-    def clear(drive: Drive) -> bool:
-        return tip_clearance(Assembly(assembly.family, drive), side) > 0
-
     clearance = tip_clearance(assembly, side)
     if not clearance > 0:
         rule = f"the tip reaches {millimetres(-clearance)} below the root circle of the {mate_of(side)}"
-        _refuse_tip(assembly.drive, side, rule, clear, assembly.tooth(side).form_radius)
+        _refuse_tip(assembly, side, rule, lambda pair: tip_clearance(pair, side) > 0)
 
 
 def _check_contact_ratio(assembly: Assembly) -> None:
@@ -264,11 +267,4 @@ def _interference(assembly: Assembly, side: Side) -> str:
 def _check_interference(assembly: Assembly, side: Side) -> None:
     rule = _interference(assembly, side)
     if rule:
-        mate = mate_of(side)
-        _refuse_tip(
-            assembly.drive,
-            mate,
-            rule,
-            lambda drive: not _interference(Assembly(assembly.family, drive), side),
-            assembly.tooth(mate).form_radius,
-        )
+        _refuse_tip(assembly, mate_of(side), rule, lambda pair: not _interference(pair, side))

@@ -10,8 +10,15 @@ from pydantic import Field
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.deviations import Deviations, Limits, deviating, profile_curve, sampled, summed
-from tribodyn.geometry.flanks.modification import Modifications
+from tribodyn.geometry.flanks.modification import (
+    Deviations,
+    Limits,
+    Modifications,
+    deviating,
+    profile_curve,
+    sampled,
+    summed,
+)
 from tribodyn.numerics.curve import Table
 from tribodyn.scenario.quantity import Draws
 from tribodyn.scenario.tables.drive_data import drive_of

@@ -15,8 +15,7 @@ from tribodyn.dynamics.recorded import SAMPLES
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, contacts, settled
-from tribodyn.mesh.power_flow import efficiency
-from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.quasi_static import efficiency, quasi_static
 from tribodyn.studies.efficiency.places import Array, Places, Sharing, piecewise, places
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import range_shares

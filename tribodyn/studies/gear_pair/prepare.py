@@ -25,7 +25,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
 from tribodyn.mesh.equilibrium import contacts, elastic, settled
-from tribodyn.mesh.power_flow import friction_loss
+from tribodyn.mesh.quasi_static import friction_loss
 from tribodyn.numerics.curve import monotone_slopes
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gears.prepare import PreparedGears, assembled, at_tooth_temperature

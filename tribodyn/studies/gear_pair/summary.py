@@ -21,8 +21,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.dynamics.recorded import pair_numbers
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
-from tribodyn.mesh.quasi_static import total_stiffness
+from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in, total_stiffness
 from tribodyn.post.cycles import amplitude_spectrum
 from tribodyn.record.trust import Judge, heat_of
 from tribodyn.studies.gear_pair.prepare import PreparedPair

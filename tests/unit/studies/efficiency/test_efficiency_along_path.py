@@ -10,7 +10,7 @@ from tests.support.closures import LOCAL_LAWS, of_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import family
 from tribodyn.mesh.equilibrium import contacts
-from tribodyn.mesh.power_flow import mean_efficiency
+from tribodyn.mesh.quasi_static import mean_efficiency
 from tribodyn.record.reader import open_record
 from tribodyn.studies.efficiency.along_path import MeshDuty, cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import SHARINGS, places
