@@ -226,11 +226,6 @@ class FilmLaw(_Law):
     `function` is (contact: LocalContact, surfaces: Surfaces, parameters) -> (ln of the film of smooth
     surfaces in m, factor by which roughness raises it, share of the load that asperities carry, 0 … 1); a law
     of smooth surfaces returns 1.0 and 0.0 for the last two. `in_range` takes the same arguments.
-
-    Parameters
-    ----------
-    thickness : {"central", "minimum"}
-        Which thickness of the film it gives.
     """
 
     table: ClassVar[str] = "film"

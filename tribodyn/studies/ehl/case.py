@@ -111,9 +111,6 @@ def estimate(case: EhlCase) -> Estimate:
         (Driver("output.positions", float(case.positions), 40),),
         recorded(layout_of(case.transient), sizes, copies=4.0),
         solved_contacts(
-            case.positions,
-            case.positions + _TRACTION,
-            squeeze=case.transient,
-            coarseness=case.step / STEP,
+            case.positions, case.positions + _TRACTION, squeeze=case.transient, coarseness=case.step / STEP
         ),
     )

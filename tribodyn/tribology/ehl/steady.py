@@ -24,12 +24,7 @@ from tribodyn.tribology.ehl.reynolds import (
     newtonian,
     residual,
 )
-from tribodyn.tribology.ehl.rough import (
-    Reduced,
-    RoughReduced,
-    rough_residual,
-    with_films,
-)
+from tribodyn.tribology.ehl.rough import Reduced, RoughReduced, rough_residual, with_films
 from tribodyn.tribology.film.moes import log_survey
 
 #: Mass and force balance: largest residual of a face over the flow, and of the load over the load.

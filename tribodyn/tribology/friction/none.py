@@ -27,9 +27,5 @@ def _none(given: LawInput) -> Any:
 
 
 LAW = FrictionLaw(
-    "none",
-    "frictionless flanks; the film is still reported",
-    no_friction,
-    _none,
-    flash_temperature=no_heat,
+    "none", "frictionless flanks; the film is still reported", no_friction, _none, flash_temperature=no_heat
 )
