@@ -64,7 +64,7 @@ class Network(NamedTuple):
 
     @property
     def holds_oil(self) -> bool:
-        """Whether the oil is held at its temperature: it gives off its heat nowhere that is said."""
+        """Whether the oil is held at its temperature: nothing is given that carries its heat away."""
         return self.oil_flow == 0.0 and self.housing_ambient == 0.0
 
 

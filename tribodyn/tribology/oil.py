@@ -57,7 +57,7 @@ PRESSURE_VISCOSITY: dict[OilType, tuple[float, float]] = {
     "pao": (1.466e-8, 0.0507),
     "pag": (1.392e-8, 0.1572),
 }
-#: α = s ν^t of saturated esters, 1/Pa, ν in mm²/s at the temperature asked for: Gold et al., J. Synthetic
+#: α = s ν^t of saturated esters, 1/Pa, ν in mm²/s at the requested temperature: Gold et al., J. Synthetic
 #: Lubrication 18 (2001) 51; ISO/TR 15144-1 gives no ester. From memory of the literature, not checked against
 #: the paper: give pressure_viscosity where it is known.
 ESTER = (6.605e-9, 0.1360)

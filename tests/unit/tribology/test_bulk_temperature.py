@@ -140,7 +140,7 @@ def test_bounds_hold_either_temperature(to):
         return to
 
     assert fixed_point(step, (340.0, 350.0), (230.0, 450.0)) == to
-    assert all(230.0 <= one <= 450.0 for here in tried for one in here)
+    assert all(230.0 <= value <= 450.0 for here in tried for value in here)
 
 
 def test_steps_below_a_hundredth_of_a_kelvin_are_found():

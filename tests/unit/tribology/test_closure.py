@@ -38,21 +38,21 @@ def flanks():
     whole = (R1 + R2) * math.sin(ALPHA)
     at_gear_tip = whole - math.sqrt((R2 + 3e-3) ** 2 - (R2 * math.cos(ALPHA)) ** 2)
     at_pinion_tip = math.sqrt((R1 + 3e-3) ** 2 - (R1 * math.cos(ALPHA)) ** 2)
-    one = np.linspace(at_gear_tip, at_pinion_tip, 81)
-    return one, whole - one
+    first = np.linspace(at_gear_tip, at_pinion_tip, 81)
+    return first, whole - first
 
 
 def test_duty_of_involute_gears(case):
     """A quarter of the whole load to one and a half of it; 0.8 to 1.2 times the speeds; what the path has."""
     duty = duty_range(case)
-    one, two = flanks()
+    first, two = flanks()
     load = TORQUE / (R2 * math.cos(ALPHA)) / WIDTH
     assert duty.line_load == pytest.approx((0.25 * load, 1.5 * load))
     assert nominal_line_load(duty) == pytest.approx(load)
-    entrainment, sliding = (OMEGA * (one + sign * two * R1 / R2) for sign in (1, -1))
+    entrainment, sliding = (OMEGA * (first + sign * two * R1 / R2) for sign in (1, -1))
     entrainment, ratio = 0.5 * entrainment, 2.0 * np.abs(sliding / entrainment)
     assert duty.entrainment == pytest.approx((0.8 * entrainment.min(), 1.2 * entrainment.max()))
-    curvature = 1 / one + 1 / two
+    curvature = 1 / first + 1 / two
     assert duty.curvature == pytest.approx((0.99 * curvature.min(), 1.01 * curvature.max()))
     assert duty.slide_to_roll == pytest.approx((0.02, 1.05 * ratio.max()))
     expected = np.stack([entrainment, curvature, ratio], axis=1)
@@ -62,8 +62,8 @@ def test_duty_of_involute_gears(case):
 def test_speed_and_torque_turn_either_way_but_must_not_vanish(case):
     turned = replace(case.operating, pinion_speed=-2 * OMEGA, gear_torque=-3 * TORQUE)
     duty, base = duty_range(replace(case, operating=turned)), duty_range(case)
-    assert duty.line_load == pytest.approx([3 * one for one in base.line_load])
-    assert duty.entrainment == pytest.approx([2 * one for one in base.entrainment])
+    assert duty.line_load == pytest.approx([3 * load for load in base.line_load])
+    assert duty.entrainment == pytest.approx([2 * speed for speed in base.entrainment])
     assert duty.slide_to_roll == pytest.approx(base.slide_to_roll)
     for name in ("pinion_speed", "gear_torque"):
         resting = replace(case, operating=replace(case.operating, **{name: 0.0}))
@@ -112,13 +112,13 @@ def test_mean_coefficients_read_the_oil_around_the_gears(case):
 
 def test_surfaces_of_unlike_steels(case):
     """2/E' = Σ (1 − ν²)/E; the softer one's hardness; heat capacities per volume."""
-    one, two = case.materials
-    one = replace(one, youngs_modulus=2.1e11, poisson_ratio=0.28, hardness=3e9, density=7700.0)
+    first, two = case.materials
+    first = replace(first, youngs_modulus=2.1e11, poisson_ratio=0.28, hardness=3e9, density=7700.0)
     two = replace(two, thermal_conductivity=37.0, specific_heat=480.0)
-    found = surfaces_of(replace(case, materials=(one, two)))
+    found = surfaces_of(replace(case, materials=(first, two)))
     assert 2 / found.effective_modulus == pytest.approx((1 - 0.28**2) / 2.1e11 + 0.91 / 2.06e11)
     assert found.hardness == 2.3e9
-    assert surfaces_of(replace(case, materials=(two, one))).hardness == 2.3e9
+    assert surfaces_of(replace(case, materials=(two, first))).hardness == 2.3e9
     assert (found.roughness, found.mean_roughness) == (case.roughness, case.mean_roughness)
     assert (found.inlet_viscosity, found.pressure_viscosity) == (0.35, case.lubricant.pressure_viscosity)
     assert (found.pinion_conductivity, found.gear_conductivity) == (60.5, 37.0)

@@ -81,7 +81,7 @@ def rigid_cylinder():
     def pressure(to, outlet):
         return quad(lambda xi: (xi * xi - outlet * outlet) / (1 + xi * xi) ** 3, -np.inf, to)[0]
 
-    outlet = brentq(lambda one: pressure(one, one), 0.1, 1.0)
+    outlet = brentq(lambda end: pressure(end, end), 0.1, 1.0)
     # the load ∫ P dξ by parts
     load = -quad(lambda xi: xi * (xi * xi - outlet * outlet) / (1 + xi * xi) ** 3, -np.inf, outlet)[0]
     return outlet, pressure(-outlet, outlet), load

@@ -59,11 +59,11 @@ def test_a_law_has_the_values_of_its_keys_as_parameters():
 
 def test_film_and_friction_are_chosen_separately():
     case = load_scenario("crc-23-47", {"friction.law": "masjedi-khonsari-as-printed"})
-    assert [one.name for one in laws_of(case)] == ["masjedi-khonsari-as-printed"] * 2
+    assert [chosen.name for chosen in laws_of(case)] == ["masjedi-khonsari-as-printed"] * 2
     case = load_scenario("crc-23-47", {"friction.law": "xu"})
-    assert [one.name for one in laws_of(case)] == ["masjedi-khonsari", "xu"]
+    assert [chosen.name for chosen in laws_of(case)] == ["masjedi-khonsari", "xu"]
     case = load_scenario("crc-23-47", {"friction.law": "xu", "film.law": "moes"})
-    assert [one.name for one in laws_of(case)] == ["moes", "xu"]
+    assert [chosen.name for chosen in laws_of(case)] == ["moes", "xu"]
     assert case.film == FilmData("moes", {})
 
 
@@ -87,9 +87,9 @@ def test_a_run_flags_the_range_of_its_friction_law(tmp_path):
 
 def test_variants_share_their_machine_code():
     """They differ in numbers alone, which no kernel has compiled in."""
-    one, other = under("masjedi-khonsari"), under("masjedi-khonsari-mean-pressure")
-    assert packed(one).layout == packed(other).layout
-    assert packed(one).words != packed(other).words
+    plain, other = under("masjedi-khonsari"), under("masjedi-khonsari-mean-pressure")
+    assert packed(plain).layout == packed(other).layout
+    assert packed(plain).words != packed(other).words
 
 
 def test_without_friction_a_model_has_none(prepared):
@@ -156,8 +156,8 @@ def test_a_changed_source_or_number_is_another_function(tmp_path):
     helper = 'def helper(x):\n    """{}"""\n    return FACTOR * x\n'
     text = "FACTOR = {}\n" + helper + "def function(x):\n    return helper(x){}\n"
     texts = [("2.0", "", ""), ("3.0", "", ""), ("2.0", "", " + 1.0"), ("2.0", "Other words.", "  # same")]
-    made = [_module(tmp_path, f"module{i}", text.format(*one)).function for i, one in enumerate(texts)]
-    identities = [packed(one).layout.identity for one in made]
+    made = [_module(tmp_path, f"module{i}", text.format(*values)).function for i, values in enumerate(texts)]
+    identities = [packed(function).layout.identity for function in made]
     assert len(set(identities)) == 3
     assert identities[0] == identities[3]
 

@@ -140,8 +140,8 @@ def test_limits_of_mean_coefficients(law, speed, torque):
     assert found == pytest.approx(wanted)
     # the whole mesh has it, whatever the contact
     laws = closure(given, FILM_LAWS["moes"], law)
-    one, other = (range_shares(local_contact(4e5, 90.0, 1.0, v, 1.2, 0.8), laws)[1] for v in (0.0, 0.7))
-    assert one == other == pytest.approx(wanted)
+    rolling, other = (range_shares(local_contact(4e5, 90.0, 1.0, v, 1.2, 0.8), laws)[1] for v in (0.0, 0.7))
+    assert rolling == other == pytest.approx(wanted)
 
 
 def test_limits_of_a_table_are_its_ends():
@@ -180,8 +180,8 @@ def test_ratios_to_the_solved_contact_are_those_of_the_page():
         law = (FILM_LAWS if table == "film" else FRICTION_LAWS)[name]
         assert law.judged is not None
         assert law.judged.right == (float(low), float(high))
-        assert list(law.judged.ratio) == [float(one) for one in ratio.split(",")], name
+        assert list(law.judged.ratio) == [float(part) for part in ratio.split(",")], name
         named = [] if limits == "none found" else limits.split(", ")
         assert list(law.limits[len(law.limits) - law.judged.limits :]) == named
         own = law.limits[: len(law.limits) - law.judged.limits]
-        assert law.named_limits == (*own, *(f"{one} (judged)" for one in named))
+        assert law.named_limits == (*own, *(f"{limit} (judged)" for limit in named))

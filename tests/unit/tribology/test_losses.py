@@ -75,13 +75,13 @@ def test_changenet_velex_in_every_regime(rpm, immersion):
 
 def test_a_gear_wholly_below_the_level_is_wetted_all_over():
     """Deeper than its diameter wets no more: only (h/D)^0.45 goes on."""
-    deep = [changenet_velex(WHEEL._replace(immersion=one), *OIL, 1e-3).power for one in (0.2, 0.25)]
+    deep = [changenet_velex(WHEEL._replace(immersion=depth), *OIL, 1e-3).power for depth in (0.2, 0.25)]
     assert deep[1] / deep[0] == pytest.approx((247 / 197) ** 0.45)
 
 
 def test_iso_14179_1_at_its_ends():
     """Immersed wholly f_g = 1; fine teeth: R_f is not below zero, and the limit is said."""
-    whole, deeper = (iso_14179_1(WHEEL._replace(immersion=one), *OIL).power for one in (165e-3, 0.3))
+    whole, deeper = (iso_14179_1(WHEEL._replace(immersion=depth), *OIL).power for depth in (165e-3, 0.3))
     assert whole == deeper
     assert whole == pytest.approx(iso_14179_1(WHEEL, *OIL).power * 165 / 40)
     for module, limits in ((0.5e-3, ("module ≥ 1 mm",)), (1e-3, ()), (3e-3, ())):
@@ -126,19 +126,19 @@ def test_losses_of_both_gears_are_added_and_limits_said_once():
     gear = WHEEL._replace(module=0.9e-3)
     drags = BearingDragData(60e-3, 2.0, 2), BearingDragData(80e-3, 3.0, 1)
     for churning, each in (
-        ("iso-14179-1", lambda one: iso_14179_1(one, *OIL)),
-        ("changenet-velex", lambda one: changenet_velex(one, *OIL, 1.7e-3)),
+        ("iso-14179-1", lambda wheel: iso_14179_1(wheel, *OIL)),
+        ("changenet-velex", lambda wheel: changenet_velex(wheel, *OIL, 1.7e-3)),
     ):
         for windage, blown in (("dawson", dawson), ("anderson-loewenthal", anderson_loewenthal)):
-            asked = LossData(churning, windage, "palmgren", 11e-3, 40e-3, 1.7e-3, drags)
-            found = losses_of_pair(asked, (pinion, gear), *OIL)
+            requested = LossData(churning, windage, "palmgren", 11e-3, 40e-3, 1.7e-3, drags)
+            found = losses_of_pair(requested, (pinion, gear), *OIL)
             assert found["churning"].power == pytest.approx(each(pinion).power + each(gear).power)
             assert found["windage"].power == pytest.approx(blown(pinion).power + blown(gear).power)
             assert len(found["churning"].exceeded) == (churning == "iso-14179-1")
             shafts = [
-                palmgren(drag, one.speed, *OIL) for one, drag in zip((pinion, gear), drags, strict=True)
+                palmgren(drag, wheel.speed, *OIL) for wheel, drag in zip((pinion, gear), drags, strict=True)
             ]
-            assert found["bearings"].power == pytest.approx(sum(one.power for one in shafts))
+            assert found["bearings"].power == pytest.approx(sum(wheel.power for wheel in shafts))
 
 
 def test_a_gear_that_does_not_dip_churns_nothing():

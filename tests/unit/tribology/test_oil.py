@@ -91,7 +91,7 @@ def test_limiting_shear_and_boundary_friction_are_those_measured():
     by_type = {kind: lubricant_from(OilSheet(kind, 97e-6, 10e-6, 870.0), T_80) for kind in OIL_TYPES}
     assert by_type["mineral"].limiting_shear_coefficient == 0.047
     assert by_type["pao"].limiting_shear_coefficient == 0.035
-    assert {one.asperity_friction for one in by_type.values()} == {0.065}
+    assert {known.asperity_friction for known in by_type.values()} == {0.065}
     assert oil.LIMITING_SHEAR["mineral"].spread == (0.047, 0.053)
 
 
@@ -134,8 +134,12 @@ def test_an_oil_without_a_data_sheet_is_mineral_75w90():
     """Niemann's exponent of 75W90 for a lubricant factor, Schlenk's factor of mineral oil; FZG at 90 °C."""
     plain = LubricantData(0.11, 0.06, 0.01, 1.5e-8, 0.58, 0.03, 820.0)
     mean = NominalConditions(4e3, 0.027, 0.054, 0.35, 150.0, 0.02, 0.025, 840.0, 8e-7, 0.0651)
-    for one in (plain, mean):
-        assert (one.load_exponent, one.lubricant_factor, one.schlenk_factor) == (0.0651, 1.0, 0.846)
+    for lubricant in (plain, mean):
+        assert (lubricant.load_exponent, lubricant.lubricant_factor, lubricant.schlenk_factor) == (
+            0.0651,
+            1.0,
+            0.846,
+        )
     assert plain.fzg == (FzgStages(None, None, 90.0 + 273.15))
     assert lubricant_around(plain) is plain
     known = oil_values(
@@ -144,7 +148,7 @@ def test_an_oil_without_a_data_sheet_is_mineral_75w90():
     assert known["density"] == (820.0, "kg/m3", "given", None)
     assert known["limiting_shear_coefficient"][1:] == ("1", oil.LIMITING_SHEAR["pao"].source, (0.03, 0.04))
     assert known["asperity_friction"].origin == "given"
-    assert all(one.origin == "given" for one in oil_values(plain).values())
+    assert all(value.origin == "given" for value in oil_values(plain).values())
     untyped = oil_values(replace(plain, given=frozenset(oil.UNITS) - {"schlenk_factor", "load_exponent"}))
     assert untyped["schlenk_factor"].origin.startswith("default: mineral")
     assert "75W90" in untyped["load_exponent"].origin
@@ -157,7 +161,7 @@ def test_coefficients_by_type_are_those_of_the_page():
         (row,) = re.findall(rf"^\| `{name}` \|(.+)$", page, re.MULTILINE)
         cells, first = row.split("|")[:4], row.split("|")[0]
         for kind, cell in zip(("mineral", "pao", "ester", "pag"), cells, strict=True):
-            numbers = [float(one) for one in re.findall(r"[\d.]+", first if "same" in cell else cell)]
+            numbers = [float(text) for text in re.findall(r"[\d.]+", first if "same" in cell else cell)]
             found = oil.by_type(kind)[name]
             assert found.value == numbers[0]
             assert found.spread == (tuple(numbers[1:]) or None), (name, kind)

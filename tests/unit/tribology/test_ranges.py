@@ -30,12 +30,12 @@ def test_a_limit_is_exceeded_by_the_actual_over_the_allowed():
     W = np.array([0.1 * FITTED_RANGE["W"][0], 1e-4, *(np.array([2.0, 4.0]) * FITTED_RANGE["W"][1])])
     contact = contacts(W * modulus / 100.0)
     film, _ = range_shares(contact, laws)
-    found = {one["limit"]: one for one in exceeded(film, FILM_LAWS["masjedi-khonsari"].limits).values()}
+    found = {entry["limit"]: entry for entry in exceeded(film, FILM_LAWS["masjedi-khonsari"].limits).values()}
     assert found["W ≤ 5e-4"]["factor"] == pytest.approx(4.0)
     assert found["W ≤ 5e-4"]["share"] == pytest.approx(0.5)
     assert found["W ≥ 2e-5"]["factor"] == pytest.approx(10.0)
     assert found["W ≥ 2e-5"]["share"] == pytest.approx(0.25)
-    others = [one for limit, one in found.items() if not limit.startswith("W")]
+    others = [entry for limit, entry in found.items() if not limit.startswith("W")]
     inside = np.array([False, True, False, False]) & (not others)
     np.testing.assert_array_equal(surface_state(contact, laws).closure_in_range, inside)
 
@@ -44,7 +44,7 @@ def test_limits_by_the_solved_contact_are_named():
     """So fast that L is beyond what the contact bears out, by the factor that the speed gives."""
     law = FILM_LAWS["moes"]
     shares, _ = range_shares(contacts([4e5], entrainment=1e3), under("none", film="moes"))
-    found = {one["limit"]: one["factor"] for one in exceeded(shares, law.named_limits).values()}
+    found = {entry["limit"]: entry["factor"] for entry in exceeded(shares, law.named_limits).values()}
     assert set(found) <= {f"{limit} (judged)" for limit in law.limits}
     laws = under("none", film="moes").surfaces
     sum_speed = 2.0 * 1e3 * 100.0 * laws.inlet_viscosity / laws.effective_modulus

@@ -18,10 +18,10 @@ from tribodyn.tribology.trial import try_laws
 def tried(film: Any = None, friction: Any = None, **functions: Any) -> None:
     """Try one law of a function, the other one of the package."""
     if film is not None:
-        one, other = FilmLaw("mine", "", film, **functions), FRICTION_LAWS["none"]
+        tested, other = FilmLaw("mine", "", film, **functions), FRICTION_LAWS["none"]
     else:
-        one, other = FILM_LAWS["moes"], FrictionLaw("mine", "", friction, **functions)
-    try_laws(one, other, closure(LIU_NI, one, other))
+        tested, other = FILM_LAWS["moes"], FrictionLaw("mine", "", friction, **functions)
+    try_laws(tested, other, closure(LIU_NI, tested, other))
 
 
 def twice(x):

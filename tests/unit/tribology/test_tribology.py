@@ -108,7 +108,7 @@ def test_variants_are_what_they_say(law, variant):
 def test_the_asperity_load_is_held_at_all_of_it():
     """Over 0.99 … 1.01 a parabola leads from the ratio to one; very rough surfaces overflow nothing."""
     W, U, G, S, V = 2e-4, 3e-11, 4700.0, 4e-5, 0.011
-    logs = [math.log(one) for one in (W, U, G, S, V)]
+    logs = [math.log(group) for group in (W, U, G, S, V)]
     plain = 5e-5 * W**-0.408 * U**-0.088 * G**0.103
     inner = math.log(S**6.015 * V**1.168 * W**0.485 * U**-3.741 * G**-2.898)
     for ratio in (0.5, 0.985, 0.993, 1.0, 1.006, 1.02, 3.0):
@@ -191,8 +191,8 @@ def test_flash_temperature_by_hand():
         pinion_conductivity=k[0], gear_conductivity=k[1], pinion_heat_capacity=c[0], gear_heat_capacity=c[1]
     )
     conducted = sum(
-        one * math.sqrt(1 + a * abs(speed) * heat / (2 * one))
-        for speed, one, heat in zip(speeds, k, c, strict=True)
+        conductivity * math.sqrt(1 + a * abs(speed) * heat / (2 * conductivity))
+        for speed, conductivity, heat in zip(speeds, k, c, strict=True)
     )
     rise = flash_temperature_rise(q, a, *speeds, solids)
     assert rise == pytest.approx(2 * a * q / math.sqrt(math.pi) / conducted, rel=1e-12)

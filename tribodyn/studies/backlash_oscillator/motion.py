@@ -20,10 +20,10 @@ from tribodyn.solve.orbit.motions import Marched, Tangent
 
 #: Columns of a row of parameters: ζ, F_m, F_e, ε, Ω.
 DAMPING, MEAN_FORCE, ERROR_AMPLITUDE, STIFFNESS_VARIATION, FREQUENCY = range(5)
-#: Columns of a row of figures: integrals over time of x and x², time without contact and with contact on the
+#: Columns of a row of measures: integrals over time of x and x², time without contact and with contact on the
 #: back side (x < −1), maximum and minimum x.
 INTEGRAL, SQUARE, FREE, BACK, MAXIMUM, MINIMUM = range(6)
-FIGURES = 6
+MEASURES = 6
 
 #: Degree of the Taylor polynomials.
 DEGREE = 24
@@ -128,7 +128,7 @@ def _until_corner(a, step, corner, direction, on_corner):
 
 
 @kernel
-def _record(a, step, side, figures):
+def _record(a, step, side, measures):
     """Add a step to the integrals and extremes of a row."""
     first = 0.0
     second = 0.0
@@ -142,12 +142,12 @@ def _record(a, step, side, figures):
             other *= step
         second += a[i] * power * inner
         power *= step
-    figures[INTEGRAL] += first
-    figures[SQUARE] += second
+    measures[INTEGRAL] += first
+    measures[SQUARE] += second
     if side == 0:
-        figures[FREE] += step
+        measures[FREE] += step
     if side == -1:
-        figures[BACK] += step
+        measures[BACK] += step
     parts = 8
     before = a[1]
     for part in range(1, parts + 1):
@@ -164,13 +164,13 @@ def _record(a, step, side, figures):
                     high = place
         for at in (place, t):
             value = _value(a, at)
-            figures[MAXIMUM] = max(figures[MAXIMUM], value)
-            figures[MINIMUM] = min(figures[MINIMUM], value)
+            measures[MAXIMUM] = max(measures[MAXIMUM], value)
+            measures[MINIMUM] = min(measures[MINIMUM], value)
         before = after
 
 
 @kernel
-def _advance(state, parameters, periods, strobes, tangent, figures, with_tangent, with_figures, buffer):
+def _advance(state, parameters, periods, strobes, tangent, measures, with_tangent, with_measures, buffer):
     """March one row; returns its status."""
     frequency = parameters[FREQUENCY]
     duration = 2.0 * math.pi / frequency
@@ -201,8 +201,8 @@ def _advance(state, parameters, periods, strobes, tangent, figures, with_tangent
                 until = _until_corner(a, step, corner, direction, on_corner)
                 if until < step:
                     step, turned = until, other
-            if with_figures:
-                _record(a, step, side, figures)
+            if with_measures:
+                _record(a, step, side, measures)
             x, v = _value(a, step), _slope(a, step)
             if with_tangent:
                 for column, d in ((0, b), (1, c)):
@@ -223,24 +223,24 @@ class Rows(NamedTuple):
 
     strobes: Float[Array, "row period 2"]  # states after every period
     tangents: Float[Array, "row 2 2"]  # the identity before, the derivative of the last state after
-    figures: Float[Array, "row figure"]  # zeros before, extremes ∓inf
+    measures: Float[Array, "row figure"]  # zeros before, extremes ∓inf
     status: Int[Array, " row"]
 
 
 @kernel
-def march_rows(states, parameters, periods, into, with_tangent, with_figures, buffer):
+def march_rows(states, parameters, periods, into, with_tangent, with_measures, buffer):
     """March rows (R, 2) with parameters (R, 5) over some periods; fills `into`, a `Rows`."""
     for row in range(states.shape[0]):
-        strobes, tangent, figures = into.strobes[row], into.tangents[row], into.figures[row]
+        strobes, tangent, measures = into.strobes[row], into.tangents[row], into.measures[row]
         into.status[row] = _advance(
             states[row],
             parameters[row],
             periods,
             strobes,
             tangent,
-            figures,
+            measures,
             with_tangent,
-            with_figures,
+            with_measures,
             buffer,
         )
 
@@ -270,23 +270,23 @@ class OscillatorMap:
         rows, reasons = self._run(states, cases, periods, True, False)
         return Tangent(rows.strobes[:, -1], rows.tangents, reasons)
 
-    def figures(
+    def measures(
         self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int
     ) -> Float[Array, "row figure"]:
         """Integrals and extremes (R, 6) over some periods, see INTEGRAL and the others."""
-        return self._run(states, cases, periods, False, True)[0].figures
+        return self._run(states, cases, periods, False, True)[0].measures
 
     def _run(
-        self, states: np.ndarray, cases: np.ndarray, periods: int, with_tangent: bool, with_figures: bool
+        self, states: np.ndarray, cases: np.ndarray, periods: int, with_tangent: bool, with_measures: bool
     ) -> tuple[Rows, list[str]]:
         count = len(states)
         into = Rows(
             strobes=np.full((count, periods, 2), np.nan),
             tangents=np.tile(np.eye(2), (count, 1, 1)),
-            figures=np.zeros((count, FIGURES)),
+            measures=np.zeros((count, MEASURES)),
             status=np.zeros(count, dtype=np.int64),
         )
-        into.figures[:, MAXIMUM], into.figures[:, MINIMUM] = -np.inf, np.inf
+        into.measures[:, MAXIMUM], into.measures[:, MINIMUM] = -np.inf, np.inf
         begin, buffer = np.ascontiguousarray(states, dtype=float), np.zeros((4, DEGREE + 1))
-        march_rows(begin, self.parameters[cases], periods, into, with_tangent, with_figures, buffer)
+        march_rows(begin, self.parameters[cases], periods, into, with_tangent, with_measures, buffer)
         return into, [REASONS.get(int(code), "") for code in into.status]

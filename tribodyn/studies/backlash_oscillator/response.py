@@ -155,21 +155,21 @@ def at_rest(mean_force: float) -> float:
 def measured(
     oscillator: OscillatorMap, states: np.ndarray, cases: np.ndarray, periods: int
 ) -> dict[str, np.ndarray]:
-    """Figures of motions over some periods, by their names in `Response`."""
-    figures = oscillator.figures(states, cases, periods)
+    """Measures of motions over some periods, by their names in `Response`."""
+    sums = oscillator.measures(states, cases, periods)
     duration = periods * 2.0 * np.pi / oscillator.parameters[cases, FREQUENCY]
-    mean = figures[:, INTEGRAL] / duration
+    mean = sums[:, INTEGRAL] / duration
     return {
         "mean": mean,
-        "rms": np.sqrt(np.maximum(figures[:, SQUARE] / duration - mean * mean, 0.0)),
-        "peak_to_peak": figures[:, MAXIMUM] - figures[:, MINIMUM],
-        "free": figures[:, FREE] / duration,
-        "back": figures[:, BACK] / duration,
+        "rms": np.sqrt(np.maximum(sums[:, SQUARE] / duration - mean * mean, 0.0)),
+        "peak_to_peak": sums[:, MAXIMUM] - sums[:, MINIMUM],
+        "free": sums[:, FREE] / duration,
+        "back": sums[:, BACK] / duration,
     }
 
 
 def measured_branch(case: BacklashOscillatorCase, end: int, branch: UnstableBranch) -> MeasuredBranch:
-    """A branch with the figures of its motions; `end` is the place of the end before it."""
+    """A branch with the measures of its motions; `end` is the place of the end before it."""
     oscillator, cases = oscillator_at(case, branch.values), np.arange(len(branch.values))
     return MeasuredBranch(end, branch, measured(oscillator, branch.states, cases, branch.period))
 

@@ -45,7 +45,7 @@ def run(
     path = target(case, output, force)
     begun = perf_counter()
     response = frequency_response(case, progress)
-    summary = response_figures(response) | {"wall_time": perf_counter() - begun}
+    summary = response_summary(response) | {"wall_time": perf_counter() - begun}
     scales = {"direction": np.array(["up", "down"]), "multiplier": np.array([1, 2])}
     if response.ends:
         scales["end"] = np.arange(1, len(response.ends) + 1)
@@ -72,7 +72,7 @@ def quantities_of(case: BacklashOscillatorCase) -> dict[str, Any]:
     response = frequency_response(case)
     if np.all(response.kind == FAILED):
         raise SimulationError(response.messages[0][2])
-    return response_figures(response)
+    return response_summary(response)
 
 
 def record_arrays(response: Response) -> dict[str, Any]:
@@ -132,8 +132,8 @@ def described(beyond: MeasuredBranch) -> str:
     )
 
 
-def response_figures(response: Response) -> dict[str, Any]:
-    """Figures of the whole sweep."""
+def response_summary(response: Response) -> dict[str, Any]:
+    """Summary of the whole sweep."""
     frequency, rms, kind = response.frequency, response.rms, response.kind
     summary: dict[str, Any] = {
         "points": int(kind.size),
@@ -182,13 +182,13 @@ def _maximum(values: np.ndarray) -> float | None:
 
 def check(case: BacklashOscillatorCase) -> CheckResult:
     """Print what linear theory predicts."""
-    figures = linear_figures(case)
-    rows = [(name, "none" if value is None else f"{value:.6g}") for name, value in figures.items()]
+    predicted = linear_theory(case)
+    rows = [(name, "none" if value is None else f"{value:.6g}") for name, value in predicted.items()]
     table = TextTable("Linear theory, while contact lasts", ("quantity", "value"), rows)
-    return CheckResult({"linear": figures}, (table,))
+    return CheckResult({"linear": predicted}, (table,))
 
 
-def linear_figures(case: BacklashOscillatorCase) -> dict[str, float | None]:
+def linear_theory(case: BacklashOscillatorCase) -> dict[str, float | None]:
     """Number of frequencies, and by linear theory at constant stiffness the quantities of the sweep.
 
     `resonance` is the frequency of the largest amplitude; `contact_loss_from` the lowest frequency at which

@@ -13,7 +13,7 @@ from tribodyn.studies.protocol.part import Contribution, Findings, ReportCurve, 
 _TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-contact-samples"
 #: Mesh cycles in which a deviating tooth is seen from its entry to its exit, up to ε_α = 3.
 _CYCLES = 3
-_FIGURES = (
+_QUANTITIES = (
     "contact_ratio",
     "contact_ratio_effective",
     "stiffness_single_pair_at_pitch_point",
@@ -70,7 +70,7 @@ def _with_deviating_tooth(drive: Mapping[str, Any], deviation: float) -> dict[st
 
 
 def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
-    """Figures, loads and pressures of one pair over its roll angle, and the error over the torque."""
+    """Quantities, loads and pressures of one pair over its roll angle, and the error over the torque."""
     from tribodyn.studies.load_contact.maps import over_roll
 
     summary = done[_TASK].summary
@@ -78,11 +78,11 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         roll, load = over_roll(record, record["normal_load"])
         _, pressure = over_roll(record, np.max(record["hertz_pressure"], axis=-1))
         torques, spread = record["torque"], record["map_peak_to_peak"]
-    figures: dict[str, Any] = {name: summary[name] for name in _FIGURES if name in summary}
+    found: dict[str, Any] = {name: summary[name] for name in _QUANTITIES if name in summary}
     accurate = summary.get("shared_load_max")
     deviating = done[_DEVIATING].summary.get("shared_load_max")
     if deviating is not None and accurate is not None:
-        figures["transverse_load_factor"] = transverse_load_factor(deviating, accurate)
+        found["transverse_load_factor"] = transverse_load_factor(deviating, accurate)
     rows = done[_SAMPLES].rows if _SAMPLES in done else {}
     scattered = {name: rows[name] for name in _SCATTERED} if rows else {}
     if rows and accurate is not None:
@@ -98,7 +98,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         {"": 1e6 * np.asarray(spread)},
         request.gear_torque,
     )
-    return Findings(figures, along, (curve,), scattered)
+    return Findings(found, along, (curve,), scattered)
 
 
 ROLE = Contribution(1, "Loaded contact", tasks, answer)

@@ -222,7 +222,7 @@ def torque_residual(study: PreparedTeeth, loaded: LoadedContact) -> Float[Array,
 
 
 def loaded_quantities(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Any]:
-    """Figures of the summary, SI units."""
+    """Quantities of the summary, SI units."""
     worst = np.unravel_index(np.argmax(loaded.line_load), loaded.line_load.shape)
     position, pair = np.unravel_index(np.argmin(np.abs(loaded.roll)), loaded.roll.shape)
     tension, compression = loaded.root_tension, loaded.root_compression

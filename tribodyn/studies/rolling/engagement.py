@@ -40,7 +40,7 @@ class RollingFriction(NamedTuple):
 
 
 class ElementStates(NamedTuple):
-    """Every element at every instant; arrays (time, element), or (time,) where said."""
+    """Every element at every instant; arrays (time, element), or (time,) where stated."""
 
     element_angle: Array  # φ, 0 … 2π, rad
     #: cam_distance, crown_distance: L_A and L_B, distances of the contacts from the pitch point, m

@@ -171,7 +171,7 @@ class RevolutionStatistics:
         self.efficiency.append(state.efficiency)
 
     def summary(self, case: RollingCase) -> dict[str, Any]:
-        """Return the figures of the run."""
+        """Return the summary of the run."""
         mean = {name: total / self.count for name, total in self.sums.items()}
         by_energy = mean["power_out"] / mean["power_in"]
         lost = mean["power_in"] - mean["power_out"] - mean["power_friction"]
@@ -211,7 +211,7 @@ def check(case: RollingCase) -> CheckResult:
 
 
 def geometry_sheet(drive: RollingDrive) -> dict[str, tuple[float | int, str]]:
-    """Return figures by name, each a value and its unit, in the units of a drawing."""
+    """Return quantities by name, each a value and its unit, in the units of a drawing."""
     limits = {
         f"element radius at which {what}": (limit * 1e3, "mm")
         for what, limit in element_radius_limits(drive).items()

@@ -5,7 +5,7 @@ import pytest
 
 from tests.support.linear_oscillator import linear_amplitude
 from tribodyn.record.reader import open_record
-from tribodyn.studies.backlash_oscillator.run import linear_figures
+from tribodyn.studies.backlash_oscillator.run import linear_theory
 from tribodyn.studies.pages.pictures import figure, names
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -72,12 +72,12 @@ def test_the_summary_tells_the_jumps(record):
 
 
 def test_linear_figures_are_the_textbooks():
-    figures = linear_figures(load_scenario(NAME, {"stiffness_variation": 0.4}))
+    figures = linear_theory(load_scenario(NAME, {"stiffness_variation": 0.4}))
     assert figures["resonance"] == pytest.approx(1.0 / np.sqrt(1.0 - 2.0 * 0.05**2))
     at = figures["contact_loss_from"]
     assert float(linear_amplitude(load_scenario(NAME), np.array(at))) == pytest.approx(0.1)
     assert figures["tongue_half_width"] == pytest.approx(np.sqrt(0.04 - 0.01))
-    heavy = linear_figures(load_scenario(NAME, {"mean_force": 10.0, "damping": 0.8}))
+    heavy = linear_theory(load_scenario(NAME, {"mean_force": 10.0, "damping": 0.8}))
     assert heavy["resonance"] is heavy["contact_loss_from"] is heavy["tongue_half_width"] is None
 
 

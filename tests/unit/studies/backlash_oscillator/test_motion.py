@@ -42,14 +42,14 @@ def test_motion_and_figures_are_those_of_scipy(case):
     marched = period_map.march(STATES[case : case + 1], CASES[case : case + 1], 2)
     assert marched.reasons == [""]
     np.testing.assert_allclose(marched.states[0], found.y[:, [10000, 20000]].T, atol=3e-6)
-    figures = period_map.figures(STATES[case : case + 1], CASES[case : case + 1], 2)[0]
+    measures = period_map.measures(STATES[case : case + 1], CASES[case : case + 1], 2)[0]
     free, back = np.mean(np.abs(x[:-1]) < 1.0) * end, np.mean(x[:-1] < -1.0) * end
     assert free > 0.1
     assert back > 0.1
     expected = [np.trapezoid(x, t), np.trapezoid(x**2, t), free, back, np.max(x), np.min(x)]
-    np.testing.assert_allclose(figures[:2], expected[:2], rtol=2e-6)
-    np.testing.assert_allclose(figures[2:4], expected[2:4], atol=5e-3)
-    np.testing.assert_allclose(figures[4:], expected[4:], atol=1e-5)
+    np.testing.assert_allclose(measures[:2], expected[:2], rtol=2e-6)
+    np.testing.assert_allclose(measures[2:4], expected[2:4], atol=5e-3)
+    np.testing.assert_allclose(measures[4:], expected[4:], atol=1e-5)
 
 
 def test_the_tangent_is_the_maps_derivative_and_loses_area_as_damping_says():
@@ -86,17 +86,17 @@ def test_without_a_corner_the_motion_is_that_of_the_linear_oscillator(side):
     period_map = OscillatorMap(parameters)
     found = period_map.march(start[None], np.array([0]), 1).states[0, 0]
     np.testing.assert_allclose(found, end[:2], rtol=1e-12)
-    figures = period_map.figures(start[None], np.array([0]), 1)[0]
+    measures = period_map.measures(start[None], np.array([0]), 1)[0]
     duration = 2.0 * np.pi / frequency
-    assert figures[motion.FREE] == pytest.approx(0.0 if side else duration, rel=1e-12)
-    assert figures[motion.BACK] == pytest.approx(duration if side < 0 else 0.0, rel=1e-12)
+    assert measures[motion.FREE] == pytest.approx(0.0 if side else duration, rel=1e-12)
+    assert measures[motion.BACK] == pytest.approx(duration if side < 0 else 0.0, rel=1e-12)
 
 
 def test_a_motion_beyond_ten_thousand_half_backlashes_grows():
     rows = np.array([[10500.0, 0.0], [-10500.0, 0.0], [9000.0, 0.0], [2.0, 0.0]])
     still = np.array([[0.0, 0.0, 0.0, 0.0, 1.0]])
     reasons = OscillatorMap(still).march(rows, np.zeros(4, dtype=int), 1).reasons
-    assert [bool(one) for one in reasons] == [True, True, False, False]
+    assert [bool(reason) for reason in reasons] == [True, True, False, False]
     assert "grows" in reasons[0]
 
 
@@ -135,16 +135,16 @@ def test_integrals_and_extremes_of_a_polynomial(rng):
         a = rng.normal(size=motion.DEGREE + 1)
         step = 0.9
         # a step begins where the one before it ended
-        figures = np.array([0.5, 0.25, 0.125, 0.0625, a[0], a[0]])
-        motion._record(a, step, side, figures)
+        measures = np.array([0.5, 0.25, 0.125, 0.0625, a[0], a[0]])
+        motion._record(a, step, side, measures)
         x = np.polynomial.Polynomial(a)
         t = np.linspace(0.0, step, 20001)
-        assert figures[motion.INTEGRAL] == pytest.approx(0.5 + x.integ()(step), rel=1e-12)
-        assert figures[motion.SQUARE] == pytest.approx(0.25 + (x**2).integ()(step), rel=1e-12)
-        assert figures[motion.FREE] == 0.125 + (step if side == 0 else 0.0)
-        assert figures[motion.BACK] == 0.0625 + (step if side == -1 else 0.0)
-        assert figures[motion.MAXIMUM] == pytest.approx(np.max(x(t)), abs=1e-7)
-        assert figures[motion.MINIMUM] == pytest.approx(np.min(x(t)), abs=1e-7)
+        assert measures[motion.INTEGRAL] == pytest.approx(0.5 + x.integ()(step), rel=1e-12)
+        assert measures[motion.SQUARE] == pytest.approx(0.25 + (x**2).integ()(step), rel=1e-12)
+        assert measures[motion.FREE] == 0.125 + (step if side == 0 else 0.0)
+        assert measures[motion.BACK] == 0.0625 + (step if side == -1 else 0.0)
+        assert measures[motion.MAXIMUM] == pytest.approx(np.max(x(t)), abs=1e-7)
+        assert measures[motion.MINIMUM] == pytest.approx(np.min(x(t)), abs=1e-7)
 
 
 @pytest.mark.parametrize("direction", [1.0, -1.0])

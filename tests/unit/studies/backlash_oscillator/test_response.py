@@ -29,7 +29,7 @@ from tribodyn.studies.backlash_oscillator.run import (
     described,
     finish_row,
     record_arrays,
-    response_figures,
+    response_summary,
     rows_of,
 )
 from tribodyn.studies.sweeping.branches import end_values
@@ -51,11 +51,11 @@ def case(frequencies, force=0.4, error=0.02, **more):
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_while_contact_lasts_the_response_is_the_linear_oscillators(sign):
     """x = ±1 + F_m + A cos(Ωτ − φ), multipliers exp((−ζ ± i √(1 − ζ²)) 2π/Ω); both ways, on either side."""
-    one = case((0.6, 1.3, 1.7), force=0.4 * sign)
+    swept = case((0.6, 1.3, 1.7), force=0.4 * sign)
     told = []
-    found = frequency_response(one, told.append)
+    found = frequency_response(swept, told.append)
     assert told == pytest.approx([1 / 3, 2 / 3, 1.0])
-    for place, frequency in enumerate(one.frequencies):
+    for place, frequency in enumerate(swept.frequencies):
         shape = 0.02 * frequency**2 / (1.0 - frequency**2 + 2j * 0.07 * frequency)
         for way in (0, 1):
             at = place, way
@@ -136,7 +136,7 @@ def test_the_figures_of_a_response_are_counted():
         messages=[(0.5 + 0.25 * i, i % 2, f"said {i}") for i in range(5)],
         ends=[(0, BranchEnd(FOLD, 0.8, 1e-4, 1, 0.99 + 0j)), (1, BranchEnd(FOLD, 0.7, 1e-4, 2, 0.98j))],
     )
-    found = response_figures(response)
+    found = response_summary(response)
     counted = {name: found[name] for name in found if name.startswith("points")}
     assert counted == {
         "points": 12,
@@ -162,7 +162,7 @@ def test_the_figures_of_a_response_are_counted():
     ]
     assert found["remarks_more"] == 2
     assert "remark_4" not in found
-    assert "remarks_more" not in response_figures(response._replace(messages=response.messages[:3]))
+    assert "remarks_more" not in response_summary(response._replace(messages=response.messages[:3]))
     arrays = record_arrays(response)
     assert arrays["stable"][:5].tolist() == [[1, 1], [1, 1], [1, 1], [0, 0], [1, 1]]
     assert np.isnan(arrays["stable"][5, 0])
@@ -173,7 +173,7 @@ def test_the_figures_of_a_response_are_counted():
     assert (row["end_frequency"], row["end_period"]) == (0.7, 2)
     assert row["end_multiplier_modulus"] == pytest.approx(0.98)
     assert row["end_multiplier_angle"] == pytest.approx(np.pi / 2)
-    nothing = response_figures(made(2))
+    nothing = response_summary(made(2))
     assert nothing["residual_max"] is None
     assert not any(name.startswith(("rms", "contact", "bistable")) for name in nothing)
 

@@ -36,16 +36,16 @@ def test_the_branch_leads_from_fold_to_fold(record):
     assert np.all(record["unstable_residual"] <= 1e-7)
     assert np.all(record["unstable_period"] == 1)
     # at 0.75 both stable motions are there, and the unstable one between them
-    one = int(np.argmin(np.abs(record["unstable_frequency"] - 0.75)))
+    number = int(np.argmin(np.abs(record["unstable_frequency"] - 0.75)))
     up, down = record["rms_displacement"][1]
-    assert up < record["unstable_rms_displacement"][one] < down
+    assert up < record["unstable_rms_displacement"][number] < down
 
 
 def test_figures_are_those_of_the_motion(record):
     """Integrated by SciPy over the one period that it stays near the unstable motion."""
     case = load_scenario(NAME, ABOUT_THE_FOLDS)
-    one = int(np.argmin(np.abs(record["unstable_frequency"] - 0.75)))
-    frequency = record["unstable_frequency"][one]
+    number = int(np.argmin(np.abs(record["unstable_frequency"] - 0.75)))
+    frequency = record["unstable_frequency"][number]
 
     def rates(t, y):
         cosine = np.cos(frequency * t)
@@ -53,16 +53,16 @@ def test_figures_are_those_of_the_motion(record):
         push = case.mean_force + case.error_amplitude * frequency**2 * cosine
         return [y[1], push - 2.0 * case.damping * y[1] - (1.0 + case.stiffness_variation * cosine) * force]
 
-    start = [record[f"unstable_section_{name}"][one] for name in ("displacement", "velocity")]
+    start = [record[f"unstable_section_{name}"][number] for name in ("displacement", "velocity")]
     t = np.linspace(0.0, 2.0 * np.pi / frequency, 40001)
     x = solve_ivp(rates, t[[0, -1]], start, "DOP853", t, rtol=1e-11, atol=1e-12, max_step=0.01).y[0]
     mean = np.trapezoid(x, t) / t[-1]
     rms = np.sqrt(np.trapezoid((x - mean) ** 2, t) / t[-1])
-    assert record["unstable_rms_displacement"][one] == pytest.approx(rms, rel=1e-6)
-    assert record["unstable_peak_to_peak_displacement"][one] == pytest.approx(np.ptp(x), rel=1e-6)
+    assert record["unstable_rms_displacement"][number] == pytest.approx(rms, rel=1e-6)
+    assert record["unstable_peak_to_peak_displacement"][number] == pytest.approx(np.ptp(x), rel=1e-6)
     lost = np.mean(np.abs(x[:-1]) < 1.0)
     assert lost > 0.05
-    assert record["unstable_contact_loss_fraction"][one] == pytest.approx(lost, abs=1e-4)
+    assert record["unstable_contact_loss_fraction"][number] == pytest.approx(lost, abs=1e-4)
 
 
 def test_it_is_said_and_drawn(record):

@@ -18,12 +18,12 @@ RECORDS = Path(__file__).parents[3] / "fixtures" / "records-0.1.0"
 def test_a_pair_carries_over_its_way_what_all_pairs_carry_over_a_cycle():
     """In a periodic mesh; the record has ten samples per cycle."""
     found = loads_of_record(RECORDS / "gear-pair.h5", "contact.loads")
-    roll, one = (np.array(found[name]["values"]) for name in ("roll_angle", "normal_load"))
+    roll, carried = (np.array(found[name]["values"]) for name in ("roll_angle", "normal_load"))
     with open_record(RECORDS / "gear-pair.h5") as record:
         pitch = 2.0 * np.pi / record.mesh_cycle["pinion_teeth"]
         assert roll[0] == pytest.approx(record.mesh_cycle["roll_start"])
         every = np.sum(record["normal_load"][-10:], axis=1)
-    assert np.trapezoid(one, roll) == pytest.approx(np.mean(every) * pitch, rel=0.1)
+    assert np.trapezoid(carried, roll) == pytest.approx(np.mean(every) * pitch, rel=0.1)
 
 
 @pytest.mark.parametrize(
@@ -69,7 +69,7 @@ def test_the_step_is_that_of_the_grid():
         seen = seen_by(study, over)
         found[step] = solved_at(study, over, seen, 1).solution
     assert 1.7 < len(found[0.1].place) / len(found[0.2].place) < 2.2
-    films = [one.central_film_thickness for one in found.values()]
+    films = [solution.central_film_thickness for solution in found.values()]
     assert 0.0 < abs(films[1] / films[0] - 1.0) < 3e-3
 
 
@@ -81,13 +81,13 @@ def test_the_film_begins_anew_behind_a_loss_of_contact():
     over = way(study)
     seen = seen_by(study, over)
     solved = {at: solved_at(study, over, seen, at) for at in (1, 2, 5, 6, 7)}
-    steady = [steady_of(one) if (one := solved.get(at)) else None for at in range(8)]
+    steady = [steady_of(known) if (known := solved.get(at)) else None for at in range(8)]
     found = squeezed(over, study.case, steady, lambda _share: None)
     film = found["transient_central_film_thickness"]
-    assert list(np.isfinite(film)) == [one is not None for one in steady]
+    assert list(np.isfinite(film)) == [known is not None for known in steady]
     assert found["restarts"] == 1
     for first in (1, 5):
-        one = solved[first]
-        assert one is not None
-        central = np.interp(0.0, one.solution.place, one.solution.mean_gap)
+        known = solved[first]
+        assert known is not None
+        central = np.interp(0.0, known.solution.place, known.solution.mean_gap)
         assert film[first] == pytest.approx(central, rel=2e-3)

@@ -70,9 +70,9 @@ def judged():
 def test_laws_are_judged_by_the_study_of_any_scenario(run, judged):
     """The ratios of the study's own record, whatever scenario names drive, oil and duty."""
     for law, ratio in run.summary["film_over_solved"].items():
-        one = judged.laws["film", law]
-        assert one.median == pytest.approx(ratio, rel=1e-6)
-        assert one.minimum <= one.median <= one.maximum
+        found = judged.laws["film", law]
+        assert found.median == pytest.approx(ratio, rel=1e-6)
+        assert found.minimum <= found.median <= found.maximum
     assert judged.laws["film", "masjedi-khonsari"].right == 1.0
     assert "masjedi-khonsari" in judged.said
     assert judged.as_dict()["said"] == judged.said
@@ -127,7 +127,7 @@ def test_the_page_has_the_profiles_of_every_position(run, tmp_path):
     np.testing.assert_allclose(pressure * 1e9, run.data["pressure"], rtol=1e-6)
     # the film's axis ends where the flanks have parted; the curves of 161 places are not on offer beside it
     assert rows["film_thickness"]["high"] == pytest.approx(3e6 * run.data["central_film_thickness"].max())
-    assert not {"pressure", "film_thickness"} & {one["name"] for one in record["series"]}
+    assert not {"pressure", "film_thickness"} & {series["name"] for series in record["series"]}
 
 
 @needs_browser
@@ -147,7 +147,7 @@ def squeezed():
 def test_squeeze_keeps_the_film_that_was(squeezed):
     """The film stays thick for a while where the load rises, thin where it falls."""
     data, summary = squeezed.data, squeezed.summary
-    steady, film = (data[f"{one}central_film_thickness"].to_numpy() for one in ("", "transient_"))
+    steady, film = (data[f"{kind}central_film_thickness"].to_numpy() for kind in ("", "transient_"))
     assert np.all(np.isfinite(film))
     assert film[0] == pytest.approx(steady[0], rel=2e-3)
     load = data["line_load"].to_numpy()

@@ -102,8 +102,8 @@ def test_energy_in_is_energy_out_and_losses(drive):
 def test_the_pattern_repeats_with_the_element_pitch(drive):
     samples = 40
     run = revolution(drive, samples)
-    for one in ("normal_load", "power_cam", "slip_speed"):
-        values = getattr(run, one)
+    for name in ("normal_load", "power_cam", "slip_speed"):
+        values = getattr(run, name)
         # against the count, because the elements move towards the depression
         moved = np.roll(values[samples:], -1, axis=1)
         assert moved == pytest.approx(values[:-samples], abs=1e-9 * np.abs(values).max())

@@ -71,7 +71,8 @@ def test_the_summary_of_a_revolution_in_plain_loops(case: RollingCase):
     drive = case.drive
     turn = 2.0 * np.pi * np.arange(SAMPLES * 12 + 1) / (SAMPLES * 12)
     states = [
-        engage(drive, element_angles(drive, np.array([one])), 900.0, 70.0, case.friction) for one in turn
+        engage(drive, element_angles(drive, np.array([rotation])), 900.0, 70.0, case.friction)
+        for rotation in turn
     ]
     count = len(states) - 1
     found = run.quantities_of(case)
@@ -79,24 +80,24 @@ def test_the_summary_of_a_revolution_in_plain_loops(case: RollingCase):
     def mean(values: list[float]) -> float:
         return sum(values[:count]) / count
 
-    power_in = mean([float(one.power_in[0]) for one in states])
-    power_out = mean([float(one.power_out[0]) for one in states])
-    cam = mean([float(np.sum(one.power_cam)) for one in states])
-    crown = mean([float(np.sum(one.power_crown)) for one in states])
+    power_in = mean([float(moment.power_in[0]) for moment in states])
+    power_out = mean([float(moment.power_out[0]) for moment in states])
+    cam = mean([float(np.sum(moment.power_cam)) for moment in states])
+    crown = mean([float(np.sum(moment.power_crown)) for moment in states])
     assert found["power_in_mean"] == pytest.approx(power_in)
     assert found["power_cam_mean"] == pytest.approx(cam)
     assert found["power_crown_mean"] == pytest.approx(crown)
     assert found["power_friction_mean"] == pytest.approx(cam + crown)
     assert found["efficiency"] == found["efficiency_by_energy"] == pytest.approx(power_out / power_in)
     assert found["energy_residual"] == pytest.approx(0.0, abs=1e-12)
-    torque = [float(one.power_out[0]) * 5.0 / 70.0 for one in states]  # the cam turns five times slower
+    torque = [float(moment.power_out[0]) * 5.0 / 70.0 for moment in states]  # the cam turns five times slower
     assert found["output_torque_mean"] == pytest.approx(sum(torque) / len(torque))
     assert found["output_torque_peak_to_peak"] == pytest.approx(max(torque) - min(torque))
     for name in ("normal_load", "slip_speed", "spin_speed"):
         assert found[f"{name}_max"] == pytest.approx(
-            max(np.max(np.abs(getattr(one, name))) for one in states)
+            max(np.max(np.abs(getattr(moment, name))) for moment in states)
         )
-    loaded = [int(np.sum(one.normal_load > 1e-6 * found["normal_load_max"])) for one in states]
+    loaded = [int(np.sum(moment.normal_load > 1e-6 * found["normal_load_max"])) for moment in states]
     assert (found["elements_loaded_min"], found["elements_loaded_max"]) == (min(loaded), max(loaded))
     assert found["mesh_frequency"] == pytest.approx(12.0 * 70.0 / (2.0 * math.pi))
     assert (found["ratio"], found["eccentricity"]) == (5.0, pytest.approx(0.1 / 11.0))

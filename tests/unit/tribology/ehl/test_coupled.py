@@ -157,14 +157,14 @@ def test_surfaces_exchanged():
     """The faster surface above or below: friction turns its sign, temperatures change places."""
     unlike = HeatProperties(0.035, solid_conductivity=(46.0, 20.0), solid_heat_capacity=(3.6e6, 2e6))
     swapped = unlike._replace(solid_conductivity=(20.0, 46.0), solid_heat_capacity=(2e6, 3.6e6))
-    one, other = slid(0.4, thermal=unlike), slid(-0.4, thermal=swapped)
-    assert one.friction > 0.0
-    assert other.friction == pytest.approx(-one.friction, rel=1e-7)
-    assert one.heat is not None
+    ahead, other = slid(0.4, thermal=unlike), slid(-0.4, thermal=swapped)
+    assert ahead.friction > 0.0
+    assert other.friction == pytest.approx(-ahead.friction, rel=1e-7)
+    assert ahead.heat is not None
     assert other.heat is not None
-    np.testing.assert_allclose(one.heat.layers, other.heat.layers[:, ::-1], rtol=1e-4, atol=1e-5)
-    np.testing.assert_allclose(one.heat.surface_1, other.heat.surface_2, rtol=1e-4, atol=1e-5)
-    assert one.solution.central_film_thickness == pytest.approx(
+    np.testing.assert_allclose(ahead.heat.layers, other.heat.layers[:, ::-1], rtol=1e-4, atol=1e-5)
+    np.testing.assert_allclose(ahead.heat.surface_1, other.heat.surface_2, rtol=1e-4, atol=1e-5)
+    assert ahead.solution.central_film_thickness == pytest.approx(
         other.solution.central_film_thickness, rel=1e-7
     )
 
@@ -175,6 +175,6 @@ def test_flash_temperature_of_the_surfaces():
     assert found.heat is not None
     problem = found.solution.problem
     root = np.sqrt(46.0 * 3.6e6)
-    speeds = sum(np.sqrt(one) for one in problem.surface_speeds)
+    speeds = sum(np.sqrt(speed) for speed in problem.surface_speeds)
     blok = 1.11 * found.friction * 0.3 / (root * speeds * np.sqrt(2 * problem.half_width))
     assert max(found.heat.surface_1.max(), found.heat.surface_2.max()) == pytest.approx(blok, rel=0.35)

@@ -46,7 +46,7 @@ def test_layers_under_gradient_and_unequal_viscosity(law, gradient):
 
     def rates(mean, slope):
         return [
-            rate(law, mean + s * film * slope, math.exp(one)) for s, one in zip(MIDDLES, logs, strict=True)
+            rate(law, mean + s * film * slope, math.exp(log)) for s, log in zip(MIDDLES, logs, strict=True)
         ]
 
     def mean_of(slope):
@@ -55,7 +55,7 @@ def test_layers_under_gradient_and_unequal_viscosity(law, gradient):
     mean = mean_of(gradient)
     assert found.stress[0] == pytest.approx(mean, rel=1e-7)
     each = rates(mean, gradient)
-    heat = [one * (mean + s * film * gradient) * thick for one, s in zip(each, MIDDLES, strict=True)]
+    heat = [flow * (mean + s * film * gradient) * thick for flow, s in zip(each, MIDDLES, strict=True)]
     np.testing.assert_allclose(found.heat[0], heat, rtol=1e-6, atol=1e-6 * max(heat))
     below = np.concatenate([[0.0], np.cumsum(each)[:-1]])
     np.testing.assert_allclose(
@@ -63,20 +63,20 @@ def test_layers_under_gradient_and_unequal_viscosity(law, gradient):
     )
     # without the gradient the unequal layers alone move the flow
     level = rates(mean_of(0.0), 0.0)
-    drift = -sum(one * s * film for one, s in zip(level, MIDDLES, strict=True)) * thick
+    drift = -sum(flow * s * film for flow, s in zip(level, MIDDLES, strict=True)) * thick
     assert found.drift[0] == pytest.approx(drift / (film * 1.1), rel=1e-6)
     # what the gradient adds is −h³/12 fluidity dp/dx; layers are taken as whole, ±t/2 about their middles
     fine = 0.0
-    for s, one, log in zip(MIDDLES, each, logs, strict=True):
+    for s, flow, log in zip(MIDDLES, each, logs, strict=True):
         stress = mean + s * film * gradient
         step = 1e2
         tangent = (rate(law, stress + step, math.exp(log)) - rate(law, stress - step, math.exp(log))) / (
             2 * step
         )
-        fine -= (one * s * film + tangent * gradient * thick**2 / 12) * thick
+        fine -= (flow * s * film + tangent * gradient * thick**2 / 12) * thick
     assert found.fluidity[0] == pytest.approx(12 * (drift - fine) / gradient / film**3, rel=1e-5)
     thicker = brentq(
-        lambda m: sum(one * 1e-4 for one in rates(m, gradient)) - sum(rates(mean, gradient)) * 1e-4 * 1.001,
+        lambda m: sum(flow * 1e-4 for flow in rates(m, gradient)) - sum(rates(mean, gradient)) * 1e-4 * 1.001,
         -1e9,
         1e9,
         xtol=1e-6,
@@ -167,8 +167,13 @@ def test_the_temperatures_balance_every_cell_and_both_surfaces(rng):
     assert found.made == pytest.approx(total, rel=1e-9)
     assert found.carried == pytest.approx(1.7e6 * flow[-1] @ theta[-1], rel=1e-9)
     for surface, last, into, speed, k, c in (
-        (found.surface_1, theta[:, -1], found.into_1, *(one[0] for one in (speeds, thermal[3], thermal[4]))),
-        (found.surface_2, theta[:, 0], found.into_2, *(one[1] for one in (speeds, thermal[3], thermal[4]))),
+        (
+            found.surface_1,
+            theta[:, -1],
+            found.into_1,
+            *(each[0] for each in (speeds, thermal[3], thermal[4])),
+        ),
+        (found.surface_2, theta[:, 0], found.into_2, *(each[1] for each in (speeds, thermal[3], thermal[4]))),
     ):
         flux = 2 * thermal.conductivity * LAYERS / film * (last - surface)
         assert into == pytest.approx(flux @ np.diff(edge), rel=1e-9)

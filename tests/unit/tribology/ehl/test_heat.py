@@ -123,10 +123,10 @@ def test_coupling_is_that_of_surfaces_with_a_film_at_rest(rng):
     response = rng.uniform(0.1, 1.0, (3, 3)), rng.uniform(0.1, 1.0, (3, 3))
     own_1, between, own_2 = rng.uniform(0.1, 1.0, (3, 3))
     warm = rng.standard_normal(6)
-    one = warm[:3] + response[0] @ (own_1 * warm[:3] - between * warm[3:])
+    first = warm[:3] + response[0] @ (own_1 * warm[:3] - between * warm[3:])
     two = warm[3:] + response[1] @ (own_2 * warm[3:] - between * warm[:3])
     factors = _coupling(response, (own_1, between, own_2))
-    np.testing.assert_allclose(lu_solve(factors, np.concatenate([one, two])), warm)
+    np.testing.assert_allclose(lu_solve(factors, np.concatenate([first, two])), warm)
 
 
 def test_unless_told_otherwise_steel_in_mineral_oil():

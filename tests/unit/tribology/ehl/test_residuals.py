@@ -46,7 +46,7 @@ def random_case(rng, nodes, film):
     """A grid, a closure and a squeeze term."""
     grid, faces = made(nodes), film - 1
     closure = reynolds.FlowCorrection(
-        *(rng.uniform(*one, len(nodes)) for one in ((-0.5, 0.0), (0.5, 1.0), (-0.1, 0.1)))
+        *(rng.uniform(*ends, len(nodes)) for ends in ((-0.5, 0.0), (0.5, 1.0), (-0.1, 0.1)))
     )
     squeeze = Squeeze(0.7, rng.uniform(0.5, 1.0, film), rng.uniform(-1.0, 1.0, faces + 1))
     pressure = np.where(np.arange(len(nodes)) < film - 1, rng.uniform(0.3, 1.2, len(nodes)), 0.0)
@@ -112,7 +112,7 @@ def test_smooth_surfaces(rng, squeezed, compliance):
     expected += [np.trapezoid(pressure, NODES) - math.pi / 2, flow - thick[-1]]
     np.testing.assert_allclose(values, expected, rtol=1e-9)
     assert_derivative(
-        lambda one: reynolds.residual(state(one), reduced, grid, closure, squeeze)[0], matrix, unknowns
+        lambda given: reynolds.residual(state(given), reduced, grid, closure, squeeze)[0], matrix, unknowns
     )
 
 
@@ -140,8 +140,8 @@ def test_rough_surfaces(rng, squeezed):
     # Gaussian heights by quadrature: ∫ (t + s)⁺ φ ds and the integral of Greenwood & Tripp
     s = np.linspace(-9.0, 9.0, 18001)
     normal = np.exp(-0.5 * s * s) / math.sqrt(2 * math.pi)
-    mean = np.array([np.trapezoid(np.maximum(one + s, 0.0) * normal, s) for one in ratio]) * sigma / unit
-    overlap = np.array([np.trapezoid(np.maximum(s - one, 0.0) ** 2.5 * normal, s) for one in ratio])
+    mean = np.array([np.trapezoid(np.maximum(given + s, 0.0) * normal, s) for given in ratio]) * sigma / unit
+    overlap = np.array([np.trapezoid(np.maximum(s - given, 0.0) ** 2.5 * normal, s) for given in ratio])
     carried = 16 * math.sqrt(2) / 15 * math.pi * 0.05**2 * math.sqrt(0.01) * modulus / 2 * overlap / SCALE
     whole = pressure + carried
     faces = flows(
@@ -151,7 +151,7 @@ def test_rough_surfaces(rng, squeezed):
         squeeze,
         end,
         pressure[: last + 1],
-        reynolds.FlowCorrection(*(one[: last + 1] for one in closure)),
+        reynolds.FlowCorrection(*(given[: last + 1] for given in closure)),
         0.3,
         lambda h: 1 - 0.9 * math.exp(-0.56 * h * unit / sigma),
     )
@@ -160,7 +160,7 @@ def test_rough_surfaces(rng, squeezed):
     expected += [np.trapezoid(whole, nodes) - math.pi / 2, flow - mean[last]]
     np.testing.assert_allclose(values, expected, rtol=1e-6, atol=1e-6)
     assert_derivative(
-        lambda one: rough.rough_residual(state(one), reduced, grid, closure, squeeze)[0], matrix, unknowns
+        lambda given: rough.rough_residual(state(given), reduced, grid, closure, squeeze)[0], matrix, unknowns
     )
 
 
@@ -168,7 +168,7 @@ def test_rough_surfaces(rng, squeezed):
 def test_mean_fluidity_is_the_mean_of_the_exponential(gap):
     """(e^−g1 − e^−g2)/(g2 − g1), and the derivatives −∫ (1 − s) e^−g ds, −∫ s e^−g ds by quadrature."""
     low = np.array([0.3, 0.3 + gap])
-    found = [float(one[0]) for one in reynolds.mean_fluidity(low)]
+    found = [float(value[0]) for value in reynolds.mean_fluidity(low)]
     exact = math.exp(-0.3) * (-math.expm1(-gap) / gap if gap else 1.0)
     assert found[0] == pytest.approx(exact, rel=1e-12)
     node, weight = np.polynomial.legendre.leggauss(400)

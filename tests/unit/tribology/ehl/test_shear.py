@@ -60,7 +60,7 @@ def test_carreau_of_any_index_is_inverted(index):
     back, slope = newtonian_stress(stress, scale, rheology)
     np.testing.assert_allclose(back, equal, rtol=1e-8)
     by = 1e-5 * np.maximum(np.abs(stress), 1.0)
-    above, below = (newtonian_stress(stress + one, scale, rheology)[0] for one in (by, -by))
+    above, below = (newtonian_stress(stress + step, scale, rheology)[0] for step in (by, -by))
     np.testing.assert_allclose(slope, (above - below) / (2 * by), rtol=1e-5)
 
 

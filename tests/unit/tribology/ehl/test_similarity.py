@@ -31,26 +31,26 @@ PRESSURE = FORCE / LENGTH**2
 SMOOTH = LineContact(2e5, 0.01, 1.0, Fluid(0.04, 2.2e-8), MODULUS, 0.3)
 
 
-def in_other_units(one):
-    return one._replace(
-        line_load=one.line_load * FORCE / LENGTH,
-        radius=one.radius * LENGTH,
-        entrainment_speed=one.entrainment_speed * LENGTH / TIME,
-        sliding_speed=one.sliding_speed * LENGTH / TIME,
-        effective_modulus=one.effective_modulus * PRESSURE,
-        fluid=one.fluid._replace(
-            viscosity=one.fluid.viscosity * PRESSURE * TIME,
-            pressure_viscosity=one.fluid.pressure_viscosity / PRESSURE,
+def in_other_units(contact):
+    return contact._replace(
+        line_load=contact.line_load * FORCE / LENGTH,
+        radius=contact.radius * LENGTH,
+        entrainment_speed=contact.entrainment_speed * LENGTH / TIME,
+        sliding_speed=contact.sliding_speed * LENGTH / TIME,
+        effective_modulus=contact.effective_modulus * PRESSURE,
+        fluid=contact.fluid._replace(
+            viscosity=contact.fluid.viscosity * PRESSURE * TIME,
+            pressure_viscosity=contact.fluid.pressure_viscosity / PRESSURE,
             compressible=False,
         ),
-        roughness=one.roughness and one.roughness._replace(height=one.roughness.height * LENGTH),
+        roughness=contact.roughness and contact.roughness._replace(height=contact.roughness.height * LENGTH),
     )
 
 
 @pytest.mark.parametrize("roughness", [None, Roughness(2e-7)])
 def test_a_contact_in_other_units(roughness):
     """Barus' law, no density: the fluid has no pressures of its own. Shear by Eyring's stress, and heat."""
-    one = SMOOTH._replace(roughness=roughness, fluid=SMOOTH.fluid._replace(compressible=False))
+    contact = SMOOTH._replace(roughness=roughness, fluid=SMOOTH.fluid._replace(compressible=False))
     conducted = FORCE / TIME / KELVIN
     thermal = HeatProperties(0.03, 0.14, 1.7e6, (46.0, 40.0), (3.6e6, 3.2e6))
     other = HeatProperties(
@@ -60,9 +60,9 @@ def test_a_contact_in_other_units(roughness):
         (46.0 * conducted, 40.0 * conducted),
         (3.6e6 * PRESSURE / KELVIN, 3.2e6 * PRESSURE / KELVIN),
     )
-    known = solve_coupled(one, Rheology("eyring"), thermal, step=0.3)
+    known = solve_coupled(contact, Rheology("eyring"), thermal, step=0.3)
     scaled = solve_coupled(
-        in_other_units(one), Rheology("eyring", eyring_stress=5e6 * PRESSURE), other, step=0.3
+        in_other_units(contact), Rheology("eyring", eyring_stress=5e6 * PRESSURE), other, step=0.3
     )
     for name in ("central_film_thickness", "minimum_film_thickness", "flow_film_thickness"):
         assert getattr(scaled.solution, name) == pytest.approx(
@@ -138,7 +138,7 @@ def test_nodes_are_dense_at_both_ends_of_the_contact():
     assert film_width(film) == pytest.approx(width)
     assert film_width(8.0) == pytest.approx(max((1.06 * 8.0) ** (2 / 3), 4.0))
     # between both only the parabola is wider
-    assert [film_width(one) for one in (1.0, 2.0, 5.0)] == pytest.approx([1.06 ** (2 / 3), 2.0, 10.0**0.5])
+    assert [film_width(film) for film in (1.0, 2.0, 5.0)] == pytest.approx([1.06 ** (2 / 3), 2.0, 10.0**0.5])
     assert node[0] == pytest.approx(-3.0 - 60.0 * width)
     assert node[-1] == 0.0
     middle = 0.5 * (node[1:] + node[:-1])

@@ -41,7 +41,7 @@ def test_films_of_another_solver(problem, central, least):
     assert solution.imbalance <= 1e-10
 
 
-@pytest.mark.parametrize("problem", [one[0] for one in REFERENCES])
+@pytest.mark.parametrize("problem", [reference[0] for reference in REFERENCES])
 def test_order_of_accuracy_and_error_of_the_default_grid(problem):
     films = [solve_steady(problem, step=step).flow_film_thickness for step in (0.2, 0.1, 0.05)]
     limit = solve_steady(problem, step=0.025).flow_film_thickness
@@ -58,7 +58,7 @@ def test_load_and_flow_are_balanced():
     place, pressure, film = solution.place, solution.pressure, solution.film_thickness
     assert np.trapezoid(pressure, place) == pytest.approx(problem.line_load, rel=1e-10)
     half = problem.half_width
-    x, p, h = (0.5 * (one[1:] + one[:-1]) for one in (place / half, pressure, film))
+    x, p, h = (0.5 * (values[1:] + values[:-1]) for values in (place / half, pressure, film))
     viscosity = problem.fluid.viscosity * np.exp(log_viscosity(p, problem.fluid)[0])
     density = relative_density(p, problem.fluid)[0]
     slope = np.diff(pressure) / np.diff(place)
@@ -219,11 +219,16 @@ def test_what_does_not_converge_says_so(monkeypatch, roughness):
 def test_grids_suit_all_their_contacts():
     """Nodes for the thinnest film, an inlet for the thickest; behind it as far as asperities may touch."""
     thin, thick = REFERENCES[0][0], REFERENCES[1][0]._replace(entrainment_speed=30.0)
-    films = [expected_film(one) for one in (thin, thick)]
-    for one, survey in zip((thin, thick), films, strict=True):
-        H = math.exp(log_survey(math.log(one.moes_load), math.log(one.moes_material)))
-        drawn = 2 * one.fluid.viscosity * one.entrainment_speed / (one.effective_modulus * one.radius)
-        assert survey == pytest.approx(H * one.radius * math.sqrt(drawn) / one.film_unit)
+    films = [expected_film(contact) for contact in (thin, thick)]
+    for contact, survey in zip((thin, thick), films, strict=True):
+        H = math.exp(log_survey(math.log(contact.moes_load), math.log(contact.moes_material)))
+        drawn = (
+            2
+            * contact.fluid.viscosity
+            * contact.entrainment_speed
+            / (contact.effective_modulus * contact.radius)
+        )
+        assert survey == pytest.approx(H * contact.radius * math.sqrt(drawn) / contact.film_unit)
     both = grid_of(thin, 0.2, thick)
     np.testing.assert_allclose(both.node, placed(min(films), 0.2, 0.0, max(films)))
     np.testing.assert_allclose(grid_of(thick, 0.2, thin).node, both.node)

@@ -73,7 +73,7 @@ def test_laws_read_what_the_table_was_made_of(by_powers):
 def test_contacts_crowd_along_the_path():
     """Curvature and slide-to-roll ratio of a place belong together, at every load and speed of the range."""
     place = np.linspace(-1.0, 1.0, 41)
-    places = [(0.15 + 0.02 * one, 200.0 * math.exp(one), 0.7 * abs(one)) for one in place]
+    places = [(0.15 + 0.02 * at, 200.0 * math.exp(at), 0.7 * abs(at)) for at in place]
     duty = DutyRange((1e5, 6e5), (0.13 * 0.8, 0.17 * 1.2), (73.0, 550.0), (0.02, 0.8), tuple(places))
     found, along = tables.spread(duty, 120)
     assert np.mean(along) == pytest.approx(1 - 1 / tables.BOXED, abs=0.01)
@@ -113,7 +113,7 @@ def test_processes_solve_what_one_solves(monkeypatch):
     monkeypatch.setattr(tables, "usable_cores", lambda: 2)
     monkeypatch.setattr(tables, "_WORTH", 2)
     found = tables.solve_all(contact, duties)
-    np.testing.assert_array_equal(found, [tables.solve_one(contact, one) for one in duties])
+    np.testing.assert_array_equal(found, [tables.solve_one(contact, duty) for duty in duties])
     monkeypatch.setattr(sys, "executable", "no such program")
     np.testing.assert_array_equal(tables.solve_all(contact, duties), found)
 
@@ -126,8 +126,8 @@ def test_a_table_is_kept(by_powers, monkeypatch, tmp_path):
     def again():
         tables.table_over.cache_clear()
         found = tables.table_over(contact, DUTY)
-        for one, other in zip(first, found, strict=True):
-            np.testing.assert_array_equal(one, other)
+        for before, other in zip(first, found, strict=True):
+            np.testing.assert_array_equal(before, other)
 
     (file,) = (tmp_path / "ehl").iterdir()
     file.write_bytes(file.read_bytes()[:-1000])
@@ -215,7 +215,7 @@ def test_a_fit_gives_back_what_it_was_made_of(rng):
     assert exact.film_error < 2e-3
     assert exact.friction_error < 2e-3
     assert exact.solved == 400
-    assert exact[:8] == pytest.approx([one for pair in zip(*box_of(DUTY), strict=True) for one in pair])
+    assert exact[:8] == pytest.approx([number for pair in zip(*box_of(DUTY), strict=True) for number in pair])
     assert (exact.limit, exact.floor, exact.rubbing) == (0.091, 2e6, 0.11)
     # laws read it: inside, and held at the ends of every variable
     laws = solved_film, solved_friction
@@ -225,9 +225,10 @@ def test_a_fit_gives_back_what_it_was_made_of(rng):
         (2e4, 0.01, 200.0, 1e-3),
     ):
         clipped = [
-            np.clip(one, *ends) for one, ends in zip((load, speed, curvature, ratio), DUTY[:4], strict=True)
+            np.clip(variable, *ends)
+            for variable, ends in zip((load, speed, curvature, ratio), DUTY[:4], strict=True)
         ]
-        wanted = [one[0] for one in film_and_friction(contact, np.log([clipped]))]
+        wanted = [value[0] for value in film_and_friction(contact, np.log([clipped]))]
         for sign in (1.0, -1.0):
             v = sign * ratio * speed
             seen = local_contact(load, curvature, speed, v, speed + v / 2, speed - v / 2)
@@ -273,9 +274,9 @@ def test_coefficients_are_the_weighted_least_squares(rng):
     part = np.clip(part, 1e-6, 1.0 - 1e-6)
     saturation = np.log(part / (1.0 - part))
     by = 1e-5
-    above, below = (mixed_friction(saturation + one, share, most, 0.11) for one in (by, -by))
+    above, below = (mixed_friction(saturation + step, share, most, 0.11) for step in (by, -by))
     weight = np.clip((above - below) / (2 * by) / friction, 0.02, 1.0)
-    stiff = 3e-5**2 * np.count_nonzero(used) * np.diag([sum(one) ** 2 for one in TERMS])
+    stiff = 3e-5**2 * np.count_nonzero(used) * np.diag([sum(term) ** 2 for term in TERMS])
     cases = (found.film, values[:, 0], 0 * share + 1), (found.friction, saturation, weight)
     for coefficients, known, counts in cases:
         a = (powers * counts[:, None])[used]
@@ -287,8 +288,8 @@ def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
     numbers = (0.0, 1.0) * 4
     zero = np.zeros(len(TERMS))
     for share, clipped in ((-0.4, 0.0), (0.3, 0.3), (1.7, 1.0)):
-        one = zero + share * (np.arange(len(TERMS)) == TERMS.index((0, 0, 0, 0)))
-        table = tables.ContactTable._make([*numbers, zero, zero, one, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0])
+        constant = zero + share * (np.arange(len(TERMS)) == TERMS.index((0, 0, 0, 0)))
+        table = tables.ContactTable._make([*numbers, zero, zero, constant, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0])
         seen = local_contact(3e5, 110.0, 0.15, 0.06, 0.18, 0.12)
         assert solved_film(seen, LIU_NI.surfaces, table)[2] == clipped
         mu = solved_friction(seen, None, LIU_NI.surfaces, table)
@@ -298,7 +299,13 @@ def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
     # where the film is saturated or slides hardly nothing overflows
     assert mixed_friction(900.0, 0.2, 0.05, 0.1) == pytest.approx(0.8 * 0.05 + 0.02)
     assert mixed_friction(-900.0, 0.2, 0.05, 0.1) == pytest.approx(0.02)
-    assert [clipped_at(one, 2.0, 0.5) for one in (1.0, 1.75, 2.0, 2.5, 9.0)] == [-1.0, -0.5, 0.0, 1.0, 1.0]
+    assert [clipped_at(value, 2.0, 0.5) for value in (1.0, 1.75, 2.0, 2.5, 9.0)] == [
+        -1.0,
+        -0.5,
+        0.0,
+        1.0,
+        1.0,
+    ]
 
 
 def test_a_contact_of_a_table_is_that_of_the_case():

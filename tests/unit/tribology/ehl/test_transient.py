@@ -53,7 +53,7 @@ def test_order_in_time(problem):
     at = swaying(problem, 8.0 * TRANSIT)
     ends = [marched(at, 5.0 * TRANSIT, steps, 0.4)[-1] for steps in (20, 40, 80)]
     for name in ("central_film_thickness", "minimum_film_thickness"):
-        films = [getattr(one, name) for one in ends]
+        films = [getattr(known, name) for known in ends]
         assert math.log2((films[1] - films[0]) / (films[2] - films[1])) >= 1.9
 
 
@@ -88,36 +88,36 @@ def test_mass_and_load_of_every_instant_in_plain_loops(problem):
     assert len(found) == 5
     last, xi = grid.end, grid.node
     masses, places = [], []
-    for one in found:
-        b = one.problem.half_width
-        density = relative_density(one.fluid_pressure, FLUID)[0]
+    for known in found:
+        b = known.problem.half_width
+        density = relative_density(known.fluid_pressure, FLUID)[0]
         length = [0.5 * (xi[1] - xi[0]), *(0.5 * (xi[j + 1] - xi[j - 1]) for j in range(1, last))]
         length.append(0.5 * (xi[last] - xi[last - 1]))
-        masses.append([density[j] * one.mean_gap[j] * length[j] * b for j in range(last + 1)])
+        masses.append([density[j] * known.mean_gap[j] * length[j] * b for j in range(last + 1)])
         faces = [0.5 * (xi[i] + xi[i + 1]) for i in range(last)] + [xi[last]]
-        places.append([b * (one.state.end + face) for face in faces])
+        places.append([b * (known.state.end + face) for face in faces])
     masses, places = np.array(masses), np.array(places)
     for k in range(1, 5):
-        now, one, which = at(times[k]).problem, found[k], slice(max(k - 2, 0), k + 1)
-        assert one.problem == now
+        now, known, which = at(times[k]).problem, found[k], slice(max(k - 2, 0), k + 1)
+        assert known.problem == now
         # the ends of the whole deformation: gap of the parabola and pressures that carry the load
-        assert np.trapezoid(one.pressure, one.place) == pytest.approx(now.line_load, rel=1e-9)
+        assert np.trapezoid(known.pressure, known.place) == pytest.approx(now.line_load, rel=1e-9)
         grown = [rate(times[which], masses[which, j]) for j in range(last + 1)]
         moves = [rate(times[which], places[which, i]) for i in range(last + 1)]
-        u, h, p = now.entrainment_speed, one.mean_gap[: last + 1], one.fluid_pressure[: last + 1]
+        u, h, p = now.entrainment_speed, known.mean_gap[: last + 1], known.fluid_pressure[: last + 1]
         ln_eta, density = log_viscosity(p, FLUID)[0], relative_density(p, FLUID)[0]
-        out = one.flow_film_thickness * (u - moves[last])
+        out = known.flow_film_thickness * (u - moves[last])
         for i in range(last):
             thick, dense = at_face(xi, h, i), at_face(xi, density, i)
             low, high = ln_eta[i], ln_eta[i + 1]
             inverse = math.exp(-low) if low == high else (math.exp(-low) - math.exp(-high)) / (high - low)
-            slope = (p[i + 1] - p[i]) / (one.place[i + 1] - one.place[i])
+            slope = (p[i + 1] - p[i]) / (known.place[i + 1] - known.place[i])
             factor = 1.0 - (0.9 * math.exp(-0.56 * thick / 3e-7) if problem is ROUGH else 0.0)
             pushed = dense * factor * thick**3 / (12.0 * FLUID.viscosity) * inverse * slope
             through = dense * thick * (u - moves[i]) - pushed
             assert sum(grown[i + 1 :]) == pytest.approx(through - out, abs=2e-8 * u * h[0])
-        assert one.imbalance <= 1e-10
-        assert one.steps <= 6
+        assert known.imbalance <= 1e-10
+        assert known.steps <= 6
 
 
 class Instants:
@@ -154,8 +154,8 @@ def test_the_steady_contact_is_the_slow_limit():
 
 def test_nothing_happens_to_a_steady_contact():
     solutions = marched(lambda _time: Instant(SMOOTH), 3.0 * TRANSIT, 5)
-    for one in solutions[1:]:
-        assert one.central_film_thickness == pytest.approx(solutions[0].central_film_thickness, rel=1e-9)
+    for solution in solutions[1:]:
+        assert solution.central_film_thickness == pytest.approx(solutions[0].central_film_thickness, rel=1e-9)
 
 
 @pytest.mark.parametrize("factor", [0.8, 1.3])
@@ -171,17 +171,17 @@ def test_a_load_step_decays_as_smaller_steps_say(factor):
 
     runs = [marched(at, 6.0 * TRANSIT, steps, 0.4) for steps in (60, 120, 240)]
     steady = solve_steady(at(TRANSIT).problem, grid=runs[0][0].grid).minimum_film_thickness
-    films = [np.array([one.minimum_film_thickness for one in run]) for run in runs]
+    films = [np.array([solution.minimum_film_thickness for solution in run]) for run in runs]
     departures = [
         film[:: len(film) // 60] / (film[0] - steady) - steady / (film[0] - steady) for film in films
     ]
     coarse, fine = np.sqrt(np.mean(np.diff(departures, axis=0) ** 2, axis=1))
     assert fine < coarse / 1.7
     assert fine < 0.15
-    for one in departures:
-        assert np.max(np.abs(one[15:30])) > 1.5
-        assert np.max(np.abs(one[40:])) < 0.25
-        assert abs(one[-1]) < 0.05
+    for departure in departures:
+        assert np.max(np.abs(departure[15:30])) > 1.5
+        assert np.max(np.abs(departure[40:])) < 0.25
+        assert abs(departure[-1]) < 0.05
 
 
 def flow(solution):
@@ -201,16 +201,16 @@ def test_mass_is_conserved():
     solutions = marched(at, 5.0 * TRANSIT, steps, 0.1)
     inlet = -1.3 * SMOOTH.half_width
     mass, inflow, end, behind = [], [], [], []
-    for one in solutions:
-        density = relative_density(one.pressure, one.problem.fluid)[0] * one.film_thickness
-        inside = one.place > inlet
-        place = np.concatenate([[inlet], one.place[inside]])
-        mass.append(np.trapezoid(np.interp(place, one.place, density), place))
-        inflow.append(np.interp(inlet, *flow(one)))
-        end.append(one.place[-1])
-        behind.append(one.film_thickness[-1])
+    for solution in solutions:
+        density = relative_density(solution.pressure, solution.problem.fluid)[0] * solution.film_thickness
+        inside = solution.place > inlet
+        place = np.concatenate([[inlet], solution.place[inside]])
+        mass.append(np.trapezoid(np.interp(place, solution.place, density), place))
+        inflow.append(np.interp(inlet, *flow(solution)))
+        end.append(solution.place[-1])
+        behind.append(solution.film_thickness[-1])
     time = np.linspace(0.0, 5.0 * TRANSIT, steps + 1)
-    speed = np.array([one.problem.entrainment_speed for one in solutions])
+    speed = np.array([solution.problem.entrainment_speed for solution in solutions])
     outflow = np.array(behind) * (speed - np.gradient(np.array(end), time))
     change = np.trapezoid(np.array(inflow) - outflow, time)
     assert abs(change) > 0.1 * np.trapezoid(inflow, time)
@@ -257,7 +257,7 @@ def test_rigid_cylinders_squeeze_the_oil_as_their_closed_form():
     solutions = marched(at, end, 40, 0.1)
     bent = solutions[0].central_film_thickness
     times = np.linspace(0.0, end, 11)
-    gap = brentq(lambda one: rigid_approach(one, problem), 0.5 * bent, 1.5 * bent)
+    gap = brentq(lambda depth: rigid_approach(depth, problem), 0.5 * bent, 1.5 * bent)
     assert gap == pytest.approx(bent, rel=5e-3)
     for now, step in zip(times[:-1], np.diff(times), strict=True):  # Heun
         first = -rigid_approach(gap, at(now).problem)

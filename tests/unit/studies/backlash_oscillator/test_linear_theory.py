@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
 from tests.support.linear_oscillator import linear_amplitude
-from tribodyn.studies.backlash_oscillator.run import linear_figures
+from tribodyn.studies.backlash_oscillator.run import linear_theory
 
 
 def case(damping=0.05, force=0.3, error=0.05, variation=0.3):
@@ -38,11 +38,11 @@ def test_the_amplitude_solves_the_equation(frequency):
 
 
 def test_resonance_and_where_contact_is_lost():
-    one = case()
-    found = linear_figures(one)
+    oscillator = case()
+    found = linear_theory(oscillator)
 
     def amplitude(frequency):
-        return float(linear_amplitude(one, np.array([frequency]))[0])
+        return float(linear_amplitude(oscillator, np.array([frequency]))[0])
 
     options = {"xatol": 1e-9}
     top: Any = minimize_scalar(lambda f: -amplitude(f), bounds=(0.8, 1.2), method="bounded", options=options)
@@ -50,17 +50,17 @@ def test_resonance_and_where_contact_is_lost():
     lost = brentq(lambda f: amplitude(f) - 0.3, 0.3, top.x)
     assert found["contact_loss_from"] == pytest.approx(lost, rel=1e-9)
     assert found["frequencies"] == 7.0
-    assert linear_figures(case(damping=0.8))["resonance"] is None
-    assert linear_figures(case(error=0.0))["contact_loss_from"] is None
-    assert linear_figures(case(error=0.02))["contact_loss_from"] is None
-    assert linear_figures(case(damping=0.2))["tongue_half_width"] is None
+    assert linear_theory(case(damping=0.8))["resonance"] is None
+    assert linear_theory(case(error=0.0))["contact_loss_from"] is None
+    assert linear_theory(case(error=0.02))["contact_loss_from"] is None
+    assert linear_theory(case(damping=0.2))["tongue_half_width"] is None
 
 
 @pytest.mark.parametrize(("share", "grows"), [(0.8, True), (1.25, False)])
 def test_the_tongue_at_twice_the_resonance(share, grows):
     """x'' + 2ζ x' + (1 + ε cos Ωτ) x: its map over a period grows inside √(ε²/4 − 4ζ²) of Ω = 2."""
     damping, variation = 0.01, 0.08
-    width = linear_figures(case(damping, variation=variation))["tongue_half_width"]
+    width = linear_theory(case(damping, variation=variation))["tongue_half_width"]
     assert width is not None
     frequency = 2.0 + share * width
 
