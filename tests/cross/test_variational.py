@@ -131,7 +131,7 @@ def test_its_determinant_is_what_damping_takes_from_phase_space(prepared):
     tangent = period_map.tangent(state[None], case, 1)
     # a march from the same state, sampled where the trace is needed
     samples = 4000
-    track = period_map.integrate(period_map.full(state[None]), case, 1, samples, True)[0][0]
+    track = period_map.integrate(period_map.full(state[None]), case, 1, samples, True).samples[0]
     phases = np.arange(samples) / samples
     scale, moving = period_map.scale[0], period_map.moving
     shift = np.zeros((len(moving), STATES))

@@ -1,6 +1,6 @@
 """Where a run starts: the static equilibrium under load, or the unloaded position."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -26,6 +26,8 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.step_control import largest_displacement, unbounded
 
 _COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
+#: Values of the unknown states, or what is left of the equations.
+Trials = Float[Array, "*trial unknown"]
 #: Share of all torques of a model below which what is left of them presses no flanks together.
 _NO_LOAD = 1e-12
 #: Shares of the damping, from none to all of it, over which an equilibrium is followed that is not found at
@@ -76,12 +78,8 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
     translations, ξ and (with a shaft) its twist; all relative velocities are zero. The load and the drive
     press the driving flanks together, or the back flanks where there are any. Where they press neither, every
     position within the backlash is in equilibrium: returned is the one in which the driving flanks begin to
-    touch, the limit of a vanishing load.
-
-    Raises
-    ------
-    SimulationError
-        If there is none, e.g. because the load does not press the flanks together.
+    touch, the limit of a vanishing load. Raises SimulationError where there is none, e.g. because the load
+    does not press the flanks together.
     """
     mechanics = model.mechanics
     time = phase * float(model.table.pitch_angle) / float(mechanics.nominal_speed)
@@ -98,7 +96,17 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
         torques = max(abs(float(mechanics.drive_torque)), abs(torque), 1e-3)
         scale = np.append(scale, torques / mechanics.shaft_stiffness)
     values = y[unknown]
-    residual = partial(_residual, model, phase, segment, y, unknown, equation)
+
+    def residual(values: Trials, model: Model = model) -> Trials:
+        """What is left of the accelerations at values of the unknown states, the others as in `y`."""
+        states = np.broadcast_to(y, (*values.shape[:-1], STATES)).copy()
+        states[..., unknown] = values
+        rate = accelerations(states, phase, segment, model)
+        if not shaft:
+            return rate[..., equation]
+        twisting = rate[..., MOTOR_SLIP] - rate[..., SLIP]
+        return np.concatenate([rate[..., equation], twisting[..., None]], axis=-1)
+
     if shaft:  # which the free bodies twist in proportion
         twist = np.append(np.zeros(len(scale) - 1), scale[-1])
         free, twisted = residual(values)[-1], residual(values + twist)[-1]
@@ -117,8 +125,7 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
         shares = np.linspace(0.0, 1.0, DAMPING_STEPS)
         for damping in shares * float(mechanics.mesh_damping):
             softer = model._replace(mechanics=mechanics._replace(mesh_damping=damping))
-            residual = partial(_residual, softer, phase, segment, y, unknown, equation)
-            found = _root(residual, values, scale, tolerance)
+            found = _root(partial(residual, model=softer), values, scale, tolerance)
             if found is None:
                 pressed = bool(np.any(np.asarray(model.table.side) * side > 0))
                 raise SimulationError(DAMPED_AWAY if damping else NOT_FOUND if pressed else APART)
@@ -129,27 +136,8 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
     return y
 
 
-def _residual(
-    model: Model,
-    phase: float,
-    segment: int,
-    y: Float[Array, " state"],
-    unknown: Sequence[int],
-    equation: Sequence[int],
-    values: Float[Array, "*trial unknown"],
-) -> Float[Array, "*trial unknown"]:
-    """What is left of the accelerations at values of the unknown states, the others as in `y`."""
-    states = np.broadcast_to(y, (*values.shape[:-1], STATES)).copy()
-    states[..., unknown] = values
-    rate = accelerations(states, phase, segment, model)
-    if model.options.drive != DRIVE_SHAFT:
-        return rate[..., equation]
-    twisting = rate[..., MOTOR_SLIP] - rate[..., SLIP]
-    return np.concatenate([rate[..., equation], twisting[..., None]], axis=-1)
-
-
 def _root(
-    residual: Callable[[Float[Array, "*trial unknown"]], Float[Array, "*trial unknown"]],
+    residual: Callable[[Trials], Trials],
     values: Float[Array, " unknown"],
     scale: Float[Array, " unknown"],
     tolerance: float,

@@ -78,15 +78,11 @@ def _times(builder, factor, slope):
     return builder.fmul(broadcast(builder, factor, DIRECTIONS), slope, flags=FUSE)
 
 
-def no_slope():
-    """The slopes of a constant."""
-    return ir.Constant(SLOPES, [0.0] * DIRECTIONS)
-
-
 @lower_cast(types.Float, DUAL)
 @lower_cast(types.Integer, DUAL)
 def _number_to_dual(context, builder, given, wanted, value):
-    return made(context, builder, context.cast(builder, value, given, types.float64), no_slope())
+    none = ir.Constant(SLOPES, [0.0] * DIRECTIONS)
+    return made(context, builder, context.cast(builder, value, given, types.float64), none)
 
 
 def _sum(builder, a, b):

@@ -210,13 +210,7 @@ def record(name: str, names: tuple[str, ...], layouts: tuple[Any, ...]) -> Recor
 
 
 def packed(value: Any) -> PackedValue:
-    """Pack a value as kernels read it.
-
-    Raises
-    ------
-    TypeError
-        For what kernels do not take: an error of the program.
-    """
+    """Pack a value as kernels read it; TypeError for what they do not take, an error of the program."""
     if isinstance(value, PackedValue):
         return value
     if isinstance(value, float):

@@ -17,11 +17,8 @@ class Kernel:
     """A function for numba that Python calls as machine code; other kernels and laws call it as it stands.
 
     Compiled at the first call with arguments of a given layout, once in an installation; threads may call it
-    at once, and run side by side. Arrays are changed in place.
-
-    Parameters
-    ----------
-    function : at module level; of positional arguments
+    at once, and run side by side. Arrays are changed in place. The function is at module level and takes
+    positional arguments.
     """
 
     def __init__(self, function: Callable[..., Any]):

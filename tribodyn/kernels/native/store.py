@@ -31,10 +31,7 @@ _COMPILER = "tribodyn.kernels.native.compiler"
 def machine_code(function: Callable[..., Any], layout: Any) -> Code:
     """Machine code of a function for arguments of a layout: from disk, else compiled and kept there.
 
-    Raises
-    ------
-    InputError
-        Where nothing can be compiled, by a variable of the environment or by the version of numba.
+    Raises InputError where nothing can be compiled, by a variable of the environment or the version of numba.
     """
 
     def made() -> tuple[Code, bytes]:

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import Extremes, no_extremes, put_extremes
 from tribodyn.dynamics.parameters import (
     DISPLACEMENTS,
     DRIVE_SHAFT,
@@ -28,7 +27,7 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import usable_cores
 from tribodyn.solve.choice import choose
 from tribodyn.solve.ensemble import march
-from tribodyn.solve.integrator import MAX_STEPS, REASONS, Status
+from tribodyn.solve.integrator import MAX_STEPS, REASONS, Ensemble, Status, nothing_yet, put
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import DIFFERENCE, Marched, Tangent, by_differences
 from tribodyn.solve.right_hand_side import engage_next
@@ -87,11 +86,12 @@ class GearMap:
         self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int, fine: bool
     ) -> Marched:
         """See `motions.PeriodMap`."""
-        samples, end, reasons, _ = self.integrate(self.full(states), cases, periods, 1, fine)
+        result = self.integrate(self.full(states), cases, periods, 1, fine)
+        end, reasons = result.state, reasons_of(result.status, result.reached)
         for row, case in enumerate(cases):
             if self.models[case].options.formulation == ENERGY_CONSISTENT and not reasons[row]:
                 engage_next(end[row], self.models[case])
-        after = np.concatenate([samples[:, 1:], end[:, None]], axis=1)[..., self.moving]
+        after = np.concatenate([result.samples[:, 1:], end[:, None]], axis=1)[..., self.moving]
         after[[bool(reason) for reason in reasons]] = np.nan
         return Marched(after, reasons)
 
@@ -115,12 +115,9 @@ class GearMap:
             methods=[self.solvers[case] for case in cases],
             workers=self.settings["workers"] or usable_cores(),
         )
-        reasons = [
-            _reason(status, reached) for status, reached in zip(derived.status, derived.reached, strict=True)
-        ]
         image, jacobian = derived.state[:, self.moving], derived.slopes[:, self.moving] / scale[:, None, :]
         image[derived.status != Status.DONE] = np.nan
-        return Tangent(image, jacobian, reasons)
+        return Tangent(image, jacobian, reasons_of(derived.status, derived.reached))
 
     def integrate(
         self,
@@ -130,34 +127,30 @@ class GearMap:
         samples: int,
         fine: bool,
         extremes: bool = False,
-    ) -> tuple[Float[Array, "row sample state"], Float[Array, "row state"], list[str], Extremes]:
-        """Samples (R, periods · samples, STATES), states at the end before engagement, reasons, extremes."""
-        sampled = np.full((len(states), periods * samples, STATES), np.nan)
-        end = states.copy()
-        reasons = [""] * len(states)
-        found = no_extremes(len(states) if extremes else 0)
+    ) -> Ensemble:
+        """Integrate whole states over some mesh cycles, all of them sampled."""
+        result = nothing_yet(states, periods * samples, extremes)
         for solver in sorted(set(self.solvers)):
-            rows = [row for row, case in enumerate(cases) if self.solvers[case] == solver]
-            if not rows:
-                continue
-            batch = march(
-                [self.models[cases[row]] for row in rows],
-                states[rows],
-                cycles=periods,
-                window=periods,
-                samples=samples,
-                rtol=self.rtol[fine],
-                method=solver,
-                extremes=extremes,
-                **self.settings,
-            )
-            sampled[rows], end[rows] = batch.samples, batch.state
-            if extremes:
-                put_extremes(found, np.array(rows), batch.extremes)
-            for row, status, reached in zip(rows, batch.status, batch.reached, strict=True):
-                reasons[row] = _reason(status, reached)
-        return sampled, end, reasons, found
+            rows = np.flatnonzero([self.solvers[case] == solver for case in cases])
+            if rows.size:
+                part = march(
+                    [self.models[case] for case in cases[rows]],
+                    states[rows],
+                    cycles=periods,
+                    window=periods,
+                    samples=samples,
+                    rtol=self.rtol[fine],
+                    method=solver,
+                    extremes=extremes,
+                    **self.settings,
+                )
+                put(result, rows, part)
+        return result
 
 
-def _reason(status: int, reached: float) -> str:
-    return "" if status == Status.DONE else f"{REASONS[Status(status)]} (after {reached:.2f} mesh cycles)"
+def reasons_of(status: Int[Array, " row"], reached: Float[Array, " row"]) -> list[str]:
+    """Why rows ended before all of their mesh cycles; empty where they did not."""
+    return [
+        "" if how == Status.DONE else f"{REASONS[Status(how)]} (after {cycles:.2f} mesh cycles)"
+        for how, cycles in zip(status, reached, strict=True)
+    ]

@@ -12,7 +12,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import MAX_STEPS
-from tribodyn.solve.orbit.gear_map import GearMap, moving_states
+from tribodyn.solve.orbit.gear_map import GearMap, moving_states, reasons_of
 from tribodyn.solve.orbit.motions import FAILED, Orbit, failed_orbit
 from tribodyn.solve.orbit.search import Method, find
 
@@ -160,15 +160,14 @@ def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Stea
     for period in sorted({*cycles} - {0}):
         cases = np.flatnonzero(np.array(cycles) == period)
         states = np.array([motions[case].state for case in cases.tolist()])
-        window, end, reasons, extremes = period_map.integrate(
-            states, cases, period, samples, True, extremes=True
-        )
+        result = period_map.integrate(states, cases, period, samples, True, extremes=True)
+        reasons = reasons_of(result.status, result.reached)
         for row, case in enumerate(cases.tolist()):
             if reasons[row]:
                 motions[case] = _failed(states[row], reasons[row])
                 continue
-            found = extremes_of(extremes, row)
-            motions[case] = replace(motions[case], samples=window[row], end=end[row], extremes=found)
+            window, end, found = result.samples[row], result.state[row], extremes_of(result.extremes, row)
+            motions[case] = replace(motions[case], samples=window, end=end, extremes=found)
     return [motions[case] for case in range(len(orbits))]
 
 
