@@ -43,9 +43,9 @@ def _response(records: Sequence[Record]) -> Figure:
             if np.nanmax(back, initial=0.0) > 0.0:
                 lower.plot(record["frequency"], back, color=color, linestyle=":", linewidth=0.9)
     upper.set_ylabel("RMS of x about its mean\n(half backlashes)")
-    upper.set_ylim(bottom=0)
     lower.set_ylabel("Time without\ncontact (%)")
-    lower.set_ylim(bottom=0)
+    for axes in (upper, lower):
+        axes.set_ylim(bottom=0)
     titles = "Amplitude of the vibration: root mean square about the mean", "Loss of contact"
     _finish(drawn, (upper, lower), records, titles, losing=True)
     return drawn
@@ -70,12 +70,8 @@ def _branch(axes: Axes, record: Record, direction: int, color: str) -> None:
     for place in places:
         # on the way up the motion comes from the left, on the way down from the right
         start, end = (place, place + 1) if direction == UP else (place + 1, place)
-        axes.annotate(
-            "",
-            (x[end], y[end]),
-            xytext=(x[start], y[start]),
-            arrowprops={"arrowstyle": "-|>", "color": color, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0},
-        )
+        arrow = {"arrowstyle": "-|>", "color": color, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", (x[end], y[end]), xytext=(x[start], y[start]), arrowprops=arrow)
 
 
 def _unstable(axes: Axes, record: Record, direction: int, color: str, name: str, factor: float = 1.0) -> None:
@@ -117,8 +113,7 @@ def _multipliers(records: Sequence[Record]) -> Figure:
     upper.axhline(1.0, color=INK, linewidth=0.7)
     upper.set_ylabel("Largest multiplier, modulus")
     upper.set_ylim(bottom=0)
-    lower.set_ylabel("its angle (°)")
-    lower.set_yticks(range(0, 181, 45))
+    lower.set(ylabel="its angle (°)", yticks=range(0, 181, 45))
     titles = "Stability: the largest Floquet multiplier; stable below 1", "Its angle: 180° period doubling"
     _finish(drawn, (upper, lower), records, titles, losing=False)
     return drawn
@@ -136,13 +131,10 @@ def _finish(
     panels[-1].set_xlabel(ABSCISSA)
     drawn.align_ylabels()
     several = len(records) > 1
-    key: dict[str, dict[str, Any]] = {
-        f"frequency {WORDS[direction]}": {
-            "color": QUIET if several else PALETTE[direction],
-            "linestyle": LINES[direction],
-        }
-        for direction in (UP, DOWN)
-    }
+    key: dict[str, dict[str, Any]] = {}
+    for direction, words in WORDS.items():
+        color = QUIET if several else PALETTE[direction]
+        key[f"frequency {words}"] = {"color": color, "linestyle": LINES[direction]}
     if any("unstable_frequency" in record for record in records):
         key["unstable"] = UNSTABLE
     if losing:
@@ -153,8 +145,7 @@ def _finish(
             key["not periodic"] = {"linestyle": "", "marker": "^", "markersize": 3.5}
         if any(np.nanmax(record["back_contact_fraction"], initial=0.0) > 0.0 for record in records):
             key["contact on the back side (b)"] = {"linestyle": ":"}
-    handles = [Line2D([], [], **{"color": QUIET, **style}) for style in key.values()]
-    labels = list(key)
+    handles, labels = [Line2D([], [], **{"color": QUIET, **style}) for style in key.values()], list(key)
     if several:
         handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles
         labels = [*map(record_label, records), *labels]

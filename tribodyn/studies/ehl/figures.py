@@ -79,8 +79,7 @@ def _profiles(record: Record, drawn: Figure) -> None:
             text = f"{np.degrees(record['roll_angle'][at]):.1f}°"
             axes.plot(record["place"], scale * record[name][at], color=PALETTE[number], label=text)
         axes.set_ylabel(label)
-    top = 3e6 * np.nanmax(record["central_film_thickness"])
-    rows[0, 1].set_ylim(0, top)
+    rows[0, 1].set_ylim(0, 3e6 * np.nanmax(record["central_film_thickness"]))
     rows[0, 0].legend(title="roll angle", fontsize="x-small")
     for axes in rows[1]:
         axes.set_xlabel(_PLACE)
@@ -126,11 +125,11 @@ def _traction(record: Record, drawn: Figure) -> None:
 def _transient(record: Record, drawn: Figure) -> None:
     film, departure, friction = drawn.subplots(3, 1, sharex=True)
     roll = np.degrees(record["roll_angle"])
-    for number, (name, label) in enumerate((("central", "central"), ("minimum", "minimum"))):
+    for color, name in zip(PALETTE, ("central", "minimum"), strict=False):
         steady, squeezed = (record[f"{way}{name}_film_thickness"] for way in ("", "transient_"))
-        film.plot(roll, 1e6 * steady, "--", color=PALETTE[number], lw=1, label=f"{label}, steady")
-        film.plot(roll, 1e6 * squeezed, color=PALETTE[number], label=f"{label}, with squeeze")
-        departure.plot(roll, 100.0 * (squeezed / steady - 1.0), color=PALETTE[number], label=label)
+        film.plot(roll, 1e6 * steady, "--", color=color, lw=1, label=f"{name}, steady")
+        film.plot(roll, 1e6 * squeezed, color=color, label=f"{name}, with squeeze")
+        departure.plot(roll, 100.0 * (squeezed / steady - 1.0), color=color, label=name)
     friction.plot(roll, record["friction_coefficient"], "--", color=PALETTE[0], lw=1, label="steady")
     friction.plot(roll, record["transient_friction_coefficient"], color=PALETTE[0], label="with squeeze")
     film.set(ylabel="Film thickness (µm)", ylim=(0.0, None))

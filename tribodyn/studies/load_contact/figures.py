@@ -187,8 +187,7 @@ def _overview(records: Sequence[Record]) -> Figure:
     panels[0].set(xlabel=PHASE, ylabel="Loaded transmission error (µm)")
     panels[0].legend(loc="upper right")
     draw_loads(panels[1], [record])
-    panels[1].set_xlabel(PHASE)
-    panels[1].set_ylim(top=1.3 * panels[1].get_ylim()[1])
+    panels[1].set(xlabel=PHASE, ylim=(None, 1.3 * panels[1].get_ylim()[1]))
     panels[1].legend(loc="upper right", ncols=3, handlelength=1.5)
     if "torque" in record:
         draw_harris(panels[2], [record])
@@ -198,9 +197,8 @@ def _overview(records: Sequence[Record]) -> Figure:
     draw_map(panels[4], [record], record, PRESSURE)
     for body, style in (("pinion", "-"), ("gear", "--")):
         draw_root_stress(panels[5], [record], "root_tension", body, style)
-    panels[5].set_ylabel("Root tension (MPa)")
     show_contact(panels[5], [record])
-    panels[5].set_ylim(top=1.2 * panels[5].get_ylim()[1])
+    panels[5].set(ylabel="Root tension (MPa)", ylim=(None, 1.2 * panels[5].get_ylim()[1]))
     panels[5].legend(["pinion", "gear"], loc="upper right", ncols=2)
     titles = (
         "Transmission error under load",

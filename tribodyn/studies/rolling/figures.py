@@ -101,12 +101,11 @@ def _finish_axes(panels: Sequence[Axes], labelled: Sequence[Axes], by_element: b
         axes.set_ylim(bottom=0)
     for axes in labelled:
         if by_element:
-            axes.set_xlabel("Element, from the cam's depression")
+            ends = axes.dataLim.x0 - 0.5, axes.dataLim.x1 + 0.5
+            axes.set(xlabel="Element, from the cam's depression", xlim=ends)
             axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-            axes.set_xlim(axes.dataLim.x0 - 0.5, axes.dataLim.x1 + 0.5)
         else:
-            axes.set_xlabel("Angle φ of the element (°)")
-            axes.set_xticks(range(0, 181, 30))
+            axes.set(xlabel="Angle φ of the element (°)", xticks=range(0, 181, 30))
 
 
 def _cycles(record: Record, view: View) -> tuple[slice, np.ndarray]:
@@ -150,10 +149,10 @@ def _draw_loads(panels: Sequence[Axes], records: Sequence[Record], view: View) -
         loaded = np.sum(load > 1e-9 * load.max(), axis=1)
         panels[1].step(x, loaded, color=color, where="mid")
     panels[0].set_ylabel("Normal load of each element (N)")
-    panels[0].set_ylim(bottom=0)
     panels[1].set_ylabel("Loaded elements")
     panels[1].yaxis.set_major_locator(MaxNLocator(integer=True))
-    panels[1].set_ylim(bottom=0)
+    for axes in panels:
+        axes.set_ylim(bottom=0)
     return "Normal load of each element, one drawn heavier", "Number of elements under load"
 
 
@@ -162,15 +161,9 @@ def draw_loads(axes: Axes, x: np.ndarray, load: np.ndarray, color: str) -> None:
     axes.plot(x, load, color=color, linewidth=0.7, alpha=0.45)
     leaving = int(np.argmax(load[0] - load[-1]))
     axes.plot(x, load[:, leaving], color=color, linewidth=1.6)
-    middle = len(x) // 2
-    axes.annotate(
-        f"element {leaving + 1}",
-        (x[middle], load[middle, leaving]),
-        xytext=(6, 6),
-        textcoords="offset points",
-        color=color,
-        fontsize=7.5,
-    )
+    middle, style = len(x) // 2, {"color": color, "fontsize": 7.5}
+    place = x[middle], load[middle, leaving]
+    axes.annotate(f"element {leaving + 1}", place, xytext=(6, 6), textcoords="offset points", **style)
 
 
 def _draw_efficiency(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
@@ -201,8 +194,7 @@ def _gears(records: Sequence[Record]) -> Figure:
         axes.set_title(_title(record), loc="left", fontsize=9)
     reach = max(abs(end) for axes in shown for end in (*axes.get_xlim(), *axes.get_ylim()))
     for axes in shown:
-        axes.set_xlim(-reach, reach)
-        axes.set_ylim(-reach, reach)
+        axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
     return drawn
 
 
@@ -219,8 +211,7 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
     if moving:
         part, x = _cycles(record, view)
         draw_loads(rows[1, 2], x, record["normal_load"][part], PALETTE[0])
-        rows[1, 2].set_ylabel("Normal load of each element (N)")
-        rows[1, 2].set_xlabel(abscissa_label(view))
+        rows[1, 2].set(xlabel=abscissa_label(view), ylabel="Normal load of each element (N)")
         rows[1, 2].set_ylim(bottom=0)
     else:
         rows[1, 2].remove()
