@@ -51,11 +51,7 @@ def warm() -> set[str]:
     return set()
 
 
-@pytest.mark.parametrize(
-    "size",
-    SIZES,
-    ids=lambda one: f"{one.kind}-{'-'.join(map(str, one.more.values()))}",
-)
+@pytest.mark.parametrize("size", SIZES, ids=lambda one: f"{one.kind}-{'-'.join(map(str, one.more.values()))}")
 def test_estimates_are_true(size: Size, tmp_path: Path, warm: set[str]):
     """Memory and record within a factor of two, with a few MiB that no estimate counts; time by its order."""
     if size.kind not in warm:
@@ -106,11 +102,7 @@ def test_what_is_too_large_is_refused_by_the_key_to_reduce(name: str):
 
 
 LARGE = {
-    "gear-pair": [
-        ("output.samples_per_cycle", 10**9),
-        ("solver.cycles", 10**9),
-        ("mesh.points", 10**6),
-    ],
+    "gear-pair": [("output.samples_per_cycle", 10**9), ("solver.cycles", 10**9), ("mesh.points", 10**6)],
     "efficiency": [("output.samples_per_cycle", 10**9)],
     "load-contact": [("output.positions_per_cycle", 10**9), ("output.cycles", 10**9)],
     "ehl": [("output.positions", 10**9)],

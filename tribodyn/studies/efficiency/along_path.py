@@ -141,11 +141,7 @@ class CycleEfficiency(NamedTuple):
 
 
 def cycle_efficiency(
-    cycle: MeshCycle,
-    path: Path,
-    duty: MeshDuty,
-    points: int = POINTS,
-    flanks: LoadedFlanks | None = None,
+    cycle: MeshCycle, path: Path, duty: MeshDuty, points: int = POINTS, flanks: LoadedFlanks | None = None
 ) -> CycleEfficiency:
     """Integrate power in, out and lost over a mesh cycle.
 

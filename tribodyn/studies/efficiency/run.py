@@ -32,13 +32,7 @@ from tribodyn.studies.efficiency.along_path import (
     samples,
 )
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
-from tribodyn.studies.efficiency.published import (
-    exact,
-    hoehn,
-    path_contact,
-    tip_contact_ratios,
-    torque_ratio,
-)
+from tribodyn.studies.efficiency.published import exact, hoehn, path_contact, tip_contact_ratios, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
 from tribodyn.studies.gears.case import LAYOUT
 from tribodyn.studies.gears.check import check_gears, oil_data

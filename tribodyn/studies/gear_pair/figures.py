@@ -32,12 +32,10 @@ SWEEP_DRAWINGS: dict[str, SweepDrawing] = {
         lambda records, _: response_figure(records, PANELS),
     ),
     "waterfall": SweepDrawing(
-        "amplitude spectra of the transmission error over the first varied key",
-        waterfall_figure,
+        "amplitude spectra of the transmission error over the first varied key", waterfall_figure
     ),
     "campbell": SweepDrawing(
-        "natural frequencies and orders of the mesh, with the amplitudes at the crossings",
-        campbell_figure,
+        "natural frequencies and orders of the mesh, with the amplitudes at the crossings", campbell_figure
     ),
     "bifurcation": SweepDrawing(
         "transmission error once per mesh cycle over the first varied key",

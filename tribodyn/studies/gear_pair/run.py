@@ -47,11 +47,7 @@ AVERAGED = "radius and entrainment vanish; averaged over the contact's own half 
 
 
 def run(
-    case: Case,
-    output: str | Path | None = None,
-    *,
-    force: bool = False,
-    progress: Progress | None = None,
+    case: Case, output: str | Path | None = None, *, force: bool = False, progress: Progress | None = None
 ) -> RunResult:
     """Run a case and write its record; see `study.Study.run`.
 

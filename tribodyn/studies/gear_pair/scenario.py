@@ -23,16 +23,7 @@ from tribodyn.scenario.common import (
     TorqueCurve,
     TorsionalDamping,
 )
-from tribodyn.scenario.quantity import (
-    Count,
-    InUnit,
-    NotNegative,
-    Table,
-    Text,
-    csv_file,
-    model_file,
-    written,
-)
+from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, Text, csv_file, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings, Stiffness, bearings_of
 from tribodyn.scenario.tables.drive_data import backlash_of
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
@@ -118,13 +109,7 @@ class TransmissionError(Table):
     """Static transmission error e of a pair, positive where material is missing."""
 
     harmonics: tuple[ErrorHarmonic, ...] = Field((), max_length=MOST_HARMONICS)
-    table: (
-        Annotated[
-            ErrorCurve,
-            csv_file("roll_angle", "error"),
-        ]
-        | None
-    ) = None
+    table: Annotated[ErrorCurve, csv_file("roll_angle", "error")] | None = None
 
 
 class Mesh(Table):
@@ -140,13 +125,9 @@ class Mesh(Table):
     )
     foundation_coupling: FoundationCoupling = True
     stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
-    table: (
-        Annotated[
-            StiffnessCurve,
-            csv_file("roll_angle", "stiffness"),
-        ]
-        | None
-    ) = Field(None, description='of a single pair, with compliance = "table"')
+    table: Annotated[StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = Field(
+        None, description='of a single pair, with compliance = "table"'
+    )
     formulation: Literal["classical", "energy-consistent"] = Field(
         "classical", description="whether the varying stiffness acts on the rotations"
     )
@@ -231,11 +212,7 @@ def _operating(scenario: Scenario) -> OperatingData:
             (one.amplitude, one.frequency, one.phase) for one in operating.gear_torque_harmonics
         ),
         **operating.model_dump(
-            exclude={
-                "gear_torque_table",
-                "gear_torque_harmonics",
-                *OiledOperatingTable.model_fields,
-            }
+            exclude={"gear_torque_table", "gear_torque_harmonics", *OiledOperatingTable.model_fields}
         ),
     )
 

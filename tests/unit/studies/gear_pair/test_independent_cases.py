@@ -10,9 +10,7 @@ from tribodyn.studies.protocol.load import load_scenario
 
 evaluate = importlib.import_module("tribodyn.studies.gear_pair.batch.evaluate")
 
-MOVING_ERROR = {
-    "harmonics": [{"order": 1, "amplitude": "8 um", "phase": "90 deg"}],
-}
+MOVING_ERROR = {"harmonics": [{"order": 1, "amplitude": "8 um", "phase": "90 deg"}]}
 
 
 @pytest.mark.parametrize("torque", ["100 N*m", "500 N*m"])
