@@ -17,7 +17,7 @@ from tribodyn.record.reader import open_record
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, number_of, value_at
 from tribodyn.studies.design.candidates.evaluation import Pool
 from tribodyn.studies.design.candidates.scoring import Scoring
-from tribodyn.studies.pages.pictures import overview
+from tribodyn.studies.pages import overview
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

@@ -11,7 +11,7 @@ from typing import Any
 from tools.marked_block import PICTURES as FOLDER
 from tribodyn.post.style import save
 from tribodyn.record.reader import open_record
-from tribodyn.studies.pages.pictures import figure
+from tribodyn.studies.pages import figure
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

@@ -12,7 +12,7 @@ import numpy as np
 from tools.marked_block import DOCS, PICTURES, put, table
 from tribodyn.post.style import save
 from tribodyn.record.reader import open_record
-from tribodyn.studies.pages.pictures import overview
+from tribodyn.studies.pages import overview
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from tests.support import synthetic_record
 from tribodyn.cli.app import app
 from tribodyn.record.reader import open_record
-from tribodyn.studies.pages.pictures import names
+from tribodyn.studies.pages import names
 
 SHORT = ("--set", "solver.cycles=2")
 

@@ -21,8 +21,15 @@ from tribodyn.post.style import house_style, literal, save
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies import STUDIES
-from tribodyn.studies.pages.page import report, sweep_report
-from tribodyn.studies.pages.pictures import figure, names, summary_table, sweep_figure, sweep_names
+from tribodyn.studies.pages import (
+    figure,
+    names,
+    report,
+    summary_table,
+    sweep_figure,
+    sweep_names,
+    sweep_report,
+)
 
 OLD = Path(__file__).parents[1] / "fixtures" / "records-0.1.0"
 SLOW = ("load-contact", "design", "assessment")

@@ -30,8 +30,8 @@ from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.studies import STUDIES
-from tribodyn.studies.pages import pictures as of
-from tribodyn.studies.pages.page import report, sweep_report
+from tribodyn.studies import pages as of
+from tribodyn.studies.pages import report, sweep_report
 
 OLD = Path(__file__).parents[1] / "fixtures" / "records-0.1.0"
 SAMPLES = ["gear-pair", "efficiency", "load-contact", "backlash-oscillator", "sweep"]

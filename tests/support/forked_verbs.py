@@ -15,7 +15,7 @@ from subprocess import CompletedProcess
 SERVER = """
 import gc, json, os, signal, sys
 import llvmlite.binding, matplotlib.backends.backend_agg, matplotlib.figure, numba, scipy.interpolate
-import tribodyn.cli.app, tribodyn.studies.pages.pictures
+import tribodyn.cli.app, tribodyn.studies.pages
 import tribodyn.studies.gear_pair.run, tribodyn.studies.gear_pair.scenario
 from tribodyn.cli import main
 from tribodyn.post.style import STYLE

@@ -20,7 +20,7 @@ from tribodyn.post.report import as_json
 from tribodyn.post.sweep_report import sweep_as_json
 from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
-from tribodyn.studies.pages.pictures import summary_table, sweep_table
+from tribodyn.studies.pages import summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.sweep.grid import Grid
 from tribodyn.tribology.ehl.table import ContactTable

@@ -21,7 +21,7 @@ from tools.soak.refusals import untrue
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.studies.pages.pictures import summary_table, sweep_table
+from tribodyn.studies.pages import summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.sweep.engines import LocalEngine

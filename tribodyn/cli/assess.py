@@ -44,7 +44,7 @@ def assess(
     from tribodyn.post.report import as_json
     from tribodyn.record.reader import open_record
     from tribodyn.studies import STUDIES
-    from tribodyn.studies.pages.page import write_report
+    from tribodyn.studies.pages import write_report
     from tribodyn.studies.protocol.load import load
 
     loaded = load(scenario, overrides(settings))

@@ -52,8 +52,8 @@ def compare(
     from tribodyn.cli.printing import print_files, print_json, print_rich
     from tribodyn.post import compare as comparing
     from tribodyn.record.reader import open_record
-    from tribodyn.studies.pages.pictures import compare as compare_records
-    from tribodyn.studies.pages.pictures import names
+    from tribodyn.studies.pages import compare as compare_records
+    from tribodyn.studies.pages import names
 
     scenarios = _scenarios(what, overrides(settings))
     pictures: list[Path] = []
@@ -85,7 +85,7 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     """Load what is to be run, and refuse before anything runs what cannot be compared afterwards."""
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
-    from tribodyn.studies.pages.pictures import study_of_record
+    from tribodyn.studies.pages import study_of_record
     from tribodyn.studies.protocol.load import load
 
     if len(what) < 2:

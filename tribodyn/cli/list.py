@@ -95,7 +95,7 @@ def _about(what: What) -> dict[str, str]:
 def _plots_of(path: Path) -> dict[str, str]:
     """Return name and description of the figures that a record holds enough for."""
     from tribodyn.record.sweep_reader import SweepRecord, open_any
-    from tribodyn.studies.pages.pictures import drawable, drawable_of_sweep
+    from tribodyn.studies.pages import drawable, drawable_of_sweep
 
     with open_any(path) as opened:
         known = drawable_of_sweep([opened]) if isinstance(opened, SweepRecord) else drawable([opened])

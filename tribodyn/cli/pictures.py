@@ -35,7 +35,7 @@ def draw(
     force: bool = False,
 ) -> list[Path]:
     """Draw figures by name into files named after `beside`: ``crc.png`` becomes ``crc-film.png``."""
-    from tribodyn.studies.pages.pictures import figure
+    from tribodyn.studies.pages import figure
 
     make = partial(figure, records=records, cycles=cycles, against=against)
     return save_all(names, beside, make, force=force)
@@ -49,7 +49,7 @@ def overview_path(record: Path) -> Path:
 def draw_pictures(path: Path, *, everything: bool, force: bool = False) -> list[Path]:
     """Draw the overview of a record, or all its figures, beside it."""
     from tribodyn.record.reader import open_record
-    from tribodyn.studies.pages.pictures import names
+    from tribodyn.studies.pages import names
 
     with open_record(path) as record:
         chosen = ["overview", *names([record])] if everything else ["overview"]
@@ -171,7 +171,7 @@ def _get_ready() -> None:
     import tribodyn.cli.pictures
     import tribodyn.cli.progress
     import tribodyn.record.soundness
-    import tribodyn.studies.pages.pictures  # noqa: F401
+    import tribodyn.studies.pages  # noqa: F401
     from tribodyn.post.figures.over_mesh import prepare_overview
 
     prepare_overview()

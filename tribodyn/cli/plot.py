@@ -78,8 +78,8 @@ def plot(
     from tribodyn.record.reader import open_record
     from tribodyn.record.sweep_reader import SweepRecord, is_sweep
     from tribodyn.scenario.sources import is_file
-    from tribodyn.studies.pages.pictures import names as figure_names
-    from tribodyn.studies.pages.pictures import sweep_figure, sweep_names
+    from tribodyn.studies.pages import names as figure_names
+    from tribodyn.studies.pages import sweep_figure, sweep_names
 
     paths = [word for word in what if word.endswith((".h5", ".hdf5")) or is_file(Path(word))]
     names = [word for word in what if word not in paths]

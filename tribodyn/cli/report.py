@@ -35,7 +35,7 @@ def report(
     from tribodyn.cli.printing import print_files, print_json
     from tribodyn.numerics.output_files import check_output
     from tribodyn.record.sweep_reader import open_any
-    from tribodyn.studies.pages.page import write_report
+    from tribodyn.studies.pages import write_report
 
     target = output or Path(f"{'-'.join(Path(path).stem for path in records)}.html")
     if pdf:

@@ -110,7 +110,7 @@ def run_loaded(
             wanted = not failed and plot is not False
             drawn = draw_pictures(result.path, everything=bool(plot), force=force) if wanted else []
         if report and not failed:
-            from tribodyn.studies.pages.page import write_report
+            from tribodyn.studies.pages import write_report
 
             with open_record(result.path) as opened:
                 page = write_report([opened], result.path.with_suffix(".html"), force=force)

@@ -21,7 +21,7 @@ def show(
     from tribodyn.post.report import as_json
     from tribodyn.post.sweep_report import sweep_as_json
     from tribodyn.record.sweep_reader import SweepRecord, open_any
-    from tribodyn.studies.pages.pictures import sweep_table
+    from tribodyn.studies.pages import sweep_table
 
     with open_any(record) as opened:
         sweep = isinstance(opened, SweepRecord)
@@ -37,6 +37,6 @@ def show(
 def print_summary(record: "Record") -> None:
     """Write the summary of an open record to stdout."""
     from tribodyn.cli.printing import print_rich
-    from tribodyn.studies.pages.pictures import summary_table
+    from tribodyn.studies.pages import summary_table
 
     print_rich(summary_table(record))

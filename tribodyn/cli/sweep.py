@@ -114,7 +114,7 @@ def sweep(
     from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
     from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.record.sweep_schema import DIRECTIONS
-    from tribodyn.studies.pages.pictures import sweep_table
+    from tribodyn.studies.pages import sweep_table
     from tribodyn.sweep.engines import engine_of
     from tribodyn.sweep.grid import Grid, default_output
     from tribodyn.sweep.run import run, settings_of

@@ -73,7 +73,7 @@ class Run:
     @property
     def plots(self) -> tuple[str, ...]:
         """Names that `plot` takes."""
-        from tribodyn.studies.pages.pictures import OVERVIEW, names
+        from tribodyn.studies.pages import OVERVIEW, names
 
         with open_record(self.path) as record:
             return (OVERVIEW, *names([record]))
@@ -113,7 +113,7 @@ class Run:
             For an unknown name, and runs that cannot be compared.
         """
         from tribodyn.post.style import in_place_of
-        from tribodyn.studies.pages.pictures import figure
+        from tribodyn.studies.pages import figure
 
         with records_of([self, *others]) as records, in_place_of(ax) if ax is not None else nullcontext():
             return figure(name, records, cycles=cycles, against=against)
@@ -143,7 +143,7 @@ class Run:
         OutputError
             If it cannot be written.
         """
-        from tribodyn.studies.pages.page import write_report
+        from tribodyn.studies.pages import write_report
 
         with records_of([self, *others]) as records:
             return write_report(records, path or f"{self.path.stem}.html", force=force)
@@ -167,7 +167,7 @@ class Run:
         InputError
             For a record without gears that turn.
         """
-        from tribodyn.studies.pages.page import report
+        from tribodyn.studies.pages import report
 
         with records_of([self, *others]) as records:
             shown.check_teeth(records)
@@ -210,7 +210,7 @@ class Run:
     def _repr_html_(self) -> str:
         """Title, warnings, a small picture, the summary and how far to trust it, for notebooks."""
         from tribodyn.post.page.page import summary_tables, warnings_of
-        from tribodyn.studies.pages.pictures import study_of_record
+        from tribodyn.studies.pages import study_of_record
 
         with open_record(self.path) as record:
             study = study_of_record(record)

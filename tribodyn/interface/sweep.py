@@ -56,7 +56,7 @@ class Sweep:
     @property
     def plots(self) -> tuple[str, ...]:
         """Names that `plot` takes."""
-        from tribodyn.studies.pages.pictures import sweep_names
+        from tribodyn.studies.pages import sweep_names
 
         with SweepRecord(self.path) as record:
             return sweep_names([record])
@@ -82,7 +82,7 @@ class Sweep:
         InputError
             For an unknown name, and a place that is not in the grid.
         """
-        from tribodyn.studies.pages.pictures import sweep_figure
+        from tribodyn.studies.pages import sweep_figure
 
         with SweepRecord(self.path) as record:
             return sweep_figure(name, [record], at)

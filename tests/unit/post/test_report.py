@@ -10,7 +10,7 @@ from tests.support import synthetic_record
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.post.report import as_json
 from tribodyn.record.reader import Record, open_record
-from tribodyn.studies.pages.pictures import summary_table
+from tribodyn.studies.pages import summary_table
 
 
 @pytest.fixture

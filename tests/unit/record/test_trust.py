@@ -35,7 +35,7 @@ from tribodyn.record.trust import (
     verdict,
 )
 from tribodyn.record.withheld import remarked, remarks, warned, warnings
-from tribodyn.studies.pages.pictures import summary_table, sweep_table
+from tribodyn.studies.pages import summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

@@ -16,7 +16,7 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.withheld import is_efficiency, reason_to_withhold, samples_withheld, warnings, withheld
-from tribodyn.studies.pages.pictures import summary_table, sweep_table
+from tribodyn.studies.pages import summary_table, sweep_table
 
 
 def printed(table) -> str:

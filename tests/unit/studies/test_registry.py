@@ -16,7 +16,7 @@ from tribodyn.cli.app import app
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
 from tribodyn.studies import STUDIES
-from tribodyn.studies.pages.pictures import names, study_of_record
+from tribodyn.studies.pages import names, study_of_record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

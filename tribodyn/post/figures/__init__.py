@@ -1,1 +1,1 @@
-"""The figures, one subject a file; `tribodyn.studies.pages.pictures` names them."""
+"""The figures, one subject a file; `tribodyn.studies.pages` names them."""

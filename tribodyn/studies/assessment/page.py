@@ -252,7 +252,7 @@ def _list(heading: str, sentences: Mapping[str, str]) -> str:
 def _part(study: Study, title: str, done: Sequence[parts.TaskResult]) -> str:
     """Picture and summary of the first record of a part; of rows their extremes stand on the first page."""
     from tribodyn.post.page.page import summary_tables
-    from tribodyn.studies.pages.pictures import overview
+    from tribodyn.studies.pages import overview
 
     for result in done:
         if not result.summary:

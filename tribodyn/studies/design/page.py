@@ -10,8 +10,7 @@ from tribodyn.post.page.page import page as write
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.figures import DRAWINGS
 from tribodyn.studies.design.report import PANELS, REPORTED, quantity_of, sentences
-from tribodyn.studies.pages.page import sheet
-from tribodyn.studies.pages.pictures import figure
+from tribodyn.studies.pages import figure, sheet
 from tribodyn.studies.protocol.study import TextTable
 
 #: Pictures on the page, where the record holds enough for them.

@@ -17,7 +17,7 @@ from tribodyn.post.page.data import MOST_SAMPLES, extrapolated, thinned
 from tribodyn.post.page.rolling_teeth import rolling_teeth
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import open_any
-from tribodyn.studies.pages.page import write_report
+from tribodyn.studies.pages import write_report
 
 
 @pytest.fixture(scope="module")

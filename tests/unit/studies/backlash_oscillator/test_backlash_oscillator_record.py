@@ -6,7 +6,7 @@ import pytest
 from tests.support.linear_oscillator import linear_amplitude
 from tribodyn.record.reader import open_record
 from tribodyn.studies.backlash_oscillator.run import linear_theory
-from tribodyn.studies.pages.pictures import figure, names
+from tribodyn.studies.pages import figure, names
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tribodyn.record.reader import open_record
-from tribodyn.studies.pages.pictures import figure
+from tribodyn.studies.pages import figure
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

@@ -13,7 +13,7 @@ import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
 from tribodyn.studies.design.report import sentences
-from tribodyn.studies.pages.page import report
+from tribodyn.studies.pages import report
 
 #: A case of it takes milliseconds.
 BASE = {

@@ -8,7 +8,7 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.post.figures.spectrum import HOP, MOST_HOPPED, WINDOW, track, worth_tracking
-from tribodyn.studies.pages.pictures import figure
+from tribodyn.studies.pages import figure
 
 TEETH, PER_CYCLE, CYCLES = 20, 32, 120
 PITCH = 2 * np.pi / TEETH

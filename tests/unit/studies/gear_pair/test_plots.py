@@ -19,7 +19,7 @@ from tribodyn.post.cycles import key_points, last_cycles, pair_curve
 from tribodyn.post.figures.path_of_contact import gears_in_mesh, key_positions
 from tribodyn.record.reader import Record, open_record
 from tribodyn.studies import STUDIES
-from tribodyn.studies.pages.pictures import figure, overview
+from tribodyn.studies.pages import figure, overview
 
 
 @pytest.fixture(scope="module")
@@ -192,7 +192,7 @@ def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
     """It takes long to import and keeps figures alive in a global list."""
     drawing = (
         "import sys\n"
-        "from tribodyn.studies.pages.pictures import figure, names\n"
+        "from tribodyn.studies.pages import figure, names\n"
         "from tribodyn.post.style import save\n"
         "from tribodyn.record.reader import open_record\n"
         "with open_record(sys.argv[1]) as record:\n"

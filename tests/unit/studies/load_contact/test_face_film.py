@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.studies.pages.pictures import figure
+from tribodyn.studies.pages import figure
 
 OILED = {
     "lubricant": "liu-ni-2022",

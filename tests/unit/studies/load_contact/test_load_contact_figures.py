@@ -15,7 +15,7 @@ from tribodyn.studies.load_contact.maps import (
     over_roll,
     pair_over_phase,
 )
-from tribodyn.studies.pages.pictures import figure
+from tribodyn.studies.pages import figure
 
 pytestmark = pytest.mark.slow
 

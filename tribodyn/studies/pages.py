@@ -1,11 +1,16 @@
-"""Figures, summaries and comparisons of records, as their studies make them."""
+"""Figures, summaries, comparisons and pages of records and of sweeps, as their studies make them."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Literal
 
-from tribodyn.errors import InputError, near_name
+from tribodyn.errors import InputError, SimulationError, near_name
+from tribodyn.numerics.output_files import check_output, write_output
 from tribodyn.record.reader import Record
+from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies import STUDIES
+from tribodyn.studies.protocol.load import load
 from tribodyn.studies.protocol.study import Study
 
 if TYPE_CHECKING:
@@ -15,7 +20,7 @@ if TYPE_CHECKING:
     from tribodyn.post.compare import Comparison
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.quantities.quantity import Quantity, Reported
-    from tribodyn.record.sweep_reader import SweepRecord
+    from tribodyn.studies.protocol.study import TextTable
 
 OVERVIEW = "overview"
 
@@ -25,12 +30,12 @@ def study_of_record(record: Record) -> Study:
     return _installed(record, record.kind, "study")
 
 
-def study_of_sweep(record: "SweepRecord") -> Study:
+def study_of_sweep(record: SweepRecord) -> Study:
     """Return the study whose cases a sweep has; raises as `study_of_record`."""
     return _installed(record, record.kind_of_study, "sweep")
 
 
-def _installed(record: "Record | SweepRecord", kind: str, what: str) -> Study:
+def _installed(record: Record | SweepRecord, kind: str, what: str) -> Study:
     if kind not in STUDIES:
         rule = f'a {what} of kind "{kind}", which nothing that is installed knows'
         raise InputError("record", str(record.path), rule, "install the package that offers it")
@@ -50,17 +55,18 @@ def drawable(records: Sequence[Record]) -> "Mapping[str, Drawing]":
 
 def drawings(records: Sequence[Record]) -> "Mapping[str, Drawing]":
     """Figures that the studies of all records have; InputError where they share no quantities."""
-    first, *others = records
-    study = study_of_record(first)
-    known = dict(study.drawings())
-    for record in others:
-        other = study_of_record(record)
-        if other.quantities != study.quantities:
-            rule = f"of kind {record.kind}, the first of {first.kind}"
-            raise InputError("record", str(record.path), rule, "draw them apart")
-        also = other.drawings()
-        known = {name: drawn for name, drawn in known.items() if name in also}
-    return known
+    first, *others = [study.drawings() for study in _studies_of(records, "draw them apart")]
+    return {name: drawn for name, drawn in first.items() if all(name in other for other in others)}
+
+
+def _studies_of(records: Sequence[Record], remedy: str) -> list[Study]:
+    """Studies of records, one each; InputError where they share no quantities."""
+    studies = [study_of_record(record) for record in records]
+    for record, study in zip(records, studies, strict=True):
+        if study.quantities != studies[0].quantities:
+            rule = f"of kind {record.kind}, the first of {records[0].kind}"
+            raise InputError("record", str(record.path), rule, remedy)
+    return studies
 
 
 def figure(
@@ -146,12 +152,12 @@ def _compared(studies: Sequence[Study]) -> "Reported":
     return {heading: tuple(some.values()) for heading, some in headings.items()}
 
 
-def sweep_names(records: "Sequence[SweepRecord]") -> tuple[str, ...]:
+def sweep_names(records: Sequence[SweepRecord]) -> tuple[str, ...]:
     """Names of the figures that can be drawn from sweeps."""
     return tuple(drawable_of_sweep(records))
 
 
-def drawable_of_sweep(records: "Sequence[SweepRecord]") -> "Mapping[str, SweepDrawing]":
+def drawable_of_sweep(records: Sequence[SweepRecord]) -> "Mapping[str, SweepDrawing]":
     """Figures that can be drawn from sweeps, by name."""
     study = study_of_sweep(records[0])
     for record in records[1:]:
@@ -162,7 +168,7 @@ def drawable_of_sweep(records: "Sequence[SweepRecord]") -> "Mapping[str, SweepDr
 
 
 def sweep_figure(
-    name: str, records: "Sequence[SweepRecord]", at: Mapping[str, float | str] | None = None
+    name: str, records: Sequence[SweepRecord], at: Mapping[str, float | str] | None = None
 ) -> "Figure":
     """Draw one figure of sweeps.
 
@@ -194,8 +200,83 @@ def _unknown(name: str, rule: str, known: Mapping[str, object]) -> InputError:
     return InputError("plot", name, rule, f"{hint}There are: {', '.join(known)}")
 
 
-def sweep_table(record: "SweepRecord") -> "Group":
+def sweep_table(record: SweepRecord) -> "Group":
     """Lay out the summary of a sweep for the terminal."""
     from tribodyn.post.sweep_report import sweep_table as table_of
 
     return table_of(record, study_of_sweep(record).sweep_table())
+
+
+def report(records: Sequence[Record], figures: bool = True) -> str:
+    """Write the page of one record, or of several side by side: one HTML file that needs no other.
+
+    Without `figures` there are only the teeth in mesh on it, and what moves them. Raises InputError for no
+    record, one without samples, and records that share no quantities.
+    """
+    from tribodyn.post.page.page import PageContent, page
+
+    if not records:
+        raise InputError("records", None, "there is nothing to report on", "name at least one record")
+    studies = _studies_of(records, "make a page of its own")
+    own = studies[0].own_page()
+    if own and figures and len(records) == 1:
+        return own(records[0])
+    contents = [
+        PageContent(
+            study.reported(),
+            study.sentences(record),
+            study.panels(),
+            study.maps(record),
+            sheet(record) if figures else (),
+            study.profiles(record),
+        )
+        for study, record in zip(studies, records, strict=True)
+    ]
+    return page(records, contents, figures)
+
+
+def sheet(record: Record | SweepRecord) -> "Sequence[TextTable]":
+    """What `check` says of the scenario of a record; nothing where this version cannot make its case."""
+    with TemporaryDirectory(prefix="tribodyn-") as folder:
+        scenario = Path(folder) / "scenario.toml"
+        write_output(scenario, str(record.attrs.get("scenario", "")))
+        try:
+            loaded = load(scenario)
+            return loaded.study.check(loaded.case, allow_large=True).tables
+        except (InputError, SimulationError):
+            return ()
+
+
+def sweep_report(record: SweepRecord) -> str:
+    """Write the page of a sweep: its quantities over the first varied key, and its pictures."""
+    from tribodyn.post.page.sweep_page import sweep_page
+
+    study = study_of_sweep(record)
+    pictures = []
+    for name in sweep_names([record]):
+        try:
+            pictures.append((name, study.sweep_drawings()[name].about, sweep_figure(name, [record])))
+        except InputError:  # of a sweep that lacks what the picture shows
+            continue
+    return sweep_page(record, study.sweep_table(), pictures, sheet(record))
+
+
+def write_report(records: Sequence[Record | SweepRecord], path: str | Path, *, force: bool = False) -> Path:
+    """Write the page into a file; raises as `report` and `write_output`. Of sweeps one alone."""
+    check_page(path, force)
+    sweeps = [record for record in records if isinstance(record, SweepRecord)]
+    if len(sweeps) == 1 == len(records):
+        text = sweep_report(sweeps[0])
+    elif sweeps:
+        path_of_sweep = str(sweeps[0].path)
+        raise InputError("record", path_of_sweep, "a sweep has a page of its own", "make a page of each")
+    else:
+        text = report([record for record in records if isinstance(record, Record)])
+    return write_output(path, text, force=force)
+
+
+def check_page(path: str | Path, force: bool = False) -> None:
+    """Raise InputError where a page may not be written, see `check_output`; touches nothing."""
+    if Path(path).suffix.lower() not in (".html", ".htm"):
+        raise InputError("output", str(path), "a page is a file that ends in .html", "name it so")
+    check_output(path, force)

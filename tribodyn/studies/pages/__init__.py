@@ -1,1 +1,0 @@
-"""Figures and pages of records, as their studies describe them."""
