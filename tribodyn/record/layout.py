@@ -66,7 +66,7 @@ def create(head: Head, samples: int) -> LaidOut:
         datasets[axis].make_scale(axis)
         scales = {axis: datasets[axis]}
         for name, values in head.scales.items():
-            scales[name] = scale(file, name, layout.scales[name], np.asarray(values))
+            scales[name] = scale(file, name, layout.scales[name], values)
         for name, variable in (*layout.samples.items(), *layout.others.items()):
             if all(dim in size for dim in variable.dims):
                 datasets[name] = reserve(file, name, variable, tuple(size[dim] for dim in variable.dims))
@@ -184,9 +184,9 @@ def blank_of(dataset: h5py.Dataset, variable: Variable) -> Blank:
     return Blank(offset, dataset.dtype.itemsize * int(dataset.size or 0), value)
 
 
-def place_of(dataset: h5py.Dataset) -> DataPlace:
-    """Say where a dataset's bytes lie."""
-    row = dataset.shape[1:]
+def place_of(dataset: h5py.Dataset, dims: int = 1) -> DataPlace:
+    """Say where a dataset's bytes lie, whose rows are counted by so many dimensions."""
+    row = dataset.shape[dims:]
     stride = dataset.dtype.itemsize * int(np.prod(row, dtype=int))
     offset = dataset.id.get_offset()
     if offset is None and dataset.size:
@@ -200,11 +200,12 @@ def describe(dataset: h5py.Dataset, variable: Variable) -> None:
     dataset.attrs["long_name"] = variable.long_name
 
 
-def scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray) -> h5py.Dataset:
+def scale(group: h5py.Group, name: str, variable: Variable, values: Any) -> h5py.Dataset:
     """Write a dimension scale, and return it."""
-    text = values.dtype.kind == "U"
+    given = np.asarray(values)
+    text = given.dtype.kind == "U"
     # of fixed length, because Octave stops reading at other strings; the attribute makes xarray decode
-    dataset = group.create_dataset(name, data=np.char.encode(values, "utf-8") if text else values)
+    dataset = group.create_dataset(name, data=np.char.encode(given, "utf-8") if text else given)
     if text:
         dataset.attrs["_Encoding"] = "utf-8"
     describe(dataset, variable)

@@ -4,7 +4,7 @@ As with a run (`writer`), the whole file is laid out before the first case and c
 bytes put in their place, its `status` last. A sweep that was killed is taken up again by reading `status`.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -188,7 +188,7 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
             layout.attach(dataset, full, scales)
             if dataset.dtype.kind == "S":
                 dataset.attrs["_Encoding"] = "utf-8"
-            places[name] = _case_place(dataset, len(head.dims))
+            places[name] = layout.place_of(dataset, len(head.dims))
             blanks.append(layout.blank_of(dataset, full))
         file.attrs["datasets"] = " ".join(places)
         file.create_group("summary")
@@ -200,34 +200,17 @@ def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, h5py.Dataset]:
     scales = {}
     for parameter in head.parameters:
         variable = Variable((parameter.name,), parameter.units or "1", f"varied parameter {parameter.key}")
-        scales[parameter.name] = _write_scale(file, parameter.name, variable, parameter.values)
+        scales[parameter.name] = layout.scale(file, parameter.name, variable, parameter.values)
         scales[parameter.name].attrs["key"] = parameter.key
     if head.directions:
-        scales["direction"] = _write_scale(file, "direction", sweep_schema.DIRECTION, head.directions)
+        scales["direction"] = layout.scale(file, "direction", sweep_schema.DIRECTION, head.directions)
     for name, (variable, values) in head.layout.scales.items():
-        scales[name] = _write_scale(file, name, variable, values)
+        scales[name] = layout.scale(file, name, variable, values)
     return scales
 
 
-def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequence[Any]) -> h5py.Dataset:
-    written = np.asarray(values)
-    return layout.scale(
-        file, name, variable, written if written.dtype.kind in "iU" else written.astype("<f8")
-    )
-
-
-def _case_place(dataset: h5py.Dataset, dims: int) -> layout.DataPlace:
-    """Where a dataset lies, with one row per case."""
-    row = dataset.shape[dims:]
-    stride = dataset.dtype.itemsize * int(np.prod(row, dtype=int))
-    return layout.DataPlace(layout.place_of(dataset).offset, stride, row)
-
-
 def _places_of(path: Path, head: SweepHead) -> dict[str, layout.DataPlace]:
-    """The places in what an unfinished sweep left.
-
-    Raises InputError if it is damaged, or the record of something else.
-    """
+    """The places in what an unfinished sweep left; InputError if it is damaged, or of something else."""
     other = "move it away, or --force to begin anew"
     try:
         check_sound(path)
@@ -257,4 +240,4 @@ def _found(dataset: Any, name: str, head: SweepHead) -> layout.DataPlace:
         raise ValueError(f"{name} has another shape or type")
     if dataset.id.get_create_plist().get_layout() != h5py.h5d.CONTIGUOUS or not dataset.id.get_offset():
         raise ValueError(f"{name} has no place of its own")
-    return _case_place(dataset, len(head.dims))
+    return layout.place_of(dataset, len(head.dims))

@@ -38,13 +38,7 @@ def browser() -> str | None:
 
 
 def run_browser(*options: str) -> "subprocess.CompletedProcess[str]":
-    """Run the browser without a window, in a profile of its own.
-
-    Raises
-    ------
-    InputError
-        Where none is installed.
-    """
+    """Run the browser without a window, in a profile of its own; InputError where none is installed."""
     import os
 
     found = browser()
@@ -63,12 +57,8 @@ def run_browser(*options: str) -> "subprocess.CompletedProcess[str]":
 def print_page(page: Path, *, force: bool = False) -> Path:
     """Print a page into a PDF beside it.
 
-    Raises
-    ------
-    InputError
-        Where no browser is installed; also as `write_output`.
-    OutputError
-        Where the browser does not print it, or there is no room.
+    Raises InputError where no browser is installed, OutputError where it does not print the page or there is
+    no room; also as `write_output`.
     """
     target = page.with_suffix(".pdf")
     with tempfile.TemporaryDirectory(prefix="tribodyn-") as folder:

@@ -25,18 +25,10 @@ def sweep_page(
     pictures: Sequence[tuple[str, str, Figure]],
     tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]],
 ) -> str:
-    """Write the page.
+    """Write the page; InputError if the first key is no number.
 
-    Parameters
-    ----------
-    quantities : those that are shown; none: all, as the record describes them
-    pictures : sequence of (name, about, figure)
-    tables : (title, columns, rows); what is known of the scenario that is varied
-
-    Raises
-    ------
-    InputError
-        If the first key is no number.
+    Of no quantities all are shown, as the record describes them. Pictures have name, about and figure, tables
+    (what is known of the scenario that is varied) title, columns and rows.
     """
     known = [quantity for quantity in quantities if quantity.name in record]
     known = known or [described(record, name) for name in record.quantities]
