@@ -9,17 +9,20 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
 
+_STEADY = (
+    "central_film_min",
+    "minimum_film_min",
+    "film_parameter_min",
+    "friction_coefficient_mean",
+    "asperity_load_ratio_max",
+    "temperature_rise_max",
+    "hertz_pressure_max",
+)
 REPORTED: Reported = {
     "Geometry": quantities("contact_ratio"),
     "Solved contact": quantities(
         "normal_load_max",
-        "central_film_min",
-        "minimum_film_min",
-        "film_parameter_min",
-        "friction_coefficient_mean",
-        "asperity_load_ratio_max",
-        "temperature_rise_max",
-        "hertz_pressure_max",
+        *_STEADY,
         "pressure_max",
         "positions_solved",
         "central_film_departure_max",
@@ -32,17 +35,7 @@ REPORTED: Reported = {
     "Solver": quantities("wall_time"),
 }
 
-SWEPT = quantities(
-    "central_film_min",
-    "minimum_film_min",
-    "film_parameter_min",
-    "friction_coefficient_mean",
-    "asperity_load_ratio_max",
-    "temperature_rise_max",
-    "hertz_pressure_max",
-    "central_film_departure_max",
-    "transient_minimum_film_min",
-)
+SWEPT = quantities(*_STEADY, "central_film_departure_max", "transient_minimum_film_min")
 
 PANELS = (
     "central_film_thickness",
