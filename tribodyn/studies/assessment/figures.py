@@ -1,8 +1,7 @@
 """Pictures of an assessment: those of its record, and those of the first page of its report."""
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -26,7 +25,7 @@ def pictures(record: Record, curves: Sequence[ReportCurve]) -> Figure:
         for place, curve in zip(axes, curves, strict=False):
             _curve(place, curve)
         draw_film(axes[len(curves)], record)
-        draw_losses(axes[len(curves) + 1], record.summary)
+        draw_losses(axes[len(curves) + 1], record)
         for place in axes[panels:]:
             place.set_visible(False)
     return figure
@@ -64,10 +63,10 @@ def draw_film(axes: Axes, record: Record) -> None:
     axes.legend(loc="best")
 
 
-def draw_losses(axes: Axes, summary: Any) -> None:
+def draw_losses(axes: Axes, record: Record) -> None:
     """Loss by every friction law, and by the standard."""
-    losses = {literal(name): float(value) for name, value in summary["loss_by_law"].items()}
-    iso = summary.get("iso", {}).get("loss")
+    losses = {literal(name): float(value) for name, value in record.summary["loss_by_law"].items()}
+    iso = record.summary.get("iso", {}).get("loss")
     if iso is not None:
         losses["ISO/TR 15144-1"] = float(iso)
     names = sorted(losses, key=lambda name: losses[name])
@@ -96,22 +95,21 @@ def along_path(records: Sequence[Record], _view: View) -> Figure:
     return figure
 
 
-def specific_film(records: Sequence[Record], _view: View) -> Figure:
-    """Specific film of the first record beside the standard's."""
-    figure = new_figure(WIDTH, PANEL_HEIGHT)
-    draw_film(figure.subplots(), records[0])
-    return figure
+def _panel(draw: Callable[[Axes, Record], None]) -> Callable[[Sequence[Record], View], Figure]:
+    """A figure of one panel, of the first record."""
 
+    def figure(records: Sequence[Record], _view: View) -> Figure:
+        drawn = new_figure(WIDTH, PANEL_HEIGHT)
+        draw(drawn.subplots(), records[0])
+        return drawn
 
-def losses(records: Sequence[Record], _view: View) -> Figure:
-    """Loss of the first record by every friction law, and by the standard."""
-    figure = new_figure(WIDTH, PANEL_HEIGHT)
-    draw_losses(figure.subplots(), records[0].summary)
     return figure
 
 
 DRAWINGS = {
     "overview": Drawing("pressure, contact temperature and specific film along the path", along_path),
-    "specific-film": Drawing("specific film along the path, simulated and by the standard", specific_film),
-    "losses": Drawing("loss to tooth friction by every friction law", losses),
+    "specific-film": Drawing(
+        "specific film along the path, simulated and by the standard", _panel(draw_film)
+    ),
+    "losses": Drawing("loss to tooth friction by every friction law", _panel(draw_losses)),
 }

@@ -1,7 +1,7 @@
 """What a search takes, before any work."""
 
 from tribodyn.studies.design.candidates.archive import FACTORS, resolutions
-from tribodyn.studies.design.candidates.candidates import Overrides, cases_of, chosen, start_of
+from tribodyn.studies.design.candidates.candidates import cases_of, chosen, start_of
 from tribodyn.studies.design.candidates.converged import counts
 from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.case import DesignCase
@@ -18,20 +18,17 @@ def estimate(case: DesignCase) -> Estimate:
     method, _ = method_of(case)
     count, several, seconds = float(case.search.evaluations), [], 0.0
     for factor, candidates in counts(case, method).items():
-        more = resolutions(case, factor) if factor > 1 else {}
+        more = resolutions(case, factor)
         if factor > 1 and not more:
             break
         cases = cases_of(case, chosen(case, start_of(case)), more)
-        some = [_of_one(name, case, cases[0]) for name in case.scenarios]
-        several += some
-        seconds += candidates * len(cases) * sum(candidate.seconds for candidate in some)
+        for name in case.scenarios:
+            loaded = loaded_source(case.scenarios, name, cases[0])
+            several.append(loaded.study.estimate(loaded.case))
+            seconds += candidates * len(cases) * several[-1].seconds
     largest = max(several, key=lambda estimate: estimate.memory)
-    names = names_of(case, [])
-    scales = scales_of(case, names)
-    sizes = {
-        "evaluation": len(FACTORS) * case.search.evaluations,
-        **{name: len(scale) for name, scale in scales.items()},
-    }
+    sizes = {name: len(scale) for name, scale in scales_of(case, names_of(case, [])).items()}
+    sizes["evaluation"] = len(FACTORS) * case.search.evaluations
     return Estimate(
         largest.memory,
         record_bytes(layout_of(case), sizes),
@@ -39,9 +36,3 @@ def estimate(case: DesignCase) -> Estimate:
         (Driver("design.evaluations", count, USUAL), *largest.drivers),
         largest.shared,
     )
-
-
-def _of_one(name: str, case: DesignCase, overrides: Overrides) -> Estimate:
-    """What one case of one of the scenarios takes."""
-    loaded = loaded_source(case.scenarios, name, overrides)
-    return loaded.study.estimate(loaded.case)

@@ -1,6 +1,6 @@
 """Pictures of a search: history, start and best, what the best depends on, the front of two objectives."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from textwrap import fill
 from typing import Any
@@ -9,8 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.errors import InputError
-from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.quantities.quantity import Quantity
@@ -24,6 +23,7 @@ MOST_BARS = 6
 #: Characters of a line beside an axis.
 LONGEST = 29
 START, BEST = QUIET, PALETTE[1]
+NO_DESIGN = ("search", "{path} holds no design to draw", "run the scenario again")
 
 
 class _Shown:
@@ -56,14 +56,8 @@ def _found(record: Record) -> bool:
     return record.samples > 0 and "objective" in record.summary
 
 
-def _required(record: Record) -> None:
-    if not _found(record):
-        raise InputError("record", str(record.path), "holds no design to draw", "run the scenario again")
-
-
-def _overview(records: Sequence[Record], view: View) -> Figure:
+def _overview(records: Sequence[Record], _view: View) -> Figure:
     record = records[0]
-    _required(record)
     drawn = new_figure(WIDTH, 2.0 * PANEL_HEIGHT)
     (upper_left, upper_right), (lower_left, lower_right) = drawn.subplots(2, 2)
     _draw_history(upper_left, [record])
@@ -252,34 +246,39 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
     axes.legend()
 
 
-def _panel(draw: Any, height: float = 1.3, together: bool = False) -> Any:
+def _panel(
+    about: str,
+    draw: Any,
+    height: float = 1.3,
+    *,
+    together: bool = False,
+    fits: Callable[[Record], bool] = _found,
+    missing: tuple[str, str, str] = NO_DESIGN,
+) -> Drawing:
     """A figure of one panel, with the first record or all of them in it."""
 
     def figure(records: Sequence[Record], _view: View) -> Figure:
-        for record in records if together else records[:1]:
-            _required(record)
         drawn = new_figure(WIDTH, height * PANEL_HEIGHT)
         draw(drawn.subplots(), records if together else records[0])
         return drawn
 
-    return figure
-
-
-def _two(record: Record) -> bool:
-    return _found(record) and "objective_2" in record
+    return drawing(about, figure, fits, missing)
 
 
 DRAWINGS: Mapping[str, Drawing] = {
-    "overview": Drawing("history, start and best, free keys, what the best depends on", _overview, _found),
-    "history": Drawing(
-        "objective of every candidate, and the best so far", _panel(_draw_history, 1.4, together=True), _found
+    "overview": drawing(
+        "history, start and best, free keys, what the best depends on", _overview, _found, NO_DESIGN
     ),
-    "duties": Drawing(
-        "first objective at each duty, at the start and at the best", _panel(_draw_duties), _found
+    "history": _panel("objective of every candidate, and the best so far", _draw_history, 1.4, together=True),
+    "duties": _panel("first objective at each duty, at the start and at the best", _draw_duties),
+    "free-keys": _panel("where in their ranges good values lie", _draw_values),
+    "sensitivities": _panel("change of the objective with one key or tolerance moved", _draw_sensitivities),
+    "front": _panel(
+        "the front of two objectives",
+        _draw_front,
+        1.6,
+        together=True,
+        fits=lambda record: _found(record) and "objective_2" in record,
+        missing=("front", "{path} holds no front of two objectives", "name two in design.minimise"),
     ),
-    "free-keys": Drawing("where in their ranges good values lie", _panel(_draw_values), _found),
-    "sensitivities": Drawing(
-        "change of the objective with one key or tolerance moved", _panel(_draw_sensitivities), _found
-    ),
-    "front": Drawing("the front of two objectives", _panel(_draw_front, 1.6, together=True), _two),
 }

@@ -55,12 +55,11 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force:
     return files
 
 
-def headline(case: DesignCase, archive: Archive, searched: Archive | None = None) -> dict[str, Any]:
+def headline(case: DesignCase, archive: Archive, searched: Archive) -> dict[str, Any]:
     """Quantities of the summary that say what was found: at the start and at the best.
 
-    They are those of an archive; what was evaluated is that of the one that was searched, if it is another.
+    They are those of an archive; what was evaluated is that of the one that was searched.
     """
-    searched = searched or archive
     scoring, best = archive.scoring, chosen_best(case, archive)
     score = scoring.score(scoring.start)
     scores = [candidate.score for candidate in searched.evaluations]

@@ -127,13 +127,9 @@ def table_for(data: Mapping[str, Any]) -> type[Table]:
     design = data.get("design")
     given = design.get("part") if isinstance(design, Mapping) else None
     parts = given if isinstance(given, Mapping) else {}
-    named = tuple((name, _schema_of(part)) for name, part in parts.items() if is_name(name))
+    names = [name for name in parts if NAME.fullmatch(name) and not hasattr(Table, name)]
+    named = tuple((name, _schema_of(parts[name])) for name in names)
     return _around(_schema_of(data.get("scenario")), named)
-
-
-def is_name(name: str) -> bool:
-    """Whether a part may have that name."""
-    return NAME.fullmatch(name) is not None and not hasattr(Table, name)
 
 
 def _schema_of(scenario: Any) -> type[Table] | None:
@@ -153,12 +149,9 @@ def _around(base: type[Table] | None, parts: tuple[tuple[str, type[Table] | None
         about = DesignScenario.model_fields["scenario"].description
         changed["scenario"] = (Annotated[base, scenario_file()], Field(description=about))
     if parts:
+        about = Field(description="further scenario")
         fields: dict[str, Any] = {
-            name: (
-                Annotated[schema or dict[str, Any], scenario_file()],
-                Field(description="further scenario"),
-            )
-            for name, schema in parts
+            name: (Annotated[schema or dict[str, Any], scenario_file()], about) for name, schema in parts
         }
         of_parts: Any = create_model("DesignParts", __base__=Table, __doc__="Further scenarios.", **fields)
         design: Any = create_model(
@@ -182,7 +175,10 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
     base = data["scenario"]
     if "drive" in base:
         base |= {"drive": with_axes_held(base["drive"])}
-    further = {name: _on_drive(part, base) for name, part in (data["design"].get("part") or {}).items()}
+    further = dict(data["design"].get("part") or {})
+    for name, part in further.items():  # on the drive of the scenario, where both have one
+        if "drive" in part and "drive" in base:
+            further[name] = part | {"drive": base["drive"]}
     fields, _ = parts_of_design(table, sources_of({BASE: base, **further}))
     return DesignCase(
         **head_of(scenario, toml, sha256),
@@ -195,12 +191,6 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
         confirm=flat(table.confirm),
         sensitivities=table.sensitivities,
     )
-
-
-def _on_drive(part: dict[str, Any], base: Mapping[str, Any]) -> dict[str, Any]:
-    """A part with the drive of the scenario that is searched through, where both have one."""
-    both = "drive" in part and "drive" in base
-    return part | ({"drive": base["drive"]} if both else {})
 
 
 def broken_rules(scenario: Any) -> Iterator[InputError]:

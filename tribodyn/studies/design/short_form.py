@@ -30,16 +30,13 @@ def entries(free: Mapping[str, Any] | Sequence[Any]) -> list[Any]:
 def _bounds(key: str, bounds: Any) -> Mapping[str, Any]:
     if isinstance(bounds, Mapping):
         return bounds
-    if isinstance(bounds, list) and len(bounds) == 2 and not all(map(_is_word, bounds)):
-        return {"from": bounds[0], "to": bounds[1]}
     if isinstance(bounds, list):
+        words = [isinstance(end, str) and end.strip()[:1] not in "+-.0123456789" for end in bounds]
+        if len(bounds) == 2 and not all(words):
+            return {"from": bounds[0], "to": bounds[1]}
         return {"choices": bounds}
     rule = "neither two bounds nor a list of choices"
     raise InputError(key, quoted(bounds), rule, 'give them like ("0 um", "40 um")')
-
-
-def _is_word(value: Any) -> bool:
-    return isinstance(value, str) and value.strip()[:1] not in "+-.0123456789"
 
 
 def free_of(option: str) -> dict[str, Any]:

@@ -94,7 +94,7 @@ def test_a_front_is_that_of_a_resolution_at_which_all_its_members_stand():
     at = cache(lambda factor: Archive(case, pool, factor=factor))  # pyright: ignore[reportArgumentType]
     for values in ((-1.0, 0.0), (0.0, 0.02), (0.01, 0.0), (1.0, 0.0), (2.0, 0.0), (0.5, 0.8)):
         at(1).score([share_of(free, value) for free, value in zip(case.free, values, strict=True)])
-    before, searched = len(pool.asked), headline(case, at(1))["front"]
+    before, searched = len(pool.asked), headline(case, at(1), at(1))["front"]
     assert searched["objective"] == pytest.approx([2.0, 2.97, 4.0, 5.0])
     end = converged(case, at, "epsilon-constraint")
     assert (end.archive.factor, end.stands, end.evaluations) == (5, True, 9)

@@ -122,7 +122,7 @@ def test_the_best_of_a_kinked_figure():
 def test_more_of_a_figure():
     formulas = Formulas(**{G: lambda x, y: 5.0 - bowl(x, y)})
     archive, _ = search(formulas, maximise=G)
-    found = headline(archive.case, archive)
+    found = headline(archive.case, archive, archive)
     assert found["objective"] == pytest.approx(4.0, abs=1e-3)
     assert found["objective_start"] == 5.0 - bowl(0.0, 0.0)
 
@@ -131,7 +131,7 @@ def test_a_weighted_sum_is_relative_to_the_start():
     formulas = Formulas(**{F: lambda x, y: 2.0 + x, G: lambda x, y: 4.0 - x})
     weighted = [{"figure": F, "weight": 3.0}, {"figure": G, "weight": 1.0}]
     archive, _ = search(formulas, minimise=weighted)
-    found = headline(archive.case, archive)
+    found = headline(archive.case, archive, archive)
     assert found["objective_start"] == 4.0
     assert found["objective"] == pytest.approx(3.0 * 0.5 + 5.0 / 4.0, abs=0.01)
 

@@ -5,10 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate
-from tribodyn.studies.design.candidates.scoring import Derivatives, Scoring
+from tribodyn.studies.design.candidates.scoring import Scoring, derivatives_of
 from tribodyn.studies.design.short_form import loaded_search
 
 F, G = "efficiency", "contact_ratio"
@@ -60,8 +59,7 @@ def test_the_chain_rule(over: str, over_duties: str, weighted: bool):
 )
 def test_what_cannot_be_differentiated(scenario: str, figure: str, key: str):
     free = [{"key": key, "from": -0.1, "to": 0.1}]
-    with pytest.raises(InputError):
-        Derivatives(loaded_search(scenario, {"free": free, "minimise": figure}, {}).case)
+    assert derivatives_of(loaded_search(scenario, {"free": free, "minimise": figure}, {}).case) is None
 
 
 @pytest.mark.soak
@@ -77,7 +75,9 @@ def test_jax_agrees_with_differences(scenario: str):
         return evaluate(case.scenarios, cases_of(case, chosen(case, x)))
 
     scoring, x, step = Scoring(case, evaluate(case.scenarios, cases_of(case, {}))), np.array([0.5, 0.4]), 2e-3
-    slopes = Derivatives(case).at(x)
+    derivatives = derivatives_of(case)
+    assert derivatives is not None
+    slopes = derivatives.at(x)
     around = [(scoring.score(found(x + e)), scoring.score(found(x - e))) for e in step * np.eye(2)]
     value = scoring.objective_slope(case.objectives[0], found(x), slopes)
     np.testing.assert_allclose(

@@ -192,27 +192,33 @@ class Scoring:
         return pairs
 
 
-class Derivatives:
-    """Derivatives of the quantities of a search by its free keys.
+def derivatives_of(case: DesignCase) -> "Derivatives | None":
+    """Derivatives of a search's quantities by its free keys; None where they cannot be differentiated.
 
-    Raises
-    ------
-    InputError
-        For a search whose quantities cannot be differentiated by its keys: motions, whole numbers, choices,
-        finite elements, parts.
+    That is so with motions, whole numbers, choices, finite elements, parts.
     """
+    study = study_of(case.base)
+    smooth = all(free.continuous for free in case.free)
+    if case.parts or study.batch() or not study.has_gears or not smooth:
+        return None
+    found = Derivatives(case)
+    try:
+        found.function(cases_of(case, chosen(case, start_of(case)))[0])
+    except InputError:
+        return None
+    return found
+
+
+class Derivatives:
+    """Derivatives of the quantities of a search by its free keys."""
 
     def __init__(self, case: DesignCase) -> None:
-        study = study_of(case.base)
-        smooth = all(free.continuous for free in case.free)
-        if case.parts or study.batch() or not study.has_gears or not smooth:
-            raise InputError("design.method", None, "cannot be differentiated", "search by differences")
         self.case = case
         self.names = tuple(dict.fromkeys(case.quantities))
         self.keys = tuple(key for free in case.free for key in free.keys)
-        self._function(cases_of(case, chosen(case, start_of(case)))[0])
 
-    def _function(self, overrides: dict[str, Any]) -> Differentiable:
+    def function(self, overrides: dict[str, Any]) -> Differentiable:
+        """The quantities of a case as a function of the keys; raises InputError where there is none."""
         loaded = loaded_case(self.case.base, overrides)
         return Differentiable(loaded.case, loaded.study.table(), self.names, self.keys)
 
@@ -223,7 +229,7 @@ class Derivatives:
         first_keys = np.cumsum([0, *(len(free.keys) for free in case.free[:-1])])
         rows = []
         for overrides in cases_of(case, chosen(case, shares)):
-            function = self._function(overrides)
+            function = self.function(overrides)
             _, by_key = function.jacobian(function.at)
             slopes = spans * np.add.reduceat(by_key, first_keys, axis=1)
             rows.append(dict(zip(self.names, slopes, strict=True)))

@@ -8,8 +8,9 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.archive import Archive
+from tribodyn.studies.design.candidates.scoring import derivatives_of
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.methods.local import derivatives_of, epsilon_constraint, local
+from tribodyn.studies.design.methods.local import epsilon_constraint, local
 from tribodyn.studies.design.methods.population import (
     cma_es,
     differential_evolution,

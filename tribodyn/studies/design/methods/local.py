@@ -11,16 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.candidates.candidates import chosen, shares_of
 from tribodyn.studies.design.candidates.scoring import (
     NO_QUANTITIES,
     SLACK,
-    Derivatives,
     Score,
+    derivatives_of,
 )
-from tribodyn.studies.design.case import DesignCase
 
 #: Stands for the objective of a candidate without quantities, over that of the start.
 POOR = 1.5
@@ -156,14 +154,8 @@ def minimise(
     """Search from shares of the free keys' ranges, with at most so many evaluations."""
     from scipy.optimize import NonlinearConstraint, minimize
 
-    search, count = view.archive.case.search, len(start)
-    margins = len(view.margins(view.archive.score(start)))
-
-    def function(shares: np.ndarray) -> float:
-        return view.value(view.archive.score(shares))
-
-    def constraint(shares: np.ndarray) -> np.ndarray:
-        return np.array(view.margins(view.archive.score(shares)))
+    search = view.archive.case.search
+    margins = view.margins(view.archive.score(start))
 
     derivatives: dict[str, Any] = {}
     slopes: dict[str, Any] = {}
@@ -178,13 +170,15 @@ def minimise(
     if name == "trust-constr":
         derivatives["hess"] = _curvature()
         options = {"initial_tr_radius": radius, "xtol": search.accuracy, "maxiter": most}
-    constraints: Any = (NonlinearConstraint(constraint, INSIDE, np.inf, **slopes),) if margins else ()
+    inside = NonlinearConstraint(
+        lambda shares: np.array(view.margins(view.archive.score(shares))), INSIDE, np.inf, **slopes
+    )
     minimize(
-        function,
+        lambda shares: view.value(view.archive.score(shares)),
         np.clip(start, 0.0, 1.0),
-        method=name.upper() if name != "trust-constr" else name,
-        bounds=[(0.0, 1.0)] * count,
-        constraints=constraints,
+        method=name,
+        bounds=[(0.0, 1.0)] * len(start),
+        constraints=(inside,) if margins else (),
         options=options,  # pyright: ignore[reportArgumentType]
         **derivatives,
     )
@@ -200,14 +194,6 @@ def _curvature() -> Any:
                 super().update(delta_x, delta_grad)
 
     return Curvature()
-
-
-def derivatives_of(case: DesignCase) -> Derivatives | None:
-    """Derivatives of a search's quantities through JAX; None where they cannot be differentiated."""
-    try:
-        return Derivatives(case)
-    except InputError:
-        return None
 
 
 def slopes_of(view: Scalar) -> Callable[[tuple[float, ...]], tuple[np.ndarray, np.ndarray]]:

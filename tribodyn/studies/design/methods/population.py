@@ -60,10 +60,8 @@ def every(archive: Archive, _start: np.ndarray) -> None:
     axes = []
     for free in archive.case.free:
         count = int(free.number_of_values)
-        if free.choices:
-            axes.append((np.arange(count) + 0.5) / count)
-        else:
-            axes.append(np.arange(count) / max(1, count - 1))
+        places = np.arange(count)
+        axes.append((places + 0.5) / count if free.choices else places / max(1, count - 1))
     archive.score_all(list(product(*axes)))
 
 
