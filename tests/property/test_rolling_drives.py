@@ -80,10 +80,10 @@ def test_losses_of_a_gear_of_another_size(drive: RollingDrive, friction: Rolling
         pitch_radius=factor * drive.pitch_radius, element_radius=factor * drive.element_radius
     )
     angle = element_angles(drive, np.array([0.3]))
-    one, other = (engage(size, angle, POWER, SPEED, friction) for size in (drive, larger))
-    np.testing.assert_allclose(other.normal_load * factor, one.normal_load, rtol=1e-9)
-    np.testing.assert_allclose(other.power_crown * factor, one.power_crown, rtol=1e-9)
-    sliding = [run.power_cam - run.power_crown for run in (one, other)]
+    first, second = (engage(size, angle, POWER, SPEED, friction) for size in (drive, larger))
+    np.testing.assert_allclose(second.normal_load * factor, first.normal_load, rtol=1e-9)
+    np.testing.assert_allclose(second.power_crown * factor, first.power_crown, rtol=1e-9)
+    sliding = [run.power_cam - run.power_crown for run in (first, second)]
     np.testing.assert_allclose(sliding[1], sliding[0], rtol=1e-6, atol=1e-9 * POWER)
 
 

@@ -35,11 +35,11 @@ VALUES = st.recursive(
 @settings(max_examples=150, deadline=None)
 @given(st.dictionaries(st.sampled_from(KEYS), VALUES, min_size=1, max_size=3))
 def test_no_value_at_any_key_escapes(overrides: dict[str, Any]):
-    for one in refusals(overrides):
-        assert one.key
-        assert one.rule
-        assert one.file
-        assert len(str(one).splitlines()) == 1
+    for refused in refusals(overrides):
+        assert refused.key
+        assert refused.rule
+        assert refused.file
+        assert len(str(refused).splitlines()) == 1
 
 
 def refusals(overrides: dict[str, Any]) -> tuple[InputError, ...]:

@@ -59,7 +59,7 @@ def test_names_are_values_too():
 
 def test_names_of_axes_are_told_apart():
     found = axes_of(["drive.pinion.profile_shift=0,0.1", "drive.gear.profile_shift=0,0.1"], Scenario)
-    assert [one.name for one in found] == ["pinion_profile_shift", "gear_profile_shift"]
+    assert [axis.name for axis in found] == ["pinion_profile_shift", "gear_profile_shift"]
 
 
 @given(
@@ -70,7 +70,7 @@ def test_names_of_axes_are_told_apart():
 )
 def test_a_range_holds_exactly_its_steps(start, step, count, digits):
     """Every value is what its decimal means, the last within a step of the end."""
-    one = Fraction(1, 10**digits)
+    unit = Fraction(1, 10**digits)
     stop = start + step * count - 1
 
     def decimal(number: int) -> str:
@@ -79,7 +79,7 @@ def test_a_range_holds_exactly_its_steps(start, step, count, digits):
     found = axis(f"{SPEED}={decimal(start)}:{decimal(stop)}:{decimal(step)}rpm")
     assert len(found.values) == count
     for i in (0, count // 2, count - 1):
-        exact = (start + i * step) * one
+        exact = (start + i * step) * unit
         assert found.values[i] == to_si(f"{float(exact)!r} rpm", ANGULAR_SPEED)
 
 

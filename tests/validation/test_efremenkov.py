@@ -25,7 +25,7 @@ def test_every_column_is_within_its_published_tolerance(rows):
         pairs = zip(row.computed, row.published, strict=True) if isinstance(row.published, list) else None
         off = [a - b for a, b in pairs] if pairs else [row.computed - row.published]
         most = row.tolerance if isinstance(row.tolerance, list) else [row.tolerance]
-        assert all(abs(one) <= limit for one, limit in zip(off, most, strict=True)), row.id
+        assert all(abs(error) <= limit for error, limit in zip(off, most, strict=True)), row.id
 
 
 #: Figures of a separate prototype of the restored equations.

@@ -27,7 +27,7 @@ def own(load, hertz):
 
 def carried_by(places, n, problem, hertz):
     """ξ and loads where these places touch; None where one would pull, or another would be passed through."""
-    matrix, arm, lever, gap, torque = (one[n] for one in problem)
+    matrix, arm, lever, gap, torque = (field[n] for field in problem)
     count, load = len(places), np.full(len(places), 500.0)
     for _ in range(15):
         value, slope = own(np.maximum(load, 1e-9), hertz)
@@ -81,7 +81,7 @@ def test_loads_do_not_depend_on_the_other_positions(problem):
         alone = press(
             problem[0][[n]],
             lambda rows, load, n=n: own(load, 1e-9 * (1.0 + n + rows[:, None])),
-            *(one[[n]] for one in problem[1:]),
+            *(field[[n]] for field in problem[1:]),
         )
         np.testing.assert_allclose(alone.load[0], whole.load[n], rtol=1e-12)
 

@@ -50,8 +50,8 @@ def test_slices_of_straight_flanks_change_nothing_but_that_their_ends_are_free(c
         for slices, coupled in ((1, True), (7, True), (7, False))
     )
     for name in ("compliance", "gap", "coupling"):
-        one, other = getattr(plain, name), getattr(apart, name)
-        np.testing.assert_allclose(other, one, rtol=1e-7, atol=1e-7 * np.abs(one).max())
+        first, second = getattr(plain, name), getattr(apart, name)
+        np.testing.assert_allclose(second, first, rtol=1e-7, atol=1e-7 * np.abs(first).max())
     softer = sliced.compliance / plain.compliance
     print(softer.min(), softer.max())
     assert np.all(softer > 1.0)
@@ -71,7 +71,7 @@ def test_relief_begins_on_the_boundary_of_a_segment(case):
 
 def test_back_flanks_are_modified_where_the_scenario_says_so(case):
     modified, slices = CASES["tips"]
-    both = Modifications(*(one._replace(both_flanks=True) for one in modified[:2]))
+    both = Modifications(*(flank._replace(both_flanks=True) for flank in modified[:2]))
     gaps = []
     for given in (modified, both):
         cycle = table(case, given, slices, backlash=5e-5)
@@ -84,9 +84,9 @@ def test_back_flanks_are_modified_where_the_scenario_says_so(case):
 
 
 def test_errors_of_single_teeth_are_refused_in_the_dynamics(case):
-    one = FlankModification(pitch_error=(1e-6,) * 18)
+    flank = FlankModification(pitch_error=(1e-6,) * 18)
     with pytest.raises(InputError, match="pitch_errors"):
-        table(case, Modifications(pinion=one), 1)
+        table(case, Modifications(pinion=flank), 1)
 
 
 def test_slices_that_touch_are_springs_side_by_side(rng):
@@ -121,8 +121,8 @@ def test_a_pair_is_its_slices_under_their_loads(rng, pair):
     matrix = matrix.reshape(positions, pairs, slices, pairs, slices)
     gap = rng.uniform(0.0, 2e-6, (positions, pairs, slices))
     gap[1, 1] += 1e-4  # one pair does not touch
-    one = np.ones((positions, pairs))
-    shared = press_pairs(pair, curvature, matrix, one, one, gap, np.array([4000.0, 900.0]))
+    unit = np.ones((positions, pairs))
+    shared = press_pairs(pair, curvature, matrix, unit, unit, gap, np.array([4000.0, 900.0]))
     total, minimum = shared.normal_load, 0.1
     found = _condensed(pair, curvature, matrix, gap, shared.slice_load, minimum)
     assert np.all(shared.slice_load[0] > 0.0)
@@ -168,8 +168,8 @@ def test_an_idle_pair_is_taken_at_the_minimum_load(rng, pair):
     gap = np.array([[[0.0, 1e-7, 3e-7], [2e-4, 2e-4 + 2e-7, 2e-4]]])
     load, minimum = np.array([[[500.0, 400.0, 300.0], [0.0, 0.0, 0.0]]]), 35.0
     found = _condensed(pair, np.full((1, 2), 100.0), matrix, gap, load, minimum)
-    one = np.ones((1, 1))
-    alone = press_pairs(pair, 100.0 * one, matrix[:, 1:, :, 1:], one, one, gap[:, 1:], np.array([minimum]))
-    by_itself = _condensed(pair, 100.0 * one, matrix[:, 1:, :, 1:], gap[:, 1:], alone.slice_load, 1e-9)
+    unit = np.ones((1, 1))
+    alone = press_pairs(pair, 100.0 * unit, matrix[:, 1:, :, 1:], unit, unit, gap[:, 1:], np.array([minimum]))
+    by_itself = _condensed(pair, 100.0 * unit, matrix[:, 1:, :, 1:], gap[:, 1:], alone.slice_load, 1e-9)
     assert found.compliance[0, 1] == pytest.approx(by_itself.compliance[0, 0], rel=1e-6)
     assert found.line_load_peak[0, 1] == pytest.approx(by_itself.line_load_peak[0, 0], rel=1e-6)

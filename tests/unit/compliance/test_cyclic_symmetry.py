@@ -45,7 +45,7 @@ def whole_ring(place, teeth, stiffness, components):
     halves = {
         key: half_matrix(teeth, *key, components, number, len(found)) for key, number in numbers.items()
     }
-    ring = sum(one.T @ stiffness @ one for one in halves.values())
+    ring = sum(half.T @ stiffness @ half for half in halves.values())
     free = np.repeat([np.hypot(*key) > BORE * 1.001 for key in found], components)
     flexibility = np.zeros_like(ring)
     flexibility[np.ix_(free, free)] = np.linalg.inv(ring[np.ix_(free, free)])

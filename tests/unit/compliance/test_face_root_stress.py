@@ -137,8 +137,8 @@ def test_free_ends_add_deflection_of_either_parity_and_neighbour(rng, ends):
     """Both gears, each other's teeth on opposite sides; a matrix that stays symmetric in places and pairs."""
     width, moduli = 21e-3, (2.0, 5.0)
     other = ends._replace(own=2.0 * ends.own + 1.0, between=ends.between[..., ::-1, :, :] - 0.3)
-    gears = [SimpleNamespace(ends=one) for one in (ends, other)]
-    materials = [SimpleNamespace(youngs_modulus=one) for one in moduli]
+    gears = [SimpleNamespace(ends=free) for free in (ends, other)]
+    materials = [SimpleNamespace(youngs_modulus=free) for free in moduli]
     reach = (
         ends.radius[[0, 2, 1, 0]][None].repeat(POSITIONS, axis=0),
         ends.radius[[1, 1, 2, 0]][None].repeat(2, 0),
@@ -151,15 +151,15 @@ def test_free_ends_add_deflection_of_either_parity_and_neighbour(rng, ends):
     along = end_modes(ends, width, SLICES)
     numbers = [[0, 2, 1, 0], [1, 1, 2, 0]]
     for body, sign in ((0, 1), (1, -1)):
-        one = (ends, other)[body]
+        free = (ends, other)[body]
         for parity in (0, 1):
             for later in range(PAIRS):
                 at = numbers[body][later]
-                wave = along[parity] @ one.own[parity, :, :, at] @ along[parity].T
+                wave = along[parity] @ free.own[parity, :, :, at] @ along[parity].T
                 expected[:, later, :, later] += wave / moduli[body]
                 for earlier in range(max(0, later - NEIGHBOURS), later):
                     there = NEIGHBOURS + sign * (later - earlier)
-                    rows = one.between[parity, :, :, there, numbers[body][earlier], at]
+                    rows = free.between[parity, :, :, there, numbers[body][earlier], at]
                     wave = along[parity] @ rows @ along[parity].T / moduli[body]
                     expected[:, earlier, :, later] += wave
                     expected[:, later, :, earlier] += wave.T

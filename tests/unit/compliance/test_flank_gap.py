@@ -130,7 +130,7 @@ def test_lead_relief_is_a_parabola_on_either_side_of_a_straight_part():
 
 def test_crowning_is_a_parabola_over_each_gear_s_own_face():
     wide = DRIVE._replace(gear=DRIVE.gear._replace(face_width=1.25 * WIDTH))
-    pinion, gear = (FlankModification(lead=LeadRelief(crowning=one)) for one in (16e-6, 25e-6))
+    pinion, gear = (FlankModification(lead=LeadRelief(crowning=crowning)) for crowning in (16e-6, 25e-6))
     where = np.array([-0.5, -0.25, 0.0, 0.125, 0.5]) * WIDTH
     found = lead_gap(assemble(FAMILY, wide), Modifications(pinion, gear), where)
     np.testing.assert_allclose(found, [32e-6, 8e-6, 0.0, 2e-6, 32e-6], rtol=1e-12)
@@ -315,7 +315,7 @@ def test_what_opens_the_flanks_most_is_named(modified, key, value):
 def test_profile_errors_are_read_at_the_roll_angle_where_each_flank_is_touched():
     roll = np.linspace(START, END, 9)
     errors = np.random.default_rng(3).normal(size=(2, 9)) * 1e-6
-    modified = Modifications(*(FlankModification(profile_error=(roll, one)) for one in errors))
+    modified = Modifications(*(FlankModification(profile_error=(roll, error)) for error in errors))
     inner, outside = at(*roll[1:-1]), at(END + 0.005)
     np.testing.assert_allclose(
         profile_gap(ASSEMBLY, modified, inner), np.sum(errors, axis=0)[1:-1], rtol=1e-9

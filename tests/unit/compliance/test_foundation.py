@@ -212,5 +212,7 @@ def test_gradient_of_the_ring():
     def entry(angles):
         return ring_compliance(*angles)[1, 2]
 
-    differences = [(entry(start + one) - entry(start - one)) / (2 * step) for one in step * np.eye(4)]
+    differences = [
+        (entry(start + change) - entry(start - change)) / (2 * step) for change in step * np.eye(4)
+    ]
     np.testing.assert_allclose(jax.jit(jax.jacfwd(entry))(jnp.asarray(start)), differences, rtol=1e-6)

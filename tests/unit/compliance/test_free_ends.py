@@ -39,13 +39,13 @@ def tied(place, components, phase, turned):
     upper = np.flatnonzero(~held & (np.abs(angle - np.pi / TEETH) < 1e-9))
     turn = np.array([[np.cos(t := 2 * np.pi / TEETH), -np.sin(t)], [np.sin(t), np.cos(t)]])
     lower = np.asarray(KDTree(place.T).query((turn.T @ place[:, upper]).T)[1])
-    one = np.eye(components, dtype=complex)
+    node = np.eye(components, dtype=complex)
     if turned:
-        one[:2, :2] = turn
+        node[:2, :2] = turn
     unit = diags((~held).astype(complex)).tolil()
     unit[upper, upper] = 0
     link = csc_matrix((np.full(len(upper), phase), (upper, lower)), shape=unit.shape)
-    whole = kron(unit, np.eye(components)) + kron(link, one)
+    whole = kron(unit, np.eye(components)) + kron(link, node)
     free = np.setdiff1d(np.flatnonzero(~held), upper)
     return csc_matrix(whole)[:, (components * free[:, None] + np.arange(components)).ravel()]
 
@@ -141,7 +141,7 @@ def test_a_load_on_one_tooth_is_all_harmonics_around_the_ring(monkeypatch, few):
         for parity in (0, 1):
             opened = np.einsum(
                 "oq,qlm->olm",
-                np.linalg.inv(sum(w * one for w, one in zip(weights[parity], held, strict=True))),
+                np.linalg.inv(sum(w * matrix for w, matrix in zip(weights[parity], held, strict=True))),
                 reached,
             )
             for sector in range(-2, 3):
@@ -162,7 +162,7 @@ def added(pair, roll, slices):
     """What free ends add to the slices' compliances, as a matrix over pairs and slices."""
     geometry = pair_geometry(pair.assembly, roll)
     held = pair._replace(gears=tuple(gear._replace(ends=None) for gear in pair.gears))
-    free, symmetric = (slice_compliance(one, geometry, slices) for one in (pair, held))
+    free, symmetric = (slice_compliance(flexible, geometry, slices) for flexible in (pair, held))
     size = roll.shape[1] * slices
     return (free - symmetric).reshape(-1, size, size), symmetric.reshape(-1, size, size)
 
@@ -204,6 +204,6 @@ def test_a_wide_face_is_in_plane_strain_but_for_its_ends(pair):
 def test_without_neighbours_teeth_do_not_know_of_each_other_s_ends(pair):
     alone = pair._replace(gears=tuple(without_neighbours(gear) for gear in pair.gears))
     geometry = pair_geometry(pair.assembly, np.array([[0.1, -0.2]]))
-    both, single = (slice_compliance(one, geometry, 5) for one in (pair, alone))
+    both, single = (slice_compliance(flexible, geometry, 5) for flexible in (pair, alone))
     assert not np.any(single[:, 0, :, 1])
     np.testing.assert_array_equal(single[:, 0, :, 0], both[:, 0, :, 0])

@@ -32,14 +32,14 @@ def test_without_neighbours_only_what_is_between_teeth_is_gone(rng):
     )
     gear = GearCompliance(SOLVED[:3], rng.normal(size=(2, 3)), rng.normal(size=(5, 3, 3)), 1e-3, lead, ends)
     alone = without_neighbours(gear)
-    for one, other in ((alone, gear), (alone.lead, lead), (alone.ends, ends)):
-        assert one is not None
-        assert other is not None
-        for name in other._fields:
+    for changed, original in ((alone, gear), (alone.lead, lead), (alone.ends, ends)):
+        assert changed is not None
+        assert original is not None
+        for name in original._fields:
             if name in ("lead", "ends"):
                 continue
             kept = 0.0 if name == "between" else 1.0
-            np.testing.assert_array_equal(getattr(one, name), kept * np.asarray(getattr(other, name)))
+            np.testing.assert_array_equal(getattr(changed, name), kept * np.asarray(getattr(original, name)))
     plane = without_neighbours(gear._replace(lead=None, ends=None))
     assert plane.lead is None
     assert plane.ends is None

@@ -136,9 +136,9 @@ def gear(teeth, shift=0.0, dedendum=1.25, bore=0.01, addendum=1.0):
 
 
 def test_pair_of_a_drive_is_ordered_by_teeth_and_loaded_on_the_reference_circle():
-    one, other = gear(23, 0.2, 1.3), gear(47, -0.1, 1.2, 0.02)
-    forth = pair_of(drive(one, other), (STEEL, IRON), 5e3)
-    back = pair_of(drive(other, one), (IRON, STEEL), 5e3)
+    first, second = gear(23, 0.2, 1.3), gear(47, -0.1, 1.2, 0.02)
+    forth = pair_of(drive(first, second), (STEEL, IRON), 5e3)
+    back = pair_of(drive(second, first), (IRON, STEEL), 5e3)
     assert forth.teeth == (23.0, 47.0)
     assert forth.youngs_modulus == (206e9, 118e9)
     assert forth.dedendum == (1.3, 1.2)
@@ -166,8 +166,8 @@ def test_a_tip_that_only_the_profile_shift_moves_is_no_other_addendum():
     shifted = gear(20, 0.4), gear(40, -0.3)
     assert not any("addendum" in said for said in bodies_outside(drive(*shifted)))
     higher = drive(gear(20, 0.4, addendum=1.35), gear(40, -0.3, addendum=0.7))
-    said = [one for one in bodies_outside(higher) if "addendum" in one]
-    assert [one.partition(", ")[0] for one in said] == [
+    said = [sentence for sentence in bodies_outside(higher) if "addendum" in sentence]
+    assert [sentence.partition(", ")[0] for sentence in said] == [
         "addendum of the pinion 1.35 modules",
         "addendum of the gear 0.7 modules",
     ]

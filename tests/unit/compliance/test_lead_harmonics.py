@@ -190,7 +190,7 @@ def any_gear(rng, waves, depth):
     for shape in shapes:
         size = rng.uniform(0.5, 1.5, shape)
         decay = rng.uniform(2.0, 6.0, shape) * 1e-3
-        parts.append(np.stack([size / (1.0 + (decay * one) ** 2) for one in waves]))
+        parts.append(np.stack([size / (1.0 + (decay * wave) ** 2) for wave in waves]))
     # own deflections that leave the half-space's logarithm towards k = 0, as a tooth's do
     logarithm = half_space_surface(np.hypot(waves, 200.0), depth, POISSON)
     surface = half_space_surface(np.maximum(waves, 1e-9), depth, POISSON)
@@ -240,8 +240,8 @@ def test_responses_are_read_between_and_beyond_the_waves_that_were_solved(rng):
     middle = (waves[3:] + waves[2:-1]) / 2
     exact = at_wave_numbers(denser, middle, POISSON)
     read = at_wave_numbers(coarse, middle, POISSON)
-    for one, other in zip(read, exact, strict=True):
-        np.testing.assert_allclose(one, other, atol=3e-3 * np.abs(other).max())
+    for mine, theirs in zip(read, exact, strict=True):
+        np.testing.assert_allclose(mine, theirs, atol=3e-3 * np.abs(theirs).max())
 
 
 @pytest.mark.parametrize(("module", "root", "most"), [(3e-3, 16e-3, 6.0), (2e-3, 60e-3, 12.0)])

@@ -49,13 +49,13 @@ def test_the_table_has_the_friction_film_and_pressure_of_the_slices(case, name):
 
     carrying = total > 0.05 * total.max()
     radius = flat(cycle.equivalent_radius)[carrying]
-    speeds = [200.0 * flat(one)[carrying] for one in (cycle.pinion_speed, cycle.gear_speed)]
+    speeds = [200.0 * flat(speed)[carrying] for speed in (cycle.pinion_speed, cycle.gear_speed)]
     load = shared.slice_load[carrying]
     mean = total[carrying] / width
 
     def surface(line_load):
         shape = (..., *[None] * (line_load.ndim - 1))
-        rolling = [one[shape] for one in speeds]
+        rolling = [speed[shape] for speed in speeds]
         with np.errstate(under="ignore", over="ignore"):
             return known(
                 closure,

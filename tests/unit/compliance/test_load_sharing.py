@@ -107,7 +107,7 @@ def test_loads_do_not_know_of_batches(monkeypatch, pair):
     roll = extended_rolls(pair.assembly, (-0.3, 0.4), 5)
     whole = LoadedFlanks(pair, slices=3).share(roll, 200.0, 0.05, 2e-6 * np.cos(9.0 * roll))
     monkeypatch.setattr(load_sharing, "_ENTRIES", 300)
-    for one, other in zip(
+    for first, second in zip(
         whole, LoadedFlanks(pair, slices=3).share(roll, 200.0, 0.05, 2e-6 * np.cos(9.0 * roll)), strict=True
     ):
-        np.testing.assert_allclose(one, other, rtol=1e-12)
+        np.testing.assert_allclose(first, second, rtol=1e-12)

@@ -91,18 +91,22 @@ def test_torque_balances_with_everything_modified(pair, friction):
 
 @pytest.mark.parametrize("tilt", [4e-4, 5e-3])
 def test_the_other_tilt_is_the_mirror_image(pair, tilt):
-    one, other = (
+    first, second = (
         rolled(pair, Modifications(misalignment=Misalignment(sign * tilt)), TORQUE, 12, slices=21)
         for sign in (1, -1)
     )
-    np.testing.assert_allclose(one.line_load, other.line_load[..., ::-1], atol=1e-6 * one.line_load.max())
-    np.testing.assert_allclose(one.deflection, other.deflection, rtol=1e-9)
-    np.testing.assert_allclose(one.root_tension, other.root_tension[..., ::-1], rtol=1e-6, atol=1e3)
+    np.testing.assert_allclose(
+        first.line_load, second.line_load[..., ::-1], atol=1e-6 * first.line_load.max()
+    )
+    np.testing.assert_allclose(first.deflection, second.deflection, rtol=1e-9)
+    np.testing.assert_allclose(first.root_tension, second.root_tension[..., ::-1], rtol=1e-6, atol=1e3)
     # the nearer half, z < 0, carries more; at 17' less than half of the face touches
-    assert np.all(np.sum(one.line_load[..., :10], axis=(1, 2)) > np.sum(one.line_load[..., 11:], axis=(1, 2)))
+    assert np.all(
+        np.sum(first.line_load[..., :10], axis=(1, 2)) > np.sum(first.line_load[..., 11:], axis=(1, 2))
+    )
     if tilt > 1e-3:
-        heaviest = np.argmax(one.normal_load, axis=1)
-        touching = one.line_load[np.arange(12), heaviest] > 0
+        heaviest = np.argmax(first.normal_load, axis=1)
+        touching = first.line_load[np.arange(12), heaviest] > 0
         assert np.all(touching.sum(axis=1) < 10)
 
 
@@ -235,7 +239,7 @@ def test_pairs_reach_as_far_as_deflections_gaps_and_errors_let_their_corners_tou
     for phase in range(60):
         rolls = [start + PITCH * (n + phase / 60) for n in range(3)]
         left.append(min(gaps(assembly, modified, roll, face)[0] for roll in rolls if roll < end))
-    most += max(left) + sum(np.ptp(one.pitch_error) for one in (modified.pinion, modified.gear))
+    most += max(left) + sum(np.ptp(flank.pitch_error) for flank in (modified.pinion, modified.gear))
     assert max(left) > 1e-6
     for limit, path_end in zip(limits, (start, end), strict=True):
         nominal = pair_geometry(assembly, np.array([limit])).gap[0]

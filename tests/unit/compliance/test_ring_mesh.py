@@ -103,8 +103,8 @@ def test_three_blocks_share_the_straight_angle_under_the_fillet(teeth, shift, bo
     for cell in mesh.cells[:4, np.any(mesh.cells[:4] == corner, axis=0)].T:
         k = cell.tolist().index(corner)
         before, at, after = (mesh.nodes[:, cell[(k + n) % 4]] for n in (-1, 0, 1))
-        one, other = after - at, before - at
-        angles.append(np.degrees(np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other)))
+        ahead, behind = after - at, before - at
+        angles.append(np.degrees(np.arctan2(ahead[0] * behind[1] - ahead[1] * behind[0], ahead @ behind)))
     assert sum(angles) == pytest.approx(360.0)
     narrow = sorted(angles)[:3]
     assert sum(narrow) == pytest.approx(180.0, abs=25.0)

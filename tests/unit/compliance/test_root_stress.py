@@ -195,7 +195,7 @@ def test_loaded_side_is_pulled_and_the_other_pressed():
 def test_neighbours_are_pressed_ahead_of_the_load_and_pulled_behind(level, accuracy):
     """Triangles over 19 of the teeth, of six nodes, refined until 0.2 % differ; by scikit-fem alone."""
     stress = solved(30, level).root_stress[0, :, :, :, 6 * level : 9 * level + 1 : 3 * level] * MODULE
-    own = [maximum(one) for one in (*stress[2, 0].T, *-stress[2, 1].T)]
+    own = [maximum(course) for course in (*stress[2, 0].T, *-stress[2, 1].T)]
     np.testing.assert_allclose(own, [2.939, 3.678, 3.528, 4.470], rtol=3e-3)
     # the side towards the loaded tooth, then the other
     ahead, behind = np.min(stress[1], axis=1), np.max(stress[3, ::-1], axis=1)

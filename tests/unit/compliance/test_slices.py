@@ -76,11 +76,11 @@ def test_loads_are_those_of_least_energy(rng):
     found = press(matrix, local, arm, lever, gap, torque)
     np.testing.assert_allclose(np.sum(found.load * lever, axis=1), torque, rtol=1e-10)
     assert np.mean(found.load > 0) < 0.9
-    for one in range(positions):
-        factor = np.linalg.cholesky(matrix[one])
-        pressed = found.deflection[one] * arm[one] - gap[one]
+    for position in range(positions):
+        factor = np.linalg.cholesky(matrix[position])
+        pressed = found.deflection[position] * arm[position] - gap[position]
         expected, _ = nnls(factor.T, np.linalg.solve(factor, pressed))
-        np.testing.assert_allclose(found.load[one], expected, atol=1e-8)
+        np.testing.assert_allclose(found.load[position], expected, atol=1e-8)
 
 
 def test_stiffness_is_the_derivative_of_the_torque(rng):
@@ -153,10 +153,10 @@ def test_a_crowned_half_space_carries_hertzs_ellipse(pair, lead_radius, force, s
     # the uniform part is a matter of where the half-space is held
     harmonics = np.concatenate([[1e-11], varying]).reshape(-1, 1, 1, 1) / WIDTH
     position = face_positions(WIDTH, slices)
-    one = np.ones((1, 1))
+    unit = np.ones((1, 1))
     gap = (position**2 / (2 * lead_radius)).reshape(1, 1, -1)
     matrix = by_slices(harmonics, slices)
-    found = press_pairs(pair, one / radius, matrix, one, one, gap, np.array([force]))
+    found = press_pairs(pair, unit / radius, matrix, unit, unit, gap, np.array([force]))
     line_load = found.slice_load[0, 0] * slices / WIDTH
     expected = 0.75 * force / half_length * np.maximum(1 - (position / half_length) ** 2, 0.0)
     whole = np.abs(position) < half_length - WIDTH / slices  # the end of the contact falls inside a slice
@@ -183,8 +183,8 @@ def test_both_gears_add_their_own_and_their_neighbours_deflections(monkeypatch, 
 
     monkeypatch.setattr(slices_of_faces, "_responses", responses)
     materials = [
-        SimpleNamespace(youngs_modulus=one, poisson_ratio=other)
-        for one, other in zip(moduli, ratios, strict=True)
+        SimpleNamespace(youngs_modulus=modulus, poisson_ratio=ratio)
+        for modulus, ratio in zip(moduli, ratios, strict=True)
     ]
     at = rng.integers(0, 5, (2, positions, pairs))
     reach = [radii[body][at[body]] for body in (0, 1)]

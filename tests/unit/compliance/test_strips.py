@@ -120,7 +120,7 @@ def test_surface_stress_of_a_plate_is_that_of_its_moment():
     stress = stress_rows(place, top, 3 * basis.N, POISSON, k) @ found
     x = edge_points(place)[0]
     shape = [kirchhoff(1.0, k)(at) for at in x]
-    moment = np.array([-(one[2] - POISSON * k**2 * one[0]) for one in shape])
+    moment = np.array([-(shape_of[2] - POISSON * k**2 * shape_of[0]) for shape_of in shape])
     away = (x > 0.1) & (x < 0.9)
     np.testing.assert_allclose(
         stress[away], 6 * moment[away] / thickness**2, atol=0.01 * 6 * abs(moment[0]) / thickness**2
@@ -186,10 +186,10 @@ def test_work_of_one_field_on_another_is_that_of_their_strains(rng, k, poisson):
         fields.append(value.T.ravel())
         (u, v, w), (u_x, v_x, w_x), (u_y, v_y, w_y) = quadratic(coefficients, x, y)
         strains.append((u_x, v_y, k * w, u_y + v_x, w_x - k * u, w_y - k * v))
-    one, other = strains
-    work = lame * sum(one[:3]) * sum(other[:3])
-    work = work + 2 * shear * sum(a * b for a, b in zip(one[:3], other[:3], strict=True))
-    work = work + shear * sum(a * b for a, b in zip(one[3:], other[3:], strict=True))
+    first, second = strains
+    work = lame * sum(first[:3]) * sum(second[:3])
+    work = work + 2 * shear * sum(a * b for a, b in zip(first[:3], second[:3], strict=True))
+    work = work + shear * sum(a * b for a, b in zip(first[3:], second[3:], strict=True))
     constant, linear, square = strip_stiffness(basis, poisson)
     found = fields[0] @ (constant + k * linear + k**2 * square) @ fields[1]
     assert found == pytest.approx(weight @ work, rel=1e-10)
@@ -198,12 +198,12 @@ def test_work_of_one_field_on_another_is_that_of_their_strains(rng, k, poisson):
     slope = rng.normal(size=3)
     open_by = slope @ [np.ones_like(opening.place[0]), *opening.place]
     at_points = slope @ [np.ones_like(x), x, y]
-    stress = lame * sum(one[:3]) + 2 * shear * one[2]
+    stress = lame * sum(first[:3]) + 2 * shear * first[2]
     assert fields[0] @ opening.forces(k) @ open_by == pytest.approx(weight @ (stress * at_points), rel=1e-10)
     stiffness = (lame + 2 * shear) * weight @ at_points**2
     assert open_by @ opening.stiffness @ open_by == pytest.approx(stiffness, rel=1e-10)
     if k == 0.0:
         flat = np.delete(fields[0], np.s_[2::3]), np.delete(fields[1], np.s_[2::3])
-        plane = lame * (one[0] + one[1]) * (other[0] + other[1]) + shear * one[3] * other[3]
-        plane = plane + 2 * shear * (one[0] * other[0] + one[1] * other[1])
+        plane = lame * (first[0] + first[1]) * (second[0] + second[1]) + shear * first[3] * second[3]
+        plane = plane + 2 * shear * (first[0] * second[0] + first[1] * second[1])
         assert flat[0] @ plane_stiffness(basis, poisson) @ flat[1] == pytest.approx(weight @ plane, rel=1e-10)

@@ -16,7 +16,7 @@ OFF = (-1.5e-3, -0.4e-3, 0.5e-3, 1.2e-3)
 def beside(assembly):
     """Pinion angles before and beyond the path, by distances on the pitch circle."""
     start, end = assembly.roll_limits
-    return np.array([(start if one < 0 else end) + one / assembly.path.pinion_pitch_radius for one in OFF])
+    return np.array([(start if off < 0 else end) + off / assembly.path.pinion_pitch_radius for off in OFF])
 
 
 @pytest.mark.parametrize(("family", "drive"), [(involute.FAMILY, STANDARD), (crc.FAMILY, LIU_NI)])
@@ -85,7 +85,7 @@ def test_the_tip_passes_the_fillet_at_the_gap_that_drawn_teeth_leave(side):
     assembly = assemble(involute.FAMILY, STANDARD)
     mate = "gear" if side == "pinion" else "pinion"
     tooth, tip = assembly.tooth(side), float(assembly.tooth(mate).tip_radius)
-    own, other = (float(reference_radius(STANDARD, one)) for one in (side, mate))
+    own, other = (float(reference_radius(STANDARD, body)) for body in (side, mate))
     base, other_base = (r * np.cos(STANDARD.pressure_angle) for r in (own, other))
     # the corner on the line of action, where contact begins on this flank
     reach = (own + other) * np.sin(STANDARD.pressure_angle) - np.sqrt(tip**2 - other_base**2)

@@ -22,24 +22,24 @@ SAMPLES = [sampled(LIMITS, 40, seed, 0) for seed in range(400)]
 
 
 def test_the_same_seed_draws_the_same_gear():
-    one, other = sampled(LIMITS, 40, 7, 1), sampled(LIMITS, 40, 7, 1)
-    assert np.array_equal(one.pitch, other.pitch)
-    assert one._replace(pitch=None) == other._replace(pitch=None)
-    assert not np.array_equal(one.pitch, sampled(LIMITS, 40, 7, 0).pitch)
+    first, second = sampled(LIMITS, 40, 7, 1), sampled(LIMITS, 40, 7, 1)
+    assert np.array_equal(first.pitch, second.pitch)
+    assert first._replace(pitch=None) == second._replace(pitch=None)
+    assert not np.array_equal(first.pitch, sampled(LIMITS, 40, 7, 0).pitch)
 
 
 def test_deviations_keep_their_tolerances():
-    for one in SAMPLES:
-        steps = np.diff(np.append(one.pitch, one.pitch[0]))
+    for sample in SAMPLES:
+        steps = np.diff(np.append(sample.pitch, sample.pitch[0]))
         assert np.abs(steps).max() <= LIMITS.single_pitch * (1 + 1e-9)
-        assert np.ptp(one.pitch) <= LIMITS.total_pitch * (1 + 1e-9)
-        assert abs(one.pitch.sum()) < 1e-15 * 40 * 1e6 * 1e-6
-        assert max(abs(one.slope) / 7e-6, one.form / 9e-6, abs(one.helix) / 8e-6) <= 1
+        assert np.ptp(sample.pitch) <= LIMITS.total_pitch * (1 + 1e-9)
+        assert abs(sample.pitch.sum()) < 1e-15 * 40 * 1e6 * 1e-6
+        assert max(abs(sample.slope) / 7e-6, sample.form / 9e-6, abs(sample.helix) / 8e-6) <= 1
 
 
 def test_tolerances_are_three_standard_deviations():
     for name, tolerance in (("slope", 7e-6), ("helix", 8e-6)):
-        values = np.array([getattr(one, name) for one in SAMPLES])
+        values = np.array([getattr(sample, name) for sample in SAMPLES])
         # four standard errors of 400 samples
         assert abs(values.mean()) < 4 * tolerance / 3 / 20
         assert values.std() == pytest.approx(tolerance / 3, rel=4 / np.sqrt(800))
@@ -71,8 +71,8 @@ def test_a_deviation_of_base_pitch_opens_by_itself_from_pair_to_pair():
 
 
 def test_curves_are_added_at_the_points_of_both():
-    one = np.array([0.0, 1.0, 2.0]), np.array([0.0, 2.0, 0.0])
-    at, total = summed(one, (np.array([0.5, 3.0]), np.array([1.0, 1.0])))
+    curve = np.array([0.0, 1.0, 2.0]), np.array([0.0, 2.0, 0.0])
+    at, total = summed(curve, (np.array([0.5, 3.0]), np.array([1.0, 1.0])))
     assert at.tolist() == [0.0, 0.5, 1.0, 2.0, 3.0]
     assert total.tolist() == [1.0, 2.0, 3.0, 1.0, 1.0]
 

@@ -88,7 +88,7 @@ def test_speeds_and_curvatures_from_the_motion_of_the_contact(name):
     normal, along = np.stack([np.cos(alpha), np.sin(alpha)]), np.stack([-np.sin(alpha), np.cos(alpha)])
     np.testing.assert_allclose(np.sum(own * normal, axis=0), 0.0, atol=1e-9)
     np.testing.assert_allclose(np.sum(other * normal, axis=0), 0.0, atol=1e-9)
-    speeds = [np.sum(one * along, axis=0) for one in (own, other)]
+    speeds = [np.sum(velocity * along, axis=0) for velocity in (own, other)]
     np.testing.assert_allclose(np.abs(speeds[0]), motion.pinion_speed, rtol=1e-6)
     np.testing.assert_allclose(np.abs(speeds[1]), motion.gear_speed, rtol=1e-6)
     np.testing.assert_allclose(np.abs(speeds[0] - speeds[1]), np.abs(motion.sliding), rtol=1e-5, atol=1e-9)

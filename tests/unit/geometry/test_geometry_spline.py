@@ -129,9 +129,9 @@ def test_it_starts_from_every_other_path(name, values):
     assert fitted.contact_ratio == pytest.approx(original.contact_ratio, abs=0.01)
     for side in SIDES:
         for radius in ("tip_radius", "root_radius"):
-            ours, theirs = (getattr(one.tooth(side), radius) for one in (fitted, original))
+            ours, theirs = (getattr(pair.tooth(side), radius) for pair in (fitted, original))
             assert ours == pytest.approx(theirs, rel=1e-12)
-    rho = [1.0 / kinematics(one.path, 1e-4).relative_curvature for one in (original, fitted)]
+    rho = [1.0 / kinematics(pair.path, 1e-4).relative_curvature for pair in (original, fitted)]
     assert rho[1] == pytest.approx(rho[0], rel=2e-2)
 
 
@@ -193,12 +193,12 @@ def test_geometry_differentiates_by_every_value():
     with jax.enable_x64(True):
         slopes = jax.jit(jax.jacfwd(figures), compiler_options=ONE_CALL)(at)
     value = figures(at)
-    for i, one in enumerate(at):
-        step = 1e-5 * one
+    for i, place in enumerate(at):
+        step = 1e-5 * place
         ends = [figures(at + sign * step * (np.arange(len(at)) == i)) for sign in (1, -1)]
         for k, slope in enumerate(slopes):
             difference = (ends[0][k] - ends[1][k]) / (2 * step)
-            assert slope[i] == pytest.approx(difference, rel=1e-5, abs=1e-7 * abs(value[k]) / one)
+            assert slope[i] == pytest.approx(difference, rel=1e-5, abs=1e-7 * abs(value[k]) / place)
 
 
 MM = 1e-3

@@ -63,10 +63,10 @@ def relative_curvature(path):
     return at
 
 
-@pytest.mark.parametrize(("family", "one"), CASES)
-def test_length_is_that_of_the_flanks_as_they_are(family, one):
+@pytest.mark.parametrize(("family", "drive"), CASES)
+def test_length_is_that_of_the_flanks_as_they_are(family, drive):
     """The mean of the flanks' relative curvature with the weight of Hertz's pressure."""
-    path = family.working_path(one)
+    path = family.working_path(drive)
     curvature = relative_curvature(path)
     a = 2e-6  # so narrow that the flanks still follow their limit
     mean = 0.0
@@ -76,9 +76,9 @@ def test_length_is_that_of_the_flanks_as_they_are(family, one):
     assert pitch_point(path).length * a == pytest.approx((2 / math.pi * mean) ** -2, rel=0.01)
 
 
-@pytest.mark.parametrize(("family", "one"), CASES)
-def test_speed_per_radius_is_the_limit_of_the_kinematics(family, one):
-    path = family.working_path(one)
+@pytest.mark.parametrize(("family", "drive"), CASES)
+def test_speed_per_radius_is_the_limit_of_the_kinematics(family, drive):
+    path = family.working_path(drive)
     sides = kinematics(path, np.array([-1e-7, 1e-7]))
     limit = np.mean(sides.entrainment * sides.relative_curvature)
     assert pitch_point(path).speed_per_radius == pytest.approx(limit, rel=1e-4)
@@ -92,8 +92,8 @@ def test_nothing_vanishes_on_other_paths():
 
 def test_at_the_pitch_point_the_exact_load_is_carried_on_the_half_width():
     """Two flanks with the gap ∫∫ k/√x, symmetric: F' = E* ∫ x f'/√(a² − x²) dx over 0 … a (plane contact)."""
-    family, one = CASES[0]
-    length = pitch_point(family.working_path(one)).length
+    family, drive = CASES[0]
+    length = pitch_point(family.working_path(drive)).length
     line_load = 3e5
     radius = averaged_radius(0.0, line_load, MODULUS, length)
     a = hertz_half_width(line_load, 1 / radius, MODULUS)

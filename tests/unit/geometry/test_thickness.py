@@ -96,11 +96,13 @@ def test_a_rounding_touches_tip_circle_and_flank():
 def test_racks_of_iso_53():
     """Clearance and rounding: 0.25 and 0.38, 0.30, 0.25 of A, B, C; 0.4 and 0.39 of D; 20 degrees."""
     found = {name[-1]: profile for name, profile in PROFILES.items()}
-    assert {name: round(one.dedendum - one.addendum, 9) for name, one in found.items()} == dict(
+    assert {name: round(profile.dedendum - profile.addendum, 9) for name, profile in found.items()} == dict(
         A=0.25, B=0.25, C=0.25, D=0.4
     )
-    assert {name: one.fillet_radius for name, one in found.items()} == dict(A=0.38, B=0.3, C=0.25, D=0.39)
-    assert all(one.pressure_angle == math.radians(20) for one in found.values())
+    assert {name: profile.fillet_radius for name, profile in found.items()} == dict(
+        A=0.38, B=0.3, C=0.25, D=0.39
+    )
+    assert all(profile.pressure_angle == math.radians(20) for profile in found.values())
 
 
 @pytest.mark.parametrize("side", ["pinion", "gear"])

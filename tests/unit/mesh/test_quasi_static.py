@@ -111,20 +111,22 @@ def test_integrals_are_those_of_scipys_splines(rng):
     ]
     for upto in (0.0, 0.07, 0.2, 0.31, 0.5499, 0.55, 0.93, 1.0):
         exact = sum(
-            one.integrate(b[s], min(upto, b[s + 1])) for s, one in enumerate(splines) if one and upto > b[s]
+            spline.integrate(b[s], min(upto, b[s + 1]))
+            for s, spline in enumerate(splines)
+            if spline and upto > b[s]
         )
         found = cycle_integral(Bounds(), values, np.full((4, 2), upto))  # pyright: ignore[reportArgumentType]
         np.testing.assert_allclose(found, exact * np.ones(2), atol=1e-13)
     each = cycle_integral(Bounds(), values, np.array([[0.31, 0.93]] * 4))  # pyright: ignore[reportArgumentType]
     wanted = [
         sum(
-            one.integrate(b[s], min(upto, b[s + 1]))[k]
-            for s, one in enumerate(splines)
-            if one and upto > b[s]
+            spline.integrate(b[s], min(upto, b[s + 1]))[k]
+            for s, spline in enumerate(splines)
+            if spline and upto > b[s]
         )
         for k, upto in enumerate((0.31, 0.93))
     ]
     np.testing.assert_allclose(each, wanted, atol=1e-13)
-    whole = sum(one.integrate(b[s], b[s + 1]) for s, one in enumerate(splines) if one)
+    whole = sum(spline.integrate(b[s], b[s + 1]) for s, spline in enumerate(splines) if spline)
     np.testing.assert_allclose(cycle_mean(Bounds(), values), whole, atol=1e-13)  # pyright: ignore
     assert float(cycle_mean(Bounds(), values[..., 1])) == pytest.approx(whole[1], abs=1e-13)  # pyright: ignore

@@ -25,8 +25,8 @@ PAIRS = pytest.mark.parametrize(("family", "drive"), SOUND)
 def larger(drive):
     """The same drive, all lengths times `SIZE`."""
     bodies = [
-        one._replace(face_width=SIZE * one.face_width, bore_radius=SIZE * one.bore_radius)
-        for one in (drive.pinion, drive.gear)
+        body._replace(face_width=SIZE * body.face_width, bore_radius=SIZE * body.bore_radius)
+        for body in (drive.pinion, drive.gear)
     ]
     return drive._replace(module=SIZE * drive.module, pinion=bodies[0], gear=bodies[1])
 
@@ -43,14 +43,14 @@ def table(family, drive, materials=(STEEL, IRON), **options):
 def figures(sheet):
     for name, value in sheet.items():
         if isinstance(value, dict):
-            yield from ((f"{name} {inner}", one) for inner, one in figures(value))
+            yield from ((f"{name} {inner}", number) for inner, number in figures(value))
         else:
             yield name, value
 
 
 @PAIRS
 def test_a_larger_drive_has_larger_lengths_and_equal_angles(family, drive):
-    small, large = (dict(figures(geometry_sheet(assemble(family, one)))) for one in (drive, larger(drive)))
+    small, large = (dict(figures(geometry_sheet(assemble(family, size)))) for size in (drive, larger(drive)))
     assert small.keys() == large.keys()
     lengths = 0
     for name, (value, unit) in small.items():
@@ -70,23 +70,23 @@ def test_a_larger_drive_has_larger_lengths_and_equal_angles(family, drive):
 @pytest.mark.parametrize("hertz", ["linear", "load-dependent"])
 def test_a_larger_and_stiffer_drive(family, drive, hertz):
     """Compliance goes with 1/(E L), Palmgren's with 1/(E^0.9 L^0.8); loads with E L² at equal shares."""
-    one = table(family, drive, hertz=hertz)
+    small = table(family, drive, hertz=hertz)
     other = table(family, larger(drive), (stiffer(STEEL), stiffer(IRON)), hertz=hertz)
     for name in ("boundary", "in_contact", "phase", "pressure_angle", "contact_ratio", "pitch_point_phase"):
-        np.testing.assert_allclose(getattr(other, name), getattr(one, name), rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(getattr(other, name), getattr(small, name), rtol=1e-9, atol=1e-12)
     for name in ("signed_distance", "equivalent_radius", "pinion_speed", "gear_speed", "face_width"):
-        np.testing.assert_allclose(getattr(other, name), SIZE * getattr(one, name), rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(getattr(other, name), SIZE * getattr(small, name), rtol=1e-9, atol=1e-12)
     for name in ("compliance", "coupling"):
         np.testing.assert_allclose(
-            getattr(other, name), getattr(one, name) / (STIFFER * SIZE), rtol=1e-8, atol=1e-22
+            getattr(other, name), getattr(small, name) / (STIFFER * SIZE), rtol=1e-8, atol=1e-22
         )
-    assert other.hertz_coefficient == pytest.approx(one.hertz_coefficient / (STIFFER**0.9 * SIZE**0.8))
+    assert other.hertz_coefficient == pytest.approx(small.hertz_coefficient / (STIFFER**0.9 * SIZE**0.8))
     if hertz == "linear":
-        shared, heavier = quasi_static(one, 300.0), quasi_static(other, 300.0 * STIFFER * SIZE**3)
+        shared, heavier = quasi_static(small, 300.0), quasi_static(other, 300.0 * STIFFER * SIZE**3)
         np.testing.assert_allclose(heavier.normal_load, STIFFER * SIZE**2 * shared.normal_load, rtol=1e-7)
         np.testing.assert_allclose(heavier.deflection, SIZE * shared.deflection, rtol=1e-7)
         np.testing.assert_allclose(heavier.mesh_stiffness, STIFFER * SIZE * shared.mesh_stiffness, rtol=1e-7)
-        assert mean_efficiency(other, 800.0, 0.05) == pytest.approx(mean_efficiency(one, 300.0, 0.05))
+        assert mean_efficiency(other, 800.0, 0.05) == pytest.approx(mean_efficiency(small, 300.0, 0.05))
 
 
 @PAIRS
@@ -126,10 +126,10 @@ def test_with_the_gears_exchanged_a_pair_goes_its_way_back(family, drive):
 def test_loads_share_the_deflection_and_balance_the_torque():
     """Two pairs, their compliances, coupling and gaps: two equations solved by hand."""
     family, drive = SOUND[0]
-    one = table(family, drive)
+    small = table(family, drive)
     rng = np.random.default_rng(3)
-    gap = 2e-6 * rng.random(one.compliance.shape)
-    cycle = one._replace(gap=gap)
+    gap = 2e-6 * rng.random(small.compliance.shape)
+    cycle = small._replace(gap=gap)
     friction = 0.1 * np.sign(cycle.signed_distance)
     found = quasi_static(cycle, 400.0, friction)
     for node in (0, 5, 16):
@@ -153,15 +153,15 @@ def test_loads_share_the_deflection_and_balance_the_torque():
 @pytest.mark.parametrize("upto", [0.0, 0.3, 0.85, 1.0])
 def test_integrals_over_the_cycle_are_those_of_cubics(upto):
     """Of one value per node and of one per pair; each segment has a cubic of its own."""
-    one = table(*SOUND[0])
-    phase, number = one.phase, np.arange(len(one.phase))[:, None]
+    small = table(*SOUND[0])
+    phase, number = small.phase, np.arange(len(small.phase))[:, None]
     values = 1.0 + number - 2.0 * phase + (3.0 + number) * phase**3
     exact = 0.0
-    for k, (low, high) in enumerate(pairwise(one.boundary)):
+    for k, (low, high) in enumerate(pairwise(small.boundary)):
         high = min(high, upto)
         if high > low:
             exact += np.diff(np.polyval([(3.0 + k) / 4, 0.0, -1.0, 1.0 + k, 0.0], [low, high]))[0]
-    assert cycle_integral(one, values, np.array([[upto]])) == pytest.approx(exact, rel=1e-12, abs=1e-15)
-    both = cycle_integral(one, np.stack([values, -2.0 * values], axis=-1), np.array([[upto, upto]]))
+    assert cycle_integral(small, values, np.array([[upto]])) == pytest.approx(exact, rel=1e-12, abs=1e-15)
+    both = cycle_integral(small, np.stack([values, -2.0 * values], axis=-1), np.array([[upto, upto]]))
     np.testing.assert_allclose(both, [exact, -2.0 * exact], rtol=1e-12, atol=1e-15)
-    assert cycle_mean(one, 1.0 + 0.0 * values) == pytest.approx(1.0)
+    assert cycle_mean(small, 1.0 + 0.0 * values) == pytest.approx(1.0)

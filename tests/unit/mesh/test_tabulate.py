@@ -82,7 +82,7 @@ def test_every_segment_has_a_length_beside_a_whole_contact_ratio(pairs, beside):
     def made(addendum):
         return assemble(involute.FAMILY, drive_of((math.radians(20.0), 0.0, addendum, 0.02)))
 
-    addendum = brentq(lambda one: made(one).contact_ratio - 2.0 - beside, 1.0, 1.4, xtol=1e-15)
+    addendum = brentq(lambda height: made(height).contact_ratio - 2.0 - beside, 1.0, 1.4, xtol=1e-15)
     cycle = tabulate(made(addendum), (STEEL, STEEL), mesh(points=5), pairs)
     assert cycle.contact_ratio == pytest.approx(2.0, abs=1e-11)
     assert cycle.boundary[0] == 0.0

@@ -78,8 +78,8 @@ def test_relief_counts_below_grade_6_and_pays_where_it_meets_the_deflection():
 @pytest.mark.parametrize("total", [2.0, 2.5])
 def test_coefficients_are_continuous_to_what_the_table_rounds(total):
     below, above = coefficients(total - 1e-9), coefficients(total + 1e-9)
-    for one, other in zip(below, above, strict=True):
-        assert one == pytest.approx(other, rel=0.08)
+    for before, after in zip(below, above, strict=True):
+        assert before == pytest.approx(after, rel=0.08)
 
 
 def test_reduced_mass_of_equal_gears_is_half_of_one():

@@ -27,12 +27,12 @@ def test_a_gear_of_class_5_by_hand():
 
 def test_a_factor_of_the_root_of_two_from_class_to_class():
     for grade in range(1, 11):
-        fine, coarse = (flank_tolerances(one, 3e-3, 75e-3, 30e-3) for one in (grade, grade + 1))
+        fine, coarse = (flank_tolerances(number, 3e-3, 75e-3, 30e-3) for number in (grade, grade + 1))
         assert [b / a for a, b in zip(fine, coarse, strict=True)] == pytest.approx([math.sqrt(2)] * 9)
 
 
 def test_rounding():
-    assert [1e6 * rounded(1e-6 * one) for one in (12.4, 12.6, 9.2, 5.3, 4.87)] == pytest.approx(
+    assert [1e6 * rounded(1e-6 * value) for value in (12.4, 12.6, 9.2, 5.3, 4.87)] == pytest.approx(
         [12, 13, 9, 5.5, 4.9]
     )
 

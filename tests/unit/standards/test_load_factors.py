@@ -17,7 +17,7 @@ def test_the_excess_counts_where_pairs_share():
     two = (phase <= 0.5)[:, None]
     accurate = np.where(two, [[50.0, 50.0]], [[0.0, 100.0]])
     deviating = np.where(two, [[30.0, 70.0]], [[0.0, 100.0]])
-    loads = [shared_load(one, roll, (0.0, 1.5)) for one in (deviating, accurate)]
+    loads = [shared_load(load, roll, (0.0, 1.5)) for load in (deviating, accurate)]
     assert loads == [70.0, 50.0]
     assert transverse_load_factor(*loads) == pytest.approx(1.4)
     assert transverse_load_factor(45.0, 50.0) == 1.0
