@@ -28,17 +28,17 @@ COLUMNS = NUMBER | {
 @pytest.mark.parametrize("paper", PAPERS)
 def test_a_tolerance_wider_than_five_per_cent_has_its_reason(paper: str):
     for key, row in published(paper).items():
-        judged = compare(row, None)
-        wide = judged.tolerance_share is not None and judged.tolerance_share > WIDE * (1 + 1e-12)
-        assert bool(judged.tolerance_reason) == wide, key
+        compared = compare(row, None)
+        wide = compared.tolerance_share is not None and compared.tolerance_share > WIDE * (1 + 1e-12)
+        assert bool(compared.tolerance_reason) == wide, key
 
 
 def test_a_tolerance_of_an_efficiency_is_a_share_of_its_loss():
-    judged = compare(EFFICIENCY | {"part": "loss", "whole": 1.0, "tolerance_reason": "friction"}, 0.984)
-    assert judged.tolerance_share == pytest.approx(0.25)
-    assert judged.part_difference == pytest.approx(-0.2)
-    assert judged.written("tolerance") == "0.005, 25 % of the loss: friction"
-    assert judged.written("difference") == "0.004, -20 % of the loss"
+    compared = compare(EFFICIENCY | {"part": "loss", "whole": 1.0, "tolerance_reason": "friction"}, 0.984)
+    assert compared.tolerance_share == pytest.approx(0.25)
+    assert compared.part_difference == pytest.approx(-0.2)
+    assert compared.written("tolerance") == "0.005, 25 % of the loss: friction"
+    assert compared.written("difference") == "0.004, -20 % of the loss"
 
 
 def test_a_tolerance_of_a_table_row_is_the_widest_of_its_columns():

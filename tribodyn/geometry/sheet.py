@@ -172,17 +172,16 @@ def geometry_sheet(
     body. Masses (kg) and inertias (kg m²) of pinion and gear stand there where they are given.
     """
     path, drive = assembly.path, assembly.drive
-    at_pitch, at_start, at_end = (kinematics(path, r) for r in (0.0, assembly.r_start, assembly.r_end))
+    ends = {"start of contact": assembly.r_start, "pitch point": 0.0, "end of contact": assembly.r_end}
+    places = {name: kinematics(path, r) for name, r in ends.items()}
+    operating = {"operating pressure angle": _degrees(places["pitch point"].pressure_angle)}
+    operating = operating if assembly.family.involute else {}
     pitch_angle = 2 * math.pi / drive.pinion.teeth
     pair: dict[str, Any] = {
         "module": _millimetres(drive.module),
         "gear ratio": (float(drive.gear.teeth / drive.pinion.teeth), ""),
         "centre distance": _millimetres(path.pinion_pitch_radius + path.gear_pitch_radius),
-        **(
-            {"operating pressure angle": _degrees(at_pitch.pressure_angle)}
-            if assembly.family.involute
-            else {}
-        ),
+        **({"operating pressure angle": _degrees(operating)} if assembly.family.involute else {}),
         **backlash_lines(assembly),
         "pressure angle of the rack on its rolling line": _degrees(assembly.pinion.path.pressure_angle(0.0)),
         "contact ratio": (assembly.contact_ratio, ""),
@@ -190,18 +189,18 @@ def geometry_sheet(
         "recess contact ratio": (assembly.roll_limits[1] / pitch_angle, ""),
         "start of contact from pitch point": _millimetres(assembly.r_start),
         "end of contact from pitch point": _millimetres(assembly.r_end),
-        "pressure angle at start of contact": _degrees(at_start.pressure_angle),
-        "pressure angle at pitch point": _degrees(at_pitch.pressure_angle),
-        "pressure angle at end of contact": _degrees(at_end.pressure_angle),
-        "equivalent radius at start of contact": _millimetres(1 / at_start.relative_curvature),
-        "equivalent radius at pitch point": _millimetres(1 / at_pitch.relative_curvature),
-        "equivalent radius at end of contact": _millimetres(1 / at_end.relative_curvature),
+        **{f"pressure angle at {name}": _degrees(at.pressure_angle) for name, at in places.items()},
+        **{
+            f"equivalent radius at {name}": _millimetres(1 / at.relative_curvature)
+            for name, at in places.items()
+        },
     }
     sliding = _sliding(assembly)
     pair |= sliding.pop("pair")
     for number, side in enumerate(SIDES):
         tooth, body = assembly.tooth(side), body_of(drive, side)
         working = assembly.path_of(side).pinion_pitch_radius
+        rounded = {"tip form diameter": _millimetres(2 * tooth.tip_radius)}
         pair[side] = {
             "teeth": (float(body.teeth), ""),
             "profile shift": (float(body.profile_shift), ""),
@@ -209,7 +208,7 @@ def geometry_sheet(
             "working pitch diameter": _millimetres(2 * working),
             **_base_diameter(assembly, side),
             "tip diameter": _millimetres(2 * tip_circle_radius(drive, side)),
-            **({"tip form diameter": _millimetres(2 * tooth.tip_radius)} if body.tip_break > 0 else {}),
+            **(rounded if body.tip_break > 0 else {}),
             "lowest contact diameter": _millimetres(2 * lowest_contact_radius(assembly, side)),
             "form diameter": _millimetres(2 * tooth.form_radius),
             "active flank above form circle": _millimetres(

@@ -163,7 +163,7 @@ def test_polynomials_are_those_of_the_paper():
 
 
 @pytest.mark.parametrize(
-    ("ratio", "angle", "said"),
+    ("ratio", "angle", "sentences"),
     [
         (1.4, 0.01, []),
         (7.0, 0.12, []),
@@ -173,8 +173,8 @@ def test_polynomials_are_those_of_the_paper():
         (2.0, 0.121, ["half angle of the root 0.121 rad, fitted from 0.01 to 0.12"]),
     ],
 )
-def test_what_is_outside_the_fit_is_named(ratio, angle, said):
-    assert outside_fitted_range(ratio, angle) == said
+def test_what_is_outside_the_fit_is_named(ratio, angle, sentences):
+    assert outside_fitted_range(ratio, angle) == sentences
 
 
 class TestSainsotVelex:

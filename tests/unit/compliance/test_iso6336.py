@@ -106,8 +106,8 @@ def test_low_loads(load, reduced):
 )
 def test_what_is_outside_is_named(change, phrase):
     assert outside(PAIR) == []
-    (said,) = outside(PAIR._replace(**change))
-    assert phrase in said
+    (found,) = outside(PAIR._replace(**change))
+    assert phrase in found
 
 
 @pytest.mark.parametrize(
@@ -156,18 +156,18 @@ def test_equal_numbers_of_teeth_are_ordered_by_shift():
 
 def test_bodies_and_tips_that_the_series_is_not_for():
     assert bodies_outside(drive(gear(23), gear(47))) == []
-    (said,) = bodies_outside(drive(gear(23, bore=0.026), gear(47)))
-    assert "rim of the pinion" in said
-    (said,) = bodies_outside(drive(gear(23), gear(47, addendum=1.2)))
-    assert "addendum of the gear 1.2" in said
+    (found,) = bodies_outside(drive(gear(23, bore=0.026), gear(47)))
+    assert "rim of the pinion" in found
+    (found,) = bodies_outside(drive(gear(23), gear(47, addendum=1.2)))
+    assert "addendum of the gear 1.2" in found
 
 
 def test_a_tip_that_only_the_profile_shift_moves_is_no_other_addendum():
     shifted = gear(20, 0.4), gear(40, -0.3)
-    assert not any("addendum" in said for said in bodies_outside(drive(*shifted)))
+    assert not any("addendum" in found for found in bodies_outside(drive(*shifted)))
     higher = drive(gear(20, 0.4, addendum=1.35), gear(40, -0.3, addendum=0.7))
-    said = [sentence for sentence in bodies_outside(higher) if "addendum" in sentence]
-    assert [sentence.partition(", ")[0] for sentence in said] == [
+    found = [sentence for sentence in bodies_outside(higher) if "addendum" in sentence]
+    assert [sentence.partition(", ")[0] for sentence in found] == [
         "addendum of the pinion 1.35 modules",
         "addendum of the gear 0.7 modules",
     ]

@@ -40,8 +40,8 @@ def test_a_torque_that_flattens_the_contact_beyond_the_face_is_refused():
 def test_slices_are_at_least_as_wide_as_the_contact(torque):
     most = int(WIDTH / contact_width(torque))
     check_contact(LoadedFlanks(PAIR, TILTED, most), torque)
-    said = f"at {torque:g} N m, {contact_width(torque) * 1e3:.2g} mm"
-    with pytest.raises(InputError, match=said) as refused:
+    message = f"at {torque:g} N m, {contact_width(torque) * 1e3:.2g} mm"
+    with pytest.raises(InputError, match=message) as refused:
         check_contact(LoadedFlanks(PAIR, TILTED, most + 1), torque)
     assert refused.value.remedy == f"give at most {most}"
 

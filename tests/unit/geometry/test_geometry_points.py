@@ -102,16 +102,16 @@ def test_each_half_is_the_spline_through_its_points():
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         ((3, (-14.0, 1.0)), "(-14, 1) mm, point 4: the path doubles back"),
         ((6, (0.3, -0.2)), "(0.3, -0.2) mm, point 7: the path misses the pitch point"),
     ],
 )
-def test_points_that_make_no_path_are_named_in_millimetres(change, said):
+def test_points_that_make_no_path_are_named_in_millimetres(change, message):
     r = 0.003 * np.linspace(-6.0, 6.0, 13)
     place = np.stack([r * np.cos(LIU_NI.pressure_angle), r * np.sin(LIU_NI.pressure_angle)], axis=-1)
     place[change[0]] = 1e-3 * np.array(change[1])
     with pytest.raises(InputError) as error:
         points.FAMILY.check(LIU_NI._replace(shape=points.PointsShape(place)))
-    assert f"{error.value.value}, {error.value.rule}".startswith(said)
+    assert f"{error.value.value}, {error.value.rule}".startswith(message)

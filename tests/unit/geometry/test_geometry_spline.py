@@ -230,9 +230,9 @@ def test_refused(name):
     drive, rule, advice = REFUSED[name]
     with pytest.raises(InputError) as caught:
         check(FAMILY, drive)
-    said = str(caught.value)
-    assert rule in said, said
-    assert advice in said, said
+    message = str(caught.value)
+    assert rule in message, message
+    assert advice in message, message
 
 
 @pytest.mark.parametrize("steep", [0, 1, 2])

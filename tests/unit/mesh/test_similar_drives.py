@@ -40,17 +40,17 @@ def table(family, drive, materials=(STEEL, IRON), **options):
     return tabulate(assemble(family, drive), materials, data, 2)
 
 
-def figures(sheet):
+def numbers(sheet):
     for name, value in sheet.items():
         if isinstance(value, dict):
-            yield from ((f"{name} {inner}", number) for inner, number in figures(value))
+            yield from ((f"{name} {inner}", number) for inner, number in numbers(value))
         else:
             yield name, value
 
 
 @PAIRS
 def test_a_larger_drive_has_larger_lengths_and_equal_angles(family, drive):
-    small, large = (dict(figures(geometry_sheet(assemble(family, size)))) for size in (drive, larger(drive)))
+    small, large = (dict(numbers(geometry_sheet(assemble(family, size)))) for size in (drive, larger(drive)))
     assert small.keys() == large.keys()
     lengths = 0
     for name, (value, unit) in small.items():

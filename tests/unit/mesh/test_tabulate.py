@@ -331,10 +331,10 @@ class TestBodies:
 
     def test_remark_on_a_rim_that_the_polynomials_are_off_for(self):
         steel = (STEEL, STEEL)
-        said = compliance_remark(self.thin(), steel, ENERGY)
-        assert "the pinion's is 2.4" in said
-        assert "the gear's" not in said
-        assert 'mesh.foundation = "ring"' in said
+        remark = compliance_remark(self.thin(), steel, ENERGY)
+        assert "the pinion's is 2.4" in remark
+        assert "the gear's" not in remark
+        assert 'mesh.foundation = "ring"' in remark
         assert "mesh.foundation" not in compliance_remark(self.thin(0.015), steel, ENERGY)
         assert not compliance_remark(self.thin(), steel, mesh(foundation="ring"))
 
