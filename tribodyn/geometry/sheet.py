@@ -181,7 +181,7 @@ def geometry_sheet(
         "module": _millimetres(drive.module),
         "gear ratio": (float(drive.gear.teeth / drive.pinion.teeth), ""),
         "centre distance": _millimetres(path.pinion_pitch_radius + path.gear_pitch_radius),
-        **({"operating pressure angle": _degrees(operating)} if assembly.family.involute else {}),
+        **operating,
         **backlash_lines(assembly),
         "pressure angle of the rack on its rolling line": _degrees(assembly.pinion.path.pressure_angle(0.0)),
         "contact ratio": (assembly.contact_ratio, ""),
