@@ -121,9 +121,9 @@ def _without_judged_range(summary: Mapping[str, Any]) -> list[str]:
     """Say how far a law is from the solved contact, where that bears it out in no range."""
     sentences = []
     for what in ("film", "friction"):
-        judged = summary.get(f"{what}_judged")
-        if isinstance(judged, Mapping) and not judged["limits"]:
-            times = f"{judged['low']:.2g} to {judged['high']:.2g} times"
+        ratio = summary.get(f"{what}_judged")  # of the law to the solved contact
+        if isinstance(ratio, Mapping) and not ratio["limits"]:
+            times = f"{ratio['low']:.2g} to {ratio['high']:.2g} times"
             sentences.append(
                 f"The {what} law {summary[f'{what}_law']} has no range by the solved contact: in nine of ten "
                 f"contacts of gears it gives {times} the solved {what}."

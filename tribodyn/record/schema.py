@@ -37,11 +37,11 @@ def require_head(attributes: Mapping[str, Any]) -> None:
         raise ValueError(f"unknown status {attributes['status']}")
 
 
-def require_same_code(attributes: Mapping[str, Any], left: Path) -> None:
+def require_same_code(attributes: Mapping[str, Any], path: Path) -> None:
     """Raise InputError where other code computed what an unfinished call left."""
     if attributes.get(CODE) != computing_digest():
         rule = "computed by other code (tribodyn, or a package with laws, has changed since)"
-        raise InputError("--resume", str(left), rule, "move it away, or --force to begin anew")
+        raise InputError("--resume", str(path), rule, "move it away, or --force to begin anew")
 
 
 TIME = Variable(("time",), "s", "time")

@@ -39,8 +39,8 @@ def opened(path: Path) -> Any:
 def outlines(space: Any) -> list[np.ndarray]:
     """Points of the closed outlines, mm."""
     found = space.query('LWPOLYLINE[layer=="OUTLINE"]')
-    assert all(one.closed for one in found)
-    return [np.array(one.get_points("xy")) for one in found]
+    assert all(line.closed for line in found)
+    return [np.array(line.get_points("xy")) for line in found]
 
 
 def area(points: np.ndarray) -> float:
@@ -69,7 +69,7 @@ def test_gear_in_dxf(family, drive, side, tmp_path: Path):
     assert crossings(distance - middle) == 2 * body.teeth
     steps = np.hypot(*(points - np.roll(points, 1, axis=0)).T)
     assert steps.min() > 0
-    circles = {one.dxf.layer: one.dxf.radius for one in space.query("CIRCLE")}
+    circles = {circle.dxf.layer: circle.dxf.radius for circle in space.query("CIRCLE")}
     assert circles.get("BORE", 0.0) == pytest.approx(1e3 * body.bore_radius)
     assert circles["TIP_CIRCLE"] == pytest.approx(distance.max())
 
@@ -93,7 +93,7 @@ def test_rack_in_dxf(family, drive, side, tmp_path: Path):
 def test_pair_in_dxf_has_both_gears_at_the_working_centre_distance(tmp_path: Path):
     space = opened(write_pair(tmp_path / "pair.dxf", assemble(involute.FAMILY, SHIFTED)))
     assert len(outlines(space)) == 2
-    bores = [np.array(one.dxf.center)[:2] for one in space.query('CIRCLE[layer=="BORE"]')]
+    bores = [np.array(bore.dxf.center)[:2] for bore in space.query('CIRCLE[layer=="BORE"]')]
     # a_w = a cos α/cos α_w (ISO 21771)
     working = involute.working_pressure_angle(SHIFTED)
     distance = 0.004 * (17 + 41) / 2 * np.cos(SHIFTED.pressure_angle) / np.cos(working)

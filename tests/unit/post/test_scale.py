@@ -9,7 +9,7 @@ from tribodyn.post.figures.scale import scale
 
 def scaled(*curves, from_zero=False):
     axes = Figure().subplots()
-    scale(axes, [np.asarray(one, dtype=float) for one in curves], from_zero)
+    scale(axes, [np.asarray(curve, dtype=float) for curve in curves], from_zero)
     return axes.get_ylim(), [text.get_text() for text in axes.texts]
 
 

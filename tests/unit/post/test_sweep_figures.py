@@ -15,8 +15,8 @@ def sweep(*sizes: int, directions: tuple[str, ...] = ()) -> Any:
     names = ("pinion_speed", "gear_torque", "law")
     values = [np.linspace(1.0, 2.0, size) for size in sizes[:2]] + [np.array(["a", "b"])] * (len(sizes) > 2)
     parameters = [
-        SimpleNamespace(name=name, key=f"operating.{name}", values=one, units="N*m")
-        for name, one in zip(names, values, strict=False)
+        SimpleNamespace(name=name, key=f"operating.{name}", values=numbers, units="N*m")
+        for name, numbers in zip(names, values, strict=False)
     ]
     return cast(
         Any, SimpleNamespace(parameters=parameters, directions=directions, label="sweep", path="s.h5")

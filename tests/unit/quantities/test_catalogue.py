@@ -30,10 +30,10 @@ def test_every_quantity_has_a_definition(name: str):
 @pytest.mark.parametrize("kind", [kind for kind in STUDIES if STUDIES[kind].package.startswith("tribodyn.")])
 def test_studies_report_what_the_catalogue_defines(kind: str):
     study = STUDIES[kind]
-    every = [*study.swept().values(), *(one for some in study.reported().values() for one in some)]
-    for quantity in every:
+    reported = [quantity for group in study.reported().values() for quantity in group]
+    for quantity in (*study.swept().values(), *reported):
         assert quantity == QUANTITIES.get(quantity.name) or quantity.name.endswith("_spread")
-    assert {one.name for one in study.sweep_table()} <= set(study.swept())
+    assert {quantity.name for quantity in study.sweep_table()} <= set(study.swept())
 
 
 @pytest.mark.parametrize("unit", [unit for unit in SHOWN if unit not in ("", "%")])

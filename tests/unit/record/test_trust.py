@@ -254,7 +254,7 @@ def test_films_and_temperatures_beyond_any_use(name):
     assert {"contact_temperature", "film_thickness", "film_law_range"} <= set(named)
     assert named["contact_temperature"]["value"] == pytest.approx(found.summary["contact_temperature_max"])
     assert named["film_thickness"]["value"] == found.summary["film_min"]
-    assert any(one.startswith("minimum film thickness") for one in found.reasons)
+    assert any(reason.startswith("minimum film thickness") for reason in found.reasons)
     assert f"complete, {OUTSIDE}: " in repr(found)
     shown = found._repr_html_()
     assert all(text in shown for text in ("How far to trust it", OUTSIDE, found.reasons[0]))

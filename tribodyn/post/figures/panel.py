@@ -38,7 +38,7 @@ class View(NamedTuple):
 
     cycles: int | None = 2  # how many of the last whole mesh cycles; None for all
     against: str = "phase"  # `phase` (mesh cycles) or `time` (ms)
-    asked: bool = False  # whether somebody asked for that abscissa
+    chosen: bool = False  # whether somebody chose that abscissa
 
 
 class Trace(NamedTuple):

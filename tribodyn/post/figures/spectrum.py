@@ -9,17 +9,23 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.cycles import Spectrum, Window, amplitude_spectrum, last_cycles
+from tribodyn.post.cycles import CHANGING, Spectrum, Window, amplitude_spectrum, last_cycles
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, name_above, new_figure
 from tribodyn.record.reader import Record
 
 #: Orders of the mesh that are shown at least, and where no mode is known.
 ORDERS = 12
-#: Lines below this part of the highest one are off the scale.
-FLOOR = 1e-5
+#: Amplitudes below this part of the highest one are off the scale, of a spectrum and of a map of spectra.
+FLOOR, MAP_FLOOR = 1e-5, 1e-3
 #: Orders that have a mark, and names of orders above the axes, at most.
 MARKED, NAMED = 40, 14
+#: Mesh cycles in the window of one spectrum along a run, and between two.
+WINDOW, HOP = 16, 4
+#: Spectra over a run, at least, where it is long enough.
+MOST_HOPPED = 60
+#: Orders of the mesh in the map of spectra, and those followed in the panel below it.
+SHOWN, FOLLOWED = 8.0, 4
 
 
 def steady_spectrum(record: Record) -> tuple[Spectrum, Window]:
@@ -94,23 +100,11 @@ def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
         rows[-1].set_ylim(FLOOR * highest, 2 * highest)
     rows[-1].set_xlim(0, width)
     beyond = any(modes.size and modes.max() * 1e-3 > width for modes in map(mode_frequencies, records))
-    said = "; higher ones are above half the sampling rate" if beyond else ""
-    rows[-1].set_xlabel(f"Frequency (kHz); dashed: natural frequencies at the mean mesh stiffness{said}")
+    higher = "; higher ones are above half the sampling rate" if beyond else ""
+    rows[-1].set_xlabel(f"Frequency (kHz); dashed: natural frequencies at the mean mesh stiffness{higher}")
     if count == 1:
         figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
     return figure
-
-
-#: Mesh cycles in the window of one spectrum, and between two.
-WINDOW, HOP = 16, 4
-#: Spectra over a run, at least, where it is long enough.
-MOST_HOPPED = 60
-#: Orders of the mesh shown, and those followed in the lower panel.
-SHOWN, FOLLOWED = 8.0, 4
-#: Amplitudes below this part of the maximum are off the scale.
-MAP_FLOOR = 1e-3
-#: A speed that changes by more than this share is worth tracking.
-CHANGING = 0.05
 
 
 class Track(NamedTuple):
@@ -135,12 +129,7 @@ def track(record: Record) -> Track:
     """Take spectra of windows of whole mesh cycles, tapered by Hann's window, along the whole run.
 
     Samples are uniform in the phase of the mesh, so that an order is a line whatever the speed does; a line's
-    amplitude is that of the cosine, the window's mean taken out.
-
-    Raises
-    ------
-    InputError
-        For a run shorter than two windows.
+    amplitude is that of the cosine, the window's mean taken out. Raises InputError below two windows.
     """
     whole = last_cycles(record, None)
     per_cycle = whole.samples_per_cycle
@@ -173,8 +162,7 @@ def orders_figure(records: Sequence[Record], view: View) -> Figure:
     """
     record = records[0]
     tracked = track(record)
-    asked = view.asked and view.against == "time"
-    over_time = asked or not np.all(np.diff(tracked.speed) > 0)
+    over_time = (view.chosen and view.against == "time") or not np.all(np.diff(tracked.speed) > 0)
     x = tracked.time * 1e3 if over_time else tracked.speed * 30 / np.pi
     figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.6)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))

@@ -39,10 +39,10 @@ def test_it_needs_no_other_file_and_is_small(page):
 
 def test_it_holds_what_was_sampled(crc, page):
     (record,) = data_of(page)["records"]
-    series = {one["name"]: one for one in record["series"]}
+    series = {series["name"]: series for series in record["series"]}
     load = series["normal_load"]
     assert load["unit"] == "N"
-    assert [one["label"] for one in load["curves"]] == ["pair 1", "pair 0"]
+    assert [curve["label"] for curve in load["curves"]] == ["pair 1", "pair 0"]
     np.testing.assert_allclose(
         unpacked(load["curves"][0]["y"]), crc.data["normal_load"].sel(pair=1), rtol=1e-6
     )
@@ -150,7 +150,7 @@ def test_a_sweep_has_a_page(tmp_path: Path):
     with open_any(swept) as record:
         page = write_report([record], tmp_path / "sweep.html")
         (data,) = data_of(page)["records"]
-        series = {one["name"]: one for one in data["series"]}
+        series = {series["name"]: series for series in data["series"]}
         np.testing.assert_allclose(
             unpacked(series["efficiency"]["curves"][0]["y"]), 100 * record["efficiency"], rtol=1e-6
         )
