@@ -41,8 +41,8 @@ def test_without_contact_loss_the_linear_response_is_exact(frequency):
     assert np.all(response.free == 0.0)
     modes = -damping + 1j * np.sqrt(1.0 - damping**2) * np.array([1.0, -1.0])
     multipliers = np.exp(modes * 2.0 * np.pi / frequency)
-    for one in multipliers:
-        assert np.min(np.abs(response.multiplier[0, UP] - one)) < 1e-12
+    for multiplier in multipliers:
+        assert np.min(np.abs(response.multiplier[0, UP] - multiplier)) < 1e-12
 
 
 @pytest.mark.parametrize(
@@ -63,9 +63,9 @@ def test_the_path_through_the_corners_is_scipys(parameters):
 def test_a_motion_that_grazes_the_corner_goes_on():
     """Started on a corner at rest, or so that it just touches: no step may be lost there, or stick."""
     parameters = np.array([[0.05, 0.1, 0.05, 0.0, 0.5]])
-    one = OscillatorMap(parameters)
+    system = OscillatorMap(parameters)
     for state in ((1.0, 0.0), (-1.0, 0.0), (1.0, 1e-15), (1.0 - 1e-16, -1e-12)):
-        track = one.march(np.array([state]), np.array([0]), 2, True)
+        track = system.march(np.array([state]), np.array([0]), 2, True)
         np.testing.assert_allclose(track.states[0], oscillator_march(parameters[0], state, 2), atol=1e-8)
     # linear response whose minimum x is exactly 1
     gain = 0.25 / abs(0.75 + 2j * 0.05 * 0.5)
@@ -91,8 +91,8 @@ def fundamental(damping, variation, frequency):
 def steady_in_contact(damping, variation, frequency):
     """A state so loaded that it never leaves contact, by shooting: stable or not."""
     case = oscillator([frequency], damping, 50.0, 0.0, variation)
-    one = oscillator_at(case, np.array([frequency]))
-    return find(one, np.array([[51.0, 0.0]]), method="shooting")[0]
+    system = oscillator_at(case, np.array([frequency]))
+    return find(system, np.array([[51.0, 0.0]]), method="shooting")[0]
 
 
 @pytest.mark.parametrize("frequency", [0.41, 0.6, 1.6, 1.98, 2.5])
@@ -101,8 +101,8 @@ def test_multipliers_of_varying_stiffness_are_floquets(frequency):
     orbit = steady_in_contact(damping, variation, frequency)
     matrix = fundamental(damping, variation, frequency)
     expected = np.linalg.eigvals(matrix)
-    for one in expected:
-        assert np.min(np.abs(orbit.multipliers - one)) < 1e-9
+    for multiplier in expected:
+        assert np.min(np.abs(orbit.multipliers - multiplier)) < 1e-9
     # Liouville: their product is what damping takes
     assert np.prod(orbit.multipliers).real == pytest.approx(np.exp(-4.0 * np.pi * damping / frequency))
     assert orbit.stable == (np.max(np.abs(expected)) < 1.0)
@@ -193,19 +193,19 @@ def test_amplitudes_are_those_of_harmonic_balance(softening):
 def test_period_two_and_what_it_leaves():
     """Near Ω = 2 the varying stiffness doubles the period; the state of one period lives on, unstable."""
     parameters = (0.05, 0.1, 0.05, 0.3, 1.95)
-    one = OscillatorMap(np.array([parameters]))
-    (double,) = find(one, np.array([[1.1, 0.0]]))
+    system = OscillatorMap(np.array([parameters]))
+    (double,) = find(system, np.array([[1.1, 0.0]]))
     assert double.kind == "period-2"
     track = oscillator_march(parameters, double.state, 2)
     assert np.max(np.abs(track[1] - double.state)) < 1e-6
     assert np.max(np.abs(track[0] - double.state)) > 0.05
-    (single,) = find(one, np.array([[1.1, 0.0]]), method="shooting")
+    (single,) = find(system, np.array([[1.1, 0.0]]), method="shooting")
     assert single.kind == "unstable"
     assert np.max(np.abs(oscillator_march(parameters, single.state, 1)[0] - single.state)) < 1e-6
     largest = single.multipliers[0]
     assert largest.real < -1.0
     # a neighbour leaves it by that factor a period
-    away = one.march(single.state[None] + [[1e-6, 0.0]], np.array([0]), 12, True).states[0] - single.state
+    away = system.march(single.state[None] + [[1e-6, 0.0]], np.array([0]), 12, True).states[0] - single.state
     growth = np.linalg.norm(away[11]) / np.linalg.norm(away[9])
     assert growth == pytest.approx(abs(largest) ** 2, rel=1e-2)
 
@@ -216,14 +216,14 @@ def test_marching_and_shooting_agree():
     marched = find(OscillatorMap(parameters), start, method="marching", tolerance=1e-10)
     shot = find(
         OscillatorMap(parameters),
-        np.array([one.state for one in marched]) + 1e-3,
+        np.array([orbit.state for orbit in marched]) + 1e-3,
         method="shooting",
         tolerance=1e-10,
     )
-    for one, other in zip(marched, shot, strict=True):
-        assert one.kind == other.kind == "period-1"
-        np.testing.assert_allclose(one.state, other.state, atol=1e-8)
-        np.testing.assert_allclose(one.multipliers, other.multipliers, atol=1e-6)
+    for orbit, other in zip(marched, shot, strict=True):
+        assert orbit.kind == other.kind == "period-1"
+        np.testing.assert_allclose(orbit.state, other.state, atol=1e-8)
+        np.testing.assert_allclose(orbit.multipliers, other.multipliers, atol=1e-6)
 
 
 def test_chaos_is_said_and_measured_as_marched():
@@ -248,8 +248,8 @@ def test_a_motion_that_grows_is_a_failure_of_its_own():
 def test_a_sweep_is_the_same_every_time():
     case = oscillator(np.arange(0.6, 0.9, 0.02))
     first, second = frequency_response(case), frequency_response(case)
-    for one, other in zip(first[:-2], second[:-2], strict=True):
-        np.testing.assert_array_equal(one, other)
+    for mine, other in zip(first[:-2], second[:-2], strict=True):
+        np.testing.assert_array_equal(mine, other)
 
 
 def test_figures_are_those_of_the_motion():

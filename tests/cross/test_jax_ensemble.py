@@ -136,7 +136,7 @@ def assert_alike(jax_path: Path, native_path: Path, figures: float) -> None:
         ):
             assert np.isfinite(a).all() == np.isfinite(b).all()
             assert not np.isfinite(b).all() or np.max(np.abs(a - b)) < AGREE * np.ptp(b)
-        for name in (one.name for one in SWEPT):
+        for name in (quantity.name for quantity in SWEPT):
             np.testing.assert_allclose(one[name], other[name], rtol=figures, atol=0.0, err_msg=name)
 
 

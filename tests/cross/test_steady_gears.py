@@ -86,8 +86,8 @@ def test_a_linear_mesh_has_the_exact_steady_state_and_multipliers(linear, method
         difference[FREE] = steady.state[FREE] - state
         # a residual of 1e-7 leaves the state as far off as the slowest mode takes to carry it away
         assert scaled(case.model, difference) <= 2e-7 / (1.0 - np.max(np.abs(multipliers)))
-        for one in multipliers:
-            assert np.min(np.abs(steady.multipliers - one)) < 5e-9
+        for multiplier in multipliers:
+            assert np.min(np.abs(steady.multipliers - multiplier)) < 5e-9
 
 
 def test_their_product_is_what_damping_takes_from_phase_space(linear):
@@ -105,11 +105,11 @@ def test_their_product_is_what_damping_takes_from_phase_space(linear):
 def test_marching_and_shooting_come_to_the_same_state(film):
     marched = steady_states(models(film), samples=4, method="marching", tolerance=1e-8)
     shot = steady_states(models(film), samples=4, method="shooting", tolerance=1e-8)
-    for case, one, other in zip(film, marched, shot, strict=True):
-        assert one.kind == other.kind == "period-1"
-        assert (one.method, other.method) == ("marching", "shooting")
-        assert scaled(case.model, one.state - other.state) < 1e-7
-        np.testing.assert_allclose(np.abs(one.multipliers[:4]), np.abs(other.multipliers[:4]), atol=1e-4)
+    for case, steady, other in zip(film, marched, shot, strict=True):
+        assert steady.kind == other.kind == "period-1"
+        assert (steady.method, other.method) == ("marching", "shooting")
+        assert scaled(case.model, steady.state - other.state) < 1e-7
+        np.testing.assert_allclose(np.abs(steady.multipliers[:4]), np.abs(other.multipliers[:4]), atol=1e-4)
 
 
 def test_another_solver_comes_back_to_the_state(film):

@@ -19,7 +19,7 @@ SAMPLES = 50
 RUNAWAY = {
     "friction.law": "coulomb",
     "friction.coefficient": 5.0,
-    **{f"bearings.{one}.stiffness_{axis}": "3e6 N/m" for one in ("pinion", "gear") for axis in "xy"},
+    **{f"bearings.{gear}.stiffness_{axis}": "3e6 N/m" for gear in ("pinion", "gear") for axis in "xy"},
 }
 METHODS_ON_CPU = [name for name, entry in METHODS.items() if entry.runs is not Runs.JAX]
 

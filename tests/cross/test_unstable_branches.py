@@ -35,13 +35,13 @@ def test_between_the_folds_the_oscillator_is_that_of_harmonic_balance():
     up, down = turning_points(amplitudes, frequencies)
     fine = np.linspace(0.11, 0.33, 20001)
     curve = CubicSpline(amplitudes, np.column_stack([frequencies, states]))(fine)
-    beyond = sorted(found.beyond, key=lambda one: found.ends[one.end][0])
-    assert [found.ends[one.end][0] for one in beyond] == [UP, DOWN]
-    for one, start, goal in zip(beyond, (up, down), (down, up), strict=True):
-        branch = one.branch
+    beyond = sorted(found.beyond, key=lambda part: found.ends[part.end][0])
+    assert [found.ends[part.end][0] for part in beyond] == [UP, DOWN]
+    for part, start, goal in zip(beyond, (up, down), (down, up), strict=True):
+        branch = part.branch
         assert np.all(branch.multipliers[:, 0].real > 1.0)
-        assert found.ends[one.end][1].kind == FOLD
-        assert found.ends[one.end][1].value == pytest.approx(start, rel=5e-5)
+        assert found.ends[part.end][1].kind == FOLD
+        assert found.ends[part.end][1].value == pytest.approx(start, rel=5e-5)
         assert branch.finish is not None
         assert branch.finish.kind == FOLD
         assert branch.finish.value == pytest.approx(goal, rel=5e-5)
@@ -52,7 +52,8 @@ def test_between_the_folds_the_oscillator_is_that_of_harmonic_balance():
 def test_the_doubled_motion_of_the_oscillator_goes_on_from_its_fold_to_the_doubling():
     """ε = 0.3 without error: all of it by SciPy, and the edges of the tongue are those of linear theory."""
     found = response(np.arange(1.15, 2.3, 0.1), 0.0, 0.3)
-    kinds = {found.ends[one.end][1].kind: one for one in found.beyond if found.ends[one.end][0] == DOWN}
+    down_parts = [part for part in found.beyond if found.ends[part.end][0] == DOWN]
+    kinds = {found.ends[part.end][1].kind: part for part in down_parts}
     single, double = kinds[PERIOD_DOUBLING].branch, kinds[FOLD].branch
     assert (single.period, double.period) == (1, 2)
     assert single.finish is not None

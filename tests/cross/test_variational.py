@@ -87,8 +87,8 @@ def test_multipliers_are_exact(prepared, name):
     assert np.max(np.abs(tangent.image[0] - image) / scale) < 1e-8
     exact = by_central_differences(model, state, 4e-3)
     multipliers = np.linalg.eigvals(scaled(tangent.jacobian[0], scale))
-    for one in np.linalg.eigvals(exact):
-        assert np.min(np.abs(multipliers - one)) < 1e-8
+    for multiplier in np.linalg.eigvals(exact):
+        assert np.min(np.abs(multipliers - multiplier)) < 1e-8
 
 
 def test_the_stiff_method_gives_the_same(prepared):
@@ -98,11 +98,11 @@ def test_the_stiff_method_gives_the_same(prepared):
     ).model
     state = static_equilibrium(model)[None]
     explicit, stiff = (gear_map(model, solver=solver) for solver in ("dopri5", "rodas4"))
-    one, other = (
+    mine, other = (
         period_map.tangent(state[:, period_map.moving], np.zeros(1, dtype=int), 1).jacobian[0]
         for period_map in (explicit, stiff)
     )
-    difference = scaled(one - other, explicit.scale[0])
+    difference = scaled(mine - other, explicit.scale[0])
     assert np.max(np.abs(difference)) < 1e-7
 
 

@@ -79,8 +79,8 @@ def radial_stiffness(bearing: RollingBearing) -> float:
     angle = log(cos(bearing.contact_angle))
     if bearing.type in ROLLERS:
         size = log(bearing.length / _INCH)
-        one = _ROLLER * exp(0.1 * load + 0.9 * elements + 0.8 * size + 1.9 * angle)
+        stiffness = _ROLLER * exp(0.1 * load + 0.9 * elements + 0.8 * size + 1.9 * angle)
     else:
         size = log(bearing.diameter / _INCH)
-        one = _BALL * exp((size + load + 2.0 * elements + 5.0 * angle) / 3.0)
-    return bearing.count * one * _POUND / _INCH
+        stiffness = _BALL * exp((size + load + 2.0 * elements + 5.0 * angle) / 3.0)
+    return bearing.count * stiffness * _POUND / _INCH

@@ -49,7 +49,7 @@ def load_of(hertz, free, compliance):
 def test_energy_is_the_work_of_the_load(hertz, free):
     model, work = loaded(hertz, free, COMPLIANCE)
     parts = [(0.0, min(free, WIDTH)), (WIDTH, free)] if free > WIDTH else [(0.0, max(free, 0.0))]
-    energy = sum(quad(lambda x: load_of(hertz, x, COMPLIANCE), *one, epsrel=1e-11)[0] for one in parts)
+    energy = sum(quad(lambda x: load_of(hertz, x, COMPLIANCE), *part, epsrel=1e-11)[0] for part in parts)
     assert pair_energy(0, model, work) == pytest.approx(energy, rel=1e-8, abs=1e-15)
     assert mesh_energy(model, work) == pytest.approx(energy, rel=1e-8, abs=1e-15)
 

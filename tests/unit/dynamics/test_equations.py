@@ -257,7 +257,7 @@ def test_a_contact_that_sets_in_has_the_energy_of_its_load(prepared, rng, hertz)
         work, _, powers = evaluate(model, y, phase, segment)
         loads = [work[contact.ELASTIC_LOAD, i] for i in range(model.table.side.shape[0])]
         free = [work[contact.EFFECTIVE_APPROACH, i] for i in range(len(loads)) if loads[i] > 0.0]
-        within += any(0.0 < one < mechanics.contact_width for one in free)
+        within += any(0.0 < value < mechanics.contact_width for value in free)
         step = 1e-9
         up, down = y.copy(), y.copy()
         up[XI] += step
@@ -355,8 +355,8 @@ def test_friction_is_that_of_the_uneven_faces_line_load(prepared):
     channel[..., CHANNELS.index("line_load_friction"), :] = [1.6, 0.0, 0.0, 0.0]
     uneven = model._replace(table=model.table._replace(channel=channel))
     state, coefficients = static_equilibrium(model), []
-    for one, factor in ((model, 1.0), (uneven, 1.6)):
-        work, _, _ = evaluate(one, state, 0.3 * float(model.table.boundary[1]), 0)
+    for case, factor in ((model, 1.0), (uneven, 1.6)):
+        work, _, _ = evaluate(case, state, 0.3 * float(model.table.boundary[1]), 0)
         load = factor * work[contact.NORMAL_LOAD, 0] / model.table.face_width
         speeds = work[contact.PINION_SPEED, 0], work[contact.GEAR_SPEED, 0]
         state_there = local_contact(

@@ -69,7 +69,7 @@ def at(table, segment, phase):
     return (
         dict(zip(CHANNELS, values.T, strict=False)),
         dict(zip(CHANNELS, rates.T, strict=False)),
-        *(np.tril(one, -1) + np.tril(one, -1).T for one in (lower, lower_rate)),
+        *(np.tril(triangle, -1) + np.tril(triangle, -1).T for triangle in (lower, lower_rate)),
     )
 
 
@@ -181,7 +181,7 @@ def loads_of(on, approach, compliance, coupling):
         if chosen:
             found |= dict(zip(chosen, np.linalg.solve(matrix, [approach[i] for i in chosen]), strict=True))
         apart = [approach[i] - sum(coupling[i, j] * found[j] for j in chosen) for i in on if i not in chosen]
-        if all(found[i] >= 0 for i in chosen) and all(one <= 0 for one in apart):
+        if all(found[i] >= 0 for i in chosen) and all(load <= 0 for load in apart):
             return found
     raise AssertionError("no set of pairs carries")
 

@@ -49,7 +49,7 @@ def test_positive_part_integral_is_the_integral():
 
 def test_damping_adds_to_an_elastic_load_and_never_gives_energy():
     """At any load, also far below the width: nothing of it without damping, no pull, force and rate agree."""
-    elastic, damping = (one.ravel() for one in np.meshgrid(np.geomspace(1e-9, 1e4, 60), X[::300]))
+    elastic, damping = (values.ravel() for values in np.meshgrid(np.geomspace(1e-9, 1e4, 60), X[::300]))
     load = load_with_damping(elastic, damping * elastic, 0.5)
     assert np.all(load >= 0.0)
     assert np.all((load - elastic) * damping >= 0.0)

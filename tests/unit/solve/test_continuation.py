@@ -52,7 +52,7 @@ def test_a_place_that_is_not_found_is_no_end(start):
             inside = [abs(value - between) < 1e-4 for value in values]
             outside = [value for value, one in zip(values, inside, strict=True) if not one]
             period_map, _ = super().at(lines, outside)
-            return period_map, ["not here" if one else "" for one in inside]
+            return period_map, ["not here" if missing else "" for missing in inside]
 
     (arrival,) = follow(WithGap(logistic, 1), [leg], tolerance=1e-9)
     assert [end.kind for end in arrival.ends] == [PERIOD_DOUBLING]

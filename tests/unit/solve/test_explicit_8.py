@@ -45,7 +45,7 @@ def test_a_step_is_that_of_scipy(monkeypatch, rng, method, theirs):
         np.testing.assert_allclose(inside, solver.dense_output()(first + 0.3 * step), rtol=1e-10)
     else:
         k = solver.K[:13]
-        fifth, third = (np.abs(one @ k) for one in (solver.E5, solver.E3))
+        fifth, third = (np.abs(weights @ k) for weights in (solver.E5, solver.E3))
         error = step * fifth**2 / np.sqrt(fifth**2 + 0.01 * third**2)
         inside = np.zeros(STATES)
         plain(method.sample)(0.3, step, start, buffer, inside)

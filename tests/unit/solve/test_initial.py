@@ -30,7 +30,9 @@ def started(prepared, torque, **more):
 @pytest.mark.parametrize("soft", [False, True])
 def test_the_load_presses_the_flanks_that_it_turns_together(prepared, torque, soft):
     """Either sign, any size, bearings that give by more than the backlash; with friction."""
-    bearings = {f"bearings.{one}.stiffness_{axis}": "1e6 N/m" for one in ("pinion", "gear") for axis in "xy"}
+    bearings = {
+        f"bearings.{gear}.stiffness_{axis}": "1e6 N/m" for gear in ("pinion", "gear") for axis in "xy"
+    }
     law = {"friction.law": "coulomb", "friction.coefficient": 0.1}
     case, state, loads, rates = started(prepared, f"{torque} N*m", **law, **(bearings if soft else {}))
     assert np.max(np.abs(rates)) < 1e-9 * abs(torque)
@@ -110,7 +112,7 @@ def test_damping_that_leaves_no_equilibrium_is_named(prepared):
 
 
 def test_bearings_that_give_by_more_than_the_centre_distance(prepared):
-    soft = {f"bearings.{one}.stiffness_{axis}": "1e4 N/m" for one in ("pinion", "gear") for axis in "xy"}
+    soft = {f"bearings.{gear}.stiffness_{axis}": "1e4 N/m" for gear in ("pinion", "gear") for axis in "xy"}
     with pytest.raises(SimulationError, match="stiffer bearings"):
         static_equilibrium(prepared("crc-23-47", **soft).model)
     model = prepared("crc-23-47", **soft, **{"operating.gear_torque": "1 N*m"}).model

@@ -23,8 +23,8 @@ def test_every_field_of_a_part_is_put_in_its_place(rng):
 
 def test_extremes_of_a_part_are_put_in_their_places(rng):
     whole, part = (nothing_yet(np.zeros((count, STATES)), 1, extremes=True) for count in (4, 2))
-    for one in part.extremes:
-        one[:] = rng.integers(1, 9, size=one.shape)
+    for values in part.extremes:
+        values[:] = rng.integers(1, 9, size=values.shape)
     put(whole, np.array([2, 0]), part)
     empty = no_extremes(4)
     for all_of_it, some, before in zip(whole.extremes, part.extremes, empty, strict=True):
@@ -35,6 +35,6 @@ def test_extremes_of_a_part_are_put_in_their_places(rng):
 def test_a_segment_has_its_start_and_not_its_end():
     found = sample_phases(np.array([0.0, 0.25, 0.6, 1.0]), 8)
     np.testing.assert_array_equal(np.concatenate(found), np.arange(8) / 8)
-    assert [len(one) for one in found] == [2, 3, 3]
+    assert [len(phases) for phases in found] == [2, 3, 3]
     assert found[1][0] == 0.25
-    assert [len(one) for one in sample_phases(np.array([0.0, 1.0]), 0)] == [0]
+    assert [len(phases) for phases in sample_phases(np.array([0.0, 1.0]), 0)] == [0]

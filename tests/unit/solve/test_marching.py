@@ -55,9 +55,9 @@ def test_a_stage_that_turns_the_pinion_back_is_no_standstill(prepared):
     state = static_equilibrium(model)
     state[SLIP] = -0.97 * model.mechanics.nominal_speed
     found = {method: ended(model, state, method, 100000) for method in ("dopri5", "dop853")}
-    for one in found.values():
-        assert one.status == Status.DONE
-    speeds = [one.state[SLIP] for one in found.values()]
+    for result in found.values():
+        assert result.status == Status.DONE
+    speeds = [result.state[SLIP] for result in found.values()]
     assert speeds[0] == pytest.approx(speeds[1], rel=1e-4)
 
 

@@ -40,7 +40,7 @@ def model(in_contact=((1, 1, 1), (1, 0, 1)), width=0.05, sliding=SLIDING_KINEMAT
 def roots(pair, distance, low, high):
     a, b, c = PAIRS[pair]
     found = np.roots([c, b, a - distance]) if c else np.array([(distance - a) / b])
-    return [float(one.real) for one in found if abs(one.imag) < 1e-12 and low <= one.real <= high]
+    return [float(root.real) for root in found if abs(root.imag) < 1e-12 and low <= root.real <= high]
 
 
 @pytest.mark.parametrize("distance", [-0.35, 0.0, 0.02, 0.31])
@@ -58,14 +58,14 @@ def test_steps_end_on_every_share_of_the_width_and_on_the_segments_end():
     for segment in range(2):
         low, high = BOUNDARY[segment : segment + 2]
         touching = [pair for pair in range(3) if model().table.in_contact[segment][pair]]
-        inside = [one for pair in touching for s in SHARES for one in roots(pair, 0.05 * s, low, high)]
+        inside = [phase for pair in touching for s in SHARES for phase in roots(pair, 0.05 * s, low, high)]
         rows.append([*sorted(inside), high])
     assert len(rows[0]) != len(rows[1])
     count = max(map(len, rows))
     assert found.shape == (2, count)
     for row, expected in zip(found, rows, strict=True):
         np.testing.assert_allclose(row, expected + expected[-1:] * (count - len(expected)), rtol=1e-12)
-    assert list(SHARES) == sorted(SHARES) == [-one for one in reversed(SHARES)]
+    assert list(SHARES) == sorted(SHARES) == [-share for share in reversed(SHARES)]
 
 
 def test_with_the_bodies_own_sliding_steps_end_on_segments_only():
@@ -79,26 +79,26 @@ def test_stops_of_many_cases_are_those_of_each():
     other = SimpleNamespace(table=wide.table, mechanics=narrow.mechanics, options=wide.options)
     found = stops_of_many(cast(Any, [wide, moving, same, other]))
     count = found.shape[2]
-    assert count == max(stops(one).shape[1] for one in (wide, moving, narrow))
-    for row, one in zip(found, (wide, moving, wide, narrow), strict=True):
-        np.testing.assert_array_equal(row, filled_up(stops(one), count))
+    assert count == max(stops(case).shape[1] for case in (wide, moving, narrow))
+    for row, case in zip(found, (wide, moving, wide, narrow), strict=True):
+        np.testing.assert_array_equal(row, filled_up(stops(case), count))
     np.testing.assert_array_equal(found[0], found[2])
     assert np.any(found[0] != found[3])
 
 
 def test_stops_of_cases_with_more_segments_than_others():
     """A deviation of one case's flanks may end its contact elsewhere, and make another number of segments."""
-    two, one = model(), model()
-    one = SimpleNamespace(
+    double, single = model(), model()
+    single = SimpleNamespace(
         table=SimpleNamespace(
-            boundary=two.table.boundary[:2],
-            in_contact=two.table.in_contact[:1],
-            channel=two.table.channel[:1],
+            boundary=double.table.boundary[:2],
+            in_contact=double.table.in_contact[:1],
+            channel=double.table.channel[:1],
         ),
-        mechanics=two.mechanics,
-        options=two.options,
+        mechanics=double.mechanics,
+        options=double.options,
     )
-    found = stops_of_many(cast(Any, [two, one]))
+    found = stops_of_many(cast(Any, [double, single]))
     count = found.shape[2]
-    np.testing.assert_array_equal(found[0], filled_up(stops(two), count))
-    np.testing.assert_array_equal(found[1, :1], filled_up(stops(cast(Any, one)), count))
+    np.testing.assert_array_equal(found[0], filled_up(stops(double), count))
+    np.testing.assert_array_equal(found[1, :1], filled_up(stops(cast(Any, single)), count))

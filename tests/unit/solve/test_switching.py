@@ -44,8 +44,8 @@ def after(steps, stiffness, which=0.0):
     buffer = switching.buffer()
     buffer[MODE, WHICH] = which
     fresh = None
-    for one in np.broadcast_to(stiffness, steps):
-        buffer[MODE, STIFFNESS] = one
+    for value in np.broadcast_to(stiffness, steps):
+        buffer[MODE, STIFFNESS] = value
         fresh = switching.accept(buffer)
     return buffer[MODE], fresh
 

@@ -147,7 +147,7 @@ def test_changes_of_a_decaying_cycle_are_geometric():
     q, c = 0.8, 0.01
     k = np.arange(25)
     track = ((-1.0) ** k + c * q**k)[:, None]
-    found = {one.period: one for one in recurrences(track)}
+    found = {recurrence.period: recurrence for recurrence in recurrences(track)}
     assert sorted(found) == list(range(1, 9))
     # the largest of the last three changes is the first of them; the earlier six periods before
     two = found[2]
@@ -157,13 +157,13 @@ def test_changes_of_a_decaying_cycle_are_geometric():
     assert two.rate == pytest.approx(q, rel=1e-6)
     assert two.distance == pytest.approx(25.0 * two.change)
     assert found[1].change == pytest.approx(2.0, rel=1e-3)
-    assert [one.period for one in recognised(list(found.values()))] == [2, 4, 6, 8]
-    # a rate near one: what is left of a geometric series
+    assert [recurrence.period for recurrence in recognised(list(found.values()))] == [2, 4, 6, 8]
+    # a rate near 1: what is left of a geometric series
     slow = Recurrence(2, 1e-3, 1e-3 * 0.99**-6, 6)
     assert slow.distance == pytest.approx(1e-3 / (1.0 - 0.99**2), rel=1e-9)
     assert Recurrence(1, 1e-3, 1e-3, 6).distance == pytest.approx(1.0)
     assert Recurrence(1, 0.0, 0.0, 6).rate == 0.0
-    assert [one.period for one in recurrences(track[:5])] == [1, 2]
+    assert [recurrence.period for recurrence in recurrences(track[:5])] == [1, 2]
 
 
 def progress(size=1, scale=2.0):

@@ -139,7 +139,9 @@ def _binary(operation, result, emit):
             return None
 
     def lowered(context, builder, sig, values):
-        parts = [taken_apart(context, builder, kind, one) for kind, one in zip(sig.args, values, strict=True)]
+        parts = [
+            taken_apart(context, builder, kind, number) for kind, number in zip(sig.args, values, strict=True)
+        ]
         return emit(context, builder, *parts)
 
     for kinds in ((DUAL, DUAL), (DUAL, types.Float), (types.Float, DUAL)):
@@ -216,8 +218,8 @@ def select(typingctx, condition, a, b):
     """`a` where the condition holds, else `b`, with its slopes."""
 
     def emit(context, builder, sig, values):
-        a, b = (taken_apart(context, builder, DUAL, one) for one in values[1:])
-        value, slope = (builder.select(values[0], one, other) for one, other in zip(a, b, strict=True))
+        a, b = (taken_apart(context, builder, DUAL, number) for number in values[1:])
+        value, slope = (builder.select(values[0], first, second) for first, second in zip(a, b, strict=True))
         return made(context, builder, value, slope)
 
     return DUAL(types.boolean, DUAL, DUAL), emit

@@ -123,7 +123,7 @@ def _address(context, builder, table, value, kind, index):
     """
     value = cgutils.create_struct_proxy(table)(context, builder, value)
     indices = indices_of(
-        context, builder, kind, index, lambda one: one if isinstance(one, Vector) else types.int64
+        context, builder, kind, index, lambda part: part if isinstance(part, Vector) else types.int64
     )
     shape = cgutils.unpack_tuple(builder, value.shape)
     address, offset, stride = value.addresses, INT64(0), INT64(8)

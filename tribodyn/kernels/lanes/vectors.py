@@ -100,10 +100,12 @@ def _truth_to_mask(context, builder, given, wanted, value):
 
 def _register(operation, *cases):
     """Give numba an operator: pairs of a signature and a function (builder, *values) -> value."""
-    template = type("Template", (ConcreteTemplate,), {"key": operation, "cases": [one for one, _ in cases]})
+    template = type(
+        "Template", (ConcreteTemplate,), {"key": operation, "cases": [typed for typed, _ in cases]}
+    )
     of_operator(operation)(template)
-    for one, emit in cases:
-        lower_builtin(operation, *one.args)(_lowering(emit))
+    for typed, emit in cases:
+        lower_builtin(operation, *typed.args)(_lowering(emit))
 
 
 def _lowering(emit):

@@ -63,39 +63,39 @@ def _parts(function: Callable[..., Any]) -> Iterator[bytes]:
     seen: list[Any] = []
     waiting: list[Any] = [function]
     while waiting:
-        one = waiting.pop()
-        if one is None or isinstance(one, (bool, int, float, complex, str, bytes)):
-            yield repr(one).encode()
+        value = waiting.pop()
+        if value is None or isinstance(value, (bool, int, float, complex, str, bytes)):
+            yield repr(value).encode()
             continue
-        if isinstance(one, tuple):
-            yield f"tuple of {len(one)}".encode()
-            waiting += one
+        if isinstance(value, tuple):
+            yield f"tuple of {len(value)}".encode()
+            waiting += value
             continue
-        if any(one is other for other in seen):
-            yield f"again {[one is other for other in seen].index(True)}".encode()
+        if any(value is other for other in seen):
+            yield f"again {[value is other for other in seen].index(True)}".encode()
             continue
-        seen.append(one)
-        if getattr(one, "__module__", "") == elementary.__name__:
-            yield str(getattr(one, "__name__", "")).encode()  # compiled code has versions of its own
-        elif isinstance(one, FunctionType):
-            yield f"{one.__module__}.{one.__qualname__}".encode()
-            yield from _content(one.__code__, one.__doc__)
-            waiting += [one.__defaults__, *(one.__kwdefaults__ or {}).items()]
-            waiting += [_inside(cell) for cell in one.__closure__ or ()]
-            names = sorted(_names(one.__code__))
-            known = [(name, one.__globals__[name]) for name in names if name in one.__globals__]
+        seen.append(value)
+        if getattr(value, "__module__", "") == elementary.__name__:
+            yield str(getattr(value, "__name__", "")).encode()  # compiled code has versions of its own
+        elif isinstance(value, FunctionType):
+            yield f"{value.__module__}.{value.__qualname__}".encode()
+            yield from _content(value.__code__, value.__doc__)
+            waiting += [value.__defaults__, *(value.__kwdefaults__ or {}).items()]
+            waiting += [_inside(cell) for cell in value.__closure__ or ()]
+            names = sorted(_names(value.__code__))
+            known = [(name, value.__globals__[name]) for name in names if name in value.__globals__]
             modules = [other for _, other in known if isinstance(other, ModuleType)]
             waiting += known
             waiting += [(name, getattr(of, name)) for of in modules for name in names if hasattr(of, name)]
-        elif isinstance(one, ModuleType):
-            if getattr(one, "__file__", None):  # `math` and others of the interpreter have none
-                yield _source(str(one.__file__))
-        elif isinstance(one, type):
-            yield repr((one.__module__, one.__qualname__, getattr(one, "_fields", ()))).encode()
-        elif hasattr(one, "py_func"):  # compiled by numba's own decorator
-            waiting.append(one.py_func)
-        elif callable(one):
-            yield repr((type(one).__qualname__, getattr(one, "__name__", ""))).encode()
+        elif isinstance(value, ModuleType):
+            if getattr(value, "__file__", None):  # `math` and others of the interpreter have none
+                yield _source(str(value.__file__))
+        elif isinstance(value, type):
+            yield repr((value.__module__, value.__qualname__, getattr(value, "_fields", ()))).encode()
+        elif hasattr(value, "py_func"):  # compiled by numba's own decorator
+            waiting.append(value.py_func)
+        elif callable(value):
+            yield repr((type(value).__qualname__, getattr(value, "__name__", ""))).encode()
         else:
             raise _UnknownError
 
@@ -110,13 +110,13 @@ def _inside(cell: CellType) -> Any:
 
 def _content(code: CodeType, docstring: str | None = None) -> Iterator[bytes]:
     """What code does, without the place where it is written and what it says of itself."""
-    inner = [one for one in code.co_consts if isinstance(one, CodeType)]
-    constants = [one for one in code.co_consts if not isinstance(one, CodeType) and one is not docstring]
+    inner = [item for item in code.co_consts if isinstance(item, CodeType)]
+    constants = [item for item in code.co_consts if not isinstance(item, CodeType) and item is not docstring]
     yield repr((code.co_argcount, code.co_kwonlyargcount, code.co_flags, constants)).encode()
     yield repr((code.co_names, code.co_varnames, code.co_freevars, code.co_cellvars)).encode()
     yield code.co_code + code.co_exceptiontable
-    for one in inner:
-        yield from _content(one)
+    for constant in inner:
+        yield from _content(constant)
 
 
 def _names(code: CodeType) -> set[str]:
@@ -246,8 +246,8 @@ def _packed_array(array: np.ndarray) -> PackedValue:
 def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> PackedValue:
     """Pack several values as the fields of one record."""
     items = [packed(value) for value in values]
-    layouts = tuple(one.layout for one in items)
-    return PackedValue(record(name, names, layouts), b"".join(one.words for one in items), values)
+    layouts = tuple(item.layout for item in items)
+    return PackedValue(record(name, names, layouts), b"".join(item.words for item in items), values)
 
 
 def functions_in(layout: Any) -> Iterator[FunctionLayout]:
@@ -261,4 +261,4 @@ def functions_in(layout: Any) -> Iterator[FunctionLayout]:
 
 def is_kept(layout: Any) -> bool:
     """Whether machine code for a layout may be kept on disk: no function in it is this process's own."""
-    return all(one.kept for one in functions_in(layout))
+    return all(function.kept for function in functions_in(layout))

@@ -88,17 +88,17 @@ def compiled(function: Callable[..., Any], layout: RecordLayout) -> Compiled:
 def explained(error: NumbaError, layout: RecordLayout) -> Exception:
     """Say of an error of numba's in a function from outside this package what its author can do about it."""
     outside = [
-        one for one in functions_in(layout) if not (one.function.__module__ or "").startswith("tribodyn.")
+        part for part in functions_in(layout) if not (part.function.__module__ or "").startswith("tribodyn.")
     ]
     if not outside:
         return error
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    said = [line for line in lines if "Untyped global" in line or "Unknown attribute" in line]
-    names = ", ".join(one.function.__qualname__ for one in outside)
+    reasons = [line for line in lines if "Untyped global" in line or "Unknown attribute" in line]
+    names = ", ".join(part.function.__qualname__ for part in outside)
     return InputError(
         "law",
         names,
-        f"cannot be compiled: {(said or lines)[0]}",
+        f"cannot be compiled: {(reasons or lines)[0]}",
         "use arithmetic, the functions of tribodyn.numerics.elementary, "
         "and functions marked with its `law`, and no fields but those of the arguments",
     )

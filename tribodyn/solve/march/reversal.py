@@ -73,10 +73,10 @@ def stops_of_many(models: Sequence[Model]) -> Float[Array, "case segment stop"]:
             numbers[key] = len(different)
             different.append(stops(model))
         rows.append(numbers[key])
-    segments, count = (max(one.shape[axis] for one in different) for axis in (0, 1))
-    unread = [((0, segments - len(one)), (0, 0)) for one in different]
+    segments, count = (max(given.shape[axis] for given in different) for axis in (0, 1))
+    unread = [((0, segments - len(given)), (0, 0)) for given in different]
     return np.array(
-        [np.pad(filled_up(one, count), rest, "edge") for one, rest in zip(different, unread, strict=True)]
+        [np.pad(filled_up(given, count), rest, "edge") for given, rest in zip(different, unread, strict=True)]
     )[rows]
 
 
