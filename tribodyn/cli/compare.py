@@ -85,6 +85,7 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     """Load what is to be run, and refuse before anything runs what cannot be compared afterwards."""
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
+    from tribodyn.scenario.sources import is_file
     from tribodyn.studies.pages import study_of_record
     from tribodyn.studies.protocol.load import load
 
@@ -94,7 +95,12 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     again = next((word for number, word in enumerate(what) if word in what[:number]), None)
     if again is not None:
         raise InputError("compare", f'"{again}"', "given twice", "name each once")
-    scenarios = {word: load(word, settings) for word in what if not _is_record(word)}
+    # whatever it is called, a file that is no TOML is a record
+    scenarios = {
+        word: load(word, settings)
+        for word in what
+        if not word.endswith((".h5", ".hdf5")) and (word.endswith(".toml") or not is_file(Path(word)))
+    }
     if settings and not scenarios:
         rule = "nothing is run: records are as they are"
         raise InputError("--set", None, rule, "name scenarios, or omit it")
@@ -116,12 +122,6 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
         rule = f'kind "{studies[other].kind}" and kind "{first.kind}" share no quantities to compare'
         raise InputError("compare", f'"{other}"', rule, "compare runs of one kind")
     return scenarios
-
-
-def _is_record(word: str) -> bool:
-    from tribodyn.scenario.sources import is_file
-
-    return word.endswith((".h5", ".hdf5")) or (not word.endswith(".toml") and is_file(Path(word)))
 
 
 def _run(loaded: "Loaded", folder: Path, force: bool, allow_large: bool) -> Path:

@@ -49,7 +49,12 @@ def list(
         rule = f"{what.value if what else 'everything'} does not depend on a record"
         raise InputError("record", None, rule, "write: tribodyn list plots RECORD")
     if record is not None:
-        listed = {What.plots.value: _plots_of(record)}
+        from tribodyn.record.sweep_reader import SweepRecord, open_any
+        from tribodyn.studies.pages import drawable, drawable_of_sweep
+
+        with open_any(record) as opened:
+            known = drawable_of_sweep([opened]) if isinstance(opened, SweepRecord) else drawable([opened])
+            listed = {What.plots.value: {name: drawing.about for name, drawing in known.items()}}
     else:
         listed = {sort.value: _about(sort) for sort in ([what] if what else What)}
     if json:
@@ -90,16 +95,6 @@ def _about(what: What) -> dict[str, str]:
         case What.sweep_plots:
             return _drawn(dict(STUDIES.each(lambda study: study.sweep_drawings() if study.swept() else {})))
     return {name: thing.about for name, thing in named[what].items()}
-
-
-def _plots_of(path: Path) -> dict[str, str]:
-    """Return name and description of the figures that a record holds enough for."""
-    from tribodyn.record.sweep_reader import SweepRecord, open_any
-    from tribodyn.studies.pages import drawable, drawable_of_sweep
-
-    with open_any(path) as opened:
-        known = drawable_of_sweep([opened]) if isinstance(opened, SweepRecord) else drawable([opened])
-        return {name: thing.about for name, thing in known.items()}
 
 
 def _drawn(of_kinds: dict[str, Any]) -> dict[str, str]:

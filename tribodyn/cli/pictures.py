@@ -146,11 +146,22 @@ def serve() -> None:
     timer = threading.Timer(PATIENCE, lambda: os._exit(0))
     timer.daemon = True
     timer.start()
-    _get_ready()
-    line = sys.stdin.readline()
-    timer.cancel()
+
+    # import what draws, and do what an overview has that needs no record
+    from matplotlib import artist
+
+    # matplotlib composes help texts of its classes as it is imported: 0.1 s of 0.75 s
+    artist.kwdoc = lambda _: ""
+    cast(Any, artist.Artist)._update_set_signature_and_docstring = classmethod(lambda _: None)
+
+    import tribodyn.cli.progress
+    import tribodyn.studies.pages  # noqa: F401
+    from tribodyn.post.figures.over_mesh import prepare_overview
     from tribodyn.record.soundness import remember_own
 
+    prepare_overview()
+    line = sys.stdin.readline()
+    timer.cancel()
     name, force = json.loads(line)
     record = Path(name)
     remember_own(record)  # the first process has just written it
@@ -158,20 +169,3 @@ def serve() -> None:
     sys.stdout.write(json.dumps([str(path) for path in pictures]))
     sys.stdout.flush()
     os._exit(0)  # to take matplotlib apart in order would let the first process wait
-
-
-def _get_ready() -> None:
-    """Import what draws, and do what an overview has that needs no record."""
-    from matplotlib import artist
-
-    # matplotlib composes help texts of its classes as it is imported: 0.1 s of 0.75 s
-    artist.kwdoc = lambda _: ""
-    cast(Any, artist.Artist)._update_set_signature_and_docstring = classmethod(lambda _: None)
-
-    import tribodyn.cli.pictures
-    import tribodyn.cli.progress
-    import tribodyn.record.soundness
-    import tribodyn.studies.pages  # noqa: F401
-    from tribodyn.post.figures.over_mesh import prepare_overview
-
-    prepare_overview()

@@ -140,19 +140,16 @@ def _units(text: str, write: str) -> Any:
 
     if not is_unit(text):
         raise NotAQuantity(RULE if len(text) <= LONGEST else f"a unit of {len(text)} characters", write)
+    # engineers' spelling to pint's: "Nm" (a nautical mile to pint), "·", and the 1 of "1/K"
+    spelled = _NM.sub("N*m", _ONE_OVER.sub("dimensionless", text).replace("·", "*"))
     try:
-        return registry().parse_units(_spelling(text))
+        return registry().parse_units(spelled)
     except pint.UndefinedUnitError as error:
         names = error.unit_names
         name = names if isinstance(names, str) else ", ".join(names)
         raise NotAQuantity(f'unknown unit "{name}"', write) from None
     except Exception:  # pint's parser raises whatever Python's tokenizer and arithmetic do
         raise NotAQuantity("not a number and a unit", write) from None
-
-
-def _spelling(text: str) -> str:
-    """Engineers' spelling to pint's: "Nm" (a nautical mile to pint), "·", and the 1 of "1/K"."""
-    return _NM.sub("N*m", _ONE_OVER.sub("dimensionless", text).replace("·", "*"))
 
 
 def _spelled_factor(number: str, unit: str, kind: Kind, write: str) -> float:
@@ -182,23 +179,21 @@ def _factor_by_pint(text: str, kind: Kind, write: str) -> float:
     if not is_unit(kind.si):  # of a file from elsewhere
         raise NotAQuantity(RULE, write)
     try:
-        if kind.name in (SPEED, FREQUENCY) and not _has_angle(units):
-            if kind.name == SPEED and units.is_compatible_with("1/s"):
-                raise NotAQuantity("a frequency, which leaves open whether turns or radians are meant", write)
-            if kind.name == FREQUENCY and units.is_compatible_with("1/s"):
-                return 2 * pi * float(registry().Quantity(1.0, units).to("1/s").magnitude)
-        return float(registry().Quantity(1.0, units).to(kind.si).magnitude)
+        unit = registry().Quantity(1.0, units)
+        if kind.name in (SPEED, FREQUENCY) and units.is_compatible_with("1/s"):
+            # whether an angle stands in the unit: pint itself treats the radian as the number 1
+            if "radian" not in dict(unit.to_root_units().unit_items()):
+                if kind.name == FREQUENCY:
+                    return 2 * pi * float(unit.to("1/s").magnitude)
+                rule = "a frequency, which leaves open whether turns or radians are meant"
+                raise NotAQuantity(rule, write)
+        return float(unit.to(kind.si).magnitude)
     except pint.DimensionalityError:
         raise NotAQuantity(f'"{text}" is not a unit of {kind.name}', write) from None
     except pint.OffsetUnitCalculusError:
         raise NotAQuantity(f'"{text}" has a shifted zero', write) from None
     except ArithmeticError:
         raise NotAQuantity(f'"{text}": {EXTREME}', write) from None
-
-
-def _has_angle(units: Any) -> bool:
-    """Whether an angle stands in the unit; pint itself treats the radian as the number 1."""
-    return "radian" in dict(registry().Quantity(1, units).to_root_units().unit_items())
 
 
 def positive(kind: Kind) -> Kind:

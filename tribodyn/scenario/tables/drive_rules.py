@@ -19,7 +19,6 @@ from tribodyn.geometry.flanks.modification import (
 from tribodyn.scenario.tables.model_files import (
     DriveTable,
     MisalignmentTable,
-    Modification,
     flank_of,
 )
 from tribodyn.scenario.tables.quality import broken_quality_rules, helix_allowance
@@ -59,15 +58,11 @@ def broken_modification_rules(drive: DriveTable) -> Iterator[InputError]:
         gear = getattr(drive, name)
         table = gear.modification
         yield from broken_flank_rules(name, flank_of(table, drive.module), gear.teeth, gear.face_width)
-        if table.crowning is not None:
-            yield from _contradicted_by_crowning(f"drive.{name}.modification", table)
-
-
-def _contradicted_by_crowning(key: str, table: Modification) -> Iterator[InputError]:
-    for name in ("lead_relief_start", "lead_relief_end", "lead_unmodified"):
-        if value := getattr(table, name):
-            rule = "contradicts crowning, which gives the whole shape of the lead"
-            yield InputError(f"{key}.{name}", shown_length(value), rule, "give the one or the other")
+        for part in ("lead_relief_start", "lead_relief_end", "lead_unmodified"):
+            if table.crowning is not None and (value := getattr(table, part)):
+                key = f"drive.{name}.modification.{part}"
+                rule = "contradicts crowning, which gives the whole shape of the lead"
+                yield InputError(key, shown_length(value), rule, "give the one or the other")
 
 
 def broken_slice_rules(face: Face) -> Iterator[InputError]:
