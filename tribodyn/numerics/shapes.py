@@ -35,18 +35,7 @@ else:
         def __class_getitem__(cls, item: object) -> type:
             return cls
 
-    class Bool(_Unchecked):
-        """An array of truth values."""
-
-    class Complex(_Unchecked):
-        """An array of complex numbers."""
-
-    class Float(_Unchecked):
-        """An array of floats."""
-
-    class Int(_Unchecked):
-        """An array of integers."""
-
+    Bool = Complex = Float = Int = _Unchecked
     Array = Any
 
 __all__ = ["Array", "Bool", "Complex", "Float", "Int"]
