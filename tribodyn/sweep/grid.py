@@ -19,18 +19,10 @@ from tribodyn.studies.sweeping.batch import Batch
 
 
 class Grid:
-    """A scenario and the axes along which it is varied.
+    """A scenario's file, or the name of a shipped one, and the axes along which it is varied.
 
-    Parameters
-    ----------
-    scenario : path of a scenario file, or the name of a shipped one
-    vary : ``KEY=VALUES``, see `tribodyn.scenario.vary`
-    overrides : dotted key to value, for all cases
-
-    Raises
-    ------
-    InputError
-        If the scenario, an axis, or a value at the end of an axis cannot be used.
+    `vary` are ``KEY=VALUES``, see `scenario.vary`; `overrides` are for all cases. Raises InputError if the
+    scenario, an axis, or a value at the end of an axis cannot be used.
     """
 
     def __init__(self, scenario: str, vary: list[str], overrides: Mapping[str, Any]) -> None:

@@ -50,7 +50,7 @@ def run(
     follow: Follow | None = None,
     allow_large: bool = False,
 ) -> SweepResult:
-    """Evaluate every case of a grid and write the record.
+    """Evaluate every case of a grid and write the record; InputError before anything is computed.
 
     Parameters
     ----------
@@ -59,11 +59,6 @@ def run(
     unstable : continue branches beyond the ends of their stable parts
     force, resume : replace a record, or go on with what an unfinished sweep left
     allow_large : allow grids above the limits (`sweep.plan`)
-
-    Raises
-    ------
-    InputError
-        Before anything is computed.
     """
     if directions or unstable:
         _can_be_followed(grid, directions, unstable)

@@ -15,7 +15,7 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.errors import InputError
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import Kinematics, Path, kinematics
-from tribodyn.mesh.cycle import CHANNELS, MeshCycle, Polynomials, polynomials
+from tribodyn.mesh.cycle import CHANNELS, MeshCycle, polynomials
 
 Array = NDArray[np.float64]
 
@@ -136,7 +136,13 @@ def places(
         # families without closed forms integrate, and hold a hundred numbers of each place meanwhile
         parts = [within[first : first + AT_A_TIME] for first in range(0, len(within), AT_A_TIME)]
         motion = kinematics(path, np.concatenate([path.signed_distance(part) for part in parts]))
-    at = _Lookup(polynomials(cycle), cycle.boundary, segment, phase)
+    table = polynomials(cycle)
+    start_of, end_of = cycle.boundary[segment], cycle.boundary[segment + 1]
+    share = np.clip((phase - start_of) / (end_of - start_of), 0.0, 1.0)
+
+    def channel(name: str) -> Array:
+        return _value(table.channel[:, :, :, CHANNELS.index(name)], segment, share)[:, None, :pairs]
+
     looked_up = cycle._replace(
         in_contact=inside,
         side=np.ones(pairs),
@@ -146,32 +152,18 @@ def places(
         equivalent_radius=1.0 / motion.relative_curvature[:, None],
         pinion_speed=motion.pinion_speed[:, None],
         gear_speed=motion.gear_speed[:, None],
-        compliance=at.channel("compliance")[:, None, :pairs],
-        gap=at.channel("gap")[:, None, :pairs],
-        coupling=at.coupling()[:, None, :pairs, :pairs],
+        compliance=channel("compliance"),
+        gap=channel("gap"),
+        coupling=_value(table.coupling, segment, share)[:, None, :pairs, :pairs],
     )
     return Places(phase, looked_up, roll, flanks if corners else None)
 
 
-class _Lookup(NamedTuple):
-    """The table's splines at given phases."""
-
-    table: Polynomials
-    boundary: Array
-    segment: Any
-    phase: Array
-
-    def _value(self, coefficients: Any) -> Array:
-        start, end = self.boundary[self.segment], self.boundary[self.segment + 1]
-        cells = coefficients.shape[1]
-        place = np.clip((self.phase - start) / (end - start), 0.0, 1.0) * cells
-        cell = np.clip(place.astype(int), 0, cells - 1)
-        c = coefficients[self.segment, cell]
-        u = (place - cell).reshape(-1, *[1] * (c.ndim - 2))
-        return c[..., 0] + u * (c[..., 1] + u * (c[..., 2] + u * c[..., 3]))
-
-    def channel(self, name: str) -> Array:
-        return self._value(self.table.channel[:, :, :, CHANNELS.index(name)])
-
-    def coupling(self) -> Array:
-        return self._value(self.table.coupling)
+def _value(coefficients: Any, segment: Any, share: Array) -> Array:
+    """The table's splines at shares of their segments."""
+    cells = coefficients.shape[1]
+    place = share * cells
+    cell = np.clip(place.astype(int), 0, cells - 1)
+    c = coefficients[segment, cell]
+    u = (place - cell).reshape(-1, *[1] * (c.ndim - 2))
+    return c[..., 0] + u * (c[..., 1] + u * (c[..., 2] + u * c[..., 3]))

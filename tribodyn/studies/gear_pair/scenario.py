@@ -209,7 +209,7 @@ def _operating(scenario: Scenario) -> OperatingData:
         pinion_torque=operating.motor_torque,
         torque_table=curve.in_si() if curve else None,
         torque_harmonics=tuple(
-            (one.amplitude, one.frequency, one.phase) for one in operating.gear_torque_harmonics
+            (cosine.amplitude, cosine.frequency, cosine.phase) for cosine in operating.gear_torque_harmonics
         ),
         **operating.model_dump(
             exclude={"gear_torque_table", "gear_torque_harmonics", *OiledOperatingTable.model_fields}
@@ -223,6 +223,6 @@ def _mesh(scenario: Scenario) -> MeshData:
         scenario,
         error=error.table.in_si() if error.table else None,
         table=mesh.table.in_si() if mesh.table else None,
-        error_harmonics=tuple((one.order, one.amplitude, one.phase) for one in error.harmonics),
+        error_harmonics=tuple((cosine.order, cosine.amplitude, cosine.phase) for cosine in error.harmonics),
         backlash=backlash_of(scenario.drive, mesh.backlash),
     )

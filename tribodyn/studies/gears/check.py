@@ -246,7 +246,7 @@ def sheet_tables(sheet: dict[str, Any]) -> Sequence[TextTable]:
     """Lay out the sheet of `tribodyn.geometry.sheet`: a table of the pair, one of the gears."""
     bodies = {name: sheet[name] for name in ("pinion", "gear")}
     pair = {name: value for name, value in sheet.items() if name not in bodies}
-    names = list(dict.fromkeys(name for body in bodies.values() for name in body))
+    names = dict.fromkeys(name for body in bodies.values() for name in body)
     rows = [
         (name, *(with_unit(*body[name]) if name in body else "" for body in bodies.values()))
         for name in names

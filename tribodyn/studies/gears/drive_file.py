@@ -102,11 +102,11 @@ def _of_table(written: dict[str, Any], path: Path, overrides: Mapping[str, Any])
         if "family" not in written:
             raise _no_pair(path, "not a pair of gears: it names no family of paths of contact") from None
         known = unresolved_keys(unresolved)
-        mistakes = [one for one in explain(error, _DriveAlone) if one.key not in known]
-        raise InputErrors([origins.locate(one) for one in (*unresolved, *mistakes)]) from None
+        mistakes = [mistake for mistake in explain(error, _DriveAlone) if mistake.key not in known]
+        raise InputErrors([origins.locate(mistake) for mistake in (*unresolved, *mistakes)]) from None
     errors = [*unresolved, *broken_drive_rules(table)]
     if errors:
-        raise InputErrors([origins.locate(one) for one in errors])
+        raise InputErrors([origins.locate(mistake) for mistake in errors])
     return DriveModel(
         table.title,
         path.stem,

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module, resources
 from inspect import ismodule
+from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -212,7 +213,7 @@ class Study:
 
     def quantity(self, name: str) -> "Quantity | None":
         """A quantity that its summary or its sweeps have, by name."""
-        every = (*self.swept().values(), *(one for some in self.reported().values() for one in some))
+        every = chain(self.swept().values(), *self.reported().values())
         return next((quantity for quantity in every if quantity.name == name), None)
 
     def short_names(self) -> "Mapping[str, str]":

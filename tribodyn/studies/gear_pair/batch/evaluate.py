@@ -47,10 +47,7 @@ if TYPE_CHECKING:
 def window_quantities(
     prepared: PreparedPair, window: CaseWindow, samples: int
 ) -> tuple[dict[str, float], dict[str, Any]]:
-    """Return the quantities of `report.SWEPT` over a window, SI units, and what is said of their trust.
-
-    `samples` are those in a mesh cycle of the window.
-    """
+    """Return the quantities of `report.SWEPT` over a window, SI units, and what is said of their trust."""
     count, last = len(window.states), window.end.copy()
     engage_next(last, prepared.model)
     cycles = window.first_cycle + np.arange(count + 1) / samples
@@ -59,8 +56,7 @@ def window_quantities(
     extremes = RunningExtremes(prepared.cycle)
     extremes.add(cycles, block)
     extremes.add(at, extreme)
-    speed = prepared.case.operating.pinion_speed
-    work = window.end - window.start
+    speed, work = prepared.case.operating.pinion_speed, window.end - window.start
     inside = {name: values[:count] for name, values in block.items()}
     quantities = steady_quantities(inside, work, prepared.cycle, samples, speed, extremes)
     quantities |= extremes.values()
@@ -122,12 +118,7 @@ class SweepSettings(NamedTuple):
 
 
 def evaluate(chunk: Chunk, settings: SweepSettings, workers: int | None = None) -> dict[str, np.ndarray]:
-    """Return a row for every case of a chunk, for all datasets of its layout.
-
-    Parameters
-    ----------
-    workers : threads; by default one per core
-    """
+    """Return a row for every case of a chunk, for all datasets of its layout; by default by all cores."""
     rows = _evaluate(chunk, settings, workers)
     for _ in range(MOST_MOTIONS - 1):
         again = _at_own_temperature(chunk, rows)

@@ -31,8 +31,7 @@ class CaseWindow(NamedTuple):
     first_cycle: int  # whole mesh cycles done before
     #: (cycles · samples, STATES), over whole mesh cycles, the sample that closes the last not included
     states: np.ndarray
-    #: start, end: (STATES,), states at both ends; the difference of their works is the window's
-    start: np.ndarray
+    start: np.ndarray  # (STATES,), states at both ends; the difference of their works is the window's
     end: np.ndarray
     extremes: Extremes | None = None  # of the motion between the samples
 
@@ -78,15 +77,10 @@ def marched(
     samples: int,
     **solver: Any,
 ) -> list[Outcome]:
-    """March every case from its state, after the engagement at phase 0.
+    """March every case from its state, (C, STATES), after the engagement at phase 0.
 
-    Parameters
-    ----------
-    states : (C, STATES)
-    cycles, window, points : mesh cycles to march, those of them whose samples are kept, and those whose first
-        state is
-    samples : samples in a mesh cycle
-    **solver : further arguments of `ensemble.march`
+    So many mesh `cycles`; of the last, the `window`, samples are kept, and of some `points` the first state.
+    `solver` are further arguments of `ensemble.march`.
     """
     before = cycles - window
     sections = max(0, min(points, cycles) - window)
@@ -183,16 +177,11 @@ def steady(
     unstable: UnstableRange | None = None,
     **solver: Any,
 ) -> list[Outcome]:
-    """Find every case's steady state from its state, after the engagement at phase 0.
+    """Find every case's steady state from its state, (C, STATES), after the engagement at phase 0.
 
-    Parameters
-    ----------
-    states : (C, STATES)
-    cycles : mesh cycles to march at most
-    points, samples : points of the section of a motion without period; samples in a mesh cycle
-    legs, model_at, unstable : to follow a neighbour's motion to each case, see `gear_pairs.followed_states`;
-        lines are cases
-    method, **solver : method, and rtol, max_steps and workers, as `ensemble.march` takes them
+    `cycles` are marched at most; `points` has the section of a motion without period. `legs`, `model_at` and
+    `unstable` follow a neighbour's motion to each case, see `gear_pairs.followed_states`; lines are cases.
+    `method` and `solver`, with rtol, max_steps and workers, as `ensemble.march` takes them.
     """
     outcomes: dict[int, Outcome] = {}
     for i, model in enumerate(models):
