@@ -146,13 +146,10 @@ def published(paper: str) -> dict[str, dict[str, Any]]:
 def compare(
     row: dict[str, Any], computed: Any, note: str = "", otherwise: tuple[str, Any] | None = None
 ) -> Row:
-    """Judge a computed value against a published row; `note` is put before the row's own.
+    """Compare a computed value with a row of `published`; `note` is put before the row's own.
 
-    Parameters
-    ----------
-    row : as of `published`
-    computed : None: cannot be computed yet, and stays "reported"
-    otherwise : optional; another choice and what is computed under it
+    None cannot be computed yet, and stays "reported"; `otherwise` is another choice and what is computed
+    under it.
     """
     compared = _compared(row)
     if compared == "implementation":

@@ -133,11 +133,8 @@ class DriveUnderLaw(NamedTuple):
         from scipy.optimize import brentq
 
         level = self.involute()
-
-        def above(circle: float) -> float:
-            return float(self.cycloid(circle)) - level
-
-        return float(brentq(above, 0.1, 0.4, xtol=1e-7))  # pyright: ignore[reportArgumentType]
+        found: Any = brentq(lambda circle: float(self.cycloid(circle)) - level, 0.1, 0.4, xtol=1e-7)
+        return float(found)
 
 
 def contact_height(pair: UnitContact) -> float:
