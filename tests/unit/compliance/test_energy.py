@@ -96,11 +96,11 @@ class TestBeam:
 
     def test_flank_that_does_not_reach_the_pitch_point(self):
         """All of it on one side, by a large profile shift; integrated point by point."""
-        one, other = body(60, 0.06), body(70, 0.06)
+        pinion, gear = body(60, 0.06), body(70, 0.06)
         pair = drive(
             20.0,
-            one._replace(profile_shift=1.3, addendum=0.8),
-            other._replace(profile_shift=-1.3, addendum=2.2, dedendum=1.25),
+            pinion._replace(profile_shift=1.3, addendum=0.8),
+            gear._replace(profile_shift=-1.3, addendum=2.2, dedendum=1.25),
         )
         tooth = loaded(involute.FAMILY, pair, "pinion")
         first = float(distance_at_radius(tooth.path, tooth.tooth.form_radius))

@@ -86,8 +86,8 @@ def test_speed_per_radius_is_the_limit_of_the_kinematics(family, drive):
 
 def test_nothing_vanishes_on_other_paths():
     arc = drive(circular_arc.ArcShape(0.06, 0.06), angle=math.radians(18))
-    for family, one in ((involute.FAMILY, arc._replace(shape=())), (circular_arc.FAMILY, arc)):
-        assert pitch_point(family.working_path(one)) == (0.0, 0.0)
+    for family, pair in ((involute.FAMILY, arc._replace(shape=())), (circular_arc.FAMILY, arc)):
+        assert pitch_point(family.working_path(pair)) == (0.0, 0.0)
 
 
 def test_at_the_pitch_point_the_exact_load_is_carried_on_the_half_width():

@@ -92,11 +92,11 @@ def test_a_larger_and_stiffer_drive(family, drive, hertz):
 @PAIRS
 def test_with_the_gears_exchanged_a_pair_goes_its_way_back(family, drive):
     turned = drive._replace(pinion=drive.gear, gear=drive.pinion)
-    one, other = assemble(family, drive), assemble(family, turned)
-    assert (other.r_start, other.r_end) == pytest.approx((-one.r_end, -one.r_start), rel=1e-9)
-    assert other.contact_ratio == pytest.approx(one.contact_ratio, rel=1e-9)
-    r = np.linspace(one.r_start, one.r_end, 9)
-    there, back = kinematics(one.path, r), kinematics(other.path, -r)
+    forth, reverse = assemble(family, drive), assemble(family, turned)
+    assert (reverse.r_start, reverse.r_end) == pytest.approx((-forth.r_end, -forth.r_start), rel=1e-9)
+    assert reverse.contact_ratio == pytest.approx(forth.contact_ratio, rel=1e-9)
+    r = np.linspace(forth.r_start, forth.r_end, 9)
+    there, back = kinematics(forth.path, r), kinematics(reverse.path, -r)
     ratio = drive.gear.teeth / drive.pinion.teeth
     np.testing.assert_allclose(back.pressure_angle, there.pressure_angle, rtol=1e-8)
     np.testing.assert_allclose(back.relative_curvature, there.relative_curvature, rtol=1e-7)
