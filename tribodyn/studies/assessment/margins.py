@@ -111,11 +111,7 @@ def bulk_of(case: AssessmentCase, assembly: Assembly, quantities: Mapping[str, A
 
 
 #: Quantity of the simulation -> its name by the standards.
-_NAMES = {
-    "dynamic_factor": "K_v",
-    "transverse_load_factor": "K_Halpha",
-    "face_load_factor": "K_Hbeta",
-}
+_NAMES = {"dynamic_factor": "K_v", "transverse_load_factor": "K_Halpha", "face_load_factor": "K_Hbeta"}
 
 
 def simulated_part(

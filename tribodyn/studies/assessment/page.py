@@ -22,7 +22,6 @@ from tribodyn.studies.assessment.figures import pictures
 from tribodyn.studies.assessment.margins import LIMITS
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.protocol.load import load
-from tribodyn.studies.protocol.part import ReportCurve
 from tribodyn.studies.protocol.study import Study
 
 _RPM = 30.0 / math.pi
@@ -51,14 +50,14 @@ def page(record: Record) -> str:
     taking_part = parts.parts(request)
     behind = parts.folder_of(Path(record.path))
     done = parts.kept(taking_part, behind)
-    curves: list[ReportCurve] = []
-    if done is not None:
-        for _, answer in parts.answers(taking_part, request, done):
-            curves += answer.curves
+    answers = parts.answers(taking_part, request, done) if done is not None else ()
+    curves = [curve for answer in answers for curve in answer.curves]
     title = str(record.scenario.get("title", record.label))
+    created = str(record.attrs["created"]).partition("T")[0]
+    made = f"Assessment, {created}, tribodyn {record.attrs['tribodyn_version']}"
     picture = inline(pictures(record, curves), "error, vibration, film, losses")
     body = [
-        _header(record, title),
+        f"<header><h1>{escape(title)}</h1><p>{escape(made)}</p></header>",
         _verdict(record, summary),
         _asked(case),
         _tiles(summary),
@@ -82,13 +81,6 @@ def page(record: Record) -> str:
     style = resources.files(__package__ or "").joinpath("page.css").read_text(encoding="utf-8")
     policy = "style-src 'unsafe-inline'; img-src data:"
     return document(title, style, "\n".join(body) + "\n", policy)
-
-
-def _header(record: Record, title: str) -> str:
-    created = str(record.attrs["created"]).partition("T")[0]
-    version = record.attrs["tribodyn_version"]
-    made = f"Assessment, {escape(created)}, tribodyn {escape(version)}"
-    return f"<header><h1>{escape(title)}</h1><p>{made}</p></header>"
 
 
 def _verdict(record: Record, summary: Mapping[str, Any]) -> str:

@@ -143,10 +143,10 @@ def kept(all_parts: tuple[Part, ...], folder: Path) -> dict[str, TaskResult] | N
 
 def answers(
     all_parts: tuple[Part, ...], request: Request, done: Mapping[str, TaskResult]
-) -> Iterator[tuple[Part, Findings]]:
+) -> Iterator[Findings]:
     """What every study says of its results."""
     for part in all_parts:
-        yield part, part.role.answer(request, {task.name: done[task.name] for task in part.tasks})
+        yield part.role.answer(request, {task.name: done[task.name] for task in part.tasks})
 
 
 def _kept(task: Task, folder: Path) -> TaskResult | None:

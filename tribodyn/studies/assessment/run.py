@@ -94,7 +94,7 @@ def assessed(
     found: dict[str, Any] = {}
     along: dict[str, Any] = {}
     spread: dict[str, dict[str, float]] = {}
-    for _, answer in parts.answers(taking_part, request, done):
+    for answer in parts.answers(taking_part, request, done):
         found |= answer.quantities
         along |= answer.along
         spread |= {name: _scatter(values) for name, values in answer.spread.items()}

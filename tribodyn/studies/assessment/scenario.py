@@ -9,16 +9,7 @@ from pydantic import Field
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Temperature
-from tribodyn.scenario.quantity import (
-    InUnit,
-    NotNegative,
-    Positive,
-    Switch,
-    Table,
-    Text,
-    model_file,
-    written,
-)
+from tribodyn.scenario.quantity import InUnit, NotNegative, Positive, Switch, Table, Text, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.duty import OperatingTable, broken_driving_rules
 from tribodyn.scenario.tables.losses import LossesTable, TemperatureTable
@@ -72,8 +63,7 @@ class AssessmentAsked(Table):
     )
     speeds: Speeds = Field(46, description="steady states over that range, besides the duty's")
     samples: Samples = Field(
-        16,
-        description="of the deviations that the tolerance class allows, for their scatter; 0: none",
+        16, description="of the deviations that the tolerance class allows, for their scatter; 0: none"
     )
     friction_laws: tuple[Text, ...] = Field(
         ("masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),

@@ -144,15 +144,7 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
         ),
     )
     return Standard(
-        path,
-        films,
-        dynamic,
-        stiffness,
-        transverse,
-        loss_factor(path),
-        bulk,
-        contact,
-        integral.integral,
+        path, films, dynamic, stiffness, transverse, loss_factor(path), bulk, contact, integral.integral
     )
 
 

@@ -24,8 +24,7 @@ SWEPT = quantities(
 SWEEP_TABLE = quantities("objective", "objective_start", "evaluations")
 
 PANELS = ("objective",)
-#: Quantities that stand at the top of what `run --json` prints.
-TOP = ("objective_start", "objective", "best", "evaluations")
+TOP = ("objective_start", "objective", "best", "evaluations")  # of what `run --json` prints
 
 
 def sentences(record: Record) -> list[str]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.sources import computing_digest
+from tribodyn.numerics.work import usable_cores
 from tribodyn.record.reader import open_record
 from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import RecordWriter, check_target
@@ -30,7 +31,6 @@ from tribodyn.studies.design.candidates.evaluation import (
     Evaluators,
     Pool,
     Results,
-    workers_for,
 )
 from tribodyn.studies.design.candidates.scoring import SLACK
 from tribodyn.studies.design.candidates.sources import standing
@@ -51,6 +51,9 @@ from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, signed, write_best
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, TextTable
+
+#: Evaluations that a process of its own is worth.
+WORTH = 24
 
 
 def check(case: DesignCase) -> CheckResult:
@@ -139,7 +142,7 @@ def run(
 
         archive = at(1)
         for factor in sorted(before.known):
-            for candidate in at(factor).recorded:
+            for candidate in at(factor).recorded.values():
                 keep(candidate)
 
         def so_far(**more: Any) -> dict[str, Any]:
@@ -187,7 +190,8 @@ def _pool(case: DesignCase, client: Any = None) -> Evaluators:
     """What evaluates candidates; a context manager."""
     if client:
         return Cluster(case.scenarios, client)
-    return Pool(case.scenarios, workers_for(case.search.evaluations * len(cases_of(case, {}))))
+    worth = case.search.evaluations * len(cases_of(case, {})) // WORTH
+    return Pool(case.scenarios, max(1, min(usable_cores(), worth)))
 
 
 def _search(case: DesignCase, archive: Archive, name: str) -> None:
@@ -217,10 +221,10 @@ def _unfinished(case: DesignCase, path: Path) -> Unfinished | None:
     if not partial.exists():
         return None
     check_target(path, force=True)
-    other = "move it away, or --force to begin anew"
     with open_record(partial) as record:
         if record.kind != case.kind or record.attrs["scenario_sha256"] != case.sha256:
-            raise InputError("--resume", str(partial), "made from another scenario", other)
+            rule, remedy = "made from another scenario", "move it away, or --force to begin anew"
+            raise InputError("--resume", str(partial), rule, remedy)
         require_same_code(record.attrs, partial)
         return unfinished_in(case, record)
 

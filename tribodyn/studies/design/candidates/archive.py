@@ -81,12 +81,8 @@ class Archive:
         self._shaped = study_of(case.base).has_gears and shapes_gears(case)
         self._requested: dict[str, Candidate] = {}
         known = before.known.get(factor, ())
-        self._recorded = {identity(values): self._candidate(values, found) for values, found in known}
-
-    @property
-    def recorded(self) -> list[Candidate]:
-        """Candidates that were evaluated before, in their order."""
-        return list(self._recorded.values())
+        #: candidates that were evaluated before, by their identities, in their order
+        self.recorded = {identity(values): self._candidate(values, found) for values, found in known}
 
     @property
     def evaluations(self) -> list[Candidate]:
@@ -105,7 +101,7 @@ class Archive:
         room = self.case.search.evaluations - len(self._requested)
         waiting = {name: self.found_of(values[name]) for name in new[:room]}
         for name, found in waiting.items():
-            recorded = self._recorded.get(name)
+            recorded = self.recorded.get(name)
             self._requested[name] = recorded or self._candidate(values[name], found.result())
             if not recorded:
                 self._keep(self._requested[name])
@@ -116,7 +112,7 @@ class Archive:
     def found_of(self, values: Overrides) -> Answer:
         """Quantities of the cases of any candidate, evaluated if they are not known."""
         name = identity(values)
-        if known := self._requested.get(name) or self._recorded.get(name):
+        if known := self._requested.get(name) or self.recorded.get(name):
             ready: Future[Results] = Future()
             ready.set_result(known.found)
             return ready

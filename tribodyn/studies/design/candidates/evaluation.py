@@ -15,8 +15,10 @@ from queue import PriorityQueue
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.families import family
+from tribodyn.geometry.limits.limits import LIMITS, plain_distances
 from tribodyn.numerics import child
-from tribodyn.numerics.work import usable_cores
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.scenario.tables.duty import LOADS, SPEEDS
 from tribodyn.studies import study_of
@@ -32,8 +34,6 @@ if TYPE_CHECKING:
 ALTERNATIVES = (SPEEDS, LOADS)
 #: Stands for the file of a base scenario: what choices name is looked for from here.
 FILE = Path("scenario")
-#: Evaluations that a process of its own is worth.
-WORTH = 24
 
 Results = list[dict[str, Any] | str]
 """Quantities of cases by name; a text instead where one has none: why."""
@@ -110,10 +110,6 @@ def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) 
 
     Negative where they cannot be made or cannot run together; −1 where there is no case.
     """
-    from tribodyn.geometry.assembly import assemble
-    from tribodyn.geometry.families import family
-    from tribodyn.geometry.limits.limits import LIMITS, plain_distances
-
     try:
         case = loaded_case(base, overrides).case
     except InputError:
@@ -138,11 +134,6 @@ def serve() -> None:
     for line in sys.stdin:
         answers.write(json.dumps(evaluate(scenarios, json.loads(line), workers=1)) + "\n")
         answers.flush()
-
-
-def workers_for(evaluations: int) -> int:
-    """How many evaluate side by side: one per core, fewer where there is little to do."""
-    return max(1, min(usable_cores(), evaluations // WORTH))
 
 
 class Pool:

@@ -11,12 +11,7 @@ from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.candidates.scoring import derivatives_of
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.methods.local import epsilon_constraint, local
-from tribodyn.studies.design.methods.population import (
-    cma_es,
-    differential_evolution,
-    every,
-    nsga2,
-)
+from tribodyn.studies.design.methods.population import cma_es, differential_evolution, every, nsga2
 
 Method = Callable[[Archive, np.ndarray], None]
 """Searches from the shares at which the base scenario stands."""

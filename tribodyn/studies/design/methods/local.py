@@ -13,12 +13,7 @@ import numpy as np
 
 from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.candidates.candidates import chosen, shares_of
-from tribodyn.studies.design.candidates.scoring import (
-    NO_QUANTITIES,
-    SLACK,
-    Score,
-    derivatives_of,
-)
+from tribodyn.studies.design.candidates.scoring import NO_QUANTITIES, SLACK, Score, derivatives_of
 
 #: Stands for the objective of a candidate without quantities, over that of the start.
 POOR = 1.5
