@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 def of_run(record: Record) -> "Dataset":
     """All datasets along a record's axis, which is their first dimension, in SI units."""
     dimensions = {dim for name in record for dim in record.dims_of(name)}
-    return _dataset(record, record, {dim: _variable(record, dim, (dim,)) for dim in dimensions & {*record}})
+    # a record has scales that it does not go through
+    coordinates = {dim: _variable(record, dim, (dim,)) for dim in dimensions if dim in record}
+    return _dataset(record, record, coordinates)
 
 
 def of_sweep(record: SweepRecord) -> "Dataset":
