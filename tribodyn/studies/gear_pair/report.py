@@ -18,8 +18,6 @@ from tribodyn.studies.sweeping import branches
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
-
-
 #: One number per case, from its steady window.
 SWEPT = (
     *quantities(
@@ -127,11 +125,8 @@ def row_bytes(settings: Any) -> float:
 
 def _variables(settings: Any) -> dict[str, Variable]:
     """What is recorded of every case."""
-    return (
-        CASES
-        | (branches.END_VARIABLES if settings.followed else {})
-        | (UNSTABLE if settings.unstable else {})
-    )
+    ends = branches.END_VARIABLES if settings.followed else {}
+    return CASES | ends | (UNSTABLE if settings.unstable else {})
 
 
 def layout_of(settings: Any) -> SweepLayout:

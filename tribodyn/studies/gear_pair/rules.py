@@ -23,33 +23,27 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
 
 
 def _operating(operating: Operating) -> Iterator[InputError]:
-    key = "operating."
     if operating.source == "speed":
-        for name in (
-            "pinion_torque",
-            "drive_inertia",
-            "shaft_stiffness",
-            "shaft_damping",
-            "speed_regulation",
-        ):
-            value = operating.motor_torque if name == "pinion_torque" else getattr(operating, name)
+        of_motor = ("drive_inertia", "shaft_stiffness", "shaft_damping", "speed_regulation")
+        given = {name: getattr(operating, name) for name in of_motor}
+        for name, value in {"pinion_torque": operating.motor_torque, **given}.items():
             if value:
                 yield InputError(
-                    key + name,
+                    f"operating.{name}",
                     f"{value:g} (SI)",
                     'contradicts source = "speed": a prescribed rotation needs no motor',
                     f'leave {name} out, or write source = "torque"',
                 )
     elif operating.shaft_stiffness is None and operating.shaft_damping:
         yield InputError(
-            key + "shaft_damping",
+            "operating.shaft_damping",
             f"{operating.shaft_damping:g} N*m*s/rad",
             "a rigid shaft has no damping",
             "add shaft_stiffness, or leave shaft_damping out",
         )
     elif operating.shaft_stiffness is not None and operating.drive_inertia == 0:
         yield InputError(
-            key + "drive_inertia",
+            "operating.drive_inertia",
             "0 kg*m**2",
             "a compliant shaft needs a motor with inertia at its end",
             'add drive_inertia = "0.01 kg*m**2", or leave shaft_stiffness out',
@@ -100,25 +94,16 @@ def _working_flanks(torque: float, back_flanks: bool, mesh: Mesh) -> Iterator[In
 
 
 def _mesh(mesh: Mesh) -> Iterator[InputError]:
-    for choice, name in (("constant", "stiffness"), ("table", "table")):
+    table = '"stiffness.csv", columns roll_angle and stiffness'
+    for choice, name, example in (("constant", "stiffness", '"2.8e8 N/m"'), ("table", "table", table)):
         given = getattr(mesh, name) is not None
         if mesh.compliance == choice and not given:
-            yield InputError(
-                f"mesh.{name}",
-                rule=f'missing: compliance = "{choice}" needs it',
-                remedy=f"add {name} = "
-                + (
-                    '"2.8e8 N/m"'
-                    if choice == "constant"
-                    else '"stiffness.csv", columns roll_angle and stiffness'
-                ),
-            )
+            rule = f'missing: compliance = "{choice}" needs it'
+            yield InputError(f"mesh.{name}", rule=rule, remedy=f"add {name} = {example}")
         if mesh.compliance != choice and given:
-            yield InputError(
-                f"mesh.{name}",
-                rule=f'contradicts compliance = "{mesh.compliance}"',
-                remedy=f'leave {name} out, or write compliance = "{choice}"',
-            )
+            rule = f'contradicts compliance = "{mesh.compliance}"'
+            remedy = f'leave {name} out, or write compliance = "{choice}"'
+            yield InputError(f"mesh.{name}", rule=rule, remedy=remedy)
     error = mesh.transmission_error
     if error.harmonics and error.table is not None:
         yield InputError(

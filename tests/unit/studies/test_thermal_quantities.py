@@ -19,14 +19,14 @@ def settled(given_off=None) -> Any:
 
 def test_output_over_what_the_motor_gives():
     """1000 W into the mesh and 50 W beside it; 970 W come out."""
-    figures = thermal_quantities(settled(240.0), 1000.0, 0.97)
-    assert figures["power_load_independent"] == pytest.approx(50.0)
-    assert figures["efficiency_with_losses"] == pytest.approx(970.0 / 1050.0)
-    assert figures["heat_generated"] == pytest.approx(250.0)
-    assert figures["heat_given_off"] == 240.0
-    assert figures["power_windage"] == 5.0
-    assert (figures["bulk_temperature_pinion"], figures["bulk_temperature_gear"]) == (352.0, 348.0)
-    assert figures["losses_outside"] == "churning: too fast"
+    summary = thermal_quantities(settled(240.0), 1000.0, 0.97)
+    assert summary["power_load_independent"] == pytest.approx(50.0)
+    assert summary["efficiency_with_losses"] == pytest.approx(970.0 / 1050.0)
+    assert summary["heat_generated"] == pytest.approx(250.0)
+    assert summary["heat_given_off"] == 240.0
+    assert summary["power_windage"] == 5.0
+    assert (summary["bulk_temperature_pinion"], summary["bulk_temperature_gear"]) == (352.0, 348.0)
+    assert summary["losses_outside"] == "churning: too fast"
     assert "housing_temperature" not in thermal_quantities(settled(), 1000.0, 0.97)
     assert thermal_quantities(None, 1000.0, 0.97) == {}
 
