@@ -8,7 +8,7 @@ import pytest
 from tribodyn.geometry.drive import tip_radius
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.studies.efficiency.published import exact, hoehn, tip_contact_ratios
-from tribodyn.validation.diez_ibarbia_study import SCENARIOS, drive, shifted
+from tribodyn.validation.diez_ibarbia_study import SHIFTS, drive, shifted
 
 
 @pytest.mark.parametrize("tips", [(0.8, 0.8), (0.5, 0.6), (1.0, 1.0), (0.55, 0.97), (1.0, 0.2)])
@@ -66,7 +66,7 @@ def test_tip_circles_of_the_shift_scenarios(scenario, shift, radii):
 
 def test_no_shift_is_no_change():
     base = drive()
-    for name in SCENARIOS:
+    for name in SHIFTS:
         assert tip_contact_ratios(FAMILY, shifted(base, name, 0.0)) == pytest.approx(
             tip_contact_ratios(FAMILY, base), rel=1e-13
         )
