@@ -10,14 +10,7 @@ import pytest
 from ezdxf import units
 
 from tests.support.sample_drives import LIU_NI, SHIFTED, SOUND, STANDARD, bodies, root_radius
-from tribodyn.drawing.cad import (
-    RACK_TEETH,
-    tooth_profile,
-    write_gear,
-    write_pair,
-    write_profile,
-    write_rack,
-)
+from tribodyn.drawing.cad import RACK_TEETH, tooth_profile, write_gear, write_pair, write_profile, write_rack
 from tribodyn.drawing.picture import gears_in_mesh, pair_figure
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import section_area_and_inertia, tooth_outline
