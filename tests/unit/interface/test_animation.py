@@ -28,7 +28,7 @@ def test_a_frame_holds_the_page_and_asks_nothing_of_other_places(crc):
     (data,) = re.findall(r'id="data">(.*?)</script>', animation.html, re.DOTALL)
     (record,) = json.loads(data)["records"]
     assert record["teeth"]["pairs"] == 2
-    assert {"normal_load", "hertz_pressure"} <= {one["name"] for one in record["series"]}
+    assert {"normal_load", "hertz_pressure"} <= {series["name"] for series in record["series"]}
     assert "animation" in repr(animation)
 
 

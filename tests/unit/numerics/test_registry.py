@@ -73,7 +73,7 @@ def test_a_walk_leaves_out_what_cannot_be_had_and_says_so_once(registry, caplog)
         for _ in range(2):
             assert [name for name, _ in registry.items()] == ["shipped", "sound"]
     assert len(caplog.records) == 4
-    assert sum("package bad" in one.getMessage() for one in caplog.records) == 1
+    assert sum("package bad" in record.getMessage() for record in caplog.records) == 1
 
 
 def test_a_part_that_fails_is_left_out_too(registry, caplog):

@@ -109,7 +109,7 @@ def test_no_kept_result_depends_on_pages_verbs_the_version_or_laws_it_does_not_c
         others = {name for name in behind if name.split(".")[1] in ELSEWHERE}
         assert others <= set(starts), starts
         laws = {name for name in behind if re.match(r"tribodyn\.tribology\.(film|friction)\.", name)}
-        assert laws <= {f"tribodyn.tribology.{one}" for one in FIRST_LAWS}, starts
+        assert laws <= {f"tribodyn.tribology.{law}" for law in FIRST_LAWS}, starts
 
 
 EDITS = """

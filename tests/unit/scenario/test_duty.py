@@ -43,7 +43,7 @@ def test_the_same_duty_however_it_is_given(speed: dict[str, str], given: dict[st
 )
 def test_too_much_or_too_little_is_named(given: dict[str, str], key: str, rule: str):
     broken = broken_duty_rules(DutyTable.model_validate(given))
-    assert any(one.key == f"operating.{key}" and rule in one.rule and one.remedy for one in broken)
+    assert any(error.key == f"operating.{key}" and rule in error.rule and error.remedy for error in broken)
 
 
 def test_without_power_a_speed_may_be_unneeded():

@@ -43,7 +43,7 @@ def test_a_temperature_in_any_scale(text):
 
 
 def test_viscosity_at_the_temperature_of_the_oil():
-    at_40, at_100 = (math.log10(math.log10(one + 0.7)) for one in (220.0, 19.0))
+    at_40, at_100 = (math.log10(math.log10(viscosity + 0.7)) for viscosity in (220.0, 19.0))
     share = math.log(353.15 / 313.15) / math.log(373.15 / 313.15)
     kinematic = 10**10 ** (at_40 + share * (at_100 - at_40)) - 0.7
     assert oil().inlet_viscosity == pytest.approx(1e-6 * kinematic * (890 - 0.7 * 64.15))
@@ -105,7 +105,7 @@ def test_check_says_every_value_and_its_origin():
     assert data["type"] == "mineral"
     assert data["pressure_viscosity"] == {"value": pytest.approx(18e-9), "unit": "1/Pa", "origin": "given"}
     assert data["limiting_shear_coefficient"]["spread"] == [0.047, 0.053]
-    assert all(one["origin"] for name, one in data.items() if name != "type")
+    assert all(number["origin"] for name, number in data.items() if name != "type")
     rows = {row[0]: row[1:3] for row in oil_table(given).rows}
     assert rows["pressure_viscosity"] == ("18", "1/GPa")
     assert not oil_remarks(given)

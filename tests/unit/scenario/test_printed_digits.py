@@ -157,6 +157,6 @@ def scenario(tmp_path: Path) -> Path:
 def test_a_sweep_says_of_which_cases_it_is(scenario: Path):
     values = ["91.5 mm", "91.45 mm", "91.6 mm"]
     swept = tribodyn.sweep(str(scenario), {"drive.centre_distance": values}, output=scenario.parent / "s.h5")
-    messages = [str(one) for one in swept["message"].values]
+    messages = [str(message) for message in swept["message"].values]
     assert "the teeth overlap" in messages[1]
-    assert [BRIEF in one for one in messages] == [True, False, False]
+    assert [BRIEF in message for message in messages] == [True, False, False]

@@ -31,9 +31,9 @@ def test_load_contact_has_teeth_that_differ():
 def test_a_coarser_class_deviates_more_by_the_root_of_two():
     """The same sample of the class two above is twice as large, whatever the study."""
     for name, curve in (
-        ("involute-23-47", lambda one: one.mesh.error_table[1]),
-        ("load-contact-18-36", lambda one: one.mesh.modifications.pinion.profile_error[1]),
-        ("load-contact-18-36", lambda one: np.array(one.mesh.modifications.gear.pitch_error)),
+        ("involute-23-47", lambda case: case.mesh.error_table[1]),
+        ("load-contact-18-36", lambda case: case.mesh.modifications.pinion.profile_error[1]),
+        ("load-contact-18-36", lambda case: np.array(case.mesh.modifications.gear.pitch_error)),
     ):
         fine, coarse = (curve(case(name, drive__quality=grade)) for grade in (5, 7))
         assert coarse == pytest.approx(2 * fine, rel=1e-9, abs=1e-15)

@@ -29,16 +29,16 @@ def parts(annotation: Any) -> list[Any]:
 
 
 def inside(field: FieldInfo, kind: type) -> list[Any]:
-    return [one for one in (*field.metadata, *parts(field.annotation)) if isinstance(one, kind)]
+    return [part for part in (*field.metadata, *parts(field.annotation)) if isinstance(part, kind)]
 
 
 def tables(table: type[Table]) -> dict[str, type[Table]]:
     """The table and all tables below it, by name."""
     found = {table.__name__: table}
     for field in table.model_fields.values():
-        for one in parts(field.annotation):
-            if isinstance(one, type) and issubclass(one, Table) and one is not Column:
-                found |= tables(one)
+        for part in parts(field.annotation):
+            if isinstance(part, type) and issubclass(part, Table) and part is not Column:
+                found |= tables(part)
     return found
 
 

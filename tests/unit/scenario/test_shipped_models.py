@@ -62,4 +62,4 @@ def test_other_materials(name, modulus):
 @pytest.mark.parametrize("name", ["soft-1e8", "medium-4e8", "stiff-2e9"])
 def test_a_class_of_bearings(name):
     both = scenario("crc-23-47", {"bearings": name}).bearings
-    assert {one.stiffness_x for one in both} == {float(name.partition("-")[2])}
+    assert {bearing.stiffness_x for bearing in both} == {float(name.partition("-")[2])}

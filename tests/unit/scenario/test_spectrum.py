@@ -27,7 +27,7 @@ def loaded(name=EFFICIENCY, **changes):
 
 def test_a_duty_takes_the_place_of_speed_and_load():
     base = load(EFFICIENCY).case.operating
-    operating = [one.operating for _, one in loaded().spectrum]
+    operating = [duty.operating for _, duty in loaded().spectrum]
     assert [share for share, _ in loaded().spectrum] == pytest.approx([0.6, 0.2, 0.2])
     assert operating[0].gear_torque == 300.0
     assert operating[0].pinion_speed == base.pinion_speed
@@ -47,10 +47,10 @@ def test_the_spectrum_is_the_energy_of_its_duties():
         quantities_of(loaded(operating__duty=2)),
         quantities_of(load(EFFICIENCY, {"operating.pinion_speed": "3000 rpm"}).case),
     ]
-    assert found["duty_efficiency"] == pytest.approx([one["efficiency"] for one in alone], rel=1e-12)
+    assert found["duty_efficiency"] == pytest.approx([summary["efficiency"] for summary in alone], rel=1e-12)
     shares = np.array([0.6, 0.2, 0.2])
-    put_in = shares @ [one["power_in_mean"] for one in alone]
-    lost = shares @ [one["power_friction_mean"] for one in alone]
+    put_in = shares @ [summary["power_in_mean"] for summary in alone]
+    lost = shares @ [summary["power_friction_mean"] for summary in alone]
     assert found["spectrum_power_friction_mean"] == pytest.approx(lost)
     assert found["spectrum_efficiency"] == pytest.approx(1 - lost / put_in, rel=1e-9)
     assert quantities_of(load(EFFICIENCY).case).keys().isdisjoint(found)
