@@ -5,60 +5,44 @@ from pathlib import Path
 
 import h5py
 import pytest
-from typer.testing import CliRunner
 
 from tests.support import synthetic_record
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, invoke, sets
 from tribodyn.record.reader import open_record
 from tribodyn.studies.pages import names
 
-SHORT = ("--set", "solver.cycles=2")
+SHORT = sets("solver.cycles=2")
+#: Compared as the records' summaries have them.
+KEYS = (
+    *("contact_ratio", "transmission_error_peak_to_peak", "normal_load_max", "dynamic_factor", "film_min"),
+    *("film_parameter_min", "flash_temperature_max", "friction_coefficient_mean", "efficiency"),
+    "power_friction_mean",
+)
 
 
-def compare(*arguments: str):
-    return CliRunner().invoke(app, ["compare", *map(str, arguments)])
-
-
-def compared(*arguments: str) -> dict:
-    done = compare(*arguments, "--json")
-    assert done.exit_code == 0, done.stderr
-    return json.loads(done.stdout)
+def compared(*arguments: object) -> dict:
+    return json.loads(invoke("compare", *arguments, "--json"))
 
 
 @pytest.fixture(scope="module")
 def both(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict, Path]:
     """CRC against involute, as Liu & Ni compare them, kept in a folder."""
     folder = tmp_path_factory.mktemp("comparison")
-    return compared("crc-23-47", "involute-23-47", *SHORT, "-o", str(folder / "new")), folder / "new"
+    return compared("crc-23-47", "involute-23-47", *SHORT, "-o", folder / "new"), folder / "new"
 
 
 def test_scenarios_are_run_and_their_records_compared(both):
     result, folder = both
-    assert [one["label"] for one in result["records"]] == ["crc-23-47", "involute-23-47"]
+    assert [record["label"] for record in result["records"]] == ["crc-23-47", "involute-23-47"]
     quantities = result["quantities"]
     for number, name in enumerate(("crc-23-47", "involute-23-47")):
         with open_record(folder / f"{name}.h5") as record:
-            for key in (
-                "contact_ratio",
-                "transmission_error_peak_to_peak",
-                "normal_load_max",
-                "dynamic_factor",
-                "film_min",
-                "film_parameter_min",
-                "flash_temperature_max",
-                "friction_coefficient_mean",
-                "efficiency",
-                "power_friction_mean",
-            ):
+            for key in KEYS:
                 assert quantities[key]["values"][number] == pytest.approx(record.summary[key])
-            assert quantities["loss_fraction"]["values"][number] == pytest.approx(
-                1 - record.summary["efficiency"]
-            )
+            loss = 1 - record.summary["efficiency"]
+            assert quantities["loss_fraction"]["values"][number] == pytest.approx(loss)
     # what Liu & Ni find: less contact ratio, more film, less loss (figures 13 and 16)
-    assert quantities["contact_ratio"]["values"] == [
-        pytest.approx(1.523, abs=1e-3),
-        pytest.approx(1.668, abs=1e-3),
-    ]
+    assert quantities["contact_ratio"]["values"] == pytest.approx([1.523, 1.668], abs=1e-3)
     assert quantities["film_min"]["relative_differences"][0] < -0.1
     assert quantities["loss_fraction"]["relative_differences"][0] > 0.05
     assert result["different_conditions"] == {}
@@ -66,10 +50,7 @@ def test_scenarios_are_run_and_their_records_compared(both):
 
 def test_records_and_a_picture_of_every_quantity_are_kept(both):
     result, folder = both
-    assert [Path(path) for path in result["kept"]] == [
-        folder / "crc-23-47.h5",
-        folder / "involute-23-47.h5",
-    ]
+    assert result["kept"] == [str(folder / f"{name}.h5") for name in ("crc-23-47", "involute-23-47")]
     with open_record(folder / "crc-23-47.h5") as record:
         drawn = names([record])
     assert "transmission-error" in drawn
@@ -78,23 +59,20 @@ def test_records_and_a_picture_of_every_quantity_are_kept(both):
         assert Path(picture).read_bytes().startswith(b"\x89PNG")
 
 
-def test_without_a_folder_nothing_is_left_behind(both, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_without_a_folder_nothing_is_left_behind(both, tmp_path: Path):
     _, folder = both
-    monkeypatch.chdir(tmp_path)
-    shown = compare(str(folder / "crc-23-47.h5"), "involute-23-47", *SHORT)
-    assert shown.exit_code == 0, shown.stderr
-    assert "record " not in shown.stdout
+    shown = invoke("compare", folder / "crc-23-47.h5", "involute-23-47", *SHORT, folder=tmp_path)
+    assert "record " not in shown
     assert list(tmp_path.iterdir()) == []
     for label in ("Contact ratio", "Minimum film parameter", "Loss, share of the power in", "pp"):
-        assert label in shown.stdout
-    assert "are the same in all runs" in shown.stdout
+        assert label in shown
+    assert "are the same in all runs" in shown
 
 
 def test_runs_at_unequal_load_say_so(both):
     _, folder = both
-    result = compared(
-        str(folder / "crc-23-47.h5"), "involute-23-47", *SHORT, "--set", "operating.gear_torque=300 N*m"
-    )
+    lighter = sets("operating.gear_torque=300 N*m")
+    result = compared(folder / "crc-23-47.h5", "involute-23-47", *SHORT, *lighter)
     assert result["different_conditions"] == {"operating.gear_torque": ["500 N*m", "300 N*m"]}
     assert result["kept"] == result["pictures"] == []
 
@@ -110,32 +88,25 @@ def test_runs_at_unequal_load_say_so(both):
     ],
 )
 def test_what_cannot_be_compared_is_refused_before_anything_runs(words: list[str], said: str):
-    refused = compare(*words)
-    assert refused.exit_code == 2
-    assert said in refused.stderr
-    assert len(refused.stderr.splitlines()) == 1
+    assert said in complaint("compare", *words)
 
 
 def test_records_that_cannot_be_compared(tmp_path: Path):
     first = synthetic_record.write(tmp_path / "first.h5", cycles=2, per_cycle=40)
     other = synthetic_record.write(tmp_path / "other.h5", cycles=2, per_cycle=40)
-    twice = compare(str(first), str(tmp_path / "." / "first.h5"))
-    assert (twice.exit_code, "given twice" in twice.stderr) == (2, True)
-    settings = compare(str(first), str(other), "--set", "solver.cycles=3")
-    assert (settings.exit_code, "nothing is run" in settings.stderr) == (2, True)
+    assert "given twice" in complaint("compare", first, tmp_path / "." / "first.h5")
+    assert "nothing is run" in complaint("compare", first, other, "--set", "solver.cycles=3")
     with h5py.File(other, "r+") as file:
         file.attrs["status"] = "failed"
-    unfinished = compare(str(first), str(other))
-    assert (unfinished.exit_code, "run its scenario again" in unfinished.stderr) == (2, True)
+    assert "run its scenario again" in complaint("compare", first, other)
 
 
 def test_a_run_beside_the_quasi_static_study_of_its_drive():
     """Both find the same sliding, so nearly the same loss; the study has no dynamics to show."""
     result = compared("crc-23-47", "efficiency-crc-23-47")
     quantities = result["quantities"]
-    assert quantities["efficiency"]["values"][1] == pytest.approx(
-        quantities["efficiency"]["values"][0], abs=1e-3
-    )
+    run, study = quantities["efficiency"]["values"]
+    assert study == pytest.approx(run, abs=1e-3)
     assert quantities["dynamic_factor"]["values"][1] is None
     assert quantities["dynamic_factor"]["relative_differences"] == [None]
     assert list(result["different_conditions"]) == ["kind"]

@@ -6,33 +6,17 @@ from pathlib import Path
 
 import ezdxf
 import pytest
-from typer.testing import CliRunner
 
 import tribodyn as td
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, ended, invoke
 from tribodyn.scenario.sources import shipped
 
-DRAWINGS = (
-    "pair.svg",
-    "pair.png",
-    "pair.dxf",
-    "pinion.dxf",
-    "pinion-rack.dxf",
-    "pinion.csv",
-    "gear.dxf",
-    "gear-rack.dxf",
-    "gear.csv",
-)
+SIDES = [f"{side}{end}" for side in ("pinion", "gear") for end in (".dxf", "-rack.dxf", ".csv")]
+DRAWINGS = ("pair.svg", "pair.png", "pair.dxf", *SIDES)
 
 
-def gear(*arguments: str):
-    return CliRunner().invoke(app, ["gear", *arguments])
-
-
-def sheet(*arguments: str) -> dict:
-    done = gear(*arguments, "--json")
-    assert done.exit_code == 0, done.stderr
-    return json.loads(done.stdout)
+def sheet(*arguments: object) -> dict:
+    return json.loads(invoke("gear", *arguments, "--json"))
 
 
 def test_sheet_of_a_shipped_drive():
@@ -56,7 +40,7 @@ def test_drive_file_and_scenario_give_the_same_sheet():
 
 
 def test_drawings(tmp_path: Path):
-    printed = sheet("liu-ni-involute-23-47", "-o", str(tmp_path / "new" / "folder"), "--points", "20")
+    printed = sheet("liu-ni-involute-23-47", "-o", tmp_path / "new" / "folder", "--points", "20")
     files = [Path(file) for file in printed["files"]]
     assert sorted(file.name for file in files) == sorted(f"liu-ni-involute-23-47-{end}" for end in DRAWINGS)
     for file in files:
@@ -77,10 +61,7 @@ def test_drawings(tmp_path: Path):
     ],
 )
 def test_what_is_no_gear_pair_is_refused(model: str, said: str):
-    refused = gear(model)
-    assert refused.exit_code == 2
-    assert said in refused.stderr
-    assert len(refused.stderr.splitlines()) == 1
+    assert said in complaint("gear", model)
 
 
 def own_drive(folder: Path, old: str, new: str) -> str:
@@ -103,7 +84,7 @@ def own_drive(folder: Path, old: str, new: str) -> str:
 )
 def test_a_bad_drive_file_is_named_with_its_key(tmp_path: Path, old: str, new: str, said: str):
     path = own_drive(tmp_path, old, new)
-    refused = gear(path)
+    refused = ended("gear", path)
     assert refused.exit_code == 2
     assert said in refused.stderr
     assert all(line.startswith(f"{path}: drive.") for line in refused.stderr.splitlines())
@@ -122,25 +103,22 @@ def test_materials_of_an_own_drive_are_found_beside_it(tmp_path: Path):
 
 def test_a_pair_as_a_free_form_one(tmp_path):
     """The drive that is written has the teeth of the original, and is not written over."""
-    done = gear("liu-ni-crc-23-47", "--as-spline", "9", "-o", str(tmp_path), "--json")
-    assert done.exit_code == 0, done.stderr
-    printed = json.loads(done.stdout)
+    printed = sheet("liu-ni-crc-23-47", "--as-spline", "9", "-o", tmp_path)
     file = tmp_path / "liu-ni-crc-23-47-spline.toml"
     assert printed["files"][0] == str(file)
     assert (tmp_path / "liu-ni-crc-23-47-spline-pair.svg").exists()
     assert printed["family"] == "spline"
     original = sheet("liu-ni-crc-23-47")["geometry"]
     for name in ("contact ratio", "equivalent radius at end of contact"):
-        assert sheet(str(file))["geometry"][name][0] == pytest.approx(original[name][0], rel=1e-4)
+        assert sheet(file)["geometry"][name][0] == pytest.approx(original[name][0], rel=1e-4)
     table = tomllib.loads(file.read_text(encoding="utf-8"))
     assert table["family"] == "spline"
     assert len(table["shape"]["angles"]) == 9
-    again = gear("liu-ni-crc-23-47", "--as-spline", "9", "-o", str(tmp_path))
-    assert again.exit_code != 0
+    assert ended("gear", "liu-ni-crc-23-47", "--as-spline", "9", "-o", tmp_path).exit_code != 0
     pair = td.drive("liu-ni-crc-23-47").as_spline(9)
     assert pair.toml == file.read_text(encoding="utf-8")
     # an entry of the list, as --set and --vary name it
-    changed = sheet(str(file), "--set", 'drive.shape.angles.4="23 deg"')
+    changed = sheet(file, "--set", 'drive.shape.angles.4="23 deg"')
     assert changed["geometry"]["pressure angle at pitch point"][0] == pytest.approx(23.0)
 
 

@@ -5,21 +5,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, invoke, sets
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import open_record
 from tribodyn.studies.load_contact import run as simulate_load_contact
 
 PLAIN, RELIEVED = "load-contact-18-36", "harris-18-36-tip-relief"
-SHORT = ("--set", "output.positions_per_cycle=30")
-
-
-def tribodyn(*arguments: str) -> str:
-    done = CliRunner().invoke(app, list(map(str, arguments)))
-    assert done.exit_code == 0, done.stderr
-    return done.stdout
+SHORT = sets("output.positions_per_cycle=30")
+TORQUES = sets('operating.gear_torques=["200 N*m", "318.3 N*m", "440 N*m"]')
 
 
 @pytest.fixture(scope="module")
@@ -27,9 +21,8 @@ def both(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """The plain pair and the one with tip relief, run; the pictures of the first are all drawn."""
     folder = tmp_path_factory.mktemp("studies")
     paths = {name: folder / f"{name}.h5" for name in (PLAIN, RELIEVED)}
-    torques = 'operating.gear_torques=["200 N*m", "318.3 N*m", "440 N*m"]'
-    tribodyn("run", PLAIN, *SHORT, "-o", paths[PLAIN], "--plot")
-    tribodyn("run", RELIEVED, *SHORT, "--set", torques, "-o", paths[RELIEVED])
+    invoke("run", PLAIN, *SHORT, "-o", paths[PLAIN], "--plot")
+    invoke("run", RELIEVED, *SHORT, *TORQUES, "-o", paths[RELIEVED])
     return paths
 
 
@@ -70,7 +63,7 @@ def test_relief_of_twice_the_swing_is_least_at_its_torque(both: dict[str, Path])
 
 
 def test_studies_are_compared_with_what_is_modified(both: dict[str, Path]):
-    compared = json.loads(tribodyn("compare", *both.values(), "--json"))
+    compared = json.loads(invoke("compare", *both.values(), "--json"))
     quantities = compared["quantities"]
     spread = quantities["loaded_transmission_error_peak_to_peak"]["values"]
     assert spread[1] < 0.25 * spread[0]
@@ -79,10 +72,8 @@ def test_studies_are_compared_with_what_is_modified(both: dict[str, Path]):
 
 
 def test_a_face_that_is_lifted_is_refused(tmp_path: Path):
-    tilted = ("--set", "mesh.misalignment.in_plane=1 deg", "--set", "mesh.slices=5")
-    done = CliRunner().invoke(app, ["run", PLAIN, *tilted, "-o", str(tmp_path / "tilted.h5")])
-    assert done.exit_code == 2
-    (line,) = done.stderr.splitlines()
+    tilted = sets("mesh.misalignment.in_plane=1 deg", "mesh.slices=5")
+    line = complaint("run", PLAIN, *tilted, "-o", tmp_path / "tilted.h5")
     assert "mesh.misalignment.in_plane = " in line
     assert list(tmp_path.iterdir()) == []
 
@@ -105,11 +96,7 @@ def test_a_torque_that_fails_keeps_what_was_before_it(
 
     for name in ("roll_through", "loaded_error"):
         monkeypatch.setattr(simulate_load_contact, name, failing(getattr(simulate_load_contact, name)))
-    torques = 'operating.gear_torques=["200 N*m", "318.3 N*m", "440 N*m"]'
-    path = tmp_path / "study.h5"
-    done = CliRunner().invoke(app, ["run", PLAIN, *SHORT, "--set", torques, "-o", str(path)])
-    assert done.exit_code == 3
-    (line,) = done.stderr.splitlines()
+    line = complaint("run", PLAIN, *SHORT, *TORQUES, "-o", tmp_path / "study.h5", status=3)
     assert "does not settle" in line
     assert "study.partial.h5" in line
     with open_record(tmp_path / "study.partial.h5") as record:

@@ -1,9 +1,6 @@
 """Every shipped scenario runs as a user would run it, shortened; and what it leaves behind can be used."""
 
 import json
-import os
-import subprocess
-import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -11,21 +8,14 @@ from typing import Any
 import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
+from tests.support.verbs import in_a_process, sets
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.sources import names, shipped
 from tribodyn.studies.protocol.load import load_scenario
 
 
 def tribodyn(*arguments: str, folder: Path) -> str:
-    ended = subprocess.run(
-        [sys.executable, "-W", "error", "-m", "tribodyn", *arguments],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=600,
-        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
-        check=False,
-    )
+    ended = in_a_process(*arguments, folder=folder)
     assert ended.returncode == 0, ended.stderr
     assert ended.stderr == ""  # no progress bar where nobody watches
     return ended.stdout
@@ -68,13 +58,9 @@ def with_soak(found: Iterable[str], soak: Callable[[str], bool]) -> list[Any]:
     return [pytest.param(name, marks=pytest.mark.soak) if soak(name) else name for name in found]
 
 
-def settings(given: Iterable[str]) -> list[str]:
-    return [word for setting in given for word in ("--set", setting)]
-
-
 @pytest.mark.parametrize("name", with_soak(SEARCHES, lambda name: name not in QUICK_SEARCHES))
 def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
-    ended = forked("run", name, *settings(FEW), "--json", "--no-plot", folder=tmp_path)
+    ended = forked("run", name, *sets(*FEW), "--json", "--no-plot", folder=tmp_path)
     assert ended.returncode == 0, ended.stderr
     result = json.loads(ended.stdout)
     assert (result["status"], result["evaluations"]) == ("complete", 3)
@@ -86,7 +72,7 @@ def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     with_soak([name for name in names(shipped("scenarios")) if name not in SEARCHES], ALIKE.__contains__),
 )
 def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
-    shorter = settings(SHORTER.get(load_scenario(name).kind, ()))
+    shorter = sets(*SHORTER.get(load_scenario(name).kind, ()))
     words = (name, *shorter, *(() if name in DRAWN else ("--no-plot",)))
     ended = forked("run", *words, "--json", folder=tmp_path)
     assert ended.returncode == 0, ended.stderr
@@ -97,7 +83,7 @@ def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     result = json.loads(ended.stdout)
     assert result["status"] == "complete"
     residuals = ("torque_residual", "energy_residual", "residual_max")
-    balance = next(result["summary"][one] for one in residuals if one in result["summary"])
+    balance = next(result["summary"][name] for name in residuals if name in result["summary"])
     assert abs(balance) < 1e-5  # 10 × rtol
     assert len(result["pictures"]) == (name in DRAWN)
     for picture in result["pictures"]:
@@ -127,9 +113,7 @@ def test_the_story_of_a_newcomer(tmp_path: Path, forked: ForkedVerbs):
     assert shown["scenario"]["operating"]["gear_torque"] == "300 N*m"
 
 
-def test_the_resolved_scenario_of_a_record_runs_again_to_the_same_numbers(
-    tmp_path: Path, forked: ForkedVerbs
-):
+def test_a_records_scenario_runs_again_to_the_same_numbers(tmp_path: Path, forked: ForkedVerbs):
     short = ("--set", "solver.cycles=1", "--no-plot")
     assert forked("run", "crc-23-47-300", *short, "-o", "first.h5", folder=tmp_path).returncode == 0
     with open_record(tmp_path / "first.h5") as record:

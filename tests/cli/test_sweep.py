@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray
-from typer.testing import CliRunner
 
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, ended, invoke, sets
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
@@ -19,13 +18,7 @@ from tribodyn.studies.gear_pair.report import SWEPT
 from tribodyn.studies.gears.case import TEMPERATURE_SWEPT
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
-SHORT = ("--transient", "4", "--set", "output.samples_per_cycle=40")
-
-
-def tribodyn(*words: object) -> str:
-    ended = CliRunner().invoke(app, [str(word) for word in words])
-    assert ended.exit_code == 0, f"{ended.output}\n{ended.exception}"
-    return ended.stdout
+SHORT = ("--transient", "4", *sets("output.samples_per_cycle=40"))
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +26,7 @@ def grid(tmp_path_factory) -> Path:
     """Three speeds, two torques, both directions; and what the verb said as JSON, beside it."""
     path = tmp_path_factory.mktemp("sweep") / "grid.h5"
     vary = ("--vary", SPEEDS, "--vary", "operating.gear_torque=100,500 N*m")
-    said = tribodyn("sweep", "crc-23-47", *vary, "--direction", "both", *SHORT, "-o", path, "--json")
+    said = invoke("sweep", "crc-23-47", *vary, "--direction", "both", *SHORT, "-o", path, "--json")
     path.with_suffix(".json").write_text(said, encoding="utf-8")
     return path
 
@@ -60,20 +53,22 @@ def test_the_record_is_a_dataset_over_the_parameters(grid: Path):
 def test_json_and_show_say_what_the_record_says(grid: Path):
     said = json.loads(grid.with_suffix(".json").read_text(encoding="utf-8"))
     assert said["cases"] == said["done"] == 12
-    assert [one["key"] for one in said["parameters"]] == ["operating.pinion_speed", "operating.gear_torque"]
-    shown = json.loads(tribodyn("show", grid, "--json"))
+    assert [parameter["key"] for parameter in said["parameters"]] == [
+        "operating.pinion_speed",
+        "operating.gear_torque",
+    ]
+    shown = json.loads(invoke("show", grid, "--json"))
     assert {name: shown[name] for name in said} == said
     with SweepRecord(grid) as record:
         np.testing.assert_array_equal(said["figures"]["dynamic_factor"]["values"], record["dynamic_factor"])
-    assert "12 cases (3 of operating.pinion_speed, 2 of operating.gear_torque, up and down)" in tribodyn(
+    assert "12 cases (3 of operating.pinion_speed, 2 of operating.gear_torque, up and down)" in invoke(
         "show", grid
     )
 
 
 def test_the_first_case_of_a_direction_is_the_run_of_its_scenario(grid: Path, tmp_path: Path):
-    speed, torque = "operating.pinion_speed=300 rad/s", "operating.gear_torque=500 N*m"
-    run = ("run", "crc-23-47", "--no-plot", "-o", tmp_path / "run.h5", "--set", "solver.cycles=4")
-    tribodyn(*run, "--set", speed, "--set", torque, "--set", "output.samples_per_cycle=40")
+    keys = "operating.pinion_speed=300 rad/s", "operating.gear_torque=500 N*m", "output.samples_per_cycle=40"
+    invoke("run", "crc-23-47", "--no-plot", "-o", tmp_path / "run.h5", *sets("solver.cycles=4", *keys))
     with open_record(tmp_path / "run.h5") as record, SweepRecord(grid) as sweep:
         case = (2, 1, 1)  # 300 rad/s is where "down" begins
         # the same steps but for where blocks end: far inside the solver's tolerance of 1e-6
@@ -89,7 +84,7 @@ def test_the_first_case_of_a_direction_is_the_run_of_its_scenario(grid: Path, tm
 @pytest.mark.parametrize("name", STUDIES["gear-pair"].sweep_drawings())
 def test_every_figure_is_drawn(grid: Path, name: str, tmp_path: Path):
     at = ("--at", "pinion_speed=1900rpm", "--at", "direction=down") if name == "poincare" else ()
-    said = json.loads(tribodyn("plot", grid, name, *at, "-o", tmp_path, "--json"))
+    said = json.loads(invoke("plot", grid, name, *at, "-o", tmp_path, "--json"))
     assert [Path(picture).name for picture in said["pictures"]] == [f"grid-{name}.png"]
     assert Path(said["pictures"][0]).stat().st_size > 10_000
 
@@ -104,17 +99,14 @@ def test_every_figure_is_drawn(grid: Path, name: str, tmp_path: Path):
     ],
 )
 def test_bad_wishes_for_figures_are_refused(grid: Path, words: tuple[str, ...], message: str):
-    refused = CliRunner().invoke(app, ["plot", str(grid), *words])
-    assert refused.exit_code == 2
-    assert message in refused.stderr
+    assert message in complaint("plot", grid, *words)
 
 
 def test_a_case_that_fails_leaves_the_others_alone(tmp_path: Path):
     """A pinion of 23 teeth shifted by 1.5 is pointed."""
     path = tmp_path / "shifts.h5"
-    said = tribodyn(
-        "sweep", "involute-23-47", "--vary", "drive.pinion.profile_shift=0,1.5,0.1", *SHORT, "-o", path
-    )
+    vary = ("--vary", "drive.pinion.profile_shift=0,1.5,0.1")
+    said = invoke("sweep", "involute-23-47", *vary, *SHORT, "-o", path)
     assert "2 done, 1 failed" in said
     assert "failed at 1.5: " in said
     with SweepRecord(path) as record:
@@ -128,10 +120,10 @@ def test_a_case_that_fails_leaves_the_others_alone(tmp_path: Path):
 
 def test_all_cases_failed(tmp_path: Path):
     path = tmp_path / "steps.h5"
-    words = ["sweep", "crc-23-47", "--vary", SPEEDS, *SHORT, "--set", "solver.max_steps=2", "-o", str(path)]
-    ended = CliRunner().invoke(app, words)
-    assert ended.exit_code == 3
-    assert "all 3 cases failed" in ended.stderr
+    words = ("sweep", "crc-23-47", "--vary", SPEEDS, *SHORT, *sets("solver.max_steps=2"), "-o", path)
+    failed = ended(*words)
+    assert failed.exit_code == 3
+    assert "all 3 cases failed" in failed.stderr
     assert not path.exists()
     with SweepRecord(tmp_path / "steps.partial.h5") as record:
         assert record.status == "failed"
@@ -152,17 +144,14 @@ def test_all_cases_failed(tmp_path: Path):
     ],
 )
 def test_what_cannot_be_swept_is_refused_at_once(words: tuple[str, ...], message: str, tmp_path: Path):
-    ended = CliRunner().invoke(app, ["sweep", "crc-23-47", *words])
-    assert ended.exit_code == 2, ended.output
-    assert message in ended.stderr
+    refused = ended("sweep", "crc-23-47", *words)
+    assert refused.exit_code == 2, refused.output
+    assert message in refused.stderr
 
 
 def test_a_load_that_changes_over_time_has_no_steady_state(tmp_path: Path):
-    path = tmp_path / "s.h5"
-    words = ["sweep", "load-step", "--vary", "mesh.damping_ratio=0.04,0.05", "-o", str(path)]
-    ended = CliRunner().invoke(app, words)
-    assert ended.exit_code == 2
-    assert "operating.gear_torque_table" in ended.stderr
+    words = ("sweep", "load-step", "--vary", "mesh.damping_ratio=0.04,0.05", "-o", tmp_path / "s.h5")
+    assert "operating.gear_torque_table" in complaint(*words)
     assert not list(tmp_path.iterdir())
 
 
@@ -173,10 +162,8 @@ def test_neither_jax_nor_dask_nor_matplotlib_is_imported(tmp_path: Path):
         "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code\n"
         "print({'jax', 'dask', 'distributed', 'matplotlib', 'xarray', 'pint'} & set(sys.modules))"
     )
-    ended = subprocess.run(
-        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=True
-    )
-    assert ended.stdout.splitlines()[-1] == "set()"
+    printed = subprocess.check_output([sys.executable, "-c", program], cwd=tmp_path, text=True)
+    assert printed.splitlines()[-1] == "set()"
     with SweepRecord(tmp_path / "s.h5") as record:
         assert set(record["solution"]) == {"period-1"}
         assert (record["multiplier_max"] < 1).all()
@@ -187,7 +174,7 @@ def test_two_motions_at_one_speed(tmp_path: Path):
     """Up the drive stays in contact to its resonance; down it rattles on below: a softening spring's jump."""
     path = tmp_path / "jump.h5"
     vary = "operating.pinion_speed=470:530:20rad/s"
-    tribodyn("sweep", "jump-involute-23-47", "--vary", vary, "--direction", "both", "-o", path)
+    invoke("sweep", "jump-involute-23-47", "--vary", vary, "--direction", "both", "-o", path)
     with SweepRecord(path) as record:
         assert (record["stable"] == 1).all()
         assert (record["multiplier_max"] < 1).all()
@@ -214,12 +201,12 @@ def followed(tmp_path_factory) -> dict[int, Path]:
         "mesh.stiffness": "2.8e8 N/m",
         "output.samples_per_cycle": "40",
     }
-    given = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+    given = sets(settings)
     paths = {}
     for step in (20, 60):
         paths[step] = tmp_path_factory.mktemp("followed") / f"{step}.h5"
         vary = f"operating.pinion_speed=884:1004:{step}rad/s"
-        tribodyn("sweep", "crc-23-47", *given, "--vary", vary, "--direction", "down", "-o", paths[step])
+        invoke("sweep", "crc-23-47", *given, "--vary", vary, "--direction", "down", "-o", paths[step])
     return paths
 
 
@@ -238,16 +225,15 @@ def test_a_motion_is_followed_whatever_the_step(followed):
 def test_ends_of_branches_are_recorded_and_shown(tmp_path: Path):
     path = tmp_path / "tongue.h5"
     words = ["sweep", "involute-23-47", "--vary", "operating.pinion_speed=1006:1014:8rad/s"]
-    for one in ("friction.law=none", "mesh.damping_ratio=0.01", "operating.gear_torque=100 N*m"):
-        words += ["--set", one]
-    tribodyn(*words, "--set", "output.samples_per_cycle=40", "--direction", "up", "-o", path)
+    words += sets("friction.law=none", "mesh.damping_ratio=0.01", "operating.gear_torque=100 N*m")
+    invoke(*words, *sets("output.samples_per_cycle=40"), "--direction", "up", "-o", path)
     with SweepRecord(path) as record:
         assert record["period"][:, 0].tolist() == [1, 2]
         assert record.meanings("end_kind")[record["end_kind"][1, 0, 0]] == "period_doubling"
         assert record["end_multiplier_modulus"][1, 0, 0] == pytest.approx(1.0, abs=1e-3)
         assert 1006.0 < record["end_value"][1, 0, 0] < 1014.0
         assert record["end_within"][1, 0, 0] <= 1e-4 * 1014.0
-    assert "a branch of period 1 ends at" in tribodyn("show", path)
-    said = json.loads(tribodyn("show", path, "--json"))
+    assert "a branch of period 1 ends at" in invoke("show", path)
+    said = json.loads(invoke("show", path, "--json"))
     assert [end["kind"] for end in said["ends"]] == ["period doubling"]
-    tribodyn("plot", path, "response", "bifurcation", "--output", tmp_path / "tongue.png")
+    invoke("plot", path, "response", "bifurcation", "--output", tmp_path / "tongue.png")

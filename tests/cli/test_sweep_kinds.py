@@ -8,10 +8,9 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 from tests.support.short_studies import SHORT, short_case, written_template
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, invoke, sets
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 from tribodyn.studies import STUDIES
@@ -35,18 +34,11 @@ LONG = ("load-contact", "ehl", "design", "assessment")
 KINDS = [pytest.param(kind, marks=pytest.mark.soak) if kind in LONG else kind for kind in VARIED]
 
 
-def invoked(*words: object, status: int = 0) -> str:
-    ended = CliRunner().invoke(app, [str(word) for word in words])
-    assert ended.exit_code == status, f"{ended.output}\n{ended.exception}"
-    return ended.stderr if status else ended.stdout
-
-
 def words_of(kind: str) -> list[str]:
     """``--vary`` and what makes the cases short."""
     key, values = VARIED[kind]
     written = {name: str(value).lower() if value is False else value for name, value in SHORT[kind].items()}
-    short = [word for name, value in written.items() for word in ("--set", f"{name}={value}")]
-    return ["--vary", f"{key}={','.join(value.replace(' ', '') for value in values)}", *short]
+    return ["--vary", f"{key}={','.join(value.replace(' ', '') for value in values)}", *sets(written)]
 
 
 def grid_of(kind: str, folder: Path) -> Grid:
@@ -65,7 +57,7 @@ def swept(tmp_path_factory: pytest.TempPathFactory):
     def made(kind: str) -> tuple[Path, str]:
         folder = tmp_path_factory.mktemp(kind)
         path = folder / "sweep.h5"
-        return path, invoked("sweep", written_template(kind, folder), *words_of(kind), "-o", path)
+        return path, invoke("sweep", written_template(kind, folder), *words_of(kind), "-o", path)
 
     return made
 
@@ -74,7 +66,7 @@ def swept(tmp_path_factory: pytest.TempPathFactory):
 def test_a_sweep_has_the_figures_of_single_runs(kind: str, swept, tmp_path: Path):
     key, values = VARIED[kind]
     path, _ = swept(kind)
-    shown = json.loads(invoked("show", path, "--json"))
+    shown = json.loads(invoke("show", path, "--json"))
     assert shown["cases"] == shown["done"] == 2
     figures = STUDIES[kind].swept()
     with SweepRecord(path) as record:
@@ -104,9 +96,9 @@ def test_it_is_shown_and_drawn(kind: str, swept, tmp_path: Path):
     path, said = swept(kind)
     assert "minimum" in said
     assert "2 done" in said
-    lines = [one for one in STUDIES[kind].sweep_table() if one.title in invoked("show", path)]
+    lines = [line for line in STUDIES[kind].sweep_table() if line.title in invoke("show", path)]
     assert len(lines) >= 3
-    drawn = json.loads(invoked("plot", path, "-o", tmp_path, "--json"))["pictures"]
+    drawn = json.loads(invoke("plot", path, "-o", tmp_path, "--json"))["pictures"]
     assert [Path(picture).name for picture in drawn] == ["sweep-response.png"]
     assert Path(drawn[0]).read_bytes().startswith(b"\x89PNG")
 
@@ -122,10 +114,7 @@ def test_it_is_shown_and_drawn(kind: str, swept, tmp_path: Path):
 )
 def test_what_belongs_to_motions_is_refused(kind: str, words: tuple[str, str], said: str, tmp_path: Path):
     path = tmp_path / "sweep.h5"
-    printed = invoked(
-        "sweep", written_template(kind, tmp_path), *words_of(kind), *words, "-o", path, status=2
-    )
-    (line,) = printed.splitlines()
+    line = complaint("sweep", written_template(kind, tmp_path), *words_of(kind), *words, "-o", path)
     assert said in line
     assert STUDIES[kind].about in line
     assert not path.exists()
@@ -146,7 +135,7 @@ def test_a_stopped_sweep_goes_on_to_the_same_record(tmp_path: Path):
     with SweepRecord(tmp_path / "stopped.partial.h5") as left:
         assert left.count() == {"cases": 2, "done": 1, "failed": 0, "waiting": 1}
     words = [written_template(kind, tmp_path), *words_of(kind), "-o", tmp_path / "stopped.h5", "--resume"]
-    invoked("sweep", *words)
+    invoke("sweep", *words)
     with SweepRecord(tmp_path / "stopped.h5") as record:
         assert record.summary["cases_done_by_this_call"] == 1
     with h5py.File(whole.path) as a, h5py.File(tmp_path / "stopped.h5") as b:

@@ -1,16 +1,14 @@
 """On a narrow terminal words go on to the next line, no line is too long, and no number is broken or cut."""
 
-import os
 import re
 import shutil
 from collections import Counter
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 from tests.support.short_studies import written_template
-from tribodyn.cli.app import app
+from tests.support.verbs import ended, invoke
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.study import Study
@@ -28,21 +26,15 @@ def studies(tmp_path_factory, short_runs) -> Path:
         written_template(kind, folder)
         shutil.copy(short_runs(kind).path, folder)
     swept = ["sweep", "gear-pair.toml", "--vary", "operating.pinion_speed=1000,12000rpm", "-o", "swept.h5"]
-    here = Path.cwd()
-    os.chdir(folder)
-    try:
-        ended = CliRunner().invoke(app, [*swept, "--transient", "2"])
-    finally:
-        os.chdir(here)
-    assert ended.exit_code == 0, ended.output
+    invoke(*swept, "--transient", "2", folder=folder)
     return folder
 
 
 def shown(words: list[str], width: int) -> str:
     terminal = {"FORCE_COLOR": "1", "TERM": "xterm", "COLUMNS": str(width)}
-    ended = CliRunner().invoke(app, words, env=terminal)
-    assert ended.exit_code in (0, 4), ended.output
-    return re.sub(r"\x1b\[[0-9;]*m", "", ended.stdout)
+    found = ended(*words, env=terminal)
+    assert found.exit_code in (0, 4), found.output
+    return re.sub(r"\x1b\[[0-9;]*m", "", found.stdout)
 
 
 def check_narrow(words: list[str]) -> None:
@@ -84,8 +76,7 @@ def test_figures_are_listed_for_sweeps_and_refused_for_what_has_none(studies, mo
     monkeypatch.chdir(studies)
     assert "campbell" in shown(["list", "plots", "swept.h5"], WIDE)
     for words in (["list", "laws", "gear-pair.h5"], ["list", "plots", "gear-pair.toml"]):
-        refused = CliRunner().invoke(app, words)
-        assert refused.exit_code == 2
+        assert ended(*words).exit_code == 2
 
 
 def test_papers_are_listed_with_their_titles():

@@ -4,10 +4,9 @@ import json
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 import tribodyn.validation
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, ended, invoke
 from tribodyn.validation import PAPERS
 from tribodyn.validation.rows import Row
 
@@ -18,23 +17,22 @@ ROW = Row("a/film", "film thickness", "um", 100.0, 101.0, 0.01, 0.02, "relative"
 @pytest.mark.parametrize(("verdict", "status"), [("pass", 0), ("reported", 0), ("fail", 4)])
 def test_the_exit_status_says_whether_a_row_fails(verdict: str, status: int, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(tribodyn.validation, "validate", lambda *_: [ROW._replace(verdict=verdict)])
-    ended = CliRunner().invoke(app, ["validate", PAPER])
-    assert ended.exit_code == status
-    assert ended.stderr == (f"{PAPER}: outside tolerance: a/film\n" if status else "")
-    assert "a note" in ended.stdout
-    assert "1 %" in ended.stdout
+    found = ended("validate", PAPER)
+    assert found.exit_code == status
+    assert found.stderr == (f"{PAPER}: outside tolerance: a/film\n" if status else "")
+    assert "a note" in found.stdout
+    assert "1 %" in found.stdout
 
 
 def test_table_and_json_hold_every_row():
-    shown, printed = (CliRunner().invoke(app, ["validate", PAPER, *more]) for more in ((), ("--json",)))
-    assert (shown.exit_code, printed.exit_code) == (0, 0)
-    assert shown.stdout.startswith(f"{PAPER}: as published")
-    data = json.loads(printed.stdout)
+    shown, printed = invoke("validate", PAPER), invoke("validate", PAPER, "--json")
+    assert shown.startswith(f"{PAPER}: as published")
+    data = json.loads(printed)
     assert "as published" in data["choices"]
     keys = {"id", "published", "computed", "difference", "tolerance", "tolerance_reason", "verdict", "note"}
     assert all(keys <= row.keys() for row in data["rows"])
     assert [row["id"] for row in data["rows"]] == [row.id for row in tribodyn.validation.validate(PAPER)]
-    table = " ".join(shown.stdout.split())
+    table = " ".join(shown.split())
     (row,) = [row for row in data["rows"] if row["id"] == "efremenkov/efficiency"]
     assert row["hangs_on_choice"]
     assert "under this choice only" in table
@@ -43,9 +41,8 @@ def test_table_and_json_hold_every_row():
 
 def test_a_paper_without_figures_says_so_before_it_runs(tmp_path: Path):
     without = next(name for name, paper in PAPERS.items() if paper.figures is None)
-    ended = CliRunner().invoke(app, ["validate", without, "--plots", str(tmp_path / "pictures")])
-    assert ended.exit_code == 2
-    assert "none of them is drawn here" in ended.stderr
+    said = complaint("validate", without, "--plots", tmp_path / "pictures")
+    assert "none of them is drawn here" in said
     assert not (tmp_path / "pictures").exists()
 
 

@@ -1,17 +1,14 @@
 """What is published: the source distribution, and the wheel built from it, for any folder and any index."""
 
-import os
 import re
 import subprocess
 import sys
 import zipfile
-from pathlib import Path
 
 import pytest
 
+from tests.support.verbs import ROOT, in_a_process
 from tools.index_description import long_description
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")
@@ -31,20 +28,9 @@ def installed(built):
     return built / "site"
 
 
-def tribodyn(installed, folder, *arguments):
-    environment = {**os.environ, "PYTHONPATH": str(installed)}
-    return subprocess.run(
-        [sys.executable, "-P", "-m", "tribodyn", *arguments],
-        cwd=folder,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
 @pytest.mark.slow
-def test_wheel_holds_models_and_scenarios(installed):
+def test_the_wheel_is_typed_and_holds_models_and_scenarios(installed):
+    assert (installed / "tribodyn" / "py.typed").is_file()
     for folder in ("models", "scenarios"):
         inside = {p.relative_to(ROOT / folder) for p in (ROOT / folder).rglob("*") if p.is_file()}
         shipped = installed / "tribodyn" / "data" / folder
@@ -52,18 +38,12 @@ def test_wheel_holds_models_and_scenarios(installed):
 
 
 @pytest.mark.slow
-def test_the_wheel_says_that_it_is_typed(installed):
-    assert (installed / "tribodyn" / "py.typed").is_file()
-
-
-@pytest.mark.slow
 def test_installed_wheel_runs_from_an_empty_folder(installed, tmp_path):
-    done = tribodyn(installed, tmp_path, "run", "crc-23-47", "--set", "solver.cycles=2")
-    assert done.returncode == 0, done.stderr
+    for words in (("run", "crc-23-47", "--set", "solver.cycles=2"), ("--version",)):
+        done = in_a_process(*words, folder=tmp_path, PYTHONPATH=str(installed), PYTHONSAFEPATH="1")
+        assert done.returncode == 0, done.stderr
     assert (tmp_path / "crc-23-47.h5").exists()
     assert (tmp_path / "crc-23-47-overview.png").exists()
-    where = tribodyn(installed, tmp_path, "--version")
-    assert where.returncode == 0
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.support.states import recorded, sampled
 from tribodyn.dynamics.outputs import outputs
 from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.choice import choose
@@ -15,10 +16,8 @@ SAMPLES = 100
 
 
 def solve(model, rtol=1e-9, cycles=4, method="dopri5", initial="static"):
-    state = initial_state(model, initial)
-    parts = transient(model, state, TransientSettings(method, rtol, cycles, 200000, SAMPLES))
-    chunks = [part for part in parts if isinstance(part, SampledStates)]
-    return np.concatenate([c.cycles for c in chunks]), np.concatenate([c.states for c in chunks])
+    settings = TransientSettings(method, rtol, cycles, 200000, SAMPLES)
+    return sampled(model, settings, initial_state(model, initial))
 
 
 def error(states, reference):
@@ -153,17 +152,10 @@ def test_switching_gives_the_same_motion_at_less_cost(prepared):
 
 def test_stick_converges_as_the_width_shrinks(prepared):
     """At 10 rad/s, where flanks stick: creep within the width is no part of the answer."""
-    overrides = {"friction.sliding": "dynamic"}
-    widths = ("40 um", "20 um", "10 um", "5 um")
-    found = [
-        solve(
-            prepared("crc-23-47", **overrides, **{"friction.reversal_width": width}).model,
-            1e-7,
-            2,
-            "switching",
-        )[1]
-        for width in widths
-    ]
+    found = []
+    for width in ("40 um", "20 um", "10 um", "5 um"):
+        overrides = {"friction.sliding": "dynamic", "friction.reversal_width": width}
+        found.append(solve(prepared("crc-23-47", **overrides).model, 1e-7, 2, "switching")[1])
     changes = [error(a, found[-1]) for a in found[:-1]]
     assert changes[0] > changes[1] > changes[2]
     assert changes[1] < 5e-3
@@ -185,21 +177,22 @@ def test_parametric_work_is_there_only_in_the_classical_formulation(prepared):
     )
 
 
+#: A light load, so that teeth separate.
+LIGHT = {
+    "operating.gear_torque": "30 N*m",
+    "mesh.transmission_error.harmonics": [{"order": 1, "amplitude": "8 um", "phase": "0 deg"}],
+}
+
+
 @pytest.mark.parametrize(
-    ("key", "widths"),
+    ("key", "widths", "load"),
     [
-        ("friction.reversal_width", ["160 um", "80 um", "40 um", "20 um"]),
-        ("mesh.contact_width", ["1.6 um", "0.8 um", "0.4 um", "0.2 um"]),
+        ("friction.reversal_width", ["160 um", "80 um", "40 um", "20 um"], {}),
+        ("mesh.contact_width", ["1.6 um", "0.8 um", "0.4 um", "0.2 um"], LIGHT),
     ],
 )
-def test_answer_converges_as_a_smoothing_width_shrinks(prepared, key, widths):
-    overrides = {"operating.pinion_speed": "300 rad/s"}
-    if key == "mesh.contact_width":
-        # a light load, so that teeth separate
-        overrides |= {
-            "operating.gear_torque": "30 N*m",
-            "mesh.transmission_error.harmonics": [{"order": 1, "amplitude": "8 um", "phase": "0 deg"}],
-        }
+def test_answer_converges_as_a_smoothing_width_shrinks(prepared, key, widths, load):
+    overrides = {"operating.pinion_speed": "300 rad/s", **load}
     found = [solve(prepared("crc-23-47", **overrides, **{key: width}).model)[1] for width in widths]
     changes = [error(a, found[-1]) for a in found[:-1]]
     assert changes[0] > changes[1] > changes[2]
@@ -208,16 +201,8 @@ def test_answer_converges_as_a_smoothing_width_shrinks(prepared, key, widths):
 
 def test_contact_is_lost_and_found(prepared):
     """The case of the test above does separate: otherwise it would prove nothing."""
-    case = prepared(
-        "crc-23-47",
-        **{
-            "operating.pinion_speed": "300 rad/s",
-            "operating.gear_torque": "30 N*m",
-            "mesh.transmission_error.harmonics": [{"order": 1, "amplitude": "8 um", "phase": "0 deg"}],
-        },
-    )
-    found = outputs(*solve(case.model), case.model)
-    total = found["normal_load"].sum(axis=1)
+    model = prepared("crc-23-47", **LIGHT, **{"operating.pinion_speed": "300 rad/s"}).model
+    total = outputs(*solve(model), model)["normal_load"].sum(axis=1)
     assert np.any(total == 0.0)
     assert np.any(total > 100.0)
 
@@ -240,13 +225,9 @@ def test_start_is_at_rest_in_equilibrium(prepared):
     cycles, states = solve(case.model, cycles=1)
     found = outputs(cycles[:1], states[:1], case.model)
     arm = case.cycle.gear_pitch_radius * np.cos(found["pressure_angle"][0])
-    moment = np.sum(found["normal_load"][0] * arm) + np.sum(
-        found["friction_force"][0]
-        * (
-            case.cycle.gear_pitch_radius * np.sin(found["pressure_angle"][0])
-            - case.cycle.signed_distance[0, 0]
-        )
-    )
+    friction_arm = case.cycle.gear_pitch_radius * np.sin(found["pressure_angle"][0])
+    friction_arm = friction_arm - case.cycle.signed_distance[0, 0]
+    moment = np.sum(found["normal_load"][0] * arm + found["friction_force"][0] * friction_arm)
     assert moment == pytest.approx(500.0, rel=1e-9)
 
 
@@ -258,11 +239,7 @@ def test_friction_does_its_work_on_the_recorded_sliding(speed, prepared):
     no more than half its change times the step.
     """
     model = prepared("crc-23-47", **{"friction.sliding": "dynamic", "operating.pinion_speed": speed}).model
-    state = initial_state(model, "static")
-    parts = transient(model, state, TransientSettings("dopri5", 1e-8, 3, 200000, 2000))
-    chunks = [part for part in parts if isinstance(part, SampledStates)]
-    cycles, states = (np.concatenate([getattr(c, of) for c in chunks]) for of in ("cycles", "states"))
-    found = outputs(cycles, states, model)
+    found = recorded(model, TransientSettings("dopri5", 1e-8, 3, 200000, 2000))
     power = np.nansum(found["friction_force"] * found["sliding_speed"], axis=1)
     step, change = np.diff(found["time"]), np.abs(np.diff(power))
     work = found["work_friction"][-1] - found["work_friction"][0]

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.support.states import recorded
 from tribodyn.dynamics.extremes import LOWEST
-from tribodyn.dynamics.outputs import outputs, outputs_with_extremes
+from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.record.reader import open_record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
@@ -71,10 +72,7 @@ def test_few_samples_give_the_extremes_of_very_many(name, overrides, prepared):
 
 def test_contact_is_lost_in_the_case_with_backlash(prepared):
     model = prepared(RATTLE[0], **RATTLE[1]).model
-    parts = transient(model, static_equilibrium(model), TransientSettings("dopri5", 1e-6, 2, 10**6, 200))
-    states = [part for part in parts if isinstance(part, SampledStates)]
-    loads = [outputs(part.cycles, part.states, model)["normal_load"] for part in states]
-    touching = np.concatenate(loads) > 0.0
+    touching = recorded(model, TransientSettings("dopri5", 1e-6, 2, 10**6, 200))["normal_load"] > 0.0
     assert np.any(~np.any(touching, axis=1))
     assert np.any(touching[:, 2:])  # back flanks
 

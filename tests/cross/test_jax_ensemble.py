@@ -4,10 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 from tests.support.compilations import compilations
-from tribodyn.cli.app import app
+from tests.support.verbs import invoke, sets
 from tribodyn.dynamics.parameters import XI
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE as RECORDED
@@ -119,25 +118,20 @@ def test_a_motion_that_grows_without_bound_ends_alone(motors):
 
 
 def swept(engine: str, path: Path, *words: str) -> Path:
-    options = [word for key, value in MOTOR.items() for word in ("--set", f"{key}={value}")]
-    ended = CliRunner().invoke(
-        app, ["sweep", "crc-23-47", *options, *words, "--engine", engine, "-o", str(path)]
-    )
-    assert ended.exit_code == 0, f"{ended.output}\n{ended.exception}"
+    invoke("sweep", "crc-23-47", *sets(MOTOR), *words, "--engine", engine, "-o", path)
     return path
 
 
 def assert_alike(jax_path: Path, native_path: Path, figures: float) -> None:
     """The same statuses, transmission errors, and figures to a relative tolerance."""
-    with SweepRecord(jax_path) as one, SweepRecord(native_path) as other:
-        np.testing.assert_array_equal(one["status"], other["status"])
-        for a, b in zip(
-            one["transmission_error_rotational"], other["transmission_error_rotational"], strict=True
-        ):
+    error = "transmission_error_rotational"
+    with SweepRecord(jax_path) as mapped, SweepRecord(native_path) as native:
+        np.testing.assert_array_equal(mapped["status"], native["status"])
+        for a, b in zip(mapped[error], native[error], strict=True):
             assert np.isfinite(a).all() == np.isfinite(b).all()
             assert not np.isfinite(b).all() or np.max(np.abs(a - b)) < AGREE * np.ptp(b)
         for name in (quantity.name for quantity in SWEPT):
-            np.testing.assert_allclose(one[name], other[name], rtol=figures, atol=0.0, err_msg=name)
+            np.testing.assert_allclose(mapped[name], native[name], rtol=figures, atol=0.0, err_msg=name)
 
 
 def test_the_verb_gives_the_record_of_the_native_engine(tmp_path: Path):

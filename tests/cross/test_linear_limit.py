@@ -5,9 +5,10 @@ import pytest
 from scipy.linalg import expm
 
 from tests.support.linear_mesh import FREE, OVERRIDES, SEGMENTS, generator, matrices
+from tests.support.states import sampled
 from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES
 from tribodyn.solve.initial import accelerations, static_equilibrium
-from tribodyn.solve.transient import SampledStates, TransientSettings, transient
+from tribodyn.solve.transient import TransientSettings
 
 
 @pytest.fixture(scope="module")
@@ -45,12 +46,7 @@ def test_run_follows_the_matrix_exponential(case):
     """Two cycles, both segments, against exact propagation of the linear system."""
     samples = 100
     y = static_equilibrium(case.model)
-    chunks = [
-        part
-        for part in transient(case.model, y, TransientSettings("dopri5", 1e-10, 2, 100000, samples))
-        if isinstance(part, SampledStates)
-    ]
-    states = np.concatenate([c.states for c in chunks])
+    _, states = sampled(case.model, TransientSettings("dopri5", 1e-10, 2, 100000, samples), y)
     boundary = np.asarray(case.model.table.boundary)
     z = y[FREE]
     generators = {segment: generator(case, pairs) for segment, pairs in SEGMENTS}

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.support.closures import known
+from tests.support.states import recorded, sampled
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.slices import face_positions
@@ -21,7 +22,7 @@ from tribodyn.geometry.flanks.modification import (
     Relief,
 )
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.transient import SampledStates, TransientSettings, transient
+from tribodyn.solve.transient import TransientSettings
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.tribology.law import FrictionData
 
@@ -37,14 +38,7 @@ def test_creeping_run_is_the_load_contact_model(prepared, modified, slices):
     case = prepared("involute-18-36-fem", **slow).case
     mesh = dataclasses.replace(case.mesh, modifications=modified, slices=slices)
     run = prepare(dataclasses.replace(case, mesh=mesh))
-    settings = TransientSettings("radau", 1e-8, 1, 100000, SAMPLES)
-    chunks = [
-        part
-        for part in transient(run.model, static_equilibrium(run.model), settings)
-        if isinstance(part, SampledStates)
-    ]
-    cycles = np.concatenate([chunk.cycles for chunk in chunks])
-    found = outputs(cycles, np.concatenate([chunk.states for chunk in chunks]), run.model)["normal_load"]
+    found = recorded(run.model, TransientSettings("radau", 1e-8, 1, 100000, SAMPLES))["normal_load"]
 
     case, cycle = run.case, run.cycle
     flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=slices > 1)
@@ -120,12 +114,7 @@ def test_relieved_tips_quieten_the_running_pair(prepared):
     for name in ("involute-18-36-fem", "involute-18-36-tip-relief"):
         model = prepared(name).model
         settings = TransientSettings("dopri5", 1e-6, 16, 100000, SAMPLES)
-        chunks = [
-            part
-            for part in transient(model, static_equilibrium(model), settings)
-            if isinstance(part, SampledStates)
-        ]
-        cycles = np.concatenate([chunk.cycles for chunk in chunks])
-        found = outputs(cycles, np.concatenate([chunk.states for chunk in chunks]), model)
+        cycles, states = sampled(model, settings)
+        found = outputs(cycles, states, model)
         swings.append(np.ptp(found["transmission_error_rotational"][cycles > 12]))
     assert swings[1] < 0.2 * swings[0]

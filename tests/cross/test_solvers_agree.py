@@ -3,21 +3,16 @@
 import numpy as np
 import pytest
 
+from tests.support.states import sampled
 from tribodyn.dynamics.parameters import XI
-from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.methods import METHODS, Runs
-from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
+from tribodyn.solve.transient import TransientSettings
 
 CYCLES, SAMPLES = 6, 100
 
 
 def solve(model, method, rtol):
-    parts = list(
-        transient(model, static_equilibrium(model), TransientSettings(method, rtol, CYCLES, 100000, SAMPLES))
-    )
-    assert isinstance(parts[-1], Stop)
-    assert parts[-1].reason == ""
-    states = np.concatenate([part.states for part in parts if isinstance(part, SampledStates)])
+    _, states = sampled(model, TransientSettings(method, rtol, CYCLES, 100000, SAMPLES))
     assert states.shape[0] == CYCLES * SAMPLES + 1
     return states
 

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from tests.support.states import sampled
 from tribodyn.dynamics.parameters import XI
 from tribodyn.geometry.drive import tip_radius
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.path import contact_limits, contact_ratio
-from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
+from tribodyn.solve.transient import TransientSettings
 
 CYCLES, SAMPLES = 4, 50
 
@@ -30,11 +30,7 @@ RTOL = {"dopri5": 1e-8, "radau": 1e-6}
 def run(prepared, addendum, method):
     case = prepared("involute-23-47", **{"drive.pinion.addendum": addendum, "drive.gear.addendum": addendum})
     settings = TransientSettings(method, RTOL[method], CYCLES, 100000, SAMPLES)
-    parts = list(transient(case.model, static_equilibrium(case.model), settings))
-    assert isinstance(parts[-1], Stop)
-    assert parts[-1].reason == ""
-    states = np.concatenate([part.states for part in parts if isinstance(part, SampledStates)])
-    return case, states
+    return case, sampled(case.model, settings)[1]
 
 
 @pytest.mark.parametrize("method", ["dopri5", pytest.param("radau", marks=pytest.mark.soak)])

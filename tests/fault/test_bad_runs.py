@@ -1,27 +1,14 @@
 """Bad input to the verbs, in processes of their own: one line, exit status 2, nothing written or lost."""
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
+from tests.support.verbs import ROOT, in_a_process, sets
 
-SHORT = ("--set", "solver.cycles=1", "--set", "output.samples_per_cycle=16", "--no-plot")
-
-
-def tribodyn(*arguments: str, folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-W", "error", "-m", "tribodyn", *arguments],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), **environment},
-        check=False,
-    )
+SHORT = (*sets("solver.cycles=1", "output.samples_per_cycle=16"), "--no-plot")
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -71,7 +58,7 @@ def test_one_line_and_nothing_touched(
 def test_a_folder_that_cannot_be_written_to(tmp_path: Path):
     folder = tmp_path / "closed"
     folder.mkdir(mode=0o555)
-    ended = tribodyn("run", "crc-23-47", "-o", "closed/a.h5", *SHORT, folder=tmp_path)
+    ended = in_a_process("run", "crc-23-47", "-o", "closed/a.h5", *SHORT, folder=tmp_path)
     assert ended.returncode == 2
     (line,) = ended.stderr.splitlines()
     assert line.startswith("output = closed/a.h5: the folder cannot be written to")
@@ -80,7 +67,7 @@ def test_a_folder_that_cannot_be_written_to(tmp_path: Path):
 
 @pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="no folder that even root may not write to")
 def test_a_folder_in_which_no_file_can_be_made(tmp_path: Path):
-    ended = tribodyn("run", "crc-23-47", "-o", "/proc/a.h5", *SHORT, folder=tmp_path)
+    ended = in_a_process("run", "crc-23-47", "-o", "/proc/a.h5", *SHORT, folder=tmp_path)
     assert ended.returncode == 2
     (line,) = ended.stderr.splitlines()
     assert line.startswith("output = /proc/a.h5: ")
@@ -88,16 +75,8 @@ def test_a_folder_in_which_no_file_can_be_made(tmp_path: Path):
 
 
 def test_a_simulation_that_gives_up_says_when_and_keeps_what_it_has(tmp_path: Path, forked: ForkedVerbs):
-    ended = forked(
-        "run",
-        "crc-23-47",
-        *SHORT,
-        "--set",
-        "solver.cycles=3",
-        "--set",
-        "solver.max_steps=100",
-        folder=tmp_path,
-    )
+    few = sets("solver.cycles=3", "solver.max_steps=100")
+    ended = forked("run", "crc-23-47", *SHORT, *few, folder=tmp_path)
     assert ended.returncode == 3, ended.stderr
     (line,) = ended.stderr.splitlines()
     assert "the simulation failed: stopped at t = " in line
@@ -110,11 +89,11 @@ def test_a_simulation_that_gives_up_says_when_and_keeps_what_it_has(tmp_path: Pa
 
 def test_a_bug_is_one_line_unless_the_traceback_is_asked_for(tmp_path: Path):
     (tmp_path / "h5py.py").write_text("raise RuntimeError('broken\\ninstallation')", encoding="utf-8")
-    broken = f"{tmp_path}{os.pathsep}{Path(__file__).parents[2]}"
-    ended = tribodyn("show", "a.h5", folder=tmp_path, PYTHONPATH=broken)
+    broken = f"{tmp_path}{os.pathsep}{ROOT}"
+    ended = in_a_process("show", "a.h5", folder=tmp_path, PYTHONPATH=broken)
     assert ended.returncode == 1
     (line,) = ended.stderr.splitlines()
     assert line.startswith("a bug in tribodyn: RuntimeError: broken installation; set TRIBODYN_TRACEBACK=1")
-    asked = tribodyn("show", "a.h5", folder=tmp_path, PYTHONPATH=broken, TRIBODYN_TRACEBACK="1")
+    asked = in_a_process("show", "a.h5", folder=tmp_path, PYTHONPATH=broken, TRIBODYN_TRACEBACK="1")
     assert asked.returncode == 1
     assert "Traceback" in asked.stderr

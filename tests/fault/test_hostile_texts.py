@@ -11,12 +11,11 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
-from typer.testing import CliRunner
 
 import tribodyn as td
 from tests.support.hostile_texts import HOSTILE, LONG, hostile_copy
-from tests.support.short_studies import SHORT, ShortRuns, written_template
-from tribodyn.cli.app import app
+from tests.support.short_studies import ShortRuns, shortened, written_template
+from tests.support.verbs import ended
 from tribodyn.post.style import house_style, literal, save
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
@@ -36,12 +35,12 @@ SLOW = ("load-contact", "design", "assessment")
 KINDS = [pytest.param(kind, marks=pytest.mark.slow) if kind in SLOW else kind for kind in STUDIES]
 
 
-def drawn(one: Figure) -> list[str]:
+def drawn(figure: Figure) -> list[str]:
     """Draw a figure; the texts in it."""
-    one.dpi = 20
+    figure.dpi = 20
     with house_style():
-        FigureCanvasAgg(one).draw()
-    return [text.get_text() for text in one.findobj(Text) if isinstance(text, Text)]
+        FigureCanvasAgg(figure).draw()
+    return [text.get_text() for text in figure.findobj(Text) if isinstance(text, Text)]
 
 
 @pytest.fixture
@@ -103,15 +102,14 @@ def test_a_file_for_print(ending: str, hostile, tmp_path: Path):
 def test_a_literal_text_is_drawn_as_it_is(text: str, tmp_path: Path):
     """The letters of an SVG are those of the text, also beside a formula."""
     with house_style(), mpl.rc_context():
-        one = Figure((3, 1))
-        one.text(0.0, 0.5, rf"$\mathbf{{(a)}}$ {literal(text)}")
-        one.text(0.0, 0.0, literal(text))
-    root = ElementTree.parse(save(one, tmp_path / "a.svg")).getroot()
-    groups = [one for one in root.iter() if one.get("id", "").startswith("text_")]
+        picture = Figure((3, 1))
+        picture.text(0.0, 0.5, rf"$\mathbf{{(a)}}$ {literal(text)}")
+        picture.text(0.0, 0.0, literal(text))
+    root = ElementTree.parse(save(picture, tmp_path / "a.svg")).getroot()
+    groups = [element for element in root.iter() if element.get("id", "").startswith("text_")]
+    letters = ["".join("".join(group.itertext()).split()) for group in groups]
     shown = "".join(literal(text).replace(r"\$", "$").split())
-    assert ["".join("".join(one.itertext()).split()) for one in groups][:2] == [f"(a){shown}", shown][
-        : len(groups)
-    ]
+    assert letters[:2] == [f"(a){shown}", shown][: len(groups)]
 
 
 def test_a_run_of_a_scenario_with_such_a_title(tmp_path: Path):
@@ -119,15 +117,13 @@ def test_a_run_of_a_scenario_with_such_a_title(tmp_path: Path):
     path = written_template(kind, tmp_path)
     text = path.read_text(encoding="utf-8")
     path.write_text(text.replace(tomllib.loads(text)["title"], title.replace("\\", r"\\")), encoding="utf-8")
-    keys = [word for key, value in SHORT[kind].items() for word in ("--set", f"{key}={value}")]
-    words = ["run", str(path), "-o", str(tmp_path / "a.h5"), "--report", "--plot", *keys]
-    ended = CliRunner().invoke(app, words)
-    assert (ended.exit_code, ended.stderr) == (0, "")
-    assert title in ended.stdout
+    found = ended("run", path, "-o", tmp_path / "a.h5", "--report", "--plot", *shortened(kind))
+    assert (found.exit_code, found.stderr) == (0, "")
+    assert title in found.stdout
     assert (tmp_path / "a-overview.png").stat().st_size > 1000
 
 
 def test_a_drive_with_such_a_title(tmp_path: Path):
-    words = ["gear", "liu-ni-involute-23-47", "-o", str(tmp_path), "--points", "10"]
-    ended = CliRunner().invoke(app, [*words, "--set", r"drive.title=a $\badmacro$ 🦷 b"])
-    assert (ended.exit_code, ended.stderr) == (0, "")
+    words = ("gear", "liu-ni-involute-23-47", "-o", tmp_path, "--points", "10")
+    found = ended(*words, "--set", r"drive.title=a $\badmacro$ 🦷 b")
+    assert (found.exit_code, found.stderr) == (0, "")

@@ -3,18 +3,16 @@
 A limit of the system to the size of files stands for the disk: it takes so many bytes of each and no more.
 """
 
-import os
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tests.support.short_studies import SHORT, ShortRuns
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, ended, invoke, sets
 from tribodyn.errors import OutputError
 from tribodyn.numerics.output_files import MARKS, write_output
 from tribodyn.record.reader import open_record
@@ -34,23 +32,10 @@ def files_of_at_most(size: int) -> Iterator[None]:
         signal.signal(signal.SIGXFSZ, handler)
 
 
-def invoke(folder: Path, words: list[str]) -> tuple[int, str]:
-    before = Path.cwd()
-    folder.mkdir(exist_ok=True)
-    os.chdir(folder)
-    try:
-        ended = CliRunner().invoke(app, words)
-    finally:
-        os.chdir(before)
-    return ended.exit_code, ended.stderr
-
-
 def sizes(folder: Path) -> dict[str, int]:
     return {path.name: path.stat().st_size for path in folder.iterdir()}
 
 
-#: Settings of a short run.
-KEYS = [word for key, value in SHORT["backlash-oscillator"].items() for word in ("--set", f"{key}={value}")]
 VERBS = {
     "plot": ["plot", "RECORD", "overview"],
     "plot as PDF": ["plot", "RECORD", "overview", "--format", "pdf"],
@@ -59,7 +44,7 @@ VERBS = {
     "gear": ["gear", "liu-ni-involute-23-47", "-o", ".", "--points", "10"],
     "gear as spline": ["gear", "liu-ni-involute-23-47", "--as-spline", "9"],
     "init": ["init", "mine"],
-    "run": ["run", "backlash-oscillator", "-o", "m.h5", "--report", *KEYS],
+    "run": ["run", "backlash-oscillator", "-o", "m.h5", "--report", *sets(SHORT["backlash-oscillator"])],
 }
 
 
@@ -67,13 +52,14 @@ VERBS = {
 def test_no_file_is_cut(verb: str, short_runs: ShortRuns, tmp_path: Path):
     record = str(short_runs("backlash-oscillator").path) if "RECORD" in VERBS[verb] else ""
     words = [record if word == "RECORD" else word for word in VERBS[verb]]
-    assert invoke(tmp_path / "whole", words) == (0, "")
+    (tmp_path / "whole").mkdir()
+    assert ended(*words, folder=tmp_path / "whole").stderr == ""
     whole = sizes(tmp_path / "whole")
-    for size in sorted({one for name, one in whole.items() if not name.endswith(".h5")}):
+    for size in sorted({bytes_ for name, bytes_ in whole.items() if not name.endswith(".h5")}):
         folder = tmp_path / str(size)
+        folder.mkdir()
         with files_of_at_most(size // 2):
-            status, said = invoke(folder, words)
-        assert (status, len(said.splitlines())) == (3, 1)
+            said = complaint(*words, folder=folder, status=3)
         named = Path(said.partition(": cannot be written: File too large")[0]).name
         assert named in whole
         assert whole[named] > size // 2
@@ -81,7 +67,7 @@ def test_no_file_is_cut(verb: str, short_runs: ShortRuns, tmp_path: Path):
         assert named not in left
         assert not [name for name in left if name.endswith(".tmp")]
         # a date or a duration in a file may be a digit longer
-        assert all(abs(one - whole[name]) < 100 for name, one in left.items())
+        assert all(abs(bytes_ - whole[name]) < 100 for name, bytes_ in left.items())
         if "m.h5" in left:
             assert said.rstrip().endswith("the record is complete: m.h5")
 
@@ -97,16 +83,13 @@ def test_what_was_there_stays(ending: str, tmp_path: Path):
 
 @pytest.mark.soak  # without room for compiled kernels they are made anew
 def test_a_part_of_an_assessment_is_named(tmp_path: Path):
-    assert invoke(tmp_path, ["init", "mine", "--kind", "assessment"])[0] == 0
+    invoke("init", "mine", "--kind", "assessment", folder=tmp_path)
     (tmp_path / "mine").mkdir()
     with files_of_at_most(64):
-        status, said = invoke(tmp_path, ["assess", "mine.toml"])
-    assert (status, len(said.splitlines())) == (3, 1)
+        said = complaint("assess", "mine.toml", folder=tmp_path, status=3)
     assert "mine/assessment-parts/" in said
     assert ": cannot be written: File too large" in said
-    assert not [
-        path for path in (tmp_path / "mine").rglob("*") if path.is_file() and path.stat().st_size == 64
-    ]
+    assert 64 not in [path.stat().st_size for path in (tmp_path / "mine").rglob("*") if path.is_file()]
 
 
 def record_and_drawing(folder: Path) -> None:

@@ -8,9 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, invoke
 from tribodyn.errors import InputError
 from tribodyn.record.writer import check_target
 from tribodyn.record.writing_lock import WritingLock, lock_path, refuse_if_written
@@ -43,21 +42,19 @@ def test_a_second_writer_is_refused_until_the_first_is_killed(
     partial = tmp_path / "here.partial.h5"
     partial.write_bytes(b"what the other process has written so far")
     for words in (SWEEP, (*SWEEP, "--force"), (*SWEEP, "--resume"), RUN, (*RUN, "--force")):
-        refused = CliRunner().invoke(app, [*words, "-o", str(path)])
-        assert refused.exit_code == 2, refused.output
-        assert refused.stderr.splitlines() == [
+        assert complaint(*words, "-o", path) == (
             f"output = {path}: process {holder.pid} is writing it; "
             "wait for its end, or choose another name with --output"
-        ]
+        )
     assert partial.read_bytes() == b"what the other process has written so far"
     holder.kill()
     holder.wait()
     assert lock_path(path).exists()  # nobody was there to remove it
     partial.unlink()
-    assert CliRunner().invoke(app, [*SWEEP, "--resume", "-o", str(path)]).exit_code == 0
+    invoke(*SWEEP, "--resume", "-o", path)
     assert path.exists()
     assert not lock_path(path).exists()
-    assert CliRunner().invoke(app, [*RUN, "--force", "-o", str(path)]).exit_code == 0
+    invoke(*RUN, "--force", "-o", path)
     assert not lock_path(path).exists()
 
 

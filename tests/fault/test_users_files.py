@@ -4,26 +4,13 @@ import os
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 from tests.support.short_studies import ShortRuns
-from tribodyn.cli.app import app
+from tests.support.verbs import complaint, ended, invoke
 from tribodyn.errors import InputError
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
 
 PRECIOUS = b"precious"
-
-
-def invoke(folder: Path, *words: str) -> tuple[int, str]:
-    """Run a verb in this process, in a folder; exit status and what it complains of."""
-    before = Path.cwd()
-    os.chdir(folder)
-    try:
-        ended = CliRunner().invoke(app, list(words))
-    finally:
-        os.chdir(before)
-    assert "Traceback" not in ended.output
-    return ended.exit_code, ended.stderr
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +42,7 @@ VERBS = {
 def test_a_verb_replaces_its_own_files_and_no_others(verb: str, record: Path, tmp_path: Path):
     words = [str(record) if word == "RECORD" else word for word in VERBS[verb][0]]
     for _ in range(2):
-        assert invoke(tmp_path, *words) == (0, "")
+        assert ended(*words, folder=tmp_path).stderr == ""
     assert set(VERBS[verb][1]) <= {path.name for path in tmp_path.iterdir()}
     victim = tmp_path / "victim"
     victim.write_bytes(PRECIOUS)
@@ -63,22 +50,17 @@ def test_a_verb_replaces_its_own_files_and_no_others(verb: str, record: Path, tm
         file = tmp_path / name
         made = file.read_bytes()
         file.write_bytes(PRECIOUS)
-        status, said = invoke(tmp_path, *words)
-        assert (status, len(said.splitlines())) == (2, 1)
-        assert (
-            f"{name}: the file exists, and tribodyn did not make it; choose another name, or --force" in said
-        )
+        rule = f"{name}: the file exists, and tribodyn did not make it; choose another name, or --force"
+        assert rule in complaint(*words, folder=tmp_path)
         assert file.read_bytes() == PRECIOUS
         file.unlink()
         for target in (victim, tmp_path / "nothing"):
             file.symlink_to(target)
-            status, said = invoke(tmp_path, *words)
-            assert (status, len(said.splitlines())) == (2, 1)
-            assert f"{name}: is a link" in said
+            assert f"{name}: is a link" in complaint(*words, folder=tmp_path)
             file.unlink()
         file.symlink_to(victim)
         if name == VERBS[verb][1][-1]:
-            assert invoke(tmp_path, *words, "--force") == (0, "")
+            invoke(*words, "--force", folder=tmp_path)
             assert not file.is_symlink()
         else:
             file.unlink()
@@ -94,35 +76,33 @@ def test_a_run_refuses_before_it_computes(more: tuple[str, ...], tmp_path: Path)
     victim.write_bytes(PRECIOUS)
     (tmp_path / name).symlink_to(victim)
     words = ["run", "backlash-oscillator", "--set", "frequency.step=0.5", "-o", "m.h5", *more]
-    status, said = invoke(tmp_path, *words)
-    assert (status, said.count("\n")) == (2, 1)
-    assert f"{name}: is a link" in said
+    assert f"{name}: is a link" in complaint(*words, folder=tmp_path)
     assert {path.name for path in tmp_path.iterdir()} == {"victim", name}
-    assert invoke(tmp_path, *words, "--force") == (0, "")
+    invoke(*words, "--force", folder=tmp_path)
     assert not (tmp_path / name).is_symlink()
     assert victim.read_bytes() == PRECIOUS
 
 
 @pytest.mark.parametrize("name", ["report.html", "assessment.json"])
 def test_an_assessment_refuses_before_it_computes(name: str, tmp_path: Path):
-    assert invoke(tmp_path, "init", "mine", "--kind", "assessment")[0] == 0
+    invoke("init", "mine", "--kind", "assessment", folder=tmp_path)
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / name).write_bytes(PRECIOUS)
-    status, said = invoke(tmp_path, "assess", "mine.toml")
-    assert status == 2
-    assert f"{name}: the file exists, and tribodyn did not make it" in said
+    refused = ended("assess", "mine.toml", folder=tmp_path)
+    assert refused.exit_code == 2
+    assert f"{name}: the file exists, and tribodyn did not make it" in refused.stderr
     assert [path.name for path in (tmp_path / "mine").iterdir()] == [name]
 
 
 def test_a_scenario_to_be_edited_is_replaced_by_force_only(tmp_path: Path):
     victim = tmp_path / "victim"
     victim.write_bytes(PRECIOUS)
-    assert invoke(tmp_path, "init", "mine")[0] == 0
-    assert invoke(tmp_path, "init", "mine")[0] == 2
+    invoke("init", "mine", folder=tmp_path)
+    complaint("init", "mine", folder=tmp_path)
     (tmp_path / "mine.toml").unlink()
     (tmp_path / "mine.toml").symlink_to(victim)
-    assert "is a link" in invoke(tmp_path, "init", "mine")[1]
-    assert invoke(tmp_path, "init", "mine", "--force")[0] == 0
+    assert "is a link" in complaint("init", "mine", folder=tmp_path)
+    invoke("init", "mine", "--force", folder=tmp_path)
     assert not (tmp_path / "mine.toml").is_symlink()
     assert victim.read_bytes() == PRECIOUS
 

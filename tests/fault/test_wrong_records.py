@@ -1,6 +1,5 @@
 """Records in which one thing is wrong: shown, drawn, reported and compared, or refused in one line."""
 
-import os
 import time
 import tomllib
 import warnings
@@ -14,21 +13,18 @@ import pytest
 import tomli_w
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from typer.testing import CliRunner
 
 import tribodyn as td
+from tests.support.record_samples import sweep_record
 from tests.support.short_studies import ShortRuns
+from tests.support.verbs import ended
 from tests.support.wrong_records import changed, changes, drawn
-from tribodyn.cli.app import app
 from tribodyn.errors import InputError
-from tribodyn.numerics.parameter import Variable
 from tribodyn.post.report import as_json
 from tribodyn.post.style import house_style
 from tribodyn.post.sweep_report import sweep_as_json
 from tribodyn.record import soundness
 from tribodyn.record.sweep_reader import SweepRecord, open_any
-from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
-from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.studies import STUDIES
 from tribodyn.studies import pages as of
 from tribodyn.studies.pages import report, sweep_report
@@ -77,9 +73,9 @@ def in_pictures(path: Path) -> None:
 
 
 def compared(path: Path, good: Path) -> None:
-    with open_any(path) as one, open_any(good) as other:
-        if not isinstance(one, SweepRecord) and not isinstance(other, SweepRecord):
-            assert of.compare([other, one])
+    with open_any(path) as changed, open_any(good) as other:
+        if not isinstance(changed, SweepRecord) and not isinstance(other, SweepRecord):
+            assert of.compare([other, changed])
 
 
 @pytest.fixture(autouse=True)
@@ -92,7 +88,7 @@ def unheard() -> Iterator[None]:
 
 def check(path: Path, good: Path, everything: bool) -> None:
     """Use a record in each way: it is taken, or refused in one line that says what is wrong."""
-    uses = (shown, in_python, lambda one: compared(one, good), in_pictures)
+    uses = (shown, in_python, lambda path: compared(path, good), in_pictures)
     for use in uses if everything else uses[:2]:
         begun = time.process_time()
         said = "key: rule"
@@ -138,25 +134,7 @@ def test_changes_of_a_record_of_every_kind(
 
 def test_a_sweep_goes_on_from_what_is_left_or_refuses_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     no_child(monkeypatch)
-    head = SweepHead(
-        "title = 1\n",
-        "0",
-        (VariedKey("speed", "operating.pinion_speed", "rad/s", [1.0, 2.0, 3.0]),),
-        "x = 1\n",
-        (),
-        SweepLayout({"figure": Variable((), "1", "a figure")}),
-    )
-
-    def go_on(folder: Path, resume: bool = True) -> None:
-        with SweepWriter(folder / "run.h5", head, resume=resume) as writer:
-            for case in np.flatnonzero(writer.status == 0)[: None if resume else 1]:
-                rows = head.layout.empty_rows(1)
-                rows["figure"][:], rows["status"][:] = case, DONE
-                writer.write(np.array([case]), rows)
-            if resume:
-                writer.finish({})
-
-    go_on(tmp_path, resume=False)
+    sweep_record(tmp_path / "run.h5", most=1)
     left = tmp_path / "run.partial.h5"
     good = left.rename(tmp_path / "good.h5")
     for number, change in enumerate(drawn(good, 60, seed=3)):
@@ -164,23 +142,11 @@ def test_a_sweep_goes_on_from_what_is_left_or_refuses_it(tmp_path: Path, monkeyp
         folder.mkdir()
         changed(good, folder / left.name, change)
         with suppress(InputError):
-            go_on(folder)
+            sweep_record(folder / "run.h5", resume=True)
 
 
 def nul(file: h5py.File) -> None:
     file.attrs["scenario"] = np.bytes_(str(file.attrs["scenario"]).encode() + b"\0a")
-
-
-def array(file: h5py.File) -> None:
-    file.attrs["message"] = np.arange(3.0)
-
-
-def no_time(file: h5py.File) -> None:
-    file["time"][3] = np.nan  # pyright: ignore[reportIndexIssue]
-
-
-def far(file: h5py.File) -> None:
-    file["time"][-1] = 1e308  # pyright: ignore[reportIndexIssue]
 
 
 def drive_of_text(file: h5py.File) -> None:
@@ -198,9 +164,14 @@ def two_in_one_place(file: h5py.File) -> None:
     file["summary"].attrs["efficiency_mean"] = 1.0
 
 
-@pytest.mark.parametrize(
-    "change", [nul, array, no_time, far, drive_of_text, summary_of_texts, two_in_one_place]
-)
+PLAIN = [
+    lambda file: file.attrs.__setitem__("message", np.arange(3.0)),
+    lambda file: file["time"].__setitem__(3, np.nan),
+    lambda file: file["time"].__setitem__(-1, 1e308),
+]
+
+
+@pytest.mark.parametrize("change", [nul, drive_of_text, summary_of_texts, two_in_one_place, *PLAIN])
 def test_each_verb_says_it_in_one_line(change, tmp_path: Path):
     good, path = OLD / "gear-pair.h5", tmp_path / "a.h5"
     path.write_bytes(good.read_bytes())
@@ -208,13 +179,10 @@ def test_each_verb_says_it_in_one_line(change, tmp_path: Path):
         change(file)
     statuses = []
     for words in (["show"], ["show", "--json"], ["plot", "overview"], ["report"], ["compare", str(good)]):
-        before = Path.cwd()
-        os.chdir(tmp_path)
-        ended = CliRunner().invoke(app, [words[0], str(path), *words[1:]])
-        os.chdir(before)
-        assert ended.exit_code in (0, 2), ended.output
-        assert ended.exit_code == 0 or len(ended.stderr.splitlines()) == 1
-        statuses.append(ended.exit_code)
+        found = ended(words[0], path, *words[1:], folder=tmp_path)
+        assert found.exit_code in (0, 2), found.output
+        assert found.exit_code == 0 or len(found.stderr.splitlines()) == 1
+        statuses.append(found.exit_code)
     assert change is drive_of_text or 2 in statuses
 
 

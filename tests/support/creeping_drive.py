@@ -2,42 +2,29 @@
 
 import numpy as np
 
-from tribodyn.dynamics.outputs import outputs
-from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.transient import SampledStates, TransientSettings, transient
+from tests.support.states import recorded
+from tribodyn.solve.transient import TransientSettings
 
 # statics knows no vibration, which sliding of the bodies themselves would follow
 SLOW = {"operating.pinion_speed": "0.01 rad/s", "friction.sliding": "kinematic"}
 
 
 def creep(case, cycles=1, samples=100):
-    model = case.model
-    parts = transient(
-        model, static_equilibrium(model), TransientSettings("radau", 1e-8, cycles, 100000, samples)
-    )
-    chunks = [part for part in parts if isinstance(part, SampledStates)]
-    return outputs(
-        np.concatenate([c.cycles for c in chunks]), np.concatenate([c.states for c in chunks]), model
-    )
+    return recorded(case.model, TransientSettings("radau", 1e-8, cycles, 100000, samples))
 
 
 def statics(case, phase, segment, friction):
     """Loads from the linear equations of statics, with the given friction coefficients; unknown x, y, ξ."""
     cycle, m = case.cycle, case.model.mechanics
     slots = np.flatnonzero(cycle.in_contact[segment])
-    at = [np.interp(phase, cycle.phase[segment], cycle.pressure_angle[segment, :, i]) for i in slots]
-    r = np.array(
-        [np.interp(phase, cycle.phase[segment], cycle.signed_distance[segment, :, i]) for i in slots]
-    )
-    matrix = np.array(
-        [
-            [np.interp(phase, cycle.phase[segment], cycle.coupling[segment, :, i, j]) for j in slots]
-            for i in slots
-        ]
-    )
-    matrix += np.diag(
-        [np.interp(phase, cycle.phase[segment], cycle.compliance[segment, :, i]) for i in slots]
-    )
+
+    def there(values):
+        return np.interp(phase, cycle.phase[segment], values)
+
+    at = [there(cycle.pressure_angle[segment, :, i]) for i in slots]
+    r = [there(cycle.signed_distance[segment, :, i]) for i in slots]
+    matrix = np.array([[there(cycle.coupling[segment, :, i, j]) for j in slots] for i in slots])
+    matrix += np.diag([there(cycle.compliance[segment, :, i]) for i in slots])
     rg = cycle.gear_pitch_radius
     n = len(slots)
     # unknown: F (n), x_p, y_p, x_g, y_g, ξ
@@ -53,9 +40,8 @@ def statics(case, phase, segment, friction):
         system[n + 2, k] = c + f * s
         system[n + 3, k] = s - f * c
         system[n + 4, k] = rg * c + f * (rg * s - r[k])
-    for row, k in enumerate(
-        (m.pinion_stiffness_x, m.pinion_stiffness_y, m.gear_stiffness_x, m.gear_stiffness_y)
-    ):
+    bearings = m.pinion_stiffness_x, m.pinion_stiffness_y, m.gear_stiffness_x, m.gear_stiffness_y
+    for row, k in enumerate(bearings):
         system[n + row, n + row] = -k
     right[n + 4] = m.load_torque
     return slots, np.linalg.solve(system, right)[:n]

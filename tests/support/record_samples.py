@@ -9,7 +9,10 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.recorded import DOF, SAMPLES, scales_of
+from tribodyn.numerics.parameter import Variable
 from tribodyn.record.layout import Head
+from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
+from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.writer import RecordWriter
 from tribodyn.studies.gears.case import LAYOUT
 
@@ -19,19 +22,9 @@ def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:
     boundary = np.array([0.0, contact_ratio - 1, 1.0])
     phase = np.concatenate([np.linspace(*ends, nodes) for ends in ((0.0, boundary[1]), (boundary[1], 1.0))])
     rows = np.arange(2 * nodes, dtype=float)
+    names = "pressure_angle signed_distance equivalent_radius pinion_speed gear_speed compliance gap"
     table = {
-        name: rows[:, None] + factor * np.array([[1.0, 2.0]])
-        for factor, name in enumerate(
-            (
-                "pressure_angle",
-                "signed_distance",
-                "equivalent_radius",
-                "pinion_speed",
-                "gear_speed",
-                "compliance",
-                "gap",
-            )
-        )
+        name: rows[:, None] + factor * np.array([[1.0, 2.0]]) for factor, name in enumerate(names.split())
     }
     contact = np.ones((2 * nodes, 2))
     contact[nodes:, 0] = 0.0
@@ -100,3 +93,25 @@ def block(start: int, stop: int, pairs: int = 2) -> dict[str, np.ndarray]:
             values[name] = values[name].astype(int) % 2 == 0
     values["efficiency"] = 1.0 / (1.0 + values["efficiency"])  # a share, which others are not
     return values
+
+
+#: A sweep over three speeds with one quantity.
+SWEEP_HEAD = SweepHead(
+    "title = 1\n",
+    "0",
+    (VariedKey("speed", "operating.pinion_speed", "rad/s", [1.0, 2.0, 3.0]),),
+    "x = 1\n",
+    (),
+    SweepLayout({"figure": Variable((), "1", "a figure")}),
+)
+
+
+def sweep_record(path: Path, resume: bool = False, most: int = 3) -> None:
+    """Write the record of a sweep, or go on with it; with fewer cases than all it has no end."""
+    with SweepWriter(path, SWEEP_HEAD, resume=resume) as writer:
+        for case in np.flatnonzero(writer.status == 0)[:most]:
+            rows = SWEEP_HEAD.layout.empty_rows(1)
+            rows["figure"][:], rows["status"][:], rows["message"][0] = case, DONE, "ä"
+            writer.write(np.array([case]), rows)
+        if most == 3:
+            writer.finish({})

@@ -1,7 +1,8 @@
-"""Random but physically sensible states of the model, for tests over many of them."""
+"""States of the model: random but physically sensible ones, and those of a run."""
 
 import numpy as np
 
+from tribodyn.dynamics.outputs import outputs
 from tribodyn.dynamics.parameters import (
     LAG,
     MECHANICAL,
@@ -15,6 +16,8 @@ from tribodyn.dynamics.parameters import (
     XI_RATE,
     Y_G,
 )
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 
 
 def random_state(rng: np.random.Generator, speed: float = 10.0) -> np.ndarray:
@@ -37,3 +40,17 @@ def random_place(rng: np.random.Generator, boundary: np.ndarray) -> tuple[float,
     segment = int(rng.integers(len(boundary) - 1))
     share = rng.uniform(0.02, 0.98)
     return float(boundary[segment] + share * (boundary[segment + 1] - boundary[segment])), segment
+
+
+def sampled(model, settings: TransientSettings, start: np.ndarray | None = None):
+    """Mesh cycles and states of all samples of a run, from the static equilibrium unless told otherwise."""
+    *parts, stop = transient(model, static_equilibrium(model) if start is None else start, settings)
+    assert isinstance(stop, Stop)
+    assert stop.reason == ""
+    chunks = [part for part in parts if isinstance(part, SampledStates)]
+    return tuple(np.concatenate([getattr(chunk, of) for chunk in chunks]) for of in ("cycles", "states"))
+
+
+def recorded(model, settings: TransientSettings, start: np.ndarray | None = None) -> dict[str, np.ndarray]:
+    """What is recorded of these samples."""
+    return outputs(*sampled(model, settings, start), model)

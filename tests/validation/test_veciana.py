@@ -2,8 +2,6 @@
 
 import pytest
 
-from tribodyn.validation import validate
-from tribodyn.validation.rows import published
 from tribodyn.validation.veciana_study import DriveUnderLaw
 
 #: A separate prototype of the restored equations: involute, cycloid at d_g = 0.1, 0.17, 0.4 d_1, crossover.
@@ -20,19 +18,12 @@ PROTOTYPE = {
 
 
 @pytest.fixture(scope="module")
-def rows():
-    return {row.id: row for row in validate("veciana-2024")}
+def rows(validated):
+    return validated("veciana-2024")
 
 
-def test_every_row_is_there_and_within_its_tolerance(rows):
-    assert set(rows) == set(published("veciana-2024"))
-    for number in range(1, 16):
-        row = rows[f"veciana/{number:02d}"]
-        off = row.computed - row.published
-        if row.tolerance_kind == "relative":
-            off /= row.published
-        assert abs(off) <= row.tolerance, row.id
-        assert row.verdict == "pass"
+def test_fifteen_rows_pass(rows):
+    assert {rows[f"veciana/{number:02d}"].verdict for number in range(1, 16)} == {"pass"}
     assert {rows[f"veciana/{number}"].verdict for number in (16, 17, 18)} == {"reported"}
 
 
@@ -40,18 +31,17 @@ def test_both_ends_of_every_printed_range_have_a_row(rows):
     """The paper prints gains as ranges: 0.11 to 0.19 and so on; a minimum that misses is a row as well."""
     gains = [row.quantity for row in rows.values() if "efficiency gain" in row.quantity]
     for end in ("minimum", "maximum"):
-        assert len([one for one in gains if one.endswith(end)]) == len(gains) / 2
+        assert len([gain for gain in gains if gain.endswith(end)]) == len(gains) / 2
 
 
 def test_both_readings_of_the_mixed_law_are_told(rows):
     for number in (5, 8, 9, 12, 13, 15, 16):
         row = rows[f"veciana/{number:02d}"]
-        note = row.note
-        assert number == 16 or (
-            row.otherwise.choice == "reading B" and f"{row.otherwise.computed:.4g}" in note
-        )
-        assert "reading A (as printed)" in note
-        assert "reading B (maximum pressure, own speeds)" in note
+        if number != 16:
+            assert row.otherwise.choice == "reading B"
+            assert f"{row.otherwise.computed:.4g}" in row.note
+        assert "reading A (as printed)" in row.note
+        assert "reading B (maximum pressure, own speeds)" in row.note
 
 
 @pytest.mark.parametrize("case", PROTOTYPE)
