@@ -106,10 +106,10 @@ def start_of_threads(tmp_path_factory):
             ("numpy, scipy.linalg", ", xarray"),
         ):
             few, all_of_them = (
-                [sys.executable, "-c", f"import {one}"] for one in (libraries, libraries + more)
+                [sys.executable, "-c", f"import {names}"] for names in (libraries, libraries + more)
             )
             times = [(times_of(all_of_them, folder), times_of(few, folder, **ONE_THREAD)) for _ in range(4)]
-            found[libraries + more] = min(some[0] for some, _ in times) - min(one[0] for _, one in times)
+            found[libraries + more] = min(whole[0] for whole, _ in times) - min(part[0] for _, part in times)
     return found
 
 

@@ -40,9 +40,9 @@ def run(folder: Path, *words: str) -> tuple[list[str], bool]:
 def test_the_overview_is_drawn_by_another_process_as_by_its_own(tmp_path):
     assert run(tmp_path, "-o", "one.h5") == (["one-overview.png"], False)
     assert run(tmp_path, "-o", "two.h5", "broken", "pass") == (["two-overview.png"], True)
-    one, two = ((tmp_path / f"{name}-overview.png").read_bytes() for name in ("one", "two"))
-    assert len(one) > 10_000
-    assert one == two
+    here, there = ((tmp_path / f"{name}-overview.png").read_bytes() for name in ("one", "two"))
+    assert len(here) > 10_000
+    assert here == there
 
 
 def test_it_ends_with_the_process_that_began_it(monkeypatch):

@@ -17,6 +17,7 @@ from matplotlib import pyplot
 from typer.main import get_command
 from typer.testing import CliRunner
 
+from tests.support.verbs import sets
 from tribodyn.cli.app import app
 from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies.protocol.load import load_scenario
@@ -100,7 +101,7 @@ def test_commands_run(page: Path, folder: Path):
                 continue
             if words[0] == "run":
                 kind = load_scenario(words[1]).kind
-                shorter = [word for one in SHORTER.get(kind, ()) for word in ("--set", one)]
+                shorter = sets(*SHORTER.get(kind, ()))
                 picture = () if "--plot" in words else ("--no-plot",)  # every scenario's is tested elsewhere
                 words = [*words, *shorter, *picture, "--force"]
             ended = CliRunner().invoke(app, words)
@@ -156,7 +157,9 @@ def test_every_toml_block_is_one_or_the_other():
     assert not [str(block) for block in blocks("toml") if block.info not in ("scenario", "fragment")]
 
 
-@pytest.mark.parametrize("block", [one for one in blocks("python") if one.page.name != "README.md"], ids=str)
+@pytest.mark.parametrize(
+    "block", [block for block in blocks("python") if block.page.name != "README.md"], ids=str
+)
 def test_python_runs(block: Block, folder: Path):
     matplotlib.use("agg")
     try:

@@ -25,7 +25,7 @@ SHOWN_BY = ("_repr_html_", "_repr_svg_", "_repr_png_")
 def cells(text: str) -> list[tuple[int, str]]:
     """Line and source of the code cells, without the options that begin them."""
     found = re.finditer(r"^```\{code-cell\} ipython3\n((?::.*\n)*)((?:.*\n)*?)```$", text, re.MULTILINE)
-    return [(text[: one.start(2)].count("\n"), one[2]) for one in found]
+    return [(text[: cell.start(2)].count("\n"), cell[2]) for cell in found]
 
 
 def execute(source: str, where: str, line: int, names: dict[str, Any]) -> None:

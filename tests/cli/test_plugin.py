@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
+from tests.support.verbs import sets
 from tribodyn.numerics.cache import cache_folder
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
@@ -58,7 +59,7 @@ def fresh_environment(folder: Path, source: Path) -> Environment:
     python = folder / "bin" / "python"
     show = [str(python), "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]
     packages = Path(subprocess.run(show, check=True, capture_output=True, text=True).stdout.strip())
-    seen = [one for one in sys.path if one.endswith("site-packages")]
+    seen = [folder for folder in sys.path if folder.endswith("site-packages")]
     (packages / "running.pth").write_text("\n".join(seen), encoding="utf-8")
     options = ("--quiet", "--no-deps", "--no-build-isolation", "--no-index", "--disable-pip-version-check")
     install = [str(python), "-m", "pip", "install", *options, str(source)]
@@ -79,14 +80,10 @@ def plugin(tmp_path_factory) -> Iterator[Environment]:
     made.verbs.close()
 
 
-def settings(*given: str) -> list[str]:
-    return [word for one in given for word in ("--set", one)]
-
-
 def run(plugin: Environment, folder: Path, name: str, *given: str, scenario: str = "") -> Path:
     """Run one of the example's scenarios; return the record."""
     where = scenario or plugin.scenario(name)
-    plugin("run", where, "-o", f"{name}.h5", "--no-plot", *settings(*given), folder=folder)
+    plugin("run", where, "-o", f"{name}.h5", "--no-plot", *sets(*given), folder=folder)
     return folder / f"{name}.h5"
 
 
@@ -140,15 +137,15 @@ def test_the_family_reduces_to_two_arcs(plugin, tmp_path):
     """Of opposite diameters, for which the shipped family has closed forms where the example integrates."""
     own = run(plugin, tmp_path, "circle", scenario=plugin.scenario(SLIDING))
     theirs = run(plugin, tmp_path, "arcs", *AS_ARCS, scenario=plugin.scenario(SLIDING))
-    with open_record(own) as one, open_record(theirs) as other:
-        assert one.summary["contact_ratio"] == pytest.approx(other.summary["contact_ratio"], rel=1e-12)
-        for name in other:
-            np.testing.assert_allclose(one[name], other[name], rtol=1e-10, atol=1e-13, err_msg=name)
+    with open_record(own) as circle, open_record(theirs) as arcs:
+        assert circle.summary["contact_ratio"] == pytest.approx(arcs.summary["contact_ratio"], rel=1e-12)
+        for name in arcs:
+            np.testing.assert_allclose(circle[name], arcs[name], rtol=1e-10, atol=1e-13, err_msg=name)
 
 
 def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
     """A second process compiles nothing; an edit of the law has a kernel of its own, which then runs."""
-    cache, steel, factor = plugin.cache, settings(*SHORT, "solver.method=dopri5"), 2.5
+    cache, steel, factor = plugin.cache, sets(*SHORT, "solver.method=dopri5"), 2.5
     given = ("run", plugin.scenario(GEARS), "-o", "run.h5", "--no-plot", "--force", *steel)
     plugin(*given, folder=tmp_path)
     first, before = kernels(cache), arrays(tmp_path / "run.h5")
@@ -174,17 +171,15 @@ def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
 
 def test_a_sweep_over_the_laws_own_key_runs_in_the_lanes(plugin, tmp_path):
     """Nine cases side by side, each as if it were alone; friction grows with the key."""
-    given = ("--transient", "20", *settings("solver.rtol=1e-8"))
+    given = ("--transient", "20", *sets("solver.rtol=1e-8"))
     efficiency = {}
     for name, values in (("sweep", "1:9:1m/s"), ("alone", "5m/s")):
         vary = f"friction.reference_speed={values}"
         plugin("sweep", plugin.scenario(GEARS), "--vary", vary, "-o", f"{name}.h5", *given, folder=tmp_path)
         with SweepRecord(tmp_path / f"{name}.h5") as record:
             assert np.all(record["status"] == DONE)
-            efficiency |= {
-                (name, round(at)): one
-                for at, one in zip(record["reference_speed"], record["efficiency"], strict=True)
-            }
+            for at, value in zip(record["reference_speed"], record["efficiency"], strict=True):
+                efficiency[name, round(at)] = value
     swept = [efficiency["sweep", at] for at in range(1, 10)]
     assert np.all(np.diff(swept) < 0.0)
     assert efficiency["alone", 5] == pytest.approx(efficiency["sweep", 5], rel=1e-9)
@@ -217,7 +212,7 @@ def test_the_efficiency_study_takes_family_and_law(plugin, tmp_path):
 def test_the_study_runs_draws_shows_and_compares(plugin, tmp_path):
     first = run(plugin, tmp_path, SLIDING)
     other = tmp_path / "involute.h5"
-    plugin("run", plugin.scenario(SLIDING), "-o", other.name, *settings("drive.family=involute"),
+    plugin("run", plugin.scenario(SLIDING), "-o", other.name, *sets("drive.family=involute"),
            "--set", "drive.shape={}", folder=tmp_path)  # fmt: skip
     assert (tmp_path / "involute-overview.png").exists()
     shown = plugin("show", first.name, folder=tmp_path).stdout
@@ -278,7 +273,7 @@ def test_a_module_that_cannot_be_imported_is_one_error(plugin, tmp_path, what):
 
 @pytest.mark.parametrize("what", [("friction law",), tuple(BROKEN)], ids=["one", "all"])
 def test_modules_that_cannot_be_imported_are_a_line_each_where_they_would_be_listed(plugin, tmp_path, what):
-    with broken(plugin, {BROKEN[one][0] for one in what}):
+    with broken(plugin, {BROKEN[part][0] for part in what}):
         listed = plugin("list", "--json", folder=tmp_path)
         schema = plugin("schema", folder=tmp_path)
         plugin("check", "crc-23-47", folder=tmp_path)

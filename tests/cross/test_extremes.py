@@ -43,11 +43,11 @@ def extremes_of_run(prepared, samples, method="dopri5", rtol=1e-6, cycles=2, den
 def errors(found, exact):
     """Of all extremes, those of transmission errors as shares of their range."""
     result = {}
-    for name, one in exact.by_name.items():
-        scale = abs(one.value)
+    for name, extreme in exact.by_name.items():
+        scale = abs(extreme.value)
         if name.startswith("transmission"):
             scale = exact.spread(name.removesuffix("_max").removesuffix("_min"))
-        result[name] = abs(found.by_name[name].value - one.value) / scale if scale else 0.0
+        result[name] = abs(found.by_name[name].value - extreme.value) / scale if scale else 0.0
     return result
 
 
@@ -87,10 +87,10 @@ def test_every_method_finds_them(method, prepared):
 def test_an_extreme_is_where_it_is_said_to_be(prepared):
     case = prepared("crc-23-47")
     few, many = extremes_of_run(case, 20), extremes_of_run(case, MANY, dense=False)
-    for name, one in few.by_name.items():
-        assert one.pair == many.by_name[name].pair
-        assert one.mesh_cycle == pytest.approx(many.by_name[name].mesh_cycle, abs=2e-3), name
-        assert one.time == pytest.approx(one.mesh_cycle * 2 * np.pi / (23 * 10.0), rel=1e-9)
+    for name, extreme in few.by_name.items():
+        assert extreme.pair == many.by_name[name].pair
+        assert extreme.mesh_cycle == pytest.approx(many.by_name[name].mesh_cycle, abs=2e-3), name
+        assert extreme.time == pytest.approx(extreme.mesh_cycle * 2 * np.pi / (23 * 10.0), rel=1e-9)
 
 
 def test_lanes_find_what_a_single_run_finds(prepared):

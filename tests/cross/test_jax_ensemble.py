@@ -153,7 +153,7 @@ def test_steady_states_through_jax(tmp_path: Path):
     native = swept("native", tmp_path / "native.h5", *words)
     mapped = swept("jax", tmp_path / "jax.h5", *words)
     assert_alike(mapped, native, 1e-5)
-    with SweepRecord(mapped) as one, SweepRecord(native) as other:
-        assert set(one["solution"]) == {"period-1"}
-        assert (one["residual"] <= 1e-7).all()
-        np.testing.assert_allclose(one["multiplier_max"], other["multiplier_max"], atol=1e-3)
+    with SweepRecord(mapped) as by_jax, SweepRecord(native) as in_lanes:
+        assert set(by_jax["solution"]) == {"period-1"}
+        assert (by_jax["residual"] <= 1e-7).all()
+        np.testing.assert_allclose(by_jax["multiplier_max"], in_lanes["multiplier_max"], atol=1e-3)

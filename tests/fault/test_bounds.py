@@ -178,7 +178,7 @@ VARIED = [
 
 @pytest.mark.parametrize("vary", VARIED, ids=lambda vary: vary[:40])
 def test_axes_beyond_all_use(vary: str, scenario: Path, refused: Refused):
-    words = [word for one in vary.split(" --vary ") for word in ("--vary", one)]
+    words = [word for axis in vary.split(" --vary ") for word in ("--vary", axis)]
     with at_most(1e8):
         status, lines = refused("sweep", str(scenario), *words, "-o", str(scenario.parent / "s.h5"))
     assert status == 2

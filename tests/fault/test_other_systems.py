@@ -80,7 +80,7 @@ assert "did not end" in lookout.through_a_child(open, Path("pipe"))  # which wai
 
 def datasets(path: Path) -> dict[str, np.ndarray]:
     with h5py.File(path) as file:
-        return {name: one[...] for name, one in file.items() if isinstance(one, h5py.Dataset)}
+        return {name: item[...] for name, item in file.items() if isinstance(item, h5py.Dataset)}
 
 
 @pytest.mark.slow
@@ -110,8 +110,8 @@ def test_a_scenario_a_sweep_and_a_search(tmp_path: Path, forked: ForkedVerbs):
     for words in VERBS[:3]:
         assert forked(*words, folder=here).returncode == 0
     for name in ("run.h5", "sweep.h5", "search.h5"):
-        one, other = datasets(there / name), datasets(here / name)
-        assert one.keys() == other.keys()
-        for what in one:
+        less, whole = datasets(there / name), datasets(here / name)
+        assert less.keys() == whole.keys()
+        for what in less:
             if "time" not in what or what == "time":
-                np.testing.assert_array_equal(one[what], other[what], err_msg=f"{name} {what}")
+                np.testing.assert_array_equal(less[what], whole[what], err_msg=f"{name} {what}")

@@ -86,7 +86,7 @@ def test_order_and_part_of_the_range_change_no_bit(way: str, alone, tmp_path: Pa
 def test_dask_changes_no_bit(alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     distributed = pytest.importorskip("distributed")
     monkeypatch.setattr(batch, "MOST_IN_CHUNK", 2)
-    one = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
-    with distributed.LocalCluster(**one) as cluster, distributed.Client(cluster) as client:
+    given = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
+    with distributed.LocalCluster(**given) as cluster, distributed.Client(cluster) as client:
         sweep("steady", tmp_path / "s.h5", DaskEngine(client))
     assert differences(tmp_path / "s.h5", alone("steady")) == []

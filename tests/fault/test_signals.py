@@ -20,7 +20,7 @@ pytestmark = [
 
 #: The command line; a signal that whoever runs the tests ignores is heeded.
 HEEDED = (
-    "import signal, sys\nfor one in (signal.SIGINT, signal.SIGHUP): signal.signal(one, signal.SIG_DFL)\n"
+    "import signal, sys\nfor n in (signal.SIGINT, signal.SIGHUP): signal.signal(n, signal.SIG_DFL)\n"
     "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
 )
 MAIN = "\nfrom tribodyn.cli import main\nmain()\n"
@@ -108,9 +108,11 @@ def left(folder: Path) -> list[str]:
         ("assess", signal.SIGINT),
         ("ehl", signal.SIGINT),
         ("table", signal.SIGINT),
-        *(pytest.param("assess", one, marks=pytest.mark.soak) for one in (signal.SIGHUP, signal.SIGTERM)),
-        *(pytest.param("ehl", one, marks=pytest.mark.soak) for one in (signal.SIGHUP, signal.SIGTERM)),
-        *(pytest.param("table", one, marks=pytest.mark.soak) for one in (signal.SIGHUP, signal.SIGTERM)),
+        *(
+            pytest.param(verb, asked, marks=pytest.mark.soak)
+            for verb in ("assess", "ehl", "table")
+            for asked in (signal.SIGHUP, signal.SIGTERM)
+        ),
     ],
 )
 def test_a_verb_says_what_is_kept(verb: str, asked: signal.Signals, tmp_path: Path):

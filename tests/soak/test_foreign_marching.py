@@ -35,18 +35,18 @@ def drawn(rng: np.random.Generator, count: int, points: int) -> list[tuple[int, 
 def said(name: str, rows: list[Compared]) -> str:
     """A line of the table."""
     words = ("same", "no period", "behind an end", "differs")
-    counts = "  ".join(f"{sum(one.verdict == word for one in rows):3d} {word}" for word in words)
-    same = [one for one in rows if one.verdict == "same"]
-    closes, away = (max((getattr(one, key) for one in same), default=0.0) for key in ("closes", "away"))
-    several = f"{sum(one.period > 1 for one in rows):3d} of several periods"
+    counts = "  ".join(f"{sum(row.verdict == word for row in rows):3d} {word}" for word in words)
+    same = [row for row in rows if row.verdict == "same"]
+    closes, away = (max((getattr(row, key) for row in same), default=0.0) for key in ("closes", "away"))
+    several = f"{sum(row.period > 1 for row in rows):3d} of several periods"
     return f"{name:34s} {len(rows):3d} points: {counts}  {several}  closes {closes:.1e}  away {away:.1e}"
 
 
 def judged(name: str, rows: list[Compared]) -> None:
     ROWS[name] = rows
     print(said(name, rows), flush=True)
-    assert all(one.verdict != "differs" for one in rows), rows
-    assert max((one.closes for one in rows if one.verdict == "same"), default=0.0) <= CLOSES
+    assert all(row.verdict != "differs" for row in rows), rows
+    assert max((row.closes for row in rows if row.verdict == "same"), default=0.0) <= CLOSES
 
 
 @pytest.mark.soak
@@ -133,7 +133,7 @@ def test_a_gear_pair(number: int, tmp_path: Path):
 
 @pytest.mark.soak
 def test_they_are_many():
-    rows = [one for some in ROWS.values() for one in some]
+    rows = [row for rows in ROWS.values() for row in rows]
     print(said(f"all {len(ROWS)}", rows))
     assert len(ROWS) >= 10
     assert len(rows) >= 200

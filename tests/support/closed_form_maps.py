@@ -26,7 +26,7 @@ class ClosedForm:
         np.add.at(self.marched, cases, periods)
         states = np.stack(track, axis=1)
         lost = ~np.all(np.abs(states) < 1e6, axis=(1, 2))
-        return Marched(states, ["it runs away" if one else "" for one in lost])
+        return Marched(states, ["it runs away" if away else "" for away in lost])
 
     def tangent(self, states, cases, periods):
         return by_differences(self.march, states, cases, periods, 1e-4 * self.scale)

@@ -134,11 +134,11 @@ def _quick_limit(seconds: Iterable[float]) -> float:
     ordered = sorted(seconds)
     share = QUICK_SHARE * sum(ordered)
     limit, total = LISTED, 0.0
-    for one in ordered:
-        total += one
+    for duration in ordered:
+        total += duration
         if total > share:
             break
-        limit = max(limit, round(one, 2))
+        limit = max(limit, round(duration, 2))
     return limit
 
 

@@ -79,7 +79,7 @@ def oscillator_march(
 def gear_march(model: Model, state: np.ndarray, cycles: int, atol: np.ndarray) -> np.ndarray:
     """States (cycles, STATES) of a gear pair behind the engagement that ends every mesh cycle."""
     place, rates, work = np.empty(STATES), np.empty(STATES), work_array(model)
-    arguments = [packed(one) for one in (place, model, work, rates)]
+    arguments = [packed(item) for item in (place, model, work, rates)]
 
     def slope(phase, y, segment):
         place[:] = y
@@ -107,23 +107,12 @@ class Reported(NamedTuple):
 
 
 class Compared(NamedTuple):
-    """Outcome at a point.
+    """Outcome at a point; changes and distances over the size of the motion, NaN without period."""
 
-    Attributes
-    ----------
-    verdict : str
-        "same", "no period", "behind an end", or "differs".
-    closes, away : float
-        Over the size of the motion: change of the reported motion over its period by the foreign integrator,
-        and distance of the marched motion from it; NaN without period.
-    period : int
-        That is reported.
-    """
-
-    verdict: str
-    closes: float
-    away: float
-    period: int
+    verdict: str  # "same", "no period", "behind an end", or "differs"
+    closes: float  # change of the reported motion over its period by the foreign integrator
+    away: float  # distance of the marched motion from the reported one
+    period: int  # that is reported
 
 
 def compared(march: March, neighbour: Reported, point: Reported, ends: Sequence[float]) -> Compared:

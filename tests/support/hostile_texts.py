@@ -41,7 +41,7 @@ def _describe(item: Any, text: str) -> None:
 
 def _with_texts(table: Any, text: str) -> Any:
     if isinstance(table, list):
-        return [_with_texts(one, text) for one in table]
+        return [_with_texts(item, text) for item in table]
     if not isinstance(table, dict):
         return table
     return {

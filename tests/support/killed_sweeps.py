@@ -37,9 +37,9 @@ _SWEEP = (
 )
 
 
-def differences(one: Path, other: Path) -> list[str]:
+def differences(first: Path, second: Path) -> list[str]:
     """Names of datasets that are not equal, bit for bit."""
-    with h5py.File(one) as a, h5py.File(other) as b:
+    with h5py.File(first) as a, h5py.File(second) as b:
         names = {name for name in a if isinstance(a[name], h5py.Dataset)}
         if names != {name for name in b if isinstance(b[name], h5py.Dataset)}:
             return ["which datasets there are"]

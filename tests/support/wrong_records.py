@@ -67,7 +67,9 @@ def changes(record: Path) -> list[Change]:
             if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and item.shape:
                 found += [Change(name, kind, _array(name, make)) for kind, make in WRONG_ARRAYS.items()]
             elif isinstance(item, h5py.Dataset) and item.dtype.kind in "iu":
-                found += [Change(name, str(one), _whole(name, one)) for one in (-1, 0, 99, 2**31 - 1)]
+                found += [
+                    Change(name, str(number), _whole(name, number)) for number in (-1, 0, 99, 2**31 - 1)
+                ]
         for key in _keys(tomllib.loads(str(file.attrs["scenario"]))):
             found += [Change(f"scenario {'.'.join(key)}", kind, _key(key, kind)) for kind in _IN_TOML]
             found.append(Change(f"scenario {'.'.join(key)}", "missing", _key(key, None)))

@@ -17,8 +17,8 @@ def compared(old, new):
 
 def test_a_difference_is_relative_to_the_largest_magnitude():
     changed = LOADS + np.array([[1e-8, 0.0], [0.0, 0.0]])
-    (one,) = compared({"load": LOADS}, {"load": changed}).differences
-    assert one.relative == pytest.approx(1e-8 / 200.0, rel=1e-6)
+    (difference,) = compared({"load": LOADS}, {"load": changed}).differences
+    assert difference.relative == pytest.approx(1e-8 / 200.0, rel=1e-6)
     assert compared({"load": LOADS}, {"load": LOADS.copy()}).differences == []
 
 
@@ -26,8 +26,8 @@ def test_columns_of_different_units_are_related_to_themselves():
     old = np.array([[1e-6, 100.0], [2e-6, 200.0]])
     new = old + np.array([[0.0, 0.0], [1e-9, 0.0]])
     assert relative(old, new, by_column=True) == pytest.approx(1e-9 / 2.001e-6)
-    (one,) = compared({"displacement": old}, {"displacement": new}).differences
-    assert one.relative == relative(old, new, by_column=True)
+    (difference,) = compared({"displacement": old}, {"displacement": new}).differences
+    assert difference.relative == relative(old, new, by_column=True)
 
 
 @pytest.mark.parametrize(
@@ -41,8 +41,8 @@ def test_columns_of_different_units_are_related_to_themselves():
     ],
 )
 def test_shape_type_and_nan_are_compared(new):
-    (one,) = compared({"load": LOADS}, {"load": new}).differences
-    assert one.how
+    (difference,) = compared({"load": LOADS}, {"load": new}).differences
+    assert difference.how
     _, unexplained = difference_table([compared({"load": LOADS}, {"load": new})], 1.0, [])
     assert unexplained == ["a case:load"]
 

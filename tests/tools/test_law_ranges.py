@@ -19,10 +19,10 @@ def law_of(what: str, name: str):
 def share_right(found: dict[tuple[str, str], Ratios], what: str) -> float:
     """Of contacts inside the judged limits of all laws that have some."""
     hits = [
-        one
+        hit
         for (kind, name), ratio in found.items()
         if kind == what and law_of(kind, name).judged.limits
-        for one in right(law_of(kind, name), ratio.ratio[ratio.judged])
+        for hit in right(law_of(kind, name), ratio.ratio[ratio.judged])
     ]
     assert len(hits) >= 10
     return sum(hits) / len(hits)
@@ -40,13 +40,13 @@ def test_many_fresh_contacts_inside_the_ranges():
     found = ratios(SEED, count)
     # nine of ten, less two standard deviations of as many pairs
     least = 0.9 - 2.0 * math.sqrt(0.09 / count)
-    for (what, name), one in found.items():
+    for (what, name), ratio in found.items():
         law = law_of(what, name)
-        inside = right(law, one.ratio[one.judged])
+        inside = right(law, ratio.ratio[ratio.judged])
         if law.judged.limits:
             assert inside.mean() >= least, (what, name)
             # the limits say something: outside of them the law is right less often
-            assert right(law, one.ratio[~one.judged]).mean() < inside.mean(), (what, name)
+            assert right(law, ratio.ratio[~ratio.judged]).mean() < inside.mean(), (what, name)
         else:
             assert inside.mean() < 0.9, (what, name)
 
@@ -61,7 +61,7 @@ def test_the_page_has_every_law_that_was_compared():
                 continue
             low, high = law.judged.right
             begins, criterion = f"| {what} `{name}` |", f"| {low:g} … {high:g} |"
-            (line,) = (one for one in page.splitlines() if one.startswith(begins) and criterion in one)
+            (line,) = (row for row in page.splitlines() if row.startswith(begins) and criterion in row)
             assert ", ".join(f"{value:.3g}" for value in law.judged.ratio) in line
             limits = law.limits[len(law.limits) - law.judged.limits :]
             assert (", ".join(limits) or "none found") in line

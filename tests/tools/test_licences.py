@@ -15,32 +15,22 @@ def listed() -> list[Row]:
 
 
 def test_the_page_is_current_with_the_constraints():
-    assert {one.name: one.version for one in listed()} == constraints()
+    assert {row.name: row.version for row in listed()} == constraints()
 
 
 def test_the_page_says_what_the_metadata_say():
     pytest.importorskip("distributed")
-    page, here = [one for one in listed() if is_known(one.name)], rows()
-    assert [one[:3] for one in page] == [one[:3] for one in here]
+    page, here = [row for row in listed() if is_known(row.name)], rows()
+    assert [row[:3] for row in page] == [row[:3] for row in here]
     # where not all extras are installed, what one of them needs looks like something for development
-    needed_for = {(one.needed_for, other.needed_for) for one, other in zip(page, here, strict=True)}
-    assert all(one == other or (one, other) == ("extras", "development") for one, other in needed_for)
+    needed_for = {(a.needed_for, b.needed_for) for a, b in zip(page, here, strict=True)}
+    assert all(a == b or (a, b) == ("extras", "development") for a, b in needed_for)
 
 
 def test_nothing_that_a_run_needs_is_copyleft():
     default = needed()
-    assert {
-        "numpy",
-        "numba",
-        "jax",
-        "matplotlib",
-        "pint",
-        "ezdxf",
-        "h5py",
-        "scikit-fem",
-        "llvmlite",
-    } <= default
-    found = {one.name: one.licence for one in listed() if same_name(one.name) in default}
+    assert set("numpy numba jax matplotlib pint ezdxf h5py scikit-fem llvmlite".split()) <= default
+    found = {row.name: row.licence for row in listed() if same_name(row.name) in default}
     assert len(found) == len(default)
     assert not {name: licence for name, licence in found.items() if COPYLEFT.search(licence)}
     assert all(licence != "unknown" for licence in found.values())

@@ -27,14 +27,14 @@ def package(tmp_path: Path) -> Path:
 
 def test_every_change_is_one_other_program(package):
     found = changes(package, ["geometry"])
-    made = [one.made(SOURCE.encode()) for one in found]
+    made = [change.made(SOURCE.encode()) for change in found]
     trees = [ast.dump(ast.parse(text)) for text in made]
     assert len(set(trees)) == len(trees)
     assert ast.dump(ast.parse(SOURCE)) not in trees
     # 2.0, 3; not, <, and, !=, 0; −, **, 2, *, −, 1, /, 0.0: nothing of annotations, text and messages
     assert len(found) == 15
-    assert {one.line for one in found} == {3, 5, 7}
-    lines = {one.made(SOURCE.encode()).decode().split("\n")[one.line - 1].strip() for one in found}
+    assert {change.line for change in found} == {3, 5, 7}
+    lines = {change.made(SOURCE.encode()).decode().split("\n")[change.line - 1].strip() for change in found}
     assert "if not (x >= y) and y != 0:  # a comment with a - b" in lines
     assert "if  (x < y) and y != 0:  # a comment with a - b" in lines
     assert "return -(x) ** 2 * (y - 1) / 1.0  # ψ − φ" in lines
@@ -43,7 +43,7 @@ def test_every_change_is_one_other_program(package):
 
 def test_tests_are_those_that_name_a_module_and_those_that_depend_on_it():
     stages = mutants.tests_of("tribodyn.mesh.quasi_static", HERE / PACKAGE, HERE / "tests")
-    near, near_rest, far, far_rest = ({Path(one).name for one in some} for some in stages)
+    near, near_rest, far, far_rest = ({Path(file).name for file in files} for files in stages)
     assert "test_power_flow.py" in near
     assert not near_rest
     assert "test_equations.py" in far
@@ -60,4 +60,4 @@ def test_a_module_is_named_in_a_list_and_under_another_name(tmp_path):
     )
     found = mutants._imported(file, tmp_path)
     wanted = {"solve.methods.dopri5", "geometry.families.involute", "dynamics.equations"}
-    assert {f"tribodyn.{one}" for one in wanted} <= found
+    assert {f"tribodyn.{module}" for module in wanted} <= found

@@ -33,7 +33,7 @@ def package(tmp_path: Path) -> Path:
 
 
 def test_imports_are_read_wherever_they_stand(package):
-    read = {(one.importer, one.imported, one.typing_only) for one in imports(package)}
+    read = {(found.importer, found.imported, found.typing_only) for found in imports(package)}
     assert read == {
         ("tribodyn.low.data", "numpy", False),
         ("tribodyn.low.far", "tribodyn.high.top", False),

@@ -53,8 +53,8 @@ def test_a_case_follows_from_seed_and_number(tmp_path):
     first, again, other = (case(3, number, tmp_path) for number in (5, 5, 6))
     assert first.scenario == again.scenario
     assert first.scenario != other.scenario
-    for one in (first, other):
-        load_scenario(written(one.scenario, tmp_path / "case.toml"))
+    for made in (first, other):
+        load_scenario(written(made.scenario, tmp_path / "case.toml"))
 
 
 def test_every_sort_has_its_share_and_every_family():
@@ -71,8 +71,8 @@ def test_every_kind_is_drawn_with_every_family(tmp_path):
     kinds, first = set(), {sort_of(number): number for number in reversed(range(0, CASES, GROUP))}
     for sort, number in first.items():
         made = [case(3, number + i, tmp_path).scenario for i in range(GROUP)]
-        kinds |= {one["kind"] for one in made}
-        drives = [one.get("scenario", one).get("drive", {}) for one in made]
+        kinds |= {scenario["kind"] for scenario in made}
+        drives = [scenario.get("scenario", scenario).get("drive", {}) for scenario in made]
         if "family" in drives[0]:
             assert {drive["family"] for drive in drives} == set(FAMILIES), sort
     assert kinds == set(STUDIES)
@@ -114,8 +114,8 @@ def test_what_is_wrong_is_noticed(record, tmp_path, name, factor, expected):
     damaged.write_bytes(record.read_bytes())
     with h5py.File(damaged, "r+") as file:
         file[name][...] = factor * file[name][...]
-    with Record(damaged) as one:
-        assert any(fault.startswith(expected) for fault in faults(one, RTOL))
+    with Record(damaged) as wrong:
+        assert any(fault.startswith(expected) for fault in faults(wrong, RTOL))
 
 
 @pytest.mark.parametrize(
@@ -135,9 +135,9 @@ def test_what_is_wrong_with_a_study_is_noticed(short_runs, tmp_path, kind, check
     sound = short_runs(kind).path
     damaged = tmp_path / "damaged.h5"
     damaged.write_bytes(sound.read_bytes())
-    with Record(damaged) as one:
-        assert list(check(one)) == []
+    with Record(damaged) as whole:
+        assert list(check(whole)) == []
     with h5py.File(damaged, "r+") as file:
         file[name][...] = factor * file[name][...]
-    with Record(damaged) as one:
-        assert any(fault.startswith(expected) for fault in check(one))
+    with Record(damaged) as wrong:
+        assert any(fault.startswith(expected) for fault in check(wrong))
