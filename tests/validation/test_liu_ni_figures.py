@@ -21,7 +21,7 @@ def levels(drawn: Figure) -> list[float]:
     """Places of the level and upright lines that are dashed like printed numbers."""
     lines = [line for line in drawn.axes[0].lines if line.get_linestyle() == "--"]
     ends = [np.ravel([*line.get_xdata(), *line.get_ydata()]) for line in lines]
-    return [float(line[2]) for line in ends if line[2] == line[3]] + [float(one[0]) for one in ends]
+    return [float(line[2]) for line in ends if line[2] == line[3]] + [float(line[0]) for line in ends]
 
 
 @pytest.mark.parametrize(
