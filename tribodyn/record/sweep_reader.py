@@ -147,7 +147,8 @@ AnyRecord = Record | SweepRecord
 def is_sweep(path: str | Path) -> bool:
     """Whether a file is the record of a sweep; InputError where it cannot be read at all."""
     with open_file(Path(path)) as file:
-        return file.attrs.get("format") == schema.FORMAT and file.attrs.get("kind") == SWEEP
+        named = [str(file.attrs.get(name)) for name in ("format", "kind")]  # whatever stands there
+        return named == [schema.FORMAT, SWEEP]
 
 
 def open_any(path: str | Path) -> AnyRecord:
