@@ -21,27 +21,16 @@ REPORTED: Reported = {
         *quantities("dynamic_factor_max", "dynamic_factor_max_speed", "contact_loss_speed_from"),
     ),
     "Film and losses": quantities(
-        "specific_film_min",
-        "contact_temperature_max",
-        "power_friction_mean",
-        "efficiency",
-        "efficiency_lowest",
-        "efficiency_highest",
+        *("specific_film_min", "contact_temperature_max", "power_friction_mean"),
+        *("efficiency", "efficiency_lowest", "efficiency_highest"),
     ),
     "Solver": quantities("wall_time"),
 }
 
 SWEPT = quantities(
-    "efficiency",
-    "power_friction_mean",
-    "dynamic_factor",
-    "dynamic_factor_max",
-    "hertz_pressure_max",
-    "specific_film_min",
-    "contact_temperature_max",
-    "loaded_transmission_error_peak_to_peak",
-    "pinion_root_tension_max",
-    "gear_root_tension_max",
+    *("efficiency", "power_friction_mean", "dynamic_factor", "dynamic_factor_max"),
+    *("hertz_pressure_max", "specific_film_min", "contact_temperature_max"),
+    *("loaded_transmission_error_peak_to_peak", "pinion_root_tension_max", "gear_root_tension_max"),
 )
 
 PANELS = ("hertz_pressure", "contact_temperature", "specific_film")

@@ -24,12 +24,8 @@ from tribodyn.tribology.surface_state import range_shares
 POINTS = 20
 #: What a `PathState` has of `SurfaceState`.
 _OF_SURFACE = (
-    "asperity_load_ratio",
-    "central_film_thickness",
-    "flash_temperature_rise",
-    "hertz_pressure",
-    "closure_in_range",
-    "friction_in_range",
+    *("asperity_load_ratio", "central_film_thickness", "flash_temperature_rise", "hertz_pressure"),
+    *("closure_in_range", "friction_in_range"),
 )
 
 

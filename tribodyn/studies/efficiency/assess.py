@@ -9,16 +9,9 @@ from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task
 
 _TASK = "efficiency-"
 _QUANTITIES = (
-    "efficiency",
-    "power_in_mean",
-    "power_friction_mean",
-    "friction_coefficient_mean",
-    "film_min",
-    "film_parameter_min",
-    "flash_temperature_max",
-    "bulk_temperature",
-    "power_load_independent",
-    "efficiency_with_losses",
+    *("efficiency", "power_in_mean", "power_friction_mean", "friction_coefficient_mean"),
+    *("film_min", "film_parameter_min", "flash_temperature_max"),
+    *("bulk_temperature", "power_load_independent", "efficiency_with_losses"),
 )
 
 

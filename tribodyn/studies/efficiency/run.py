@@ -53,13 +53,8 @@ from tribodyn.tribology.surface_state import fraction_in_range
 _BESIDE = 1e-9
 #: Quantities of every duty of a load spectrum that the summary has.
 SPECTRUM = (
-    "efficiency",
-    "power_in_mean",
-    "power_friction_mean",
-    "friction_coefficient_mean",
-    "film_parameter_min",
-    "hertz_pressure_max",
-    "flash_temperature_max",
+    *("efficiency", "power_in_mean", "power_friction_mean", "friction_coefficient_mean"),
+    *("film_parameter_min", "hertz_pressure_max", "flash_temperature_max"),
 )
 
 

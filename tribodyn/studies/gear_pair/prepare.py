@@ -65,22 +65,9 @@ class Tabulated(NamedTuple):
 
 #: Fields of a case that its table does not depend on. Whatever is not named here is taken to matter.
 _NOT_IN_TABLE = (
-    "title",
-    "name",
-    "toml",
-    "sha256",
-    "roughness",
-    "mean_roughness",
-    "lubricant",
-    "bearings",
-    "operating",
-    "film",
-    "friction",
-    "temperature",
-    "losses",
-    "solver",
-    "output",
-    "quality",
+    *("title", "name", "toml", "sha256"),
+    *("roughness", "mean_roughness", "lubricant", "bearings", "operating"),
+    *("film", "friction", "temperature", "losses", "solver", "output", "quality"),
 )
 _MESH_NOT_IN_TABLE = {"damping_ratio": 0.0, "formulation": "classical", "contact_width": 0.0}
 

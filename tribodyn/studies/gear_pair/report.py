@@ -21,21 +21,11 @@ UNKNOWN = -1
 #: One number per case, from its steady window.
 SWEPT = (
     *quantities(
-        "mesh_frequency",
-        "transmission_error_rms",
-        "transmission_error_peak_to_peak",
+        *("mesh_frequency", "transmission_error_rms", "transmission_error_peak_to_peak"),
         "transmission_error_mean",
-        "dynamic_factor",
-        "normal_load_max",
-        "hertz_pressure_max",
-        "film_min",
-        "film_parameter_min",
-        "flash_temperature_max",
-        "friction_coefficient_mean",
-        "efficiency",
-        "power_in_mean",
-        "power_friction_mean",
-        "friction_work_on_vibration",
+        *("dynamic_factor", "normal_load_max", "hertz_pressure_max"),
+        *("film_min", "film_parameter_min", "flash_temperature_max", "friction_coefficient_mean"),
+        *("efficiency", "power_in_mean", "power_friction_mean", "friction_work_on_vibration"),
     ),
     *TEMPERATURE_SWEPT,
     *quantities("contact_loss_fraction", "closure_in_range_fraction", "friction_in_range_fraction"),
@@ -43,10 +33,7 @@ SWEPT = (
 
 #: Quantities that are kept of unstable motions too.
 UNSTABLE_QUANTITIES = (
-    "transmission_error_rms",
-    "transmission_error_peak_to_peak",
-    "dynamic_factor",
-    "contact_loss_fraction",
+    *("transmission_error_rms", "transmission_error_peak_to_peak", "dynamic_factor", "contact_loss_fraction"),
     "film_min",
 )
 
@@ -149,20 +136,11 @@ def layout_of(settings: Any) -> SweepLayout:
 REPORTED: Reported = {
     "Geometry": quantities("contact_ratio", "normal_backlash", "stiffness_single_pair_at_pitch_point"),
     "Dynamics": quantities(
-        "mesh_frequency",
-        "transmission_error_mean",
-        "transmission_error_rms",
-        "transmission_error_peak_to_peak",
-        "transmission_error_harmonics",
-        "transmission_error_normal_mean",
-        "transmission_error_normal_peak_to_peak",
-        "mesh_stiffness_mean",
-        "mesh_stiffness_peak_to_peak",
-        "normal_load_max",
-        "dynamic_factor",
-        "dynamic_factor_iso",
-        "resonance_ratio_iso",
-        "contact_loss_fraction",
+        *("mesh_frequency", "transmission_error_mean", "transmission_error_rms"),
+        *("transmission_error_peak_to_peak", "transmission_error_harmonics"),
+        *("transmission_error_normal_mean", "transmission_error_normal_peak_to_peak"),
+        *("mesh_stiffness_mean", "mesh_stiffness_peak_to_peak", "normal_load_max"),
+        *("dynamic_factor", "dynamic_factor_iso", "resonance_ratio_iso", "contact_loss_fraction"),
     ),
     "Tribology": TRIBOLOGY,
     "Energy": ENERGY,
@@ -172,15 +150,8 @@ REPORTED: Reported = {
 
 #: What a sweep prints, minimum and maximum of each.
 SWEEP_TABLE = quantities(
-    "transmission_error_rms",
-    "transmission_error_peak_to_peak",
-    "dynamic_factor",
-    "normal_load_max",
-    "hertz_pressure_max",
-    "film_min",
-    "efficiency",
-    "friction_work_on_vibration",
-    "contact_loss_fraction",
+    *("transmission_error_rms", "transmission_error_peak_to_peak", "dynamic_factor", "normal_load_max"),
+    *("hertz_pressure_max", "film_min", "efficiency", "friction_work_on_vibration", "contact_loss_fraction"),
 )
 
 
@@ -190,11 +161,8 @@ DIFFERENT = 0.005
 SHORT = {"peak_to_peak": "transmission_error_peak_to_peak", "loss": "power_friction_mean"}
 
 PANELS = (
-    "transmission_error_rotational",
-    "normal_load",
-    "central_film_thickness",
-    "friction_coefficient",
-    "power_friction",
+    *("transmission_error_rotational", "normal_load", "central_film_thickness"),
+    *("friction_coefficient", "power_friction"),
 )
 
 
