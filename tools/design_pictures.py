@@ -13,7 +13,7 @@ import numpy as np
 from tools.marked_block import PICTURES, parser_of
 from tribodyn.errors import InputError
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, house_style, new_figure, save
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, number_of, value_at
 from tribodyn.studies.design.candidates.evaluation import Pool
 from tribodyn.studies.design.candidates.scoring import Scoring
@@ -66,7 +66,7 @@ def draw_map(name: str, path: Path, folder: Path) -> Any:
     drawn = axes.contourf(*numbers, values, 16, cmap="viridis")
     bar = figure.colorbar(drawn, ax=axes)
     axes.contourf(*numbers, (~feasible).astype(float), [0.5, 1.5], colors=["white"], alpha=0.55)
-    with open_record(path) as record:
+    with Record(path) as record:
         x, y = (record[f"free_{key.name}"] / key.si for key in case.free)
         axes.plot(x, y, ".", color=INK, markersize=2.5, label="evaluations")
         best = [number_of(key, record.summary["best"][key.keys[0]]) / key.si for key in case.free]
@@ -100,7 +100,7 @@ def main() -> None:
         except InputError as error:
             raise SystemExit(str(error)) from None
         short = name.rpartition("-")[0].rpartition("-")[0]
-        with open_record(path) as record:
+        with Record(path) as record:
             print(save(overview(record), given.into / f"design-{short}.png", force=True))
         if name in MAPS:
             with house_style():

@@ -10,7 +10,7 @@ from typing import Any
 
 from tools.marked_block import PICTURES as FOLDER
 from tribodyn.post.style import save
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.pages import figure
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -51,7 +51,7 @@ def main() -> None:
             records = []
             for number, (label, scenario, overrides) in enumerate(runs):
                 result = run(load_scenario(scenario, overrides), Path(temporary) / f"{number}.h5")
-                record = stack.enter_context(open_record(result.path))
+                record = stack.enter_context(Record(result.path))
                 record.label = label
                 records.append(record)
                 # what the page says of a run: face load factor, maximum values

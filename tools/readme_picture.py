@@ -12,7 +12,7 @@ from tribodyn.post.figures.over_mesh import TRACES
 from tribodyn.post.figures.panel import View, draw, legend
 from tribodyn.post.figures.path_of_contact import draw_path
 from tribodyn.post.style import house_style, mark_panel, new_figure, save
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
@@ -39,7 +39,7 @@ def main() -> None:
             # enough samples for the ringing after engagement
             case = load_scenario(name, {"solver.cycles": 4, "output.samples_per_cycle": 2000})
             result = run(case, Path(temporary) / f"{name}.h5")
-            records.append(stack.enter_context(open_record(result.path)))
+            records.append(stack.enter_context(Record(result.path)))
         print(save(comparison(records), PICTURES / "crc-and-involute.png", force=True))
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from tools.marked_block import DOCS, PICTURES, put, table
 from tribodyn.post.style import save
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.pages import overview
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -24,7 +24,7 @@ def result(folder: Path, scenario: str, **changes: str) -> tuple[dict[str, Any],
     """Summary of a run, and its datasets at the start."""
     settings = {name.replace("__", "."): value for name, value in changes.items()}
     path = run(load_scenario(scenario, settings), folder / "run.h5", force=True).path
-    with open_record(path) as record:
+    with Record(path) as record:
         return record.summary, {name: record[name][0] for name in record}
 
 
@@ -85,7 +85,7 @@ def main() -> None:
         put(PAGE, "rolling-modes", modes(folder))
         put(PAGE, "rolling-conclusions", conclusions(folder))
         path = run(load_scenario("irefc"), folder / "irefc.h5").path
-        with open_record(path) as record:
+        with Record(path) as record:
             print(save(overview(record), PICTURES / "irefc.png", force=True))
 
 

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tools.marked_block import generate, parser_of, table
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.validation.rows import published
@@ -159,7 +159,7 @@ def results(folder: Path, settings: dict[str, dict[str, Any]]) -> list[float]:
         result = run(case, folder / f"{name}.h5", force=True)
         if result.status != "complete":
             raise SystemExit(f"{name}: {result.message}")
-        with open_record(result.path) as record:
+        with Record(result.path) as record:
             if name == DRY:
                 load = load_in_single_contact(record)
                 continue
@@ -215,7 +215,7 @@ def sensitivity(given: argparse.Namespace) -> str:
         rows.append(["**ours**", *written(results(folder, {name: {} for name in (CRC, INVOLUTE, DRY)}))])
         tables = {}
         for scenario in (CRC, INVOLUTE, DRY):
-            with open_record(folder / f"{scenario}.h5") as record:
+            with Record(folder / f"{scenario}.h5") as record:
                 tables[scenario] = stiffness_table(record, 1.0)
         for group in [given.only] if given.only else VARIANTS:
             rows.append([f"*{group}*", *[""] * len(COLUMNS)])

@@ -8,7 +8,7 @@ import pytest
 
 from tests.support import synthetic_record
 from tests.support.verbs import complaint, invoke, sets
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.pages import names
 
 SHORT = sets("solver.cycles=2")
@@ -36,7 +36,7 @@ def test_scenarios_are_run_and_their_records_compared(both):
     assert [record["label"] for record in result["records"]] == ["crc-23-47", "involute-23-47"]
     quantities = result["quantities"]
     for number, name in enumerate(("crc-23-47", "involute-23-47")):
-        with open_record(folder / f"{name}.h5") as record:
+        with Record(folder / f"{name}.h5") as record:
             for key in KEYS:
                 assert quantities[key]["values"][number] == pytest.approx(record.summary[key])
             loss = 1 - record.summary["efficiency"]
@@ -51,7 +51,7 @@ def test_scenarios_are_run_and_their_records_compared(both):
 def test_records_and_a_picture_of_every_quantity_are_kept(both):
     result, folder = both
     assert result["kept"] == [str(folder / f"{name}.h5") for name in ("crc-23-47", "involute-23-47")]
-    with open_record(folder / "crc-23-47.h5") as record:
+    with Record(folder / "crc-23-47.h5") as record:
         drawn = names([record])
     assert "transmission-error" in drawn
     assert [Path(path).name for path in result["pictures"]] == [f"compare-{name}.png" for name in drawn]

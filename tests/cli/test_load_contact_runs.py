@@ -8,7 +8,7 @@ import pytest
 
 from tests.support.verbs import complaint, invoke, sets
 from tribodyn.errors import SimulationError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact import run as simulate_load_contact
 
 PLAIN, RELIEVED = "load-contact-18-36", "harris-18-36-tip-relief"
@@ -27,7 +27,7 @@ def both(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 
 def test_the_record_carries_the_load(both: dict[str, Path]):
-    with open_record(both[PLAIN]) as record:
+    with Record(both[PLAIN]) as record:
         summary = record.summary
         assert record.samples == 30
         assert np.max(np.abs(record["torque_residual"])) < 1e-10
@@ -52,7 +52,7 @@ def test_the_record_carries_the_load(both: dict[str, Path]):
 
 def test_relief_of_twice_the_swing_is_least_at_its_torque(both: dict[str, Path]):
     """S. L. Harris: a long relief as deep as twice what two pairs deflect less than one."""
-    with open_record(both[PLAIN]) as plain, open_record(both[RELIEVED]) as relieved:
+    with Record(both[PLAIN]) as plain, Record(both[RELIEVED]) as relieved:
         swing = np.ptp(plain["loaded_transmission_error"])
         assert 12.4e-6 == pytest.approx(2 * swing, rel=0.02)
         spread = relieved["map_peak_to_peak"]
@@ -99,7 +99,7 @@ def test_a_torque_that_fails_keeps_what_was_before_it(
     line = complaint("run", PLAIN, *SHORT, *TORQUES, "-o", tmp_path / "study.h5", status=3)
     assert "does not settle" in line
     assert "study.partial.h5" in line
-    with open_record(tmp_path / "study.partial.h5") as record:
+    with Record(tmp_path / "study.partial.h5") as record:
         assert record.status == "failed"
         assert record.samples == (30 if fails_at else 0)
         if fails_at:

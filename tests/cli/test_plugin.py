@@ -20,7 +20,7 @@ import pytest
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.verbs import sets
 from tribodyn.numerics.cache import cache_folder
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
@@ -88,7 +88,7 @@ def run(plugin: Environment, folder: Path, name: str, *given: str, scenario: str
 
 
 def arrays(path: Path) -> dict[str, np.ndarray]:
-    with open_record(path) as record:
+    with Record(path) as record:
         return {name: record[name] for name in record}
 
 
@@ -137,7 +137,7 @@ def test_the_family_reduces_to_two_arcs(plugin, tmp_path):
     """Of opposite diameters, for which the shipped family has closed forms where the example integrates."""
     own = run(plugin, tmp_path, "circle", scenario=plugin.scenario(SLIDING))
     theirs = run(plugin, tmp_path, "arcs", *AS_ARCS, scenario=plugin.scenario(SLIDING))
-    with open_record(own) as circle, open_record(theirs) as arcs:
+    with Record(own) as circle, Record(theirs) as arcs:
         assert circle.summary["contact_ratio"] == pytest.approx(arcs.summary["contact_ratio"], rel=1e-12)
         for name in arcs:
             np.testing.assert_allclose(circle[name], arcs[name], rtol=1e-10, atol=1e-13, err_msg=name)
@@ -193,7 +193,7 @@ def test_the_efficiency_study_takes_family_and_law(plugin, tmp_path):
     for boundary, fluid in (("0.03", "0.03"), ("0.12", "0.03"), ("0.12", "0.12")):
         given = (f"friction.boundary_coefficient={boundary}", f"friction.fluid_coefficient={fluid}")
         path = run(plugin, tmp_path, EFFICIENCY, *given)
-        with open_record(path) as record:
+        with Record(path) as record:
             found.append(record.summary["efficiency"])
         path.unlink()
     assert found[0] > found[1] > found[2]
@@ -204,7 +204,7 @@ def test_the_efficiency_study_takes_family_and_law(plugin, tmp_path):
         )
         (tmp_path / "coulomb.toml").write_text(shipped, encoding="utf-8")
         path = run(plugin, tmp_path, "coulomb", scenario="coulomb.toml")
-        with open_record(path) as record:
+        with Record(path) as record:
             assert record.summary["efficiency"] == of_the_law
         path.unlink()
 
@@ -224,7 +224,7 @@ def test_the_study_runs_draws_shows_and_compares(plugin, tmp_path):
     assert "Minimum specific sliding, gear" in compared
     checked = plugin("check", plugin.scenario(SLIDING), "--json", folder=tmp_path)
     sheet = json.loads(checked.stdout)["geometry"]
-    with open_record(first) as record:
+    with Record(first) as record:
         assert record.axis == "signed_distance"
         assert record.units("sliding_speed") == "m/s"
         for body in ("pinion", "gear"):

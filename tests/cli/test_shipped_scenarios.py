@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.verbs import in_a_process, sets
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.scenario.sources import names, shipped
 from tribodyn.studies.protocol.load import load_scenario
 
@@ -88,7 +88,7 @@ def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     assert len(result["pictures"]) == (name in DRAWN)
     for picture in result["pictures"]:
         assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
-    with open_record(tmp_path / result["record"]) as record:
+    with Record(tmp_path / result["record"]) as record:
         assert record.status == "complete"
         assert record.scenario["name"] == name
         load = "normal_load" if "normal_load" in record else "rms_displacement"
@@ -116,11 +116,11 @@ def test_the_story_of_a_newcomer(tmp_path: Path, forked: ForkedVerbs):
 def test_a_records_scenario_runs_again_to_the_same_numbers(tmp_path: Path, forked: ForkedVerbs):
     short = ("--set", "solver.cycles=1", "--no-plot")
     assert forked("run", "crc-23-47-300", *short, "-o", "first.h5", folder=tmp_path).returncode == 0
-    with open_record(tmp_path / "first.h5") as record:
+    with Record(tmp_path / "first.h5") as record:
         (tmp_path / "again.toml").write_text(record.attrs["scenario"], encoding="utf-8")
         first = record["normal_load"]
         digest = record.attrs["scenario_sha256"]
     assert forked("run", "again.toml", "--no-plot", "-o", "again.h5", folder=tmp_path).returncode == 0
-    with open_record(tmp_path / "again.h5") as record:
+    with Record(tmp_path / "again.h5") as record:
         assert record.attrs["scenario_sha256"] == digest
         assert (record["normal_load"] == first).all()

@@ -10,7 +10,7 @@ import pytest
 import xarray
 
 from tests.support.verbs import complaint, ended, invoke, sets
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
@@ -69,7 +69,7 @@ def test_json_and_show_say_what_the_record_says(grid: Path):
 def test_the_first_case_of_a_direction_is_the_run_of_its_scenario(grid: Path, tmp_path: Path):
     keys = "operating.pinion_speed=300 rad/s", "operating.gear_torque=500 N*m", "output.samples_per_cycle=40"
     invoke("run", "crc-23-47", "--no-plot", "-o", tmp_path / "run.h5", *sets("solver.cycles=4", *keys))
-    with open_record(tmp_path / "run.h5") as record, SweepRecord(grid) as sweep:
+    with Record(tmp_path / "run.h5") as record, SweepRecord(grid) as sweep:
         case = (2, 1, 1)  # 300 rad/s is where "down" begins
         # the same steps but for where blocks end: far inside the solver's tolerance of 1e-6
         for name in ("dynamic_factor", "efficiency", "mesh_frequency", "power_in_mean"):

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from tests.support.states import recorded
 from tribodyn.dynamics.extremes import LOWEST
 from tribodyn.dynamics.outputs import outputs_with_extremes
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.periodic import steady_states
@@ -162,7 +162,7 @@ def test_a_summary_is_never_at_odds_with_its_record(samples, speed, cycles, tmp_
     }
     path = tmp_path_factory.mktemp("record") / "run.h5"
     run(load_scenario("crc-23-47", overrides), path)
-    with open_record(path) as record:
+    with Record(path) as record:
         summary = record.summary
         described = summary["extremes"]
         window = slice(-samples * summary["averaging_cycles"] - 1, None)
@@ -185,7 +185,7 @@ def test_the_last_sample_may_be_the_extreme_of_a_run_and_of_a_sweep(tmp_path):
     )
     summary = run(case, tmp_path / "run.h5").summary
     swept = evaluate(Chunk(np.arange(1), (case,)), BATCH.settings([case], cycles, "native"))
-    with open_record(tmp_path / "run.h5") as record:
+    with Record(tmp_path / "run.h5") as record:
         film = record["central_film_thickness"][-samples - 1 :]
         error = record["transmission_error_rotational"][-samples - 1 : -1]
     assert np.nanmin(film) == np.nanmin(film[-1]) < 0.95 * np.nanmin(film[:-1])

@@ -12,7 +12,7 @@ from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import cycloidal
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
@@ -82,7 +82,7 @@ def test_extremes_do_not_hang_on_a_sample_at_the_pitch_point(name, tmp_path):
             {"solver.cycles": 2, "output.samples_per_cycle": samples, "friction.sliding": "kinematic"},
         )
         result = run(case, tmp_path / f"{samples}.h5")
-        with open_record(result.path) as record:
+        with Record(result.path) as record:
             assert "half width" in record.summary["pitch_point"]
             keys = ("central_film_thickness", "hertz_pressure", "flash_temperature_rise")
             arrays = [np.asarray(record[key])[samples:] for key in keys]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
@@ -74,5 +74,5 @@ def test_a_run_fails_and_says_what_to_do(tmp_path):
     assert "the motion grew without bound" in result.message
     assert "t = " in result.message
     assert "less friction" in result.message
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         assert np.max(np.abs(record["transmission_error_rotational"])) < 0.2

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.pages import compare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -104,7 +104,7 @@ def test_points_without_bounded_motion_are_reported_and_the_others_kept(tmp_path
     assert result.status == "complete"
     assert result.summary["points_failed"] == 2
     assert "without bound" in result.summary["remark_1"]
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         assert np.all(np.isnan(record["rms_displacement"][1]))
         assert np.all(record["stable"][[0, 2]] == 1.0)
 
@@ -113,13 +113,13 @@ def test_a_sweep_without_any_bounded_motion_fails(tmp_path):
     result = run(load_scenario(OSCILLATOR, {**UNBOUNDED, "frequency": [2.0]}), tmp_path / "none.h5")
     assert result.status == "failed"
     assert "without bound" in result.message
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         assert record.status == "failed"
         assert record.path.name == "none.partial.h5"
 
 
 def test_sweeps_are_drawn_together_and_not_compared(tmp_path):
     path = run(load_scenario(OSCILLATOR, {"frequency": [0.5]}), tmp_path / "sweep.h5").path
-    with open_record(path) as first, open_record(path) as second:
+    with Record(path) as first, Record(path) as second:
         with pytest.raises(InputError, match="draw them into one figure"):
             compare([first, second])

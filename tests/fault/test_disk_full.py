@@ -15,7 +15,7 @@ from tests.support.record_samples import SWEEP_HEAD, block, gear_pair_writer, ge
 from tribodyn.errors import OutputError
 from tribodyn.numerics import cache
 from tribodyn.record import disk
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_writer import SweepWriter
 
@@ -109,7 +109,7 @@ def test_a_run_keeps_what_it_has(work, parts: int, tmp_path: Path, monkeypatch: 
                 work(folder / "run.h5")
         assert {path.name for path in folder.iterdir()} <= {"run.partial.h5"}, room
         if error.value.kept:
-            with open_record(folder / "run.partial.h5") as left:
+            with Record(folder / "run.partial.h5") as left:
                 count = left.samples
                 assert f"first {count} of {SAMPLES}" in error.value.kept or count == SAMPLES
                 np.testing.assert_array_equal(left["normal_load"], block(0, SAMPLES)["normal_load"][:count])
@@ -130,7 +130,7 @@ def test_a_finished_record_that_cannot_get_its_name_is_kept(tmp_path: Path, monk
     with pytest.raises(OutputError, match=r"all samples, without a summary: .*run\.partial\.h5"):
         record(tmp_path / "run.h5")
     assert [path.name for path in tmp_path.iterdir()] == ["run.partial.h5"]
-    with open_record(tmp_path / "run.partial.h5") as left:
+    with Record(tmp_path / "run.partial.h5") as left:
         assert (left.status, left.samples) == ("partial", SAMPLES)
 
 

@@ -6,7 +6,7 @@ import pytest
 from tribodyn.dynamics.outputs import outputs
 from tribodyn.dynamics.parameters import SLIP
 from tribodyn.errors import SimulationError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
@@ -27,7 +27,7 @@ def test_too_many_steps(tmp_path, method):
     assert "t = " in result.message
     assert result.path == tmp_path / "out.partial.h5"
     assert not (tmp_path / "out.h5").exists()
-    record = open_record(result.path)
+    record = Record(result.path)
     assert record.status == "failed"
     assert record.message == result.message
     assert np.all(np.isfinite(record["time"]))
@@ -48,7 +48,7 @@ def test_a_pinion_that_stalls(tmp_path, method):
     )
     assert result.status == "failed"
     assert "came to rest" in result.message
-    record = open_record(result.path)
+    record = Record(result.path)
     assert 1 < record.samples < 20 * 200
     speed = np.asarray(record["velocity"])[:, 4]
     assert np.all(speed > 0)
@@ -78,7 +78,7 @@ def test_no_equilibrium_at_the_start(prepared):
 
 def test_failures_name_the_time_they_happen_at(tmp_path):
     result = run(tmp_path, **{"solver.max_steps": 500, "solver.cycles": 3})
-    record = open_record(result.path)
+    record = Record(result.path)
     assert result.status == "failed"
     stated = float(result.message.split("t = ")[1].split(" s")[0])
     assert stated >= record["time"][-1] - 1e-12

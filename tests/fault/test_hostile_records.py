@@ -15,7 +15,7 @@ from tests.support.record_samples import block, gear_pair_writer, geometry
 from tests.support.verbs import complaint
 from tribodyn.errors import InputError
 from tribodyn.record import lookout, schema, soundness
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import open_any
 
 LOAD = "normal_load"
@@ -146,12 +146,12 @@ def test_a_good_record_is_looked_through_once(path: Path, monkeypatch):
         lookout, "through_a_child", lambda look, path: looked.append(path) or original(look, path)
     )
     for _ in range(3):
-        with open_record(path) as record:
+        with Record(path) as record:
             assert record.samples == 10
     assert looked == [path]
     damage(path, "external link")
     with pytest.raises(InputError, match="damaged"):
-        open_record(path)
+        Record(path)
 
 
 @pytest.fixture
@@ -187,6 +187,6 @@ def test_a_process_that_is_kept_survives_what_it_looks_at(path: Path, kept, monk
 
 def test_an_error_of_a_users_own_is_no_damage(path: Path):
     """While a record is open a script may fail for reasons of its own."""
-    script: dict[str, object] = {"open_record": open_record, "path": path}
+    script: dict[str, object] = {"Record": Record, "path": path}
     with pytest.raises(ZeroDivisionError):
-        exec("with open_record(path) as record:\n    1 / 0", script | {"__name__": "script"})
+        exec("with Record(path) as record:\n    1 / 0", script | {"__name__": "script"})

@@ -17,7 +17,7 @@ from tests.support.hostile_texts import HOSTILE, LONG, hostile_copy
 from tests.support.short_studies import ShortRuns, shortened, written_template
 from tests.support.verbs import ended
 from tribodyn.post.style import house_style, literal, save
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies import STUDIES
 from tribodyn.studies.pages import (
@@ -52,7 +52,7 @@ def hostile(short_runs: ShortRuns, tmp_path: Path):
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_figure_and_page_of_a_kind(kind: str, hostile):
     path = hostile(kind, HOSTILE)
-    with open_record(path) as record, open_record(path) as other:
+    with Record(path) as record, Record(path) as other:
         found = [text for name in ("overview", *names([record])) for text in drawn(figure(name, [record]))]
         assert kind == "assessment" or literal(HOSTILE)[1:] in " ".join(found)
         for name in names([record, other]):
@@ -65,7 +65,7 @@ def test_every_figure_and_page_of_a_kind(kind: str, hostile):
 
 @pytest.mark.parametrize("kind", ["gear-pair", "irefc"])
 def test_a_text_that_is_too_long(kind: str, hostile):
-    with open_record(hostile(kind, LONG)) as record:
+    with Record(hostile(kind, LONG)) as record:
         for name in ("overview", *names([record])[:2]):
             assert max(map(len, drawn(figure(name, [record])))) < 400
 
@@ -89,7 +89,7 @@ def is_text_only(page: str) -> None:
 
 @pytest.mark.parametrize("ending", ["svg", "pdf"])
 def test_a_file_for_print(ending: str, hostile, tmp_path: Path):
-    with open_record(hostile("backlash-oscillator", HOSTILE)) as record:
+    with Record(hostile("backlash-oscillator", HOSTILE)) as record:
         picture = save(figure("overview", [record]), tmp_path / f"a.{ending}")
     if ending == "svg":
         said = "".join(ElementTree.parse(picture).getroot().itertext())

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from tests.support.record_samples import block
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 
 BLOCK, BLOCKS, KILLS = 50, 40, 24
 
@@ -52,7 +52,7 @@ def test_what_a_killed_run_wrote_is_right(tmp_path: Path):
                 status = plain.attrs["status"]
                 assert status == ("partial" if path.name.endswith(".partial.h5") else "complete")
                 assert plain["summary"].attrs.get("efficiency") == (0.98 if status == "complete" else None)
-            with open_record(path) as record:
+            with Record(path) as record:
                 states.append((record.status, record.samples))
                 assert record.samples % BLOCK == 0
                 for name in record:

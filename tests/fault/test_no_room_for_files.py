@@ -15,7 +15,7 @@ from tests.support.short_studies import SHORT, ShortRuns
 from tests.support.verbs import complaint, ended, invoke, sets
 from tribodyn.errors import OutputError
 from tribodyn.numerics.output_files import MARKS, write_output
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 
 resource = pytest.importorskip("resource")
 
@@ -103,5 +103,5 @@ def test_what_is_kept_is_said_where_a_file_beside_the_record_finds_no_room(tmp_p
     said = r"a\.dxf: .*too large; the first 5 of 9 samples: .*run\.partial"
     with files_of_at_most(1_000_000), pytest.raises(OutputError, match=said):
         record_and_drawing(tmp_path)
-    with open_record(tmp_path / "run.partial.h5") as left:
+    with Record(tmp_path / "run.partial.h5") as left:
         assert (left.status, left.samples) == ("failed", 5)

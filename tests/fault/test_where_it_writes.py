@@ -7,7 +7,7 @@ import pytest
 
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.errors import InputError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.writing_lock import lock_path, scratch_path
 
 PRECIOUS = b"precious"
@@ -27,7 +27,7 @@ def test_a_link_to_a_record_may_be_named(tmp_path: Path):
     content = (tmp_path / "first.h5").read_bytes()
     (tmp_path / "run.h5").symlink_to(tmp_path / "first.h5")
     record(tmp_path / "run.h5")
-    with open_record(tmp_path / "run.h5") as found:
+    with Record(tmp_path / "run.h5") as found:
         assert found.status == "complete"
     assert (tmp_path / "first.h5").read_bytes() == content
 

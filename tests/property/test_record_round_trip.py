@@ -11,7 +11,7 @@ from hypothesis.extra import numpy as arrays
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.errors import harmless
 from tribodyn.record.opened import harmless_data
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 
 NUMBERS = st.floats(allow_nan=True, allow_infinity=True)
 SCALARS = st.one_of(
@@ -39,7 +39,7 @@ def test_samples_come_back(lengths: list[int], data: st.DataObject):
                 record.write(start, block(start, stop) | {"normal_load": load[start:stop]})
                 start = stop
             path = record.finish({})
-        with open_record(path) as record:
+        with Record(path) as record:
             np.testing.assert_array_equal(record["normal_load"], load)
             np.testing.assert_array_equal(record["velocity"], block(0, total)["velocity"])
 
@@ -51,6 +51,6 @@ def test_summary_and_scenario_come_back(summary: dict, scenario: str):
         with gear_pair_writer(Path(folder) / "run.h5", 1, scenario_toml=scenario) as record:
             record.write(0, block(0, 1))
             path = record.finish(summary)
-        with open_record(path) as record:
+        with Record(path) as record:
             assert record.summary == harmless_data(summary)
             assert record.attrs["scenario"] == harmless(scenario)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.validation import PAPERS
@@ -53,6 +53,6 @@ def test_the_columns_of_cam_and_crown_belong_to_another_gear(tmp_path):
     """Both were made with r_b 2.8 mm and μ 1e-6 m, the cam's by the magnitude of its signed sum."""
     changes = {"drive.element_radius": "2.8 mm", "friction.rolling_arm": "1e-6 m"}
     result = run(load_scenario("irefc-as-published", changes), tmp_path / "columns.h5")
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         assert -record["power_cam"][0][1:13] == pytest.approx(CAM, abs=6e-5)
         assert record["power_crown"][0][1:13] == pytest.approx(CROWN, abs=6e-5)

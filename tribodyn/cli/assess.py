@@ -42,7 +42,7 @@ def assess(
     from tribodyn.errors import InputError
     from tribodyn.numerics.output_files import check_output, make_folder
     from tribodyn.post.report import as_json
-    from tribodyn.record.reader import open_record
+    from tribodyn.record.reader import Record
     from tribodyn.studies import STUDIES
     from tribodyn.studies.pages import write_report
     from tribodyn.studies.protocol.load import load
@@ -63,7 +63,7 @@ def assess(
     if result.status != "complete":
         reason = f"the simulation failed: {result.message}; partial record: {result.path}"
         end(SIMULATION_FAILED, f"{loaded.path}: {reason}")
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         page = write_report([record], folder / PAGE, force=force)
         head = as_json(record)
         data: dict[str, Any] = {**head.pop("summary"), **head, "report": str(page)}

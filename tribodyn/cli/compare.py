@@ -51,7 +51,7 @@ def compare(
     from tribodyn.cli.pictures import draw
     from tribodyn.cli.printing import print_files, print_json, print_rich
     from tribodyn.post import compare as comparing
-    from tribodyn.record.reader import open_record
+    from tribodyn.record.reader import Record
     from tribodyn.studies.pages import compare as compare_records
     from tribodyn.studies.pages import names
 
@@ -67,7 +67,7 @@ def compare(
             _run(scenarios[word], folder, force, allow_large) if word in scenarios else Path(word)
             for word in what
         ]
-        records = [stack.enter_context(open_record(path)) for path in paths]
+        records = [stack.enter_context(Record(path)) for path in paths]
         compared = compare_records(records)
         if output is not None:
             pictures = draw(records, names(records), folder / f"compare.{format.value}", force=force)
@@ -84,7 +84,7 @@ def compare(
 def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loaded"]:
     """Load what is to be run, and refuse before anything runs what cannot be compared afterwards."""
     from tribodyn.errors import InputError
-    from tribodyn.record.reader import open_record
+    from tribodyn.record.reader import Record
     from tribodyn.scenario.sources import is_file
     from tribodyn.studies.pages import study_of_record
     from tribodyn.studies.protocol.load import load
@@ -108,7 +108,7 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     cases: dict[str, str] = {}
     for word in what:
         if word not in scenarios:
-            with open_record(word) as record:
+            with Record(word) as record:
                 studies[word] = study_of_record(record)
             continue
         studies[word], name = scenarios[word].study, scenarios[word].case.name

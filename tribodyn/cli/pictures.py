@@ -48,10 +48,10 @@ def overview_path(record: Path) -> Path:
 
 def draw_pictures(path: Path, *, everything: bool, force: bool = False) -> list[Path]:
     """Draw the overview of a record, or all its figures, beside it."""
-    from tribodyn.record.reader import open_record
+    from tribodyn.record.reader import Record
     from tribodyn.studies.pages import names
 
-    with open_record(path) as record:
+    with Record(path) as record:
         chosen = ["overview", *names([record])] if everything else ["overview"]
         return draw([record], chosen, path.with_suffix(".png"), force=force)
 

@@ -75,7 +75,7 @@ def plot(
     from tribodyn.cli.pictures import draw, save_all
     from tribodyn.cli.printing import print_files, print_json
     from tribodyn.errors import InputError
-    from tribodyn.record.reader import open_record
+    from tribodyn.record.reader import Record
     from tribodyn.record.sweep_reader import SweepRecord, is_sweep
     from tribodyn.scenario.sources import is_file
     from tribodyn.studies.pages import names as figure_names
@@ -94,7 +94,7 @@ def plot(
             chosen = sweep_names(sweeps) if everything else names
             pictures = save_all(chosen, beside, lambda name: sweep_figure(name, sweeps, place), force=force)
         else:
-            records = [stack.enter_context(open_record(path)) for path in paths]
+            records = [stack.enter_context(Record(path)) for path in paths]
             chosen = figure_names(records) if everything else names
             shown = "auto" if cycles is None else cycles or None
             how = against and against.value

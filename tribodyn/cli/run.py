@@ -81,7 +81,7 @@ def run_loaded(
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import OutputError
     from tribodyn.numerics.output_files import check_output
-    from tribodyn.record.reader import open_record
+    from tribodyn.record.reader import Record
     from tribodyn.record.withheld import warnings
     from tribodyn.studies.protocol.run import run as run_case
 
@@ -101,7 +101,7 @@ def run_loaded(
         if not json:
             from tribodyn.cli.show import print_summary
 
-            with open_record(result.path) as opened:
+            with Record(result.path) as opened:
                 print_summary(opened)
         drawn = ahead.pictures() if ahead and not failed else None
     page = None
@@ -112,14 +112,14 @@ def run_loaded(
         if report and not failed:
             from tribodyn.studies.pages import write_report
 
-            with open_record(result.path) as opened:
+            with Record(result.path) as opened:
                 page = write_report([opened], result.path.with_suffix(".html"), force=force)
     except OutputError as error:
         raise OutputError(error.file, error.reason, f"the record is complete: {result.path}") from None
     if json:
         from tribodyn.post.report import as_json
 
-        with open_record(result.path) as opened:
+        with Record(result.path) as opened:
             data = as_json(opened)
         data |= {name: data["summary"].get(name) for name in loaded.study.top()}
         files = {"pictures": [str(path) for path in drawn], **({"report": str(page)} if page else {})}

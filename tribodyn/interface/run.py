@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from tribodyn.interface import shown
 from tribodyn.interface.scenario import Source, in_python, scenario
 from tribodyn.record import trust
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.run import run as run_case
 from tribodyn.studies.protocol.study import CaseHead, Progress
@@ -52,7 +52,7 @@ class Run:
         self.path = path
         if folder is not None:  # a temporary one, which goes with this object
             weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
-        with open_record(path) as record:
+        with Record(path) as record:
             self.kind, self.status, self.message = record.kind, record.status, record.message
             self.summary: dict[str, Any] = record.summary
             self.scenario: dict[str, Any] = record.scenario
@@ -61,13 +61,13 @@ class Run:
     @cached_property
     def data(self) -> "xarray.Dataset":
         """Everything that was sampled, with dimensions and units; SI."""
-        with open_record(self.path) as record:
+        with Record(self.path) as record:
             return shown.of_run(record)
 
     @cached_property
     def mesh_cycle(self) -> dict[str, Any]:
         """The table over a mesh cycle that the run was made from, by name; empty where there is none."""
-        with open_record(self.path) as record:
+        with Record(self.path) as record:
             return record.mesh_cycle if "mesh_cycle" in record.groups else {}
 
     @property
@@ -75,7 +75,7 @@ class Run:
         """Names that `plot` takes."""
         from tribodyn.studies.pages import OVERVIEW, names
 
-        with open_record(self.path) as record:
+        with Record(self.path) as record:
             return (OVERVIEW, *names([record]))
 
     @in_python()
@@ -212,7 +212,7 @@ class Run:
         from tribodyn.post.page.page import summary_tables, warnings_of
         from tribodyn.studies.pages import study_of_record
 
-        with open_record(self.path) as record:
+        with Record(self.path) as record:
             study = study_of_record(record)
             return shown.block(
                 shown.heading(str(self.scenario.get("title", self.path.stem)), self.status, self.trust),
@@ -227,7 +227,7 @@ class Run:
 def records_of(runs: "list[Run]") -> Iterator[list[Record]]:
     """The records of runs, open."""
     with ExitStack() as stack:
-        yield [stack.enter_context(open_record(run.path)) for run in runs]
+        yield [stack.enter_context(Record(run.path)) for run in runs]
 
 
 @in_python()
@@ -291,7 +291,7 @@ def recorded(case: CaseHead, output: str | Path | None, **how: Any) -> Run:
 
 def open_run(path: Path, folder: str | None = None) -> Run:
     """Open a record as a `Run`, with the properties that its study gives its runs."""
-    with open_record(path) as record:
+    with Record(path) as record:
         kind = record.kind
     return run_class(kind)(path, folder)
 

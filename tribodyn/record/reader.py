@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import h5py
@@ -156,8 +155,3 @@ class Record(OpenRecord):
         if axis.dtype.kind != "f" or not np.all(np.abs(axis) < LARGEST):
             raise ValueError(f"{self.axis} is not a finite number throughout")
         _ = self.summary
-
-
-def open_record(path: str | Path) -> Record:
-    """Open a record for reading; see `Record`."""
-    return Record(path)

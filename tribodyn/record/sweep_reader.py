@@ -12,7 +12,7 @@ import numpy as np
 from tribodyn.errors import InputError, harmless
 from tribodyn.record import schema
 from tribodyn.record.opened import OpenRecord, attributes, harmless_data, open_file
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING, VariedKey
 from tribodyn.record.withheld import warnings_in
 
@@ -153,4 +153,4 @@ def is_sweep(path: str | Path) -> bool:
 
 def open_any(path: str | Path) -> AnyRecord:
     """Open a record of a run or of a sweep."""
-    return SweepRecord(path) if is_sweep(path) else open_record(path)
+    return SweepRecord(path) if is_sweep(path) else Record(path)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.validation.rows import Row, compare, published
@@ -90,7 +90,7 @@ def _run(path: Path, scenario: str, changes: dict[str, str]) -> FinishedRun:
     result = run(load_scenario(scenario, changes), path, force=True)
     if result.status != "complete":
         raise SimulationError(f"{path.stem}: {result.message}")
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         return FinishedRun(record.summary, {name: record[name] for name in record})
 
 

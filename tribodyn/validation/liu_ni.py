@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.validation.rows import Row, compare, published
@@ -62,7 +62,7 @@ class Steady(NamedTuple):
 
 
 def _steady(path: Path) -> Steady:
-    record = open_record(path)
+    record = Record(path)
     names = (
         "normal_load",
         "central_film_thickness",

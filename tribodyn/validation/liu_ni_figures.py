@@ -14,7 +14,7 @@ from tribodyn.post.figures import over_mesh
 from tribodyn.post.figures.panel import Trace, View, abscissa, draw, legend
 from tribodyn.post.figures.spectrum import steady_spectrum
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 from tribodyn.validation.rows import published
 
 PAPER = "liu-ni-2022"
@@ -53,7 +53,7 @@ def _compared(
     figure = new_figure(WIDTH, PANEL_HEIGHT + 0.9)
     axes = figure.subplots()
     with ExitStack() as stack:
-        opened = [stack.enter_context(open_record(records / f"{name}.h5")) for name in DRIVES]
+        opened = [stack.enter_context(Record(records / f"{name}.h5")) for name in DRIVES]
         rows = draw(axes, opened, quantity, view)
         mark_panel(axes, "", quantity.title, rows)
         if printed:
@@ -89,7 +89,7 @@ def normal_load(records: Path) -> Figure:
     """Sum of the normal loads of the CRC drive without friction, with the printed means in single contact."""
     figure = new_figure(WIDTH, PANEL_HEIGHT + 0.6)
     axes = figure.subplots()
-    with open_record(records / "crc-23-47-frictionless.h5") as record:
+    with Record(records / "crc-23-47-frictionless.h5") as record:
         window = last_cycles(record, 1)
         load = record["normal_load"][window.part]
         total, single = np.sum(load, axis=1), np.sum(load > 0.0, axis=1) == 1
@@ -110,7 +110,7 @@ def spectrum(records: Path) -> Figure:
     """Spectrum of the CRC drive with the printed mesh frequency."""
     figure = new_figure(WIDTH, PANEL_HEIGHT + 0.6)
     axes = figure.subplots()
-    with open_record(records / "crc-23-47.h5") as record:
+    with Record(records / "crc-23-47.h5") as record:
         found, window = steady_spectrum(record)
     amplitudes = found.harmonics(ORDERS) * 1e6
     places = np.arange(1, ORDERS + 1) * window.mesh_frequency * 1e-3

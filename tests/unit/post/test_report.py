@@ -9,13 +9,13 @@ from rich.console import Console
 from tests.support import synthetic_record
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.post.report import as_json
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.pages import summary_table
 
 
 @pytest.fixture
 def record(tmp_path: Path) -> Record:
-    return open_record(synthetic_record.write(tmp_path / "run.h5", cycles=1, per_cycle=20))
+    return Record(synthetic_record.write(tmp_path / "run.h5", cycles=1, per_cycle=20))
 
 
 def printed(record: Record) -> str:
@@ -28,7 +28,7 @@ def printed(record: Record) -> str:
 def failed(path: Path, summary: dict) -> Record:
     with gear_pair_writer(path, 9, outlines=geometry()) as writer:
         writer.write(0, block(0, 4))
-        return open_record(writer.fail("stopped at t = 0.1 s: step too small", summary))
+        return Record(writer.fail("stopped at t = 0.1 s: step too small", summary))
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ import tribodyn as td
 from tests.support import synthetic_record
 from tribodyn.cli.app import app
 from tribodyn.record.opened import summary_of_today
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import open_any
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import evaluated
@@ -116,7 +116,7 @@ def older(path: Path) -> None:
 def test_an_older_record_is_read_under_the_names_of_today(tmp_path: Path):
     paths = [synthetic_record.write(tmp_path / name, cycles=2, per_cycle=20) for name in ("a.h5", "b.h5")]
     older(paths[1])
-    with open_record(paths[0]) as new, open_record(paths[1]) as old:
+    with Record(paths[0]) as new, Record(paths[1]) as old:
         assert sorted(old) == sorted(new)
         np.testing.assert_equal(old.summary, new.summary)
         for name in ("transmission_error_normal", "transmission_error"):

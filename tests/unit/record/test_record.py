@@ -9,7 +9,7 @@ import pytest
 from tests.support.record_samples import block, gear_pair_writer, geometry, mesh_cycle
 from tribodyn.dynamics.recorded import DOF
 from tribodyn.errors import InputError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.writer import RecordWriter
 
 SCENARIO = 'title = "test"\n[operating]\ngear_torque = "500 N*m"\n'
@@ -36,7 +36,7 @@ def record_path(tmp_path: Path) -> Path:
 
 
 def test_head_comes_back(record_path: Path):
-    with open_record(record_path) as record:
+    with Record(record_path) as record:
         assert record.scenario["operating"]["gear_torque"] == "500 N*m"
         assert record.attrs["scenario_sha256"] == "ab" * 32
         assert {"tribodyn_version", "created", "numpy_version", "format_version"} <= record.attrs.keys()
@@ -47,14 +47,14 @@ def test_head_comes_back(record_path: Path):
 
 
 def test_summary_comes_back_nested(record_path: Path):
-    with open_record(record_path) as record:
+    with Record(record_path) as record:
         summary = dict(record.summary)
         np.testing.assert_array_equal(summary.pop("orders"), [1.0, 2.0])
         assert summary == {"efficiency": 0.98, "solver": "dopri5", "film": {"min": 1e-7, "ok": True}}
 
 
 def test_tables_come_back(record_path: Path):
-    with open_record(record_path) as record:
+    with Record(record_path) as record:
         for found, given in ((record.mesh_cycle, mesh_cycle()), (record.geometry, geometry())):
             assert found.keys() == given.keys()
             for name, value in given.items():
@@ -67,7 +67,7 @@ def test_pairs_are_numbered_from_the_newest(tmp_path: Path):
     with gear_pair_writer(tmp_path / "run.h5", 1, table=table) as record:
         record.write(0, block(0, 1, pairs=5))
         path = record.finish({})
-    with open_record(path) as record:
+    with Record(path) as record:
         assert record.pairs == (-1, 0, 1, 2, 3)
 
 
@@ -75,7 +75,7 @@ def test_the_name_appears_only_when_complete(tmp_path: Path):
     with writer(tmp_path / "run.h5") as record:
         record.write(0, block(0, 10))
         assert {file.name for file in tmp_path.iterdir()} == {"run.partial.h5", "run.partial.lock"}
-        with open_record(tmp_path / "run.partial.h5") as running:
+        with Record(tmp_path / "run.partial.h5") as running:
             assert running.status == "partial"
             np.testing.assert_array_equal(running["time"], np.arange(10.0))
             assert np.isnan(running._file["time"][10:]).all()
@@ -89,7 +89,7 @@ def test_a_failed_run_is_trimmed_and_says_why(tmp_path: Path):
         record.write(0, block(0, 7))
         path = record.fail("stopped at t = 7 s: step too small", {"steps": 12})
     assert [file.name for file in tmp_path.iterdir()] == ["run.partial.h5"]
-    with open_record(path) as failed:
+    with Record(path) as failed:
         assert (failed.status, failed.message) == ("failed", "stopped at t = 7 s: step too small")
         assert failed.summary == {"steps": 12}
         expected = block(0, 7)
@@ -101,7 +101,7 @@ def test_a_failed_run_is_trimmed_and_says_why(tmp_path: Path):
 def test_a_run_that_fails_at_once_leaves_a_readable_record(tmp_path: Path):
     with writer(tmp_path / "run.h5") as record:
         path = record.fail("no static equilibrium")
-    with open_record(path) as failed:
+    with Record(path) as failed:
         assert failed.samples == 0
         assert failed["normal_load"].shape == (0, 2)
 
@@ -114,7 +114,7 @@ def test_an_exception_marks_the_record_failed(tmp_path: Path):
 
     with pytest.raises(ZeroDivisionError):
         run()
-    with open_record(tmp_path / "run.partial.h5") as failed:
+    with Record(tmp_path / "run.partial.h5") as failed:
         assert (failed.status, failed.samples) == ("failed", 7)
         assert "ZeroDivisionError" in failed.message
 
@@ -124,7 +124,7 @@ def test_out_of_contact_is_marked_in_the_range_flag(tmp_path: Path):
     with writer(tmp_path / "run.h5", samples=2) as record:
         record.write(0, samples)
         path = record.finish({})
-    with open_record(path) as found:
+    with Record(path) as found:
         np.testing.assert_array_equal(found["closure_in_range"], [[1, 0], [-1, 1]])
 
 
@@ -134,7 +134,7 @@ def test_force_replaces_a_record_only_when_the_new_one_is_complete(record_path: 
         record.write(0, block(0, 5))
         assert record_path.read_bytes() == before
         record.finish({})
-    with open_record(record_path) as found:
+    with Record(record_path) as found:
         assert found.samples == 5
 
 
@@ -163,9 +163,9 @@ def test_a_record_can_be_copied_and_read_while_it_is_written(tmp_path: Path):
     with writer(tmp_path / "run.h5") as record:
         record.write(0, block(0, 10))
         shutil.copy(record.partial, tmp_path / "copy.h5")
-        with open_record(record.partial) as running:
+        with Record(record.partial) as running:
             record.write(10, block(10, 20))
             assert running.samples in (10, 20)
         record.fail("enough")
-    with open_record(tmp_path / "copy.h5") as copy:
+    with Record(tmp_path / "copy.h5") as copy:
         np.testing.assert_array_equal(copy["time"], np.arange(10.0))

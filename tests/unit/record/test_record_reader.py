@@ -9,7 +9,7 @@ import pytest
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.dynamics.recorded import SAMPLES
 from tribodyn.errors import InputError
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 
 
 @pytest.fixture
@@ -105,7 +105,7 @@ def test_a_damaged_scenario_is_reported_where_it_is_read(tmp_path: Path):
     with gear_pair_writer(tmp_path / "run.h5", 1, scenario_toml="title = ") as record:
         record.write(0, block(0, 1))
         path = record.finish({})
-    with open_record(path) as record:
+    with Record(path) as record:
         assert record.kind == "gear-pair"
         with pytest.raises(InputError, match="the record is damaged") as error:
             _ = record.scenario
@@ -113,7 +113,7 @@ def test_a_damaged_scenario_is_reported_where_it_is_read(tmp_path: Path):
 
 
 def test_an_unknown_dataset_is_refused_with_what_there_is(record_path: Path):
-    with open_record(record_path) as record, pytest.raises(InputError, match="normal_load"):
+    with Record(record_path) as record, pytest.raises(InputError, match="normal_load"):
         record["load"]
 
 
@@ -122,7 +122,7 @@ def test_a_record_of_an_earlier_release_may_lack_later_datasets(record_path: Pat
         for attribute in ("axis", "datasets"):  # which 0.1.0 does not write
             del file.attrs[attribute]
         del file["drive_torque"]
-    with open_record(record_path) as record:
+    with Record(record_path) as record:
         assert "drive_torque" not in record
         assert set(record) == {"time", *SAMPLES} - {"drive_torque"}
         assert record.axis == "time"

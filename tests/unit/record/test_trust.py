@@ -16,7 +16,7 @@ from tribodyn.cli.app import app
 from tribodyn.errors import SimulationError
 from tribodyn.post.report import as_json
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
@@ -140,7 +140,7 @@ def test_the_record_says_so(tmp_path, outside):
         assert "deflection" in str(file.attrs["trust_reasons"])
         assert file["summary"].attrs["trust_reasons/deflection/value"] == 0.3
         assert file["summary"].attrs["trust_reasons/deflection/share"] == 1.0
-    with open_record(tmp_path / "run.h5") as record:
+    with Record(tmp_path / "run.h5") as record:
         assert record.trust == OUTSIDE
         text = printed(summary_table(record))
         found = json.loads(json.dumps(as_json(record), allow_nan=False))

@@ -11,7 +11,7 @@ from tests.support import synthetic_record
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.post.report import as_json
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
@@ -31,7 +31,7 @@ def altered(path, **attributes):
     with h5py.File(path, "r+") as file:
         for name, value in attributes.items():
             file["summary"].attrs[name] = value
-    return open_record(path)
+    return Record(path)
 
 
 @pytest.fixture
@@ -88,7 +88,7 @@ def test_a_record_has_the_reason_and_no_figure(tmp_path):
         assert "above 1" in file["summary"].attrs["efficiency_withheld"]
         assert np.nanmax(file["efficiency"][...]) <= 1.0
         assert np.isnan(file["efficiency"][-1])
-    with open_record(tmp_path / "run.h5") as record:
+    with Record(tmp_path / "run.h5") as record:
         assert record.summary["efficiency"] is None
 
 

@@ -22,7 +22,7 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.post.figures.drawing import Drawing, SweepDrawing
 from tribodyn.post.style import save
 from tribodyn.quantities.quantity import Quantity
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.scenario.quantity import Table
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.pages import compare, figure, names, summary_table
@@ -114,7 +114,7 @@ def test_a_record_describes_itself(kind: str, short_runs):
     assert isinstance(result, RunResult)
     assert (result.status, result.message) == ("complete", "")
     with (
-        open_record(result.path) as record,
+        Record(result.path) as record,
         h5py.File(result.path) as file,
         xarray.open_dataset(result.path, engine="h5netcdf") as data,
     ):
@@ -144,7 +144,7 @@ def test_a_quantity_has_one_value(kind: str, short_runs):
     shown = json.loads(called("show", result.path, "--json"))["summary"]
     opened = td.open(result.path)
     reported = {quantity.name for group in study.reported().values() for quantity in group}
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         assert set(record.summary) == {name for name, value in result.summary.items() if value is not None}
         assert len(reported & set(record.summary)) >= 3
         for name in reported & set(record.summary):
@@ -171,7 +171,7 @@ def test_every_figure_that_is_listed_is_drawn_and_no_other(kind: str, short_runs
     path = short_runs(kind).path
     listed = json.loads(called("list", "plots", path, "--json"))["plots"]
     refused = called("plot", path, "no-such", status=2)
-    with open_record(path) as record:
+    with Record(path) as record:
         assert {*names([record]), "overview"} == set(listed)
         for name in listed:
             drawn = figure(name, [record])
@@ -194,7 +194,7 @@ def test_an_interrupted_run_keeps_what_is_done(kind: str, short_runs, tmp_path: 
     partial = tmp_path / "mine.partial.h5"
     assert not path.exists()
     if partial.exists():
-        with open_record(partial) as record:
+        with Record(partial) as record:
             assert (record.status, record.message) == ("failed", "interrupted by the user")
             assert all(len(record[name]) == record.samples for name in record)
     if not study.resumes:
@@ -212,8 +212,8 @@ def test_an_interrupted_run_keeps_what_is_done(kind: str, short_runs, tmp_path: 
 
 def test_a_gear_pair_is_compared_with_its_efficiency(short_runs):
     with (
-        open_record(short_runs("gear-pair").path) as motion,
-        open_record(short_runs("efficiency").path) as slow,
+        Record(short_runs("gear-pair").path) as motion,
+        Record(short_runs("efficiency").path) as slow,
     ):
         compared = compare([motion, slow])
         rows = {row.quantity.name: row.values for rows in compared.groups.values() for row in rows}
@@ -232,7 +232,7 @@ def test_a_gear_pair_is_compared_with_its_efficiency(short_runs):
     ],
 )
 def test_records_of_other_quantities_are_not_compared(short_runs, kinds: tuple[str, str], message: str):
-    with open_record(short_runs(kinds[0]).path) as first, open_record(short_runs(kinds[1]).path) as second:
+    with Record(short_runs(kinds[0]).path) as first, Record(short_runs(kinds[1]).path) as second:
         with pytest.raises(InputError, match=message) as error:
             compare([first, second])
         assert error.value.key == "record"

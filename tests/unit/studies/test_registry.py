@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from tests.support.record_samples import block, gear_pair_writer
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
 from tribodyn.studies.pages import names, study_of_record
 from tribodyn.studies.protocol.load import load_scenario
@@ -175,7 +175,7 @@ def orphan(tmp_path: Path) -> Path:
 
 
 def test_a_record_of_an_unknown_kind_can_be_read_but_not_drawn(orphan: Path, tmp_path: Path):
-    with open_record(orphan) as record:
+    with Record(orphan) as record:
         assert record.kind == "nonsense"
         np.testing.assert_array_equal(record["normal_load"], block(0, 3)["normal_load"])
         with pytest.raises(InputError, match='of kind "nonsense", which nothing that is installed knows'):
@@ -196,7 +196,7 @@ def test_a_study_of_another_package_is_listed_checked_and_run(pendulum: Path, tm
     shown = said("run", pendulum, "-o", path)
     assert "Period" in shown
     assert "The swing is small." in said("show", path)
-    with open_record(path) as record:
+    with Record(path) as record:
         assert (record.kind, record.axis, list(record)) == ("pendulum", "time", ["time", "angle"])
         assert names([record]) == ("angle",)
     said("plot", path, "angle", "-o", tmp_path)

@@ -9,7 +9,7 @@ import pytest
 from tribodyn import FilmLaw, FrictionLaw, InputError, Parameter
 from tribodyn.kernels.native.arguments import function_layout
 from tribodyn.numerics.elementary import exp, log
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
 from tribodyn.studies.gear_pair.prepare import prepare
@@ -74,7 +74,7 @@ def test_a_law_works_wherever_it_is_defined(place, tmp_path):
     """The same formula in the native kernel as in NumPy."""
     case = load_scenario("crc-23-47", {**FINE, "solver.method": "dopri5"})
     result = run(case, tmp_path / "run.h5", friction=FrictionLaw(place, "", PLACES[place]))
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         coefficient = 0.03 + 0.05 * np.exp(-record["entrainment_speed"] / 2.0)
         np.testing.assert_allclose(record["friction_coefficient"], coefficient, rtol=1e-12)
         assert_work_grows(record)
@@ -117,7 +117,7 @@ def test_the_record_names_the_laws_that_were_used(tmp_path):
     own = FrictionLaw("decay", "", decay, keys=keys).with_values(floor=0.03)
     coulomb = load_scenario("crc-23-47", {**FINE, **COULOMB, "solver.method": "dopri5"})
     result = run(coulomb, tmp_path / "own.h5", film=FilmLaw("thin", "", thin), friction=own)
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         film, load = record["central_film_thickness"], record["normal_load"]
         speed, coefficient = record["entrainment_speed"], record["friction_coefficient"]
         assert_work_grows(record)

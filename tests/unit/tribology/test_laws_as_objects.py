@@ -13,7 +13,7 @@ from tribodyn.kernels.native import kernel, store
 from tribodyn.kernels.native.arguments import packed
 from tribodyn.numerics.elementary import absolute, law
 from tribodyn.numerics.parameter import Parameter
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
@@ -75,7 +75,7 @@ def test_a_law_handed_over_runs_in_every_compiler(rng):
 def test_a_run_flags_the_range_of_its_friction_law(tmp_path):
     overrides = {"friction.law": "xu", "operating.gear_torque": "100 N*m"}
     result = run_study(load_scenario("efficiency-crc-23-47", overrides), tmp_path / "run.h5")
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         touching = record["normal_load"] > 0
         pressure = record["hertz_pressure"][touching]
         ratio = np.abs(record["sliding_speed"] / record["entrainment_speed"])[touching]

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario import units
-from tribodyn.scenario.common import ScenarioHead, Temperature, Torque
+from tribodyn.scenario.fields import ScenarioHead, Temperature, Torque
 from tribodyn.scenario.quantity import InUnit, Positive, Table, Weighed
 
 Speed = Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))]

@@ -8,7 +8,7 @@ from tribodyn.geometry.drive import PROFILES
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Relief
 from tribodyn.scenario import units
-from tribodyn.scenario.common import ErrorCurve
+from tribodyn.scenario.fields import ErrorCurve
 from tribodyn.scenario.quantity import (
     InUnit,
     Names,

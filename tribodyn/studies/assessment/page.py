@@ -14,7 +14,7 @@ from tribodyn.post.page.page import document, table, warnings_of
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
@@ -249,7 +249,7 @@ def _part(study: Study, title: str, done: Sequence[parts.TaskResult]) -> str:
     for result in done:
         if not result.summary:
             continue
-        with open_record(result.path) as record:
+        with Record(result.path) as record:
             picture = f"<p>{inline(overview(record), title)}</p>"
             tables = summary_tables([record], [study.reported()])
         return f"<section><h2>{escape(title)}</h2>{picture}{tables}</section>"

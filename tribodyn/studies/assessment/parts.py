@@ -23,7 +23,7 @@ from tribodyn.geometry.families import family
 from tribodyn.numerics.output_files import write_output
 from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.work import announce
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.schema import COMPLETE
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.studies import STUDIES
@@ -159,7 +159,7 @@ def _kept(task: Task, folder: Path) -> TaskResult | None:
 
 def _read(task: Task, path: Path) -> TaskResult:
     if not task.values:
-        with open_record(path) as record:
+        with Record(path) as record:
             return TaskResult(path, record.summary)
     data = json.loads(path.read_text(encoding="utf-8"))
     rows = {name: np.array(row, dtype=float) for name, row in data["figures"].items()}

@@ -14,7 +14,7 @@ from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.post.report import EXCEEDED
 from tribodyn.quantities.catalogue import QUANTITIES, SPREAD, scatter
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
@@ -241,7 +241,7 @@ def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, TaskResult]) 
             inside = result.summary.get("friction_in_range_fraction")
             compared += [task.about] if inside is not None and inside < 1.0 else []
         elif result.summary:
-            with open_record(result.path) as record:
+            with Record(result.path) as record:
                 sentences = study.sentences(record)
             exceeded = [sentence for sentence in sentences if sentence.startswith(EXCEEDED)]
             found = exceeded or [sentence for sentence in sentences if _BEYOND in sentence]

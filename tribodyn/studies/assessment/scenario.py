@@ -8,7 +8,7 @@ from pydantic import Field
 
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario import units
-from tribodyn.scenario.common import Temperature
+from tribodyn.scenario.fields import Temperature
 from tribodyn.scenario.quantity import InUnit, NotNegative, Positive, Switch, Table, Text, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.duty import OperatingTable, broken_driving_rules

@@ -11,7 +11,7 @@ import numpy as np
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.work import usable_cores
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import RecordWriter, check_target
 from tribodyn.studies.design.candidates.archive import (
@@ -221,7 +221,7 @@ def _unfinished(case: DesignCase, path: Path) -> Unfinished | None:
     if not partial.exists():
         return None
     check_target(path, force=True)
-    with open_record(partial) as record:
+    with Record(partial) as record:
         if record.kind != case.kind or record.attrs["scenario_sha256"] != case.sha256:
             rule, remedy = "made from another scenario", "move it away, or --force to begin anew"
             raise InputError("--resume", str(partial), rule, remedy)

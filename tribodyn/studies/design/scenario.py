@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, create_model
 
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.scenario.common import ScenarioHead, head_of
+from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
 from tribodyn.scenario.tables.drive_data import with_axes_held
 from tribodyn.studies import DEFAULT, STUDIES, study_of

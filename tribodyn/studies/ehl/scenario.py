@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.scenario.common import LoadCurve
+from tribodyn.scenario.fields import LoadCurve
 from tribodyn.scenario.quantity import Switch, Table, csv_or_record, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.studies.ehl.case import EhlCase
@@ -30,13 +30,13 @@ def loads_of_record(path: Path, key: str) -> dict[str, Any]:
     Raises InputError if the file is no such record, or too short.
     """
     from tribodyn.post.cycles import last_cycles
-    from tribodyn.record.reader import open_record
+    from tribodyn.record.reader import Record
 
     def bad(rule: str, remedy: str) -> InputError:
         return InputError(key, quoted(path.name), rule, remedy, str(path))
 
     try:
-        opened = open_record(path)
+        opened = Record(path)
     except InputError as error:
         raise bad(error.rule, error.remedy) from None
     with opened as record:

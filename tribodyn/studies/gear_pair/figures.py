@@ -2,7 +2,7 @@
 
 from tribodyn.post.figures import over_mesh, spectrum
 from tribodyn.post.figures.drawing import Drawing, SweepDrawing
-from tribodyn.post.figures.sweep.response import Panel, response_figure
+from tribodyn.post.figures.sweep.response import ResponsePanel, response_figure
 from tribodyn.post.figures.sweep.section import bifurcation_figure, poincare_figure
 from tribodyn.post.figures.sweep.spectra import campbell_figure, waterfall_figure
 from tribodyn.quantities.catalogue import QUANTITIES
@@ -18,12 +18,12 @@ DRAWINGS: dict[str, Drawing] = {
 
 
 PANELS = (
-    Panel(QUANTITIES["transmission_error_rms"], from_zero=True),
-    Panel(QUANTITIES["transmission_error_peak_to_peak"], from_zero=True),
-    Panel(QUANTITIES["dynamic_factor"]),
-    Panel(QUANTITIES["contact_loss_fraction"], from_zero=True),
-    Panel(QUANTITIES["film_min"], from_zero=True),
-    Panel(QUANTITIES["efficiency"]),
+    ResponsePanel(QUANTITIES["transmission_error_rms"], from_zero=True),
+    ResponsePanel(QUANTITIES["transmission_error_peak_to_peak"], from_zero=True),
+    ResponsePanel(QUANTITIES["dynamic_factor"]),
+    ResponsePanel(QUANTITIES["contact_loss_fraction"], from_zero=True),
+    ResponsePanel(QUANTITIES["film_min"], from_zero=True),
+    ResponsePanel(QUANTITIES["efficiency"]),
 )
 
 SWEEP_DRAWINGS: dict[str, SweepDrawing] = {

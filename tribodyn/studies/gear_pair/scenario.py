@@ -13,7 +13,7 @@ from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.table import MeshData
 from tribodyn.scenario import units
-from tribodyn.scenario.common import (
+from tribodyn.scenario.fields import (
     Angle,
     Error,
     ErrorCurve,

@@ -9,7 +9,7 @@ from pydantic import Field
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
 from tribodyn.mesh.table import MeshData
-from tribodyn.scenario.common import Slices, head_of
+from tribodyn.scenario.fields import Slices, head_of
 from tribodyn.scenario.quantity import Switch, model_file
 from tribodyn.scenario.tables.drive_data import masses_of, teeth_of
 from tribodyn.scenario.tables.drive_rules import (

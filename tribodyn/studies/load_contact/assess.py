@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.standards.load_factors import transverse_load_factor
 from tribodyn.studies.load_contact import STUDY
 from tribodyn.studies.protocol.part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
@@ -74,7 +74,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     from tribodyn.studies.load_contact.maps import over_roll
 
     summary = done[_TASK].summary
-    with open_record(done[_TASK].path) as record:
+    with Record(done[_TASK].path) as record:
         roll, load = over_roll(record, record["normal_load"])
         _, pressure = over_roll(record, np.max(record["hertz_pressure"], axis=-1))
         torques, spread = record["torque"], record["map_peak_to_peak"]

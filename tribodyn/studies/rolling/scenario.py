@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tribodyn.scenario import units
-from tribodyn.scenario.common import ScenarioHead, head_of
+from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import InUnit, NotNegative, Positive, Table, model_file, written
 from tribodyn.scenario.tables.model_files import Described
 from tribodyn.studies.rolling.case import RollingCase

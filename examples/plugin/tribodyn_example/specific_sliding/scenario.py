@@ -7,7 +7,7 @@ from pydantic import Field
 
 from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.scenario import units
-from tribodyn.scenario.common import Name
+from tribodyn.scenario.fields import Name
 from tribodyn.scenario.quantity import InUnit, Table, Text, model_file, written
 from tribodyn.scenario.tables.drive_data import drive_of, materials_of
 from tribodyn.scenario.tables.model_files import DriveTable

@@ -15,7 +15,7 @@ from tribodyn.cli.app import app
 from tribodyn.interface.run import Run
 from tribodyn.post.page.data import MOST_SAMPLES, extrapolated, thinned
 from tribodyn.post.page.rolling_teeth import rolling_teeth
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import open_any
 from tribodyn.studies.pages import write_report
 
@@ -55,7 +55,7 @@ def test_it_holds_what_was_sampled(crc, page):
 def test_contact_points_lie_on_both_flanks_and_on_the_path(scenario):
     """To a micrometre, at random positions; the flanks as the page has them, turned as it turns them."""
     result = td.run(scenario)
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         teeth = rolling_teeth(record)
     assert teeth is not None
     pairs, (rp, rg) = teeth["pairs"], teeth["radii"]
@@ -110,7 +110,7 @@ def test_what_is_thinned_keeps_its_extremes_and_its_gaps(rng):
 
 
 def test_extrapolated_intervals_cover_what_the_flags_say(crc):
-    with open_record(crc.path) as record:
+    with Record(crc.path) as record:
         found = extrapolated(record)
         outside = np.any((record["closure_in_range"] == 0) & (record["normal_load"] > 0.0), axis=1)
     covered = np.zeros(len(outside), dtype=bool)
@@ -129,7 +129,7 @@ def test_a_load_contact_page_has_maps_to_the_edges_of_the_face(tmp_path: Path):
     assert load["unit"] == "N/mm"
     line = result.data["line_load"].to_numpy() * 1e-3
     assert z.max() == pytest.approx(line.max(), rel=1e-6)
-    with open_record(result.path) as opened:
+    with Record(result.path) as opened:
         assert y[-1] - y[0] == pytest.approx(1e3 * opened.mesh_cycle["face_width"], rel=1e-6)
 
 

@@ -15,7 +15,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
 from tribodyn.studies.assessment.margins import local_of, point_angles
 from tribodyn.studies.assessment.parts import request_of
@@ -67,7 +67,7 @@ def test_the_simulation_stands_beside_it(assessed: dict):
 def test_a_deviating_tooth_and_samples_stand_beside_accurate_teeth(assessed: dict):
     own = assessed["simulated"]
     whole = 20e3 / (1800.0 * math.pi / 30.0) / (27e-3 * math.cos(math.radians(20.0)))
-    with open_record(Path(assessed["record"]).with_name("assessment-parts") / "loaded-contact.h5") as record:
+    with Record(Path(assessed["record"]).with_name("assessment-parts") / "loaded-contact.h5") as record:
         accurate = record.summary["shared_load_max"]
     assert 1.0 < own["K_Halpha"] <= whole / accurate * (1.0 + 1e-9)
     spread = own["spread"]

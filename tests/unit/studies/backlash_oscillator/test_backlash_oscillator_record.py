@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.linear_oscillator import linear_amplitude
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.pages import figure, names
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -18,7 +18,7 @@ def record(tmp_path_factory):
     path = tmp_path_factory.mktemp("sweep") / "coarse.h5"
     result = run(load_scenario(NAME, COARSE), path)
     assert result.status == "complete"
-    with open_record(path) as opened:
+    with Record(path) as opened:
         yield opened
 
 
@@ -94,7 +94,7 @@ def test_the_summary_counts_points_of_longer_period(tmp_path):
     """Of a varying stiffness near twice the natural frequency; its motions have the period 1 or 2."""
     varying = {"error_amplitude": 0.0, "stiffness_variation": 0.3, "frequency": [1.7, 1.8, 1.9]}
     result = run(load_scenario(NAME, {"damping": 0.05, "mean_force": 0.1, **varying}), tmp_path / "two.h5")
-    with open_record(result.path) as found:
+    with Record(result.path) as found:
         periods = found["period"]
     assert np.unique(periods).tolist() == [1, 2]
     assert result.summary["points_of_longer_period"] == np.sum(periods == 2)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.pages import figure
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -17,7 +17,7 @@ ABOUT_THE_FOLDS = {"frequency": [0.65, 0.75, 0.9]}
 def record(tmp_path_factory):
     path = tmp_path_factory.mktemp("unstable") / "unstable.h5"
     assert run(load_scenario(NAME, ABOUT_THE_FOLDS | {"solver.unstable": True}), path).status == "complete"
-    with open_record(path) as opened:
+    with Record(path) as opened:
         yield opened
 
 
@@ -75,7 +75,7 @@ def test_it_is_said_and_drawn(record):
 
 def test_nothing_of_it_is_there_unless_asked_for(tmp_path):
     run(load_scenario(NAME, ABOUT_THE_FOLDS), tmp_path / "plain.h5")
-    with open_record(tmp_path / "plain.h5") as plain:
+    with Record(tmp_path / "plain.h5") as plain:
         assert "unstable_frequency" not in plain
         assert "end_unstable_finish" not in plain
         assert not any(name.startswith("unstable") for name in plain.summary)
@@ -83,5 +83,5 @@ def test_nothing_of_it_is_there_unless_asked_for(tmp_path):
 
 def test_where_no_branch_ends_there_is_none(tmp_path):
     run(load_scenario(NAME, {"frequency": [1.2, 1.3], "solver.unstable": True}), tmp_path / "none.h5")
-    with open_record(tmp_path / "none.h5") as none:
+    with Record(tmp_path / "none.h5") as none:
         assert "unstable_frequency" not in none

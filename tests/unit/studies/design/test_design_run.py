@@ -11,7 +11,7 @@ import pytest
 
 import tribodyn as td
 from tribodyn.errors import InputError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.design.report import sentences
 from tribodyn.studies.pages import report
 
@@ -89,7 +89,7 @@ def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path):
         search(tmp_path / "stopped.h5", progress=stop)
     assert any("the best so far" in note for note in stopped.value.__notes__)
     assert any("--resume goes on" in note for note in stopped.value.__notes__)
-    with open_record(tmp_path / "stopped.partial.h5") as record:
+    with Record(tmp_path / "stopped.partial.h5") as record:
         assert record.status == "failed"
         assert record.message == "interrupted by the user"
         assert record.samples == 4
@@ -119,7 +119,7 @@ def test_a_front_without_duties_is_drawn_and_told(tmp_path: Path):
     found = search(tmp_path / "a.h5", minimise=["loss", "hertz_pressure_max"], evaluations=24)
     pictures = ("overview", "history", "duties", "free-keys", "sensitivities", "front")
     assert all(found.plot(name).get_axes() for name in pictures)
-    with open_record(tmp_path / "a.h5") as record:
+    with Record(tmp_path / "a.h5") as record:
         said = " ".join(sentences(record))
         text = report([record])
     assert "Maximum Hertz pressure" in said

@@ -11,7 +11,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.families import family
 from tribodyn.mesh.equilibrium import contacts
 from tribodyn.mesh.quasi_static import mean_efficiency
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.efficiency.along_path import MeshDuty, cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import SHARINGS, places
 from tribodyn.studies.efficiency.published import exact, path_contact, tip_contact_ratios, torque_ratio
@@ -168,14 +168,14 @@ def test_record_of_a_study_and_of_a_dynamic_run(tmp_path):
     """The study's record reads like a run's; slow dynamics have the efficiency of the study."""
     still = run(load_scenario("efficiency-crc-23-47"), tmp_path / "still.h5")
     assert still.status == "complete"
-    with open_record(still.path) as record:
+    with Record(still.path) as record:
         assert record.status == "complete"
         out, lost, put_in = (record[f"power_{name}"] for name in ("out", "friction", "in"))
         np.testing.assert_allclose(put_in, out + lost, rtol=1e-10)
         assert np.all(record["sliding_speed"][0][np.isfinite(record["sliding_speed"][0])] != 0)
         assert record.mesh_cycle["contact_ratio"] == pytest.approx(1.5233, abs=5e-4)
     moving = run(load_scenario("crc-23-47", {"solver.cycles": "4"}), tmp_path / "moving.h5")
-    with open_record(moving.path) as record:
+    with Record(moving.path) as record:
         put_in, lost, out = (np.ptp(record[f"work_{name}"][-201:]) for name in ("in", "friction", "out"))
     assert 1 - lost / put_in == pytest.approx(moving.summary["efficiency"], abs=2e-5)
     assert out / put_in < 1 - lost / put_in + 1e-4

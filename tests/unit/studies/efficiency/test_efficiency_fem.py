@@ -6,7 +6,7 @@ import pytest
 from tests.support.closures import of_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.flanks.modification import UNMODIFIED
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import places
 from tribodyn.studies.efficiency.run import efficiencies, prepare
@@ -131,7 +131,7 @@ def test_its_record_has_the_corners_and_reads_like_any_other(tmp_path):
     assert done.summary["contact_ratio"] == pytest.approx(1.611, abs=1e-3)
     # effective contact ratio at 159 N·m on the pinion, by a separate prototype: 1.733 ± 0.02
     assert done.summary["contact_ratio_effective"] == pytest.approx(1.733, abs=0.02)
-    with open_record(done.path) as record:
+    with Record(done.path) as record:
         load = record["normal_load"]
         touching = np.mean(np.sum(load[:-1] > 0, axis=1))
         assert touching == pytest.approx(done.summary["contact_ratio_effective"], abs=0.02)

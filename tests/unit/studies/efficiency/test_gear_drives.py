@@ -5,7 +5,7 @@ import pytest
 
 from tests.support.closures import LOCAL_LAWS, VECIANA, coulomb, of_case, under
 from tribodyn.dynamics.outputs import outputs, segment_of
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import SHARINGS, places
@@ -102,7 +102,7 @@ def test_the_record_begins_where_a_pair_enters(tmp_path):
     assert result.summary["driving_gear"] == "gear"
     assert result.summary["power_in_mean"] == pytest.approx(500.0 * 10.0 * 23 / 47, rel=1e-12)
     assert result.summary["efficiency"] == result.summary["efficiency_elastic"]
-    with open_record(result.path) as record:
+    with Record(result.path) as record:
         np.testing.assert_allclose(record["time"], record["pinion_angle"] / 10.0, rtol=1e-12)
         newest = record.pairs.index(1)
         sliding, load = record["sliding_speed"], record["normal_load"]

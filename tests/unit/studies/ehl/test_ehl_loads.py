@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.ehl.along_path import prepare, seen_by, solved_at, way
 from tribodyn.studies.ehl.scenario import loads_of_record
 from tribodyn.studies.ehl.squeezed import squeezed, steady_of
@@ -19,7 +19,7 @@ def test_a_pair_carries_over_its_way_what_all_pairs_carry_over_a_cycle():
     """In a periodic mesh; the record has ten samples per cycle."""
     found = loads_of_record(RECORDS / "gear-pair.h5", "contact.loads")
     roll, carried = (np.array(found[name]["values"]) for name in ("roll_angle", "normal_load"))
-    with open_record(RECORDS / "gear-pair.h5") as record:
+    with Record(RECORDS / "gear-pair.h5") as record:
         pitch = 2.0 * np.pi / record.mesh_cycle["pinion_teeth"]
         assert roll[0] == pytest.approx(record.mesh_cycle["roll_start"])
         every = np.sum(record["normal_load"][-10:], axis=1)

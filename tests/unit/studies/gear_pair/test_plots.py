@@ -17,7 +17,7 @@ from tribodyn.errors import InputError
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.post.cycles import key_points, last_cycles, pair_curve
 from tribodyn.post.figures.path_of_contact import gears_in_mesh, key_positions
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
 from tribodyn.studies.pages import figure, overview
 
@@ -29,7 +29,7 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> list[Record]:
         synthetic_record.write(folder / "slippery.h5", per_cycle=100),
         synthetic_record.write(folder / "rough.h5", per_cycle=100, friction=0.08),
     ]
-    return [open_record(path) for path in paths]
+    return [Record(path) for path in paths]
 
 
 LABELS = {
@@ -194,8 +194,8 @@ def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
         "import sys\n"
         "from tribodyn.studies.pages import figure, names\n"
         "from tribodyn.post.style import save\n"
-        "from tribodyn.record.reader import open_record\n"
-        "with open_record(sys.argv[1]) as record:\n"
+        "from tribodyn.record.reader import Record\n"
+        "with Record(sys.argv[1]) as record:\n"
         "    for name in names([record]):\n"
         "        drawn = figure(name, [record])\n"
         "    save(drawn, sys.argv[2])\n"
@@ -230,19 +230,19 @@ def failed_record(path: Path, samples: int) -> Path:
 
 @pytest.mark.parametrize("name", [name for name in LABELS if name != "spectrum"])
 def test_a_run_that_failed_early_is_drawn(tmp_path: Path, name: str):
-    with open_record(failed_record(tmp_path / "run.h5", 60)) as record:
+    with Record(failed_record(tmp_path / "run.h5", 60)) as record:
         figure(name, [record]).draw_without_rendering()
 
 
 def test_a_spectrum_needs_a_whole_cycle(tmp_path: Path):
     path = failed_record(tmp_path / "run.h5", 60)
-    with open_record(path) as record, pytest.raises(InputError, match="no whole mesh cycle"):
+    with Record(path) as record, pytest.raises(InputError, match="no whole mesh cycle"):
         figure("spectrum", [record])
 
 
 def test_a_record_without_samples_is_refused(tmp_path: Path):
     path = failed_record(tmp_path / "run.h5", 0)
-    with open_record(path) as record, pytest.raises(InputError, match="no samples"):
+    with Record(path) as record, pytest.raises(InputError, match="no samples"):
         figure("film", [record])
 
 
@@ -250,5 +250,5 @@ def test_a_record_without_outlines_has_no_path_figure(tmp_path: Path):
     with record_samples.gear_pair_writer(tmp_path / "run.h5", 2) as writer:
         writer.write(0, record_samples.block(0, 2))
         path = writer.finish({})
-    with open_record(path) as record, pytest.raises(InputError, match="no tooth outlines"):
+    with Record(path) as record, pytest.raises(InputError, match="no tooth outlines"):
         figure("path-of-contact", [record])

@@ -73,9 +73,9 @@ def test_the_summary_has_the_minimum(tilted):
 
 
 def test_the_map_marks_the_minimum(tilted):
-    from tribodyn.record.reader import open_record
+    from tribodyn.record.reader import Record
 
-    with open_record(tilted.path) as record:
+    with Record(tilted.path) as record:
         axes = figure("film-map", [record]).axes[0]
         (cross, *_) = [line for line in axes.lines if line.get_marker() == "x"]
         assert float(cross.get_xdata()[0]) == pytest.approx(

@@ -7,7 +7,7 @@ import pytest
 
 from tests.support.short_studies import ShortRuns
 from tribodyn.errors import InputError
-from tribodyn.record.reader import Record, open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact.maps import (
     at_pitch_point,
     face_map,
@@ -31,7 +31,7 @@ LABELS = {
 
 @pytest.fixture(scope="module")
 def record(short_runs: ShortRuns) -> Iterator[Record]:
-    with open_record(short_runs("load-contact").path) as opened:
+    with Record(short_runs("load-contact").path) as opened:
         yield opened
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.rolling import run
 from tribodyn.studies.rolling.case import RollingCase
@@ -109,7 +109,7 @@ def test_a_record_is_the_revolution(case: RollingCase, made: tuple[Path, list[fl
     state = engage(case.drive, element_angles(case.drive, turn), 900.0, 70.0, case.friction)
     assert told[-1] == 1.0
     np.testing.assert_allclose(told[:3], np.array([1, 2, 3]) * SAMPLES / len(turn))
-    with open_record(path) as record:
+    with Record(path) as record:
         np.testing.assert_allclose(record["time"], turn / 70.0)
         np.testing.assert_allclose(record["input_angle"], turn)
         np.testing.assert_allclose(record["normal_load"], state.normal_load, atol=1e-9)

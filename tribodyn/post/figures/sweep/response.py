@@ -26,7 +26,7 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
 
-class Panel(NamedTuple):
+class ResponsePanel(NamedTuple):
     """A quantity of the cases, and whether its axis starts at 0."""
 
     quantity: Quantity
@@ -39,7 +39,7 @@ MOST_PANELS = 6
 FLAT = 1e-5
 
 
-def panels_of(records: Sequence[SweepRecord], quantities: Sequence[Quantity]) -> list[Panel]:
+def panels_of(records: Sequence[SweepRecord], quantities: Sequence[Quantity]) -> list[ResponsePanel]:
     """Panels of the first quantities that vary; of the first that there are where none does.
 
     Of no quantities all are taken, as the first record describes them.
@@ -53,7 +53,7 @@ def panels_of(records: Sequence[SweepRecord], quantities: Sequence[Quantity]) ->
     quantities = quantities or [described(records[0], name) for name in records[0].quantities]
     known = [quantity for quantity in quantities if all(quantity.name in record for record in records)]
     varying = [quantity for quantity in known if varies(quantity.name)]
-    return [Panel(quantity) for quantity in (varying or known)[:MOST_PANELS]]
+    return [ResponsePanel(quantity) for quantity in (varying or known)[:MOST_PANELS]]
 
 
 def _grid(record: SweepRecord, panels: int, maps: bool = False) -> tuple[Figure, np.ndarray]:
@@ -71,7 +71,7 @@ def _grid(record: SweepRecord, panels: int, maps: bool = False) -> tuple[Figure,
     return figure, rows
 
 
-def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> Figure:
+def response_figure(records: Sequence[SweepRecord], panels: Sequence[ResponsePanel]) -> Figure:
     """Draw at most `MOST_PANELS` quantities of every case over the first parameter, up and down apart.
 
     Shaded where contact is lost at times; marked where the motion does not repeat with the mesh.
@@ -113,7 +113,7 @@ def maps_of(records: Sequence[SweepRecord]) -> bool:
     )
 
 
-def _maps(record: SweepRecord, panels: Sequence[Panel]) -> Figure:
+def _maps(record: SweepRecord, panels: Sequence[ResponsePanel]) -> Figure:
     """Draw quantities of the cases as maps over both parameters; a dot on every case that loses contact."""
     figure, rows = _grid(record, len(panels), maps=True)
     x, y = (parameter.values * shown_unit(parameter.units)[1] for parameter in record.parameters)
