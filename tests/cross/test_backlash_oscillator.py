@@ -32,13 +32,15 @@ def test_without_contact_loss_the_linear_response_is_exact(frequency):
     response = frequency_response(oscillator([frequency], damping, mean_force, error))
     complex_amplitude = error * frequency**2 / (1.0 - frequency**2 + 2j * damping * frequency)
     amplitude = abs(complex_amplitude)
-    assert np.all(response.kind == STABLE)
-    np.testing.assert_allclose(response.mean, 1.0 + mean_force, atol=1e-8)
-    np.testing.assert_allclose(response.rms, amplitude / np.sqrt(2.0), rtol=1e-6)
-    np.testing.assert_allclose(response.peak_to_peak, 2.0 * amplitude, rtol=1e-5)
-    np.testing.assert_allclose(response.displacement, 1.0 + mean_force + complex_amplitude.real, atol=2e-7)
-    np.testing.assert_allclose(response.velocity, -frequency * complex_amplitude.imag, atol=2e-7)
-    assert np.all(response.free == 0.0)
+    assert np.all(response.motion == STABLE)
+    np.testing.assert_allclose(response.mean_displacement, 1.0 + mean_force, atol=1e-8)
+    np.testing.assert_allclose(response.rms_displacement, amplitude / np.sqrt(2.0), rtol=1e-6)
+    np.testing.assert_allclose(response.peak_to_peak_displacement, 2.0 * amplitude, rtol=1e-5)
+    np.testing.assert_allclose(
+        response.section_displacement, 1.0 + mean_force + complex_amplitude.real, atol=2e-7
+    )
+    np.testing.assert_allclose(response.section_velocity, -frequency * complex_amplitude.imag, atol=2e-7)
+    assert np.all(response.contact_loss_fraction == 0.0)
     modes = -damping + 1j * np.sqrt(1.0 - damping**2) * np.array([1.0, -1.0])
     multipliers = np.exp(modes * 2.0 * np.pi / frequency)
     for multiplier in multipliers:
@@ -71,7 +73,7 @@ def test_a_motion_that_grazes_the_corner_goes_on():
     gain = 0.25 / abs(0.75 + 2j * 0.05 * 0.5)
     touching = oscillator([0.5], error=0.1 / gain)
     response = frequency_response(touching)
-    np.testing.assert_allclose(response.peak_to_peak, 0.2, rtol=1e-5)
+    np.testing.assert_allclose(response.peak_to_peak_displacement, 0.2, rtol=1e-5)
 
 
 def fundamental(damping, variation, frequency):
@@ -147,7 +149,7 @@ def softening(folds):
 
 def jumps(response, direction):
     """Intervals over which the response of a direction jumps."""
-    rise = np.abs(np.diff(response.rms[:, direction]))
+    rise = np.abs(np.diff(response.rms_displacement[:, direction]))
     place = int(np.argmax(rise))
     return response.frequency[place], response.frequency[place + 1]
 
@@ -164,13 +166,13 @@ def test_jump_frequencies_are_those_of_harmonic_balance(softening, folds):
 
 def test_the_ways_up_and_down_differ_between_the_jumps_only(softening, folds):
     up, down = folds
-    frequency, rms = softening.frequency, softening.rms
+    frequency, rms = softening.frequency, softening.rms_displacement
     between = (frequency > down + 2e-4) & (frequency < up - 2e-4)
     outside = (frequency < down - 2e-4) | (frequency > up + 2e-4)
     np.testing.assert_allclose(rms[outside, UP], rms[outside, DOWN], rtol=1e-5)
     assert np.min(rms[between, DOWN] / rms[between, UP]) > 1.5
-    assert np.all(softening.free[between, DOWN] > 0.1)  # contact is lost on the upper branch
-    assert np.all(softening.kind == STABLE)
+    assert np.all(softening.contact_loss_fraction[between, DOWN] > 0.1)  # contact is lost on the upper branch
+    assert np.all(softening.motion == STABLE)
 
 
 def test_a_multiplier_goes_to_plus_one_at_the_fold(folds):
@@ -187,7 +189,7 @@ def test_amplitudes_are_those_of_harmonic_balance(softening):
     amplitudes = np.array([0.05, 0.08])
     frequencies = HarmonicBalance(0.05, 0.1, 0.05).branch(0.6, amplitudes)
     response = frequency_response(oscillator(frequencies))
-    np.testing.assert_allclose(response.rms[:, UP], amplitudes / np.sqrt(2.0), rtol=1e-5)
+    np.testing.assert_allclose(response.rms_displacement[:, UP], amplitudes / np.sqrt(2.0), rtol=1e-5)
 
 
 def test_period_two_and_what_it_leaves():
@@ -230,18 +232,18 @@ def test_chaos_is_said_and_measured_as_marched():
     """ε = 0.2 at 2 % damping and a strong error: the doubled period doubles on until nothing repeats."""
     case = oscillator([1.2], 0.02, 0.1, 0.2, 0.2, max_periods=240)
     response = frequency_response(case)
-    assert np.all(response.kind == CHAOTIC)
+    assert np.all(response.motion == CHAOTIC)
     assert np.all(response.period == 0)
     assert np.all(np.isnan(response.multiplier))
-    assert np.all(np.isfinite(response.rms))
+    assert np.all(np.isfinite(response.rms_displacement))
     assert all("without repeating" in text for _, _, text in response.messages)
 
 
 def test_a_motion_that_grows_is_a_failure_of_its_own():
     """In the tongue and so loaded that it stays in contact the linear equation has no bounded motion."""
     response = frequency_response(oscillator([1.5, 2.0], 0.005, 50.0, 0.02, 0.3))
-    assert response.kind[0, UP] == STABLE
-    assert np.isnan(response.rms[1, UP])
+    assert response.motion[0, UP] == STABLE
+    assert np.isnan(response.rms_displacement[1, UP])
     assert "without bound" in response.messages[0][2]
 
 
@@ -256,7 +258,7 @@ def test_figures_are_those_of_the_motion():
     """RMS, extremes and shares against samples of SciPy's solution."""
     parameters = (0.05, 0.1, 0.05, 0.0, 0.75)
     response = frequency_response(oscillator([0.75, 0.8, 0.9]))
-    state = np.array([response.displacement[0, DOWN], response.velocity[0, DOWN]])
+    state = np.array([response.section_displacement[0, DOWN], response.section_velocity[0, DOWN]])
     duration = 2.0 * np.pi / 0.75
 
     def rates(t, y):
@@ -266,12 +268,12 @@ def test_figures_are_those_of_the_motion():
     at = (np.arange(20000) + 0.5) * duration / 20000
     x = solve_ivp(rates, (0.0, duration), state, t_eval=at, rtol=1e-10, atol=1e-12, max_step=0.02).y[0]
     assert parameters[-1] == response.frequency[0]
-    assert response.rms[0, DOWN] == pytest.approx(np.std(x), rel=1e-5)
-    assert response.mean[0, DOWN] == pytest.approx(np.mean(x), rel=1e-6)
-    assert response.peak_to_peak[0, DOWN] == pytest.approx(np.ptp(x), rel=1e-5)
-    assert response.free[0, DOWN] == pytest.approx(np.mean(np.abs(x) <= 1.0), abs=1e-4)
-    assert response.free[0, DOWN] > 0.1
-    assert response.back[0, DOWN] == 0.0
+    assert response.rms_displacement[0, DOWN] == pytest.approx(np.std(x), rel=1e-5)
+    assert response.mean_displacement[0, DOWN] == pytest.approx(np.mean(x), rel=1e-6)
+    assert response.peak_to_peak_displacement[0, DOWN] == pytest.approx(np.ptp(x), rel=1e-5)
+    assert response.contact_loss_fraction[0, DOWN] == pytest.approx(np.mean(np.abs(x) <= 1.0), abs=1e-4)
+    assert response.contact_loss_fraction[0, DOWN] > 0.1
+    assert response.back_contact_fraction[0, DOWN] == 0.0
 
 
 @pytest.mark.parametrize("step", [0.04, 0.1])
@@ -282,8 +284,8 @@ def test_the_doubled_period_is_followed_to_its_end_whatever_the_step(step):
     for frequency, rms in ((1.88, 0.1215), (1.6, 0.1854)):
         place = int(np.argmin(np.abs(values - frequency)))
         assert response.period[place, DOWN] == 2
-        assert response.rms[place, DOWN] == pytest.approx(rms, abs=1e-4)
-        state = np.array([response.displacement[place, DOWN], response.velocity[place, DOWN]])
+        assert response.rms_displacement[place, DOWN] == pytest.approx(rms, abs=1e-4)
+        state = np.array([response.section_displacement[place, DOWN], response.section_velocity[place, DOWN]])
         parameters = (0.05, 0.1, 0.0, 0.3, frequency)
         np.testing.assert_allclose(oscillator_march(parameters, state, 2)[1], state, atol=1e-6)
     down = [end for direction, end in response.ends if direction == DOWN]
@@ -297,7 +299,7 @@ def test_the_doubled_period_is_followed_to_its_end_whatever_the_step(step):
     if step < 0.1:
         return
     # two thousandths farther the motion of two periods is left by DOP853 too
-    here = np.array([response.displacement, response.velocity])[
+    here = np.array([response.section_displacement, response.section_velocity])[
         :, int(np.argmin(np.abs(values - 1.24))), DOWN
     ]
     before, beyond = (

@@ -63,13 +63,13 @@ def test_an_oscillator(number: int):
         return oscillator_march((*given, value), state, periods, rtol=1e-10, max_step=0.2)
 
     def reported(place: int, way: int) -> Reported:
-        state = np.array([response.displacement[place, way], response.velocity[place, way]])
+        state = np.array([response.section_displacement[place, way], response.section_velocity[place, way]])
         return Reported(frequencies[place], state, int(response.period[place, way]))
 
     rows = []
     for place, way in drawn(rng, len(frequencies), 12):
         behind = place - 1 + 2 * way
-        if FAILED in (response.kind[place, way], response.kind[behind, way]):
+        if FAILED in (response.motion[place, way], response.motion[behind, way]):
             continue
         ends = [end.value for direction, end in response.ends if direction == way]
         rows.append(compared(march, reported(behind, way), reported(place, way), ends))

@@ -32,7 +32,7 @@ from tribodyn.dynamics.smooth import (
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.elementary import last_axis_of_four, law, maximum, skippable, sqrt, where
 from tribodyn.tribology.contact import averaged_radius, local_contact
-from tribodyn.tribology.law import ActiveFilm
+from tribodyn.tribology.law import ActiveLaw
 
 # Quantities of one contact, rows of `work`.
 DISTANCE = 0  # signed distance r from the pitch point, m
@@ -269,7 +269,7 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
         state = local_contact(
             line_load, 1.0 / work[RADIUS, i], 0.5 * (speed_p + speed_g), sliding, speed_p, speed_g
         )
-        film = ActiveFilm(model.options.film, model.film)
+        film = ActiveLaw(model.options.film, model.film)
         coefficient = model.options.friction.coefficient(state, film, model.surfaces, model.friction)
         work[FRICTION_COEFFICIENT, i] = coefficient
         work[TURNED, i] = sliding * reversals

@@ -26,7 +26,7 @@ from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, STATES, XI
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, skippable, where
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.law import ActiveFilm, ActiveFriction
+from tribodyn.tribology.law import ActiveLaw
 from tribodyn.tribology.surface_state import film_and_temperature
 
 #: Measures of the whole mesh: the rotational transmission error, up and down; and from here for the driving
@@ -150,8 +150,8 @@ def measure_loads(segment, y, model, work, measures):
 @law
 def measure_surfaces(i, contact, model, measures):
     """Fill the `measures` of slot i that are by laws."""
-    film = ActiveFilm(model.options.film, model.film)
-    friction = ActiveFriction(model.options.friction, model.friction)
+    film = ActiveLaw(model.options.film, model.film)
+    friction = ActiveLaw(model.options.friction, model.friction)
     thickness, temperature = film_and_temperature(contact, model.surfaces, film, friction)
     first = OF_MESH + OF_PAIR * i
     measures[first + FILM] = -thickness

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from tribodyn.tribology.contact import Surfaces
 from tribodyn.tribology.friction.none import LAW as NO_FRICTION
 from tribodyn.tribology.friction.none import NoParameters
-from tribodyn.tribology.law import ActiveFilm, ActiveFriction, Closure, FilmFunctions, FrictionFunctions
+from tribodyn.tribology.law import ActiveLaw, Closure, FilmFunctions, FrictionFunctions
 
 #: Translations of pinion and gear, m: x along the pitch tangent in the direction of motion at the pitch
 #: point, y along the line of centres from pinion to gear.
@@ -124,8 +124,8 @@ class Model(NamedTuple):
         """Surfaces and laws in use."""
         return Closure(
             self.surfaces,
-            ActiveFilm(self.options.film, self.film),
-            ActiveFriction(self.options.friction, self.friction),
+            ActiveLaw(self.options.film, self.film),
+            ActiveLaw(self.options.friction, self.friction),
         )
 
 

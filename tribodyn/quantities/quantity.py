@@ -36,9 +36,8 @@ class Quantity(NamedTuple):
     digits: str = ".4g"  # format of the number shown
     definition: str = ""  # what it is, over which part of the run, of which pairs, by what formula
     symbol: str = ""  # beside the label
-    below: str = (
-        ""  # its label in a table directly below the quantity to which it belongs: "at the frequency"
-    )
+    #: its label in a table directly below the quantity to which it belongs: "at the frequency"
+    below: str = ""
     listed: bool = False  # whether an array is a list to be shown in its order; else its entries are of pairs
 
     def defined_as(self, definition: str) -> "Quantity":

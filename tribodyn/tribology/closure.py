@@ -15,8 +15,7 @@ from tribodyn.tribology.contact import DutyRange, NominalConditions, Surfaces
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import (
-    ActiveFilm,
-    ActiveFriction,
+    ActiveLaw,
     Closure,
     FilmData,
     FilmLaw,
@@ -102,8 +101,8 @@ def closure(
     """Return surfaces and laws with the parameters that these make of what is given; raises as `made`."""
     return Closure(
         given.surfaces,
-        ActiveFilm(film.functions, film.made(given, film_values or {})),
-        ActiveFriction(friction.functions, friction.made(given, friction_values or {})),
+        ActiveLaw(film.functions, film.made(given, film_values or {})),
+        ActiveLaw(friction.functions, friction.made(given, friction_values or {})),
     )
 
 

@@ -47,11 +47,6 @@ class JudgedRange(NamedTuple):
         low, _, high = self.ratio
         return f"no range by the solved contact: {low:.2g} to {high:.2g} times it"
 
-    def named(self, limits: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the limits of a law; those that follow from the comparison end with "(judged)"."""
-        own = len(limits) - self.limits
-        return (*limits[:own], *(f"{limit} (judged)" for limit in limits[own:]))
-
 
 class LawInput(NamedTuple):
     """What a law may make its parameters of, beside the values of its own keys."""
@@ -80,15 +75,8 @@ class FrictionFunctions(NamedTuple):
     in_range: Callable[..., Any]
 
 
-class ActiveFilm(NamedTuple):
-    """A film law in use: its functions and the parameters that they read."""
-
-    functions: Any
-    parameters: Any
-
-
-class ActiveFriction(NamedTuple):
-    """A friction law in use: its functions and the parameters that they read."""
+class ActiveLaw(NamedTuple):
+    """A film or friction law in use: its functions and the parameters that they read."""
 
     functions: Any
     parameters: Any
@@ -98,8 +86,8 @@ class Closure(NamedTuple):
     """What closes the equations at a contact: its surfaces, and film and friction law in use."""
 
     surfaces: Surfaces
-    film: ActiveFilm
-    friction: ActiveFriction
+    film: ActiveLaw
+    friction: ActiveLaw
 
 
 @law
@@ -174,7 +162,8 @@ class _Law:
     @property
     def named_limits(self) -> tuple[str, ...]:
         """The limits; those by the solved contact end with "(judged)"."""
-        return self.limits if self.judged is None else self.judged.named(self.limits)
+        own = len(self.limits) - (self.judged.limits if self.judged is not None else 0)
+        return (*self.limits[:own], *(f"{limit} (judged)" for limit in self.limits[own:]))
 
     def __post_init__(self) -> None:
         for function in self.functions:
@@ -242,7 +231,7 @@ class FilmLaw(_Law):
 class FrictionLaw(_Law):
     """A law of friction: a plain object, chosen by ``[friction] law`` or handed over from Python.
 
-    `function` is (contact: LocalContact, film: ActiveFilm, surfaces: Surfaces, parameters) -> friction
+    `function` is (contact: LocalContact, film: ActiveLaw, surfaces: Surfaces, parameters) -> friction
     coefficient ≥ 0; it evaluates the film, where it needs one, with `film_at`. `in_range` takes the same
     arguments.
     """

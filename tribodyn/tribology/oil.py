@@ -69,11 +69,6 @@ def pressure_viscosity_38(kind: OilType, viscosity: Any) -> Any:
     return factor * exp(exponent * log(viscosity))
 
 
-def pressure_viscosity_at(pressure_viscosity: Any, temperature: Any) -> Any:
-    """Coefficient at a temperature from that at 38 °C: α = α38 [1 + 516 (1/T − 1/311)] (ISO/TR 15144-1)."""
-    return pressure_viscosity * (1.0 + 516.0 * (1.0 / (temperature - 0.15) - 1.0 / 311.0))
-
-
 def roelands_index(pressure_viscosity: Any, viscosity: Any) -> Any:
     """Roelands' z = α p_0/(ln η0 + 9.67): his law then begins with the slope α; α in 1/Pa, η0 in Pa·s."""
     return pressure_viscosity * ROELANDS_PRESSURE / (log(viscosity) + ROELANDS_POLE)
@@ -186,12 +181,15 @@ class OilSheet:
         return kinematic * density_at(self.density_15, temperature)
 
     def pressure_viscosity(self, temperature: Any) -> Any:
-        """Pressure-viscosity coefficient α at a temperature, 1/Pa."""
+        """Pressure-viscosity coefficient α at a temperature, 1/Pa.
+
+        α = α38 [1 + 516 (1/T − 1/311)] (ISO/TR 15144-1), but of esters `ESTER`.
+        """
         if self.type == "ester":
             kinematic = kinematic_viscosity(self.viscosity_40, self.viscosity_100, temperature)
             return ESTER[0] * exp(ESTER[1] * log(1e6 * kinematic))
         at_38 = pressure_viscosity_38(self.type, self.viscosity(ZERO_CELSIUS + 38.0))
-        return pressure_viscosity_at(at_38, temperature)
+        return at_38 * (1.0 + 516.0 * (1.0 / (temperature - 0.15) - 1.0 / 311.0))
 
     def values(self, temperature: Any) -> dict[str, OilValue]:
         """All numbers of `LubricantData` at a temperature (K), with their origin."""

@@ -15,7 +15,7 @@ from tribodyn.tribology.contact import (
     hertz_half_width,
     local_contact,
 )
-from tribodyn.tribology.law import ActiveFilm, Closure, FilmFunctions, film_range_not_stated
+from tribodyn.tribology.law import ActiveLaw, Closure, FilmFunctions, film_range_not_stated
 
 
 class SurfaceState(NamedTuple):
@@ -43,7 +43,7 @@ def _film_and_heat(contact, surfaces, film, friction):
     """Evaluate the laws in use once: the film law's results, friction coefficient, flash temperature rise."""
     evaluated = film.functions.film(contact, surfaces, film.parameters)
     # so that no friction law evaluates the film again
-    known = ActiveFilm(FilmFunctions(film_given, film_range_not_stated), evaluated)
+    known = ActiveLaw(FilmFunctions(film_given, film_range_not_stated), evaluated)
     coefficient = friction.functions.coefficient(contact, known, surfaces, friction.parameters)
     temperature = friction.functions.flash_temperature(
         contact, known, surfaces, friction.parameters, coefficient
@@ -104,14 +104,10 @@ def contact_friction(
     pitch_point_length: Any = 0.0,
     pitch_point_rate: Any = 0.0,
 ) -> ContactFriction:
-    """Evaluate the laws in use.
+    """Evaluate the laws in use at line loads (N/m), radii (m) and rolling speeds (m/s).
 
-    Parameters
-    ----------
-    line_load, radius, pinion_speed, gear_speed : N/m, m, and the rolling speeds in m/s
-    pitch_point_length, pitch_point_rate : M (m) and entrainment over equivalent radius (1/s) of
-        `geometry.pitch_point`; 0: nothing vanishes, or nothing is averaged. A traced length is taken as
-        positive.
+    `pitch_point_length` and `pitch_point_rate` are M (m) and entrainment over equivalent radius (1/s) of
+    `geometry.pitch_point`; 0: nothing vanishes, or is averaged. A traced length is taken as positive.
     """
     sliding = pinion_speed - gear_speed
     seen, speeds = radius + 0.0 * line_load, (pinion_speed, gear_speed)

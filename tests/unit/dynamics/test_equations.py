@@ -38,7 +38,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.law import ActiveFilm
+from tribodyn.tribology.law import ActiveLaw
 
 OVERRIDES = [
     {},
@@ -362,7 +362,7 @@ def test_friction_is_that_of_the_uneven_faces_line_load(prepared):
         state_there = local_contact(
             load, 1.0 / work[contact.RADIUS, 0], np.mean(speeds), work[contact.SLIDING, 0], *speeds
         )
-        film = ActiveFilm(model.options.film, model.film)
+        film = ActiveLaw(model.options.film, model.film)
         expected = model.options.friction.coefficient(state_there, film, model.surfaces, model.friction)
         assert work[contact.FRICTION_COEFFICIENT, 0] == pytest.approx(expected, rel=1e-12)
         coefficients.append(expected)

@@ -11,7 +11,7 @@ from tribodyn.solve.branch.continuation import Leg, follow
 from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.orbit import motions as orbit
 from tribodyn.solve.orbit.motions import Orbit
-from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
+from tribodyn.studies.backlash_oscillator.case import SAMPLES, BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import (
     BACK,
     FREE,
@@ -58,25 +58,26 @@ class MeasuredBranch(NamedTuple):
 
 
 class Response(NamedTuple):
-    """Motion at every frequency, reached by going up (column 0) and down (column 1)."""
+    """Motion at every frequency, reached by going up (column 0) and down (column 1); named as in the record.
+
+    Measures are over one period of the motion, or over `WINDOW` periods of the excitation where it is not
+    periodic; NaN where it failed.
+    """
 
     frequency: np.ndarray  # (F,), Ω
-    #: (F, 2), root mean square of x about its mean, over one period of the motion; over `WINDOW` periods of
-    #: the excitation where it is not periodic. NaN where it failed
-    rms: np.ndarray
-    peak_to_peak: np.ndarray
-    mean: np.ndarray
-    #: free, back: (F, 2), shares of the time without contact, and in contact on the back side
-    free: np.ndarray
-    back: np.ndarray
+    rms_displacement: np.ndarray  # (F, 2), about the mean
+    peak_to_peak_displacement: np.ndarray
+    mean_displacement: np.ndarray
+    contact_loss_fraction: np.ndarray
+    back_contact_fraction: np.ndarray
     period: np.ndarray  # (F, 2), of the motion in periods of the excitation; 0 where it is not periodic
-    kind: np.ndarray  # (F, 2), of `MotionKind`; STABLE: periodic
+    motion: np.ndarray  # (F, 2), of `MotionKind`; STABLE: periodic
     residual: np.ndarray  # (F, 2), change of the state over a period of the motion
     #: (F, 2, 2) complex, Floquet multipliers over a period of the motion; NaN where it has none
     multiplier: np.ndarray
-    #: displacement, velocity: (F, 2), state where cos Ωτ = 1, at the start of the motion
-    displacement: np.ndarray
-    velocity: np.ndarray
+    #: section_displacement, section_velocity: (F, 2), state where cos Ωτ = 1, at the start of the motion
+    section_displacement: np.ndarray
+    section_velocity: np.ndarray
     messages: list[tuple[float, int, str]]  # frequency, direction and text of remarks on single points
     #: direction and where branches were left, in the order in which they were met
     ends: list[tuple[int, BranchEnd]]
@@ -124,9 +125,8 @@ def frequency_response(
 
 def _empty_response(frequency: np.ndarray) -> Response:
     shape = len(frequency), 2
-    names = ("rms", "peak_to_peak", "mean", "free", "back", "residual", "displacement", "velocity")
-    columns: dict[str, Any] = {name: np.full(shape, np.nan) for name in names}
-    columns |= {"period": np.zeros(shape, dtype=int), "kind": np.full(shape, FAILED)}
+    columns: dict[str, Any] = {name: np.full(shape, np.nan) for name in SAMPLES if name in Response._fields}
+    columns |= {"period": np.zeros(shape, dtype=int), "motion": np.full(shape, FAILED)}
     columns["multiplier"] = np.full((*shape, 2), np.nan, dtype=complex)
     return Response(frequency=frequency, messages=[], ends=[], beyond=[], **columns)
 
@@ -155,16 +155,16 @@ def at_rest(mean_force: float) -> float:
 def measured(
     oscillator: OscillatorMap, states: np.ndarray, cases: np.ndarray, periods: int
 ) -> dict[str, np.ndarray]:
-    """Measures of motions over some periods, by their names in `Response`."""
+    """Measures of motions over some periods, by their names in the record."""
     sums = oscillator.measures(states, cases, periods)
     duration = periods * 2.0 * np.pi / oscillator.parameters[cases, FREQUENCY]
     mean = sums[:, INTEGRAL] / duration
     return {
-        "mean": mean,
-        "rms": np.sqrt(np.maximum(sums[:, SQUARE] / duration - mean * mean, 0.0)),
-        "peak_to_peak": sums[:, MAXIMUM] - sums[:, MINIMUM],
-        "free": sums[:, FREE] / duration,
-        "back": sums[:, BACK] / duration,
+        "mean_displacement": mean,
+        "rms_displacement": np.sqrt(np.maximum(sums[:, SQUARE] / duration - mean * mean, 0.0)),
+        "peak_to_peak_displacement": sums[:, MAXIMUM] - sums[:, MINIMUM],
+        "contact_loss_fraction": sums[:, FREE] / duration,
+        "back_contact_fraction": sums[:, BACK] / duration,
     }
 
 
@@ -184,8 +184,8 @@ def _put(response: Response, place: int, direction: int, found: Orbit, oscillato
     measures = measured(oscillator, found.state[None], np.array([direction]), found.period or WINDOW)
     for name, values in measures.items():
         getattr(response, name)[at] = values[0]
-    response.kind[at] = WITHOUT_PERIOD.get(found.kind, STABLE)
+    response.motion[at] = WITHOUT_PERIOD.get(found.kind, STABLE)
     response.period[at] = found.period
     response.residual[at] = found.residual
     response.multiplier[at] = found.multipliers
-    response.displacement[at], response.velocity[at] = found.state
+    response.section_displacement[at], response.section_velocity[at] = found.state

@@ -61,7 +61,7 @@ def run(
             record.put(beyond.end, finish_row(beyond))
         for row, values in enumerate(unstable_rows):
             record.put(row, values)
-        if np.all(response.kind == FAILED):
+        if np.all(response.motion == FAILED):
             message = response.messages[0][2]
             return RunResult(record.fail(message, summary), "failed", message, summary)
         return RunResult(record.finish(summary), "complete", "", summary)
@@ -70,46 +70,36 @@ def run(
 def quantities_of(case: BacklashOscillatorCase) -> dict[str, Any]:
     """Quantities of a case without a record."""
     response = frequency_response(case)
-    if np.all(response.kind == FAILED):
+    if np.all(response.motion == FAILED):
         raise SimulationError(response.messages[0][2])
     return response_summary(response)
 
 
 def record_arrays(response: Response) -> dict[str, Any]:
     """Datasets of the record, over the frequency first."""
-    kind = response.kind.astype(float)
-    return {
+    failed = response.motion == FAILED
+    same = {name: values for name, values in response._asdict().items() if name in LAYOUT.samples}
+    return same | {
         "frequency": response.frequency,
-        "rms_displacement": response.rms,
-        "peak_to_peak_displacement": response.peak_to_peak,
-        "mean_displacement": response.mean,
-        "contact_loss_fraction": response.free,
-        "back_contact_fraction": response.back,
-        "period": np.where(response.kind == FAILED, np.nan, response.period),
-        "stable": np.where(response.kind == FAILED, np.nan, kind == STABLE),
+        "period": np.where(failed, np.nan, response.period),
+        "stable": np.where(failed, np.nan, response.motion == STABLE),
         "multiplier_modulus": np.abs(response.multiplier),
         "multiplier_angle": np.angle(response.multiplier),
-        "motion": response.kind,
-        "residual": response.residual,
-        "section_displacement": response.displacement,
-        "section_velocity": response.velocity,
     }
 
 
 def rows_of(beyond: MeasuredBranch) -> list[dict[str, Any]]:
     """Rows of the record, one for every motion of a branch."""
-    branch, measures = beyond.branch, beyond.measures
-    count = len(branch.values)
+    branch, count = beyond.branch, len(beyond.branch.values)
+    measures = {f"unstable_{name}": values for name, values in beyond.measures.items()}
     columns = branch_values(branch) | {
         "unstable_end": np.full(count, beyond.end + 1),
         "unstable_frequency": branch.values,
         "unstable_period": np.full(count, branch.period),
-        "unstable_rms_displacement": measures["rms"],
-        "unstable_peak_to_peak_displacement": measures["peak_to_peak"],
-        "unstable_contact_loss_fraction": measures["free"],
         "unstable_section_displacement": branch.states[:, 0],
         "unstable_section_velocity": branch.states[:, 1],
     }
+    columns |= {name: values for name, values in measures.items() if name in LAYOUT_WITH_UNSTABLE.others}
     return [{name: values[i] for name, values in columns.items()} for i in range(count)]
 
 
@@ -134,7 +124,7 @@ def described(beyond: MeasuredBranch) -> str:
 
 def response_summary(response: Response) -> dict[str, Any]:
     """Summary of the whole sweep."""
-    frequency, rms, kind = response.frequency, response.rms, response.kind
+    frequency, rms, kind = response.frequency, response.rms_displacement, response.motion
     summary: dict[str, Any] = {
         "points": int(kind.size),
         "points_not_periodic": int(np.sum((kind != STABLE) & (kind != FAILED))),
@@ -147,9 +137,9 @@ def response_summary(response: Response) -> dict[str, Any]:
     if np.any(np.isfinite(rms)):
         place = np.unravel_index(np.nanargmax(rms), rms.shape)
         summary |= {"rms_max": float(rms[place]), "rms_max_frequency": float(frequency[place[0]])}
-        summary["contact_loss_fraction_max"] = _maximum(response.free)
-        summary["back_contact_fraction_max"] = _maximum(response.back)
-    losing = np.any(np.nan_to_num(response.free) > 0.0, axis=1)
+        summary["contact_loss_fraction_max"] = _maximum(response.contact_loss_fraction)
+        summary["back_contact_fraction_max"] = _maximum(response.back_contact_fraction)
+    losing = np.any(np.nan_to_num(response.contact_loss_fraction) > 0.0, axis=1)
     for name, there in (("contact_loss", losing), ("bistable", branches_apart(response))):
         if np.any(there):
             places = frequency[there]
@@ -169,10 +159,10 @@ def response_summary(response: Response) -> dict[str, Any]:
 
 def branches_apart(response: Response) -> np.ndarray:
     """Where the sweeps up and down ended in different periodic motions (F,)."""
-    up, down = response.rms[:, UP], response.rms[:, DOWN]
+    up, down = response.rms_displacement[:, UP], response.rms_displacement[:, DOWN]
     with np.errstate(invalid="ignore"):
         apart = np.abs(up - down) > APART * np.maximum(up, down)
-    return apart & np.all(response.kind == STABLE, axis=1)
+    return apart & np.all(response.motion == STABLE, axis=1)
 
 
 def _maximum(values: np.ndarray) -> float | None:

@@ -23,9 +23,8 @@ from tribodyn.studies.rolling.geometry import RollingDrive
 class RollingCase(CaseHead):
     """One run of a gear with rolling elements, complete."""
 
-    mode: (
-        Mode  # motion in time with corrected speeds, or the paper's single position with its printed formulas
-    )
+    #: motion in time with corrected speeds, or the paper's single position with its printed formulas
+    mode: Mode
     drive: RollingDrive
     input_power: float  # of the shaft, W
     input_speed: float  # of the shaft, rad/s

@@ -19,9 +19,7 @@ _U_POWER, _G_POWER, _W_POWER = 0.7, 0.54, -0.13
 #: Groups of the numerical solutions that the formula was fitted to, from memory, not checked against the
 #: book; the flag `closure_in_range` rests on them, no other result does.
 FITTED_RANGE = {"W": (3e-5, 3e-4), "U": (1e-13, 1e-11), "G": (2500.0, 5000.0)}
-_W_LOW, _W_HIGH = FITTED_RANGE["W"]
-_U_LOW, _U_HIGH = FITTED_RANGE["U"]
-_G_LOW, _G_HIGH = FITTED_RANGE["G"]
+(_W_LOW, _W_HIGH), (_U_LOW, _U_HIGH), (_G_LOW, _G_HIGH) = FITTED_RANGE.values()
 #: Where the formula is within 25 % of the solved contact, heat included: Moes' M and L, Hertz pressure (Pa),
 #: η0 u² (W/m).
 JUDGED_RANGE = {"M": (2.0, 500.0), "L": (2.0, 15.0), "pressure": (0.0, 1.4e9), "heating": (0.0, 1.0)}

@@ -23,11 +23,9 @@ FITTED_RANGE = {
     "roughness": (0.0, 5e-5),
     "V": (0.005, 0.03),
 }
-_W_LOW, _W_HIGH = FITTED_RANGE["W"]
-_U_LOW, _U_HIGH = FITTED_RANGE["U"]
-_G_LOW, _G_HIGH = FITTED_RANGE["G"]
-_S_HIGH = FITTED_RANGE["roughness"][1]  # from 0
-_V_LOW, _V_HIGH = FITTED_RANGE["V"]
+(_W_LOW, _W_HIGH), (_U_LOW, _U_HIGH), (_G_LOW, _G_HIGH), (_, _S_HIGH), (_V_LOW, _V_HIGH) = (
+    FITTED_RANGE.values()
+)
 #: Where the film is within 25 % of the solved contact, heat included: Moes' M and L, the factor by which the
 #: formula raises the film of smooth surfaces for their roughness, η0 u² (W/m).
 JUDGED_RANGE = {"M": (2.0, 1000.0), "L": (2.0, 20.0), "factor": (1.0, 2.0), "heating": (0.0, 3.0)}

@@ -57,13 +57,8 @@ def moes(contact, surfaces, parameters):
     """Ln of the central film (m); roughness factor 1 and no asperity load: smooth surfaces."""
     log_curvature = log(contact.curvature)
     log_W = log(contact.line_load) + log_curvature - parameters.log_modulus
-    log_U = (
-        _LOG_2
-        + log(contact.entrainment)
-        + log_curvature
-        + parameters.log_inlet_viscosity
-        - parameters.log_modulus
-    )
+    log_U = _LOG_2 + log(contact.entrainment) + log_curvature
+    log_U = log_U + parameters.log_inlet_viscosity - parameters.log_modulus
     log_H = log_survey(log_W - 0.5 * log_U, parameters.log_material + 0.25 * log_U)
     return log_H + 0.5 * log_U - log_curvature, 1.0, 0.0
 

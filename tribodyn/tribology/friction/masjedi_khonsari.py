@@ -90,13 +90,9 @@ def mixed_friction(contact, film, surfaces, parameters):
 def _temperature_rise(contact, share, half_width, pressure, parameters):
     """Flash temperature rise of the heat |v_s| p [f_c λ + Λ_lim (1 − λ)], K."""
     sliding = absolute(contact.sliding)
-    heat_flux = (
-        sliding
-        * pressure
-        * (parameters.asperity_friction * share + parameters.limiting_shear_coefficient * (1.0 - share))
-    )
+    highest = parameters.asperity_friction * share + parameters.limiting_shear_coefficient * (1.0 - share)
     return flash_temperature_rise(
-        heat_flux,
+        sliding * pressure * highest,
         half_width,
         _peclet_speed(contact.pinion_speed, sliding, parameters.peclet_sliding),
         _peclet_speed(contact.gear_speed, sliding, parameters.peclet_sliding),

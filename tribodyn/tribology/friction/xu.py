@@ -10,9 +10,7 @@ LN10 = 2.302585092994046
 #: The bounds are given from memory of the dissertation; the flag `friction_in_range` rests on them, no other
 #: result does.
 FITTED_RANGE = {"pressure": (0.5e9, 2.5e9), "slide_to_roll": (0.0, 1.0), "roughness": (0.0, 1e-6)}
-_P_LOW, _P_HIGH = FITTED_RANGE["pressure"]
-_SR_HIGH = FITTED_RANGE["slide_to_roll"][1]
-_S_HIGH = FITTED_RANGE["roughness"][1]
+(_P_LOW, _P_HIGH), (_, _SR_HIGH), (_, _S_HIGH) = FITTED_RANGE.values()
 
 
 @law

@@ -59,15 +59,15 @@ def test_while_contact_lasts_the_response_is_the_linear_oscillators(sign):
         shape = 0.02 * frequency**2 / (1.0 - frequency**2 + 2j * 0.07 * frequency)
         for way in (0, 1):
             at = place, way
-            assert found.kind[at] == STABLE
+            assert found.motion[at] == STABLE
             assert found.period[at] == 1
-            assert found.mean[at] == pytest.approx(1.4 * sign, rel=1e-7)
-            assert found.rms[at] == pytest.approx(abs(shape) / np.sqrt(2.0), rel=1e-5)
-            assert found.peak_to_peak[at] == pytest.approx(2.0 * abs(shape), rel=1e-5)
-            assert found.free[at] == 0.0
-            assert found.back[at] == pytest.approx(1.0 if sign < 0 else 0.0, abs=1e-12)
-            assert found.displacement[at] == pytest.approx(1.4 * sign + shape.real, rel=1e-6)
-            assert found.velocity[at] == pytest.approx(-frequency * shape.imag, rel=1e-4)
+            assert found.mean_displacement[at] == pytest.approx(1.4 * sign, rel=1e-7)
+            assert found.rms_displacement[at] == pytest.approx(abs(shape) / np.sqrt(2.0), rel=1e-5)
+            assert found.peak_to_peak_displacement[at] == pytest.approx(2.0 * abs(shape), rel=1e-5)
+            assert found.contact_loss_fraction[at] == 0.0
+            assert found.back_contact_fraction[at] == pytest.approx(1.0 if sign < 0 else 0.0, abs=1e-12)
+            assert found.section_displacement[at] == pytest.approx(1.4 * sign + shape.real, rel=1e-6)
+            assert found.section_velocity[at] == pytest.approx(-frequency * shape.imag, rel=1e-4)
             turn = np.exp(complex(-0.07, np.sqrt(1 - 0.07**2)) * 2.0 * np.pi / frequency)
             np.testing.assert_allclose(
                 np.sort_complex(found.multiplier[at]), np.sort_complex([turn, turn.conjugate()]), rtol=1e-9
@@ -90,26 +90,25 @@ def test_a_motion_without_period_is_measured_over_its_window():
     moving = orbit.Orbit(state, state, 0, 0.5, none, False, orbit.CHAOTIC, "marching", 9, "it wanders")
     response.frequency[1] = 10.0
     _put(response, 1, 0, moving, gap)
-    assert response.kind[1, 0] == CHAOTIC
+    assert response.motion[1, 0] == CHAOTIC
     assert response.period[1, 0] == 0
     way = 1e-4 * WINDOW * 2.0 * np.pi / 10.0
-    assert response.peak_to_peak[1, 0] == pytest.approx(way, rel=2e-3)
-    assert response.mean[1, 0] == pytest.approx(-0.9 + way / 2.0, rel=1e-9)
-    assert response.rms[1, 0] == pytest.approx(way / np.sqrt(12.0), rel=1e-6)
-    assert response.free[1, 0] == pytest.approx(1.0, rel=1e-12)
+    assert response.peak_to_peak_displacement[1, 0] == pytest.approx(way, rel=2e-3)
+    assert response.mean_displacement[1, 0] == pytest.approx(-0.9 + way / 2.0, rel=1e-9)
+    assert response.rms_displacement[1, 0] == pytest.approx(way / np.sqrt(12.0), rel=1e-6)
+    assert response.contact_loss_fraction[1, 0] == pytest.approx(1.0, rel=1e-12)
     assert response.messages[-1] == (10.0, 0, "it wanders")
     _put(response, 0, 1, orbit.failed_orbit(state, 3, "lost"), gap)
-    assert response.kind[0, 1] == FAILED
-    assert np.isnan(response.rms[0, 1])
+    assert response.motion[0, 1] == FAILED
+    assert np.isnan(response.rms_displacement[0, 1])
 
 
 def made(count, **columns):
     """A response of NaN over so many frequencies, but for some columns."""
-    names = ("rms", "peak_to_peak", "mean", "free", "back", "residual", "displacement", "velocity")
-    given: dict[str, Any] = {name: np.full((count, 2), np.nan) for name in names} | {
+    given: dict[str, Any] = {name: np.full((count, 2), np.nan) for name in Response._fields} | {
         "frequency": 0.5 + 0.25 * np.arange(count),
         "period": np.zeros((count, 2), dtype=int),
-        "kind": np.full((count, 2), int(FAILED)),
+        "motion": np.full((count, 2), int(FAILED)),
         "multiplier": np.full((count, 2, 2), np.nan, dtype=complex),
         "messages": [],
         "ends": [],
@@ -125,13 +124,13 @@ def test_the_figures_of_a_response_are_counted():
     nan = np.nan
     response = made(
         6,
-        rms=np.array(
-            [[0.1, 0.1], [0.2, 0.25], [0.3, 0.31], [0.5, 0.6], [0.4, 0.40003], [nan, 0.2]], dtype=float
+        rms_displacement=np.array(
+            [[0.1, 0.1], [0.2, 0.25], [0.3, 0.31], [0.5, 0.6], [0.4, 0.40003], [nan, 0.2]]
         ),
-        free=np.array([[0, 0], [0, 0.1], [0.2, 0], [0.3, 0.05], [0, 0], [nan, 0]], dtype=float),
-        back=np.array([[0, 0], [0, 0.02], [0, 0], [0.01, 0], [0, 0], [nan, 0]], dtype=float),
+        contact_loss_fraction=np.array([[0, 0], [0, 0.1], [0.2, 0], [0.3, 0.05], [0, 0], [nan, 0]]),
+        back_contact_fraction=np.array([[0, 0], [0, 0.02], [0, 0], [0.01, 0], [0, 0], [nan, 0]], dtype=float),
         period=np.array([[1, 1], [1, 2], [1, 3], [0, 0], [1, 1], [0, 1]]),
-        kind=np.array([[S, S], [S, S], [S, S], [Q, C], [S, S], [F, N]]),
+        motion=np.array([[S, S], [S, S], [S, S], [Q, C], [S, S], [F, N]]),
         residual=np.array([[1, 2], [3, 9], [4, 5], [99, 98], [6, 7], [nan, 97]]) * 1e-9,
         messages=[(0.5 + 0.25 * i, i % 2, f"said {i}") for i in range(5)],
         ends=[(0, BranchEnd(FOLD, 0.8, 1e-4, 1, 0.99 + 0j)), (1, BranchEnd(FOLD, 0.7, 1e-4, 2, 0.98j))],
@@ -191,9 +190,9 @@ def test_figures_of_unstable_motions():
     ]
     branch = UnstableBranch(2, frequencies, orbits, finish)
     found = measured_branch(case((0.6, 1.3)), 3, branch)
-    np.testing.assert_allclose(found.measures["rms"], np.abs(shapes) / np.sqrt(2.0), rtol=1e-7)
-    np.testing.assert_allclose(found.measures["peak_to_peak"], 2.0 * np.abs(shapes), rtol=1e-7)
-    np.testing.assert_array_equal(found.measures["free"], 0.0)
+    np.testing.assert_allclose(found.measures["rms_displacement"], np.abs(shapes) / np.sqrt(2.0), rtol=1e-7)
+    np.testing.assert_allclose(found.measures["peak_to_peak_displacement"], 2.0 * np.abs(shapes), rtol=1e-7)
+    np.testing.assert_array_equal(found.measures["contact_loss_fraction"], 0.0)
     first, last = rows_of(found)
     assert (first["unstable_end"], first["unstable_frequency"], first["unstable_period"]) == (4, 0.6, 2)
     assert last["unstable_multiplier_modulus"] == pytest.approx(1.5)
