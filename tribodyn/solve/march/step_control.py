@@ -16,7 +16,7 @@ import numpy as np
 from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES, WORKS, X_G, X_P, XI, Y_G, Y_P
-from tribodyn.numerics.elementary import absolute, law, maximum, minimum, plain, where
+from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, where
 from tribodyn.solve.integrator import Status
 
 #: First step to try and the smallest one, mesh cycles; a step is the last if it ends this close to the end.
@@ -51,10 +51,13 @@ def refusal(steps, max_steps, step, speed, nominal_speed):
     Too many in this mesh cycle; the pinion comes to rest, as it does where steps vanish as it stops, and at
     once where an engagement takes all its kinetic energy; or too small. Speeds are the pinion's.
     """
-    vanishing = step < MINIMUM_STEP
-    at_rest = (vanishing & (speed < STANDSTILL * nominal_speed)) | (speed <= 0.0)
-    failure = where(at_rest, STALLED, where(vanishing, STEP_TOO_SMALL, 0.0))
-    return where(steps >= max_steps, TOO_MANY_STEPS, failure)
+    too_many, vanishing, stopped = steps >= max_steps, step < MINIMUM_STEP, speed <= 0.0
+    failure = 0.0 * step
+    if anywhere(too_many | vanishing | stopped):
+        at_rest = (vanishing & (speed < STANDSTILL * nominal_speed)) | stopped
+        failure = where(at_rest, STALLED, where(vanishing, STEP_TOO_SMALL, failure))
+        failure = where(too_many, TOO_MANY_STEPS, failure)
+    return failure
 
 
 @law
@@ -98,9 +101,12 @@ def step_outcome(error, step, after, model):
     accepted = error <= 1.0
     undefined = (error != error) | (error >= INFINITE)
     at_rest = accepted & (model.mechanics.nominal_speed + after[SLIP] <= 0.0)
-    failure = where(accepted & unbounded(after, model.table), UNBOUNDED, 0.0)
-    failure = where(at_rest, STALLED, failure)
-    return accepted, undefined, where(undefined & (step < MINIMUM_RETRY), NOT_FINITE, failure)
+    runaway = accepted & unbounded(after, model.table)
+    failure = 0.0 * step
+    if anywhere(undefined | at_rest | runaway):
+        failure = where(at_rest, STALLED, where(runaway, UNBOUNDED, failure))
+        failure = where(undefined & (step < MINIMUM_RETRY), NOT_FINITE, failure)
+    return accepted, undefined, failure
 
 
 @law
