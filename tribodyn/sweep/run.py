@@ -52,13 +52,9 @@ def run(
 ) -> SweepResult:
     """Evaluate every case of a grid and write the record; InputError before anything is computed.
 
-    Parameters
-    ----------
-    settings : from `settings_of`
-    directions : senses in which to follow the first parameter; none: every case begins by itself
-    unstable : continue branches beyond the ends of their stable parts
-    force, resume : replace a record, or go on with what an unfinished sweep left
-    allow_large : allow grids above the limits (`sweep.plan`)
+    The `settings` are from `settings_of`. `directions` are senses to follow the first parameter in, none:
+    every case begins by itself; `unstable` continues branches beyond the ends of their stable parts. `force`
+    replaces a record, `resume` goes on with what an unfinished sweep left; `allow_large`: see `sweep.plan`.
     """
     if directions or unstable:
         _can_be_followed(grid, directions, unstable)

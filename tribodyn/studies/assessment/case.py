@@ -2,11 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
 
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
+from tribodyn.scenario.quantity import NotNegative, Positive, Switch, Table, Text
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.case import GearCase
 from tribodyn.studies.protocol.cost import (
@@ -42,21 +45,41 @@ SAMPLES: dict[str, Variable] = {
 LAYOUT = Layout(ROLL, SAMPLES, groups={"geometry": GEOMETRY})
 
 
-@dataclass(frozen=True)
-class AssessmentSettings:
-    """What is asked beyond the drive and its duty, and what the standards need to know."""
+class AssessmentAsked(Table):
+    """What is asked beyond the duty, and what the standards need to know."""
 
-    application_factor: float  # K_A
-    lubrication: str  # {"dip", "spray", "submerged"}
-    structure_factor: float  # X_W of ISO/TS 6336-20
-    adequate_tip_relief: bool  # whether the standards may count on the tip relief that the flanks have
-    torque_shares: tuple[float, ...]  # torques of the loaded error, over the duty's
-    #: (float, float); first and last speed of the steady states, over the duty's
-    speed_range: tuple[float, float]
-    speeds: int  # how many, besides the duty's
-    samples: int  # of the deviations, whose scatter is given
-    friction_laws: tuple[str, ...]  # the first is that of everything but the spread of the losses
-    damping_ratio: float  # ζ of the mesh
+    application_factor: Positive = Field(1.0, description="K_A, what the driven and the driving machine add")
+    lubrication: Literal["dip", "spray", "submerged"] = Field(
+        "dip", description="how the oil gets to the mesh"
+    )
+    structure_factor: Positive = Field(
+        1.0, description="X_W: 1 of case-hardened steel, 1.5 nitrided (ISO/TS 6336-20, table 2)"
+    )
+    adequate_tip_relief: Switch = Field(
+        False, description="whether the standards may count on the tip relief that the flanks have"
+    )
+    torque_shares: tuple[Positive, ...] = Field(
+        (0.25, 0.5, 0.75, 1.0, 1.25),
+        min_length=2,
+        max_length=50,
+        description="torques of the loaded error over the duty's, increasing",
+    )
+    speed_range: tuple[Positive, Positive] = Field(
+        (0.2, 2.5), description="first and last speed of the steady states over the duty's"
+    )
+    speeds: Annotated[int, Field(strict=True, ge=8)] = Field(
+        46, description="steady states over that range, besides the duty's"
+    )
+    samples: Annotated[int, Field(strict=True, ge=0, le=1000)] = Field(
+        16, description="of the deviations that the tolerance class allows, for their scatter; 0: none"
+    )
+    friction_laws: tuple[Text, ...] = Field(
+        ("masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),
+        min_length=1,
+        max_length=10,
+        description="the first for everything, the others for the spread of the losses",
+    )
+    damping_ratio: NotNegative = Field(0.05, description="of the mesh")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +89,7 @@ class AssessmentCase(GearCase):
     lubricant: LubricantData  # with its data sheet, at the temperature of the oil
     oil_temperature: float  # of the duty, K
     quality: Quality  # deviations of the gears by ISO 1328-1
-    settings: AssessmentSettings
+    settings: AssessmentAsked
     limits: Mapping[str, Any]  # name of a limit -> its value, SI units
 
 

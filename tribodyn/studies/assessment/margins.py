@@ -56,10 +56,7 @@ def local_of(
 ) -> LocalValues:
     """Evaluate method A; SimulationError where no place has a Hertz contact.
 
-    Parameters
-    ----------
-    along : ``roll_angle``, ``hertz_pressure`` (maximum over the face) and ``normal_load`` of one pair
-    quantities : ``dynamic_factor``, ``friction_coefficient_mean`` and ``power_friction_mean``
+    `along` has ``roll_angle``, ``hertz_pressure`` (maximum over the face) and ``normal_load`` of one pair.
     """
     settings = case.settings
     start, end = map(float, assembly.roll_limits)

@@ -9,19 +9,17 @@ from pydantic import Field
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario import units
 from tribodyn.scenario.fields import Temperature
-from tribodyn.scenario.quantity import InUnit, NotNegative, Positive, Switch, Table, Text, model_file, written
+from tribodyn.scenario.quantity import InUnit, Positive, Table, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.duty import OperatingTable, broken_driving_rules
 from tribodyn.scenario.tables.losses import LossesTable, TemperatureTable
 from tribodyn.scenario.tables.lubricant import lubricant_of
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.quality import tolerances_of
-from tribodyn.studies.assessment.case import AssessmentCase, AssessmentSettings
+from tribodyn.studies.assessment.case import AssessmentAsked, AssessmentCase
 from tribodyn.studies.gears.scenario import FaceSlices, GearScenario, Oil, broken_gear_rules, gear_fields
 from tribodyn.tribology.friction import FRICTION_LAWS
 
-Speeds = Annotated[int, Field(strict=True, ge=8)]
-Samples = Annotated[int, Field(strict=True, ge=0, le=1000)]
 Pressure = Annotated[float, InUnit(units.positive(units.PRESSURE), "1.5 GPa")]
 Length = Annotated[float, InUnit(units.positive(units.LENGTH), "5 um")]
 
@@ -37,41 +35,6 @@ class AssessmentMesh(Table):
 
     misalignment: MisalignmentTable = written({})
     slices: FaceSlices = None
-
-
-class AssessmentAsked(Table):
-    """What is asked beyond the duty, and what the standards need to know."""
-
-    application_factor: Positive = Field(1.0, description="K_A, what the driven and the driving machine add")
-    lubrication: Literal["dip", "spray", "submerged"] = Field(
-        "dip", description="how the oil gets to the mesh"
-    )
-    structure_factor: Positive = Field(
-        1.0, description="X_W: 1 of case-hardened steel, 1.5 nitrided (ISO/TS 6336-20, table 2)"
-    )
-    adequate_tip_relief: Switch = Field(
-        False, description="whether the standards may count on the tip relief that the flanks have"
-    )
-    torque_shares: tuple[Positive, ...] = Field(
-        (0.25, 0.5, 0.75, 1.0, 1.25),
-        min_length=2,
-        max_length=50,
-        description="torques of the loaded error over the duty's, increasing",
-    )
-    speed_range: tuple[Positive, Positive] = Field(
-        (0.2, 2.5), description="first and last speed of the steady states over the duty's"
-    )
-    speeds: Speeds = Field(46, description="steady states over that range, besides the duty's")
-    samples: Samples = Field(
-        16, description="of the deviations that the tolerance class allows, for their scatter; 0: none"
-    )
-    friction_laws: tuple[Text, ...] = Field(
-        ("masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),
-        min_length=1,
-        max_length=10,
-        description="the first for everything, the others for the spread of the losses",
-    )
-    damping_ratio: NotNegative = Field(0.05, description="of the mesh")
 
 
 class AssessmentLimits(Table):
@@ -114,7 +77,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
         **gear_fields(scenario, toml, sha256),
         lubricant=lubricant_of(scenario.lubricant, oil_temperature),
         oil_temperature=oil_temperature,
-        settings=AssessmentSettings(**scenario.assessment.model_dump()),
+        settings=scenario.assessment,
         limits=scenario.limits.model_dump(),
     )
 

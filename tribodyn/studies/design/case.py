@@ -4,8 +4,11 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
+from pydantic import Field
+
+from tribodyn.scenario.quantity import Table
 from tribodyn.studies.protocol.study import CaseHead
 
 _NUMBER_AND_UNIT = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(\S.*?)?\s*$", re.ASCII)
@@ -81,13 +84,13 @@ class Tolerance(NamedTuple):
     distribution: str
 
 
-class Robust(NamedTuple):
-    """How quantities are taken over the samples of the tolerances: "mean", "worst" or "quantile"."""
+class RobustTable(Table):
+    """How quantities are taken over the samples of the tolerances."""
 
-    over: str = "mean"
-    quantile: float = 0.9
-    samples: int = 8
-    seed: int = 0
+    over: Literal["mean", "worst", "quantile"] = "mean"
+    quantile: Annotated[float, Field(strict=True, gt=0, lt=1)] = 0.9
+    samples: Annotated[int, Field(strict=True, ge=1, le=10_000)] = 8
+    seed: Annotated[int, Field(strict=True, ge=0)] = 0
 
 
 class SearchOptions(NamedTuple):
@@ -113,7 +116,7 @@ class DesignCase(CaseHead):
     duties: tuple[WeightedDuty, ...]  # at least one
     over_duties: str  # "mean" or "worst"
     tolerances: tuple[Tolerance, ...]
-    robust: Robust
+    robust: RobustTable
     search: SearchOptions
     #: key to value, under which start and best are evaluated once more; empty: they are not
     confirm: Mapping[str, Any]

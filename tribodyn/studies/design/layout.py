@@ -122,7 +122,7 @@ def row_of(case: DesignCase, names: Sequence[str], candidate: Candidate, number:
         "case_figures": numbers_of_cases(names, candidate.found),
         REFINEMENT: float(candidate.factor),
         "feasible": float(score.feasible),
-        "message": np.array(_cut(score.message), dtype=f"S{MESSAGE}"),
+        "message": " ".join(score.message.split()),
     }
     row |= {f"free_{free.name}": value for free, value in zip(case.free, candidate.numbers, strict=True)}
     row |= zip(OBJECTIVES, score.objectives, strict=False)
@@ -138,11 +138,6 @@ def numbers_of_cases(names: Sequence[str], found: Results) -> np.ndarray:
     return np.array(
         [[np.nan if isinstance(of, str) else of.get(name, np.nan) for name in names] for of in found]
     )
-
-
-def _cut(text: str) -> bytes:
-    raw = " ".join(text.split()).encode()
-    return raw if len(raw) <= MESSAGE else raw[: MESSAGE - 3].decode(errors="ignore").encode() + b"..."
 
 
 def unfinished_in(case: DesignCase, record: Record) -> Unfinished:

@@ -85,13 +85,7 @@ def _quantity_in(text: str, known: Mapping[str, Any]) -> str:
 
 
 def quantity_of(search: Mapping[str, Any], name: str) -> Quantity | None:
-    """The quantity of a name, as the search's scenario or a part of it reports it; None: a sum of several.
-
-    Parameters
-    ----------
-    search : the search as its record holds it
-    name : of the quantity
-    """
+    """The quantity of a name, as a search's scenario or a part of it reports it; None: a sum of several."""
     parts = search.get("design", {}).get("part") or {}
     part, plain = split(name, parts)
     found = study_of(parts[part] if part else search.get("scenario", {})).quantity(plain)

@@ -13,7 +13,7 @@ from tribodyn.scenario.quantity import Count, Positive, Switch, Table, Text, sce
 from tribodyn.scenario.tables.drive_data import with_axes_held
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.design.candidates.sources import BASE, NAME, Source, sources_of
-from tribodyn.studies.design.case import DesignCase, Robust, SearchOptions, flat
+from tribodyn.studies.design.case import DesignCase, RobustTable, SearchOptions, flat
 from tribodyn.studies.design.methods import METHODS
 from tribodyn.studies.design.parts import parts_of_design
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
@@ -64,15 +64,6 @@ class ToleranceTable(Table):
     distribution: Literal["uniform", "normal", "ends"] = Field(
         "uniform", description="normal: plus_minus is three standard deviations; ends: both ends alone"
     )
-
-
-class RobustTable(Table):
-    """How quantities are taken over the samples of the tolerances."""
-
-    over: Literal["mean", "worst", "quantile"] = "mean"
-    quantile: Annotated[float, Field(strict=True, gt=0, lt=1)] = 0.9
-    samples: Annotated[int, Field(strict=True, ge=1, le=10_000)] = 8
-    seed: Annotated[int, Field(strict=True, ge=0)] = 0
 
 
 class DesignTable(Table):
@@ -186,7 +177,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
         parts=further,
         **fields,
         over_duties=table.over_duties,
-        robust=Robust(**table.robust.model_dump()),
+        robust=table.robust,
         search=SearchOptions(**{name: getattr(table, name) for name in SearchOptions._fields}),
         confirm=flat(table.confirm),
         sensitivities=table.sensitivities,

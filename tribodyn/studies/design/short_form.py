@@ -86,15 +86,11 @@ def parts_of(options: Sequence[str]) -> dict[str, str]:
 def loaded_search(
     source: str | Path | Mapping[str, Any] | CaseHead, design: Mapping[str, Any], overrides: Mapping[str, Any]
 ) -> Loaded:
-    """Make the case of a search.
+    """Make the case of a search through a scenario, or of a search: name, file, tables, or a case.
 
-    Raises InputError for what cannot be searched, and where nothing says what is free and what is sought.
-
-    Parameters
-    ----------
-    source : the scenario to search through, or a search: name, file, tables, or a case
-    design : keys of its table `[design]`; they take the place of those of a search
-    overrides : dotted key to value, of the scenario to search through
+    `design` are keys of its table `[design]`, in place of those of a search; `overrides`, by dotted keys, are
+    of the scenario to search through. Raises InputError for what cannot be searched, and where nothing says
+    what is free and what is sought.
     """
     if isinstance(source, CaseHead):
         path, data = Path("scenario"), tomllib.loads(source.toml)

@@ -98,15 +98,9 @@ def places(
 ) -> Places:
     """Look up the mesh at phases (K,), 0 … 1: compliance and gap from the table, kinematics from the path.
 
-    Raises InputError if one pair shall carry the load over a pitch that its contact does not cover.
-
-    Parameters
-    ----------
-    cycle : of concrete numbers
-    path : the working path that the table was made from
-    flanks : the load contact model that the table was made from (`tabulate_loaded`). Pairs that share
-        elastically then touch beyond the path as well, where a corner meets a flank; others know the path
-        only
+    `path` and `flanks`, the load contact model, are those that the table was made from. With the latter pairs
+    that share elastically touch beyond the path as well, where a corner meets a flank; others know the path
+    only. Raises InputError if one pair shall carry the load over a pitch that its contact does not cover.
     """
     pairs = cycle.front_pairs
     segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)

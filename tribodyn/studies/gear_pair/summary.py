@@ -168,15 +168,10 @@ def steady_quantities(
 ) -> dict[str, Any]:
     """Quantities of the last whole mesh cycles of a run.
 
-    Those of loads and of single pairs are of the working flanks: the back flanks where the gear drives.
-
-    Parameters
-    ----------
-    window : the record's arrays over whole cycles, last sample not included
-    work : (STATES,); change of the state over them: its works are integrated, so that no mean power depends
-        on the sampling
-    samples, nominal_speed : per mesh cycle; of the pinion, rad/s
-    extremes : over the same mesh cycles
+    Those of loads and of single pairs are of the working flanks: the back flanks where the gear drives. The
+    `window` has the record's arrays over these cycles, last sample not included, so many `samples` in each.
+    `work` (STATES,) is the change of the state over them: its works are integrated, so that no mean power
+    depends on the sampling. `nominal_speed` is the pinion's, rad/s.
     """
     error = window["transmission_error_rotational"]
     load = window["normal_load"]

@@ -74,8 +74,6 @@ def alone(study: Study, case: Any) -> dict[str, Any] | str:
 def _together(
     study: Study, batch: "Batch", cases: Sequence[Any], workers: int | None
 ) -> list[dict[str, Any] | str]:
-    from tribodyn.studies.sweeping.batch import Chunk
-
     made = [case for case in cases if not isinstance(case, str)]
     if not made:
         return list(cases)

@@ -85,7 +85,7 @@ APPLICATION, FACE, SPRAYED = 1.25, 1.3, 1.2
 
 @pytest.fixture(scope="module")
 def harder(case: Any) -> Standard:
-    settings = replace(case.settings, application_factor=APPLICATION, lubrication="spray")
+    settings = case.settings.model_copy(update={"application_factor": APPLICATION, "lubrication": "spray"})
     loaded = replace(case, settings=settings)
     return standard_of(loaded, assembled(loaded), FACE)
 

@@ -10,7 +10,14 @@ from scipy.special import ndtr
 
 from tribodyn.studies.design.candidates.candidates import samples_of
 from tribodyn.studies.design.candidates.scoring import Scoring
-from tribodyn.studies.design.case import Constraint, DesignCase, Objective, Robust, Tolerance, WeightedDuty
+from tribodyn.studies.design.case import (
+    Constraint,
+    DesignCase,
+    Objective,
+    RobustTable,
+    Tolerance,
+    WeightedDuty,
+)
 from tribodyn.studies.design.short_form import loaded_search
 
 KEYS = ("drive.pinion.profile_shift", "drive.gear.profile_shift")
@@ -70,7 +77,7 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
         over_duties=over_duties,
         objectives=objectives,
         constraints=constraints,
-        robust=Robust(over, share, 4, 0),
+        robust=RobustTable(over=over, quantile=share, samples=4, seed=0),
     )
     scoring = Scoring(case, rows_of(START))
     found = scoring.score(rows_of(FOUND), 0.3)
@@ -122,7 +129,7 @@ def test_samples_fill_their_distributions_evenly():
     tolerances = tuple(
         Tolerance("k", "k", 1.0, "", distribution) for distribution in ("uniform", "normal", "ends")
     )
-    case = case_with(tolerances=tolerances, robust=Robust(samples=10, seed=4))
+    case = case_with(tolerances=tolerances, robust=RobustTable(samples=10, seed=4))
     uniform, normal, ends = np.array(samples_of(case)).T
     assert sorted(((uniform + 1.0) * 5.0).astype(int)) == list(range(10))
     assert sorted((ndtr(3.0 * normal) * 10.0).astype(int)) == list(range(10))

@@ -55,11 +55,8 @@ class SpentError(Exception):
 class Archive:
     """Evaluates candidates of a search on one resolution; what comes again is not evaluated again.
 
-    Parameters
-    ----------
-    keep : called with every evaluation as soon as it is there, in their order
-    factor : resolution over that of the scenario, one of `FACTORS`
-    before : what need not be evaluated again; `keep` does not get it
+    `keep` is called with every evaluation as soon as it is there, in their order, but not with what is known
+    `before`. `factor` is the resolution over that of the scenario, one of `FACTORS`.
     """
 
     def __init__(

@@ -87,11 +87,8 @@ def cases_of(
 ) -> list[Overrides]:
     """Overrides of the base scenario for every duty, and for every sample of the tolerances within it.
 
-    Parameters
-    ----------
-    free : values of free keys; none: the base scenario as it stands
-    more : further keys, for all
-    alone : number and deviation of the one tolerance that deviates, in place of all samples
+    `free` are values of free keys, none: the base scenario as it stands; `more` are further keys, for all;
+    `alone` is number and deviation of the one tolerance that deviates, in place of all samples.
     """
     found = []
     if alone is None:

@@ -62,13 +62,9 @@ def evaluate(
     several: Sequence[Mapping[str, Any]],
     workers: int | None = None,
 ) -> Results:
-    """Quantities of cases, numbers alone; a text instead where one fails: why.
+    """Quantities of cases by their overrides, numbers alone; a text instead where one fails: why.
 
-    Parameters
-    ----------
-    scenarios : data of the scenario that is searched through, and of its parts, by their names as sources
-    several : overrides of each case
-    workers : threads of a study that evaluates cases together
+    `scenarios` are by their names as sources; `workers` are threads of a study that evaluates cases together.
     """
     found: Results = [{} for _ in several]
     for name, data in scenarios.items():
@@ -192,13 +188,9 @@ def _line(message: Any) -> bytes:
 
 
 class Cluster:
-    """Evaluates lists of overrides by the workers of a Dask scheduler; a context manager.
+    """Evaluates lists of overrides by the workers of a client of Dask; a context manager.
 
     What a worker was at when it died is done again by another. Workers need the same version of tribodyn.
-
-    Parameters
-    ----------
-    client : distributed.Client
     """
 
     name = "dask"

@@ -28,17 +28,12 @@ RADIUS, STEP = 0.15, 2e-3
 
 
 class Scalar:
-    """One objective, relative to the start, and margins that must not be negative: what minimisers take.
-
-    Parameters
-    ----------
-    bound : upper bound of the other objective
-    """
+    """One objective, relative to the start, and margins that must not be negative: what minimisers take."""
 
     def __init__(self, archive: Archive, objective: int = 0, bound: float | None = None) -> None:
         self.archive = archive
         self.objective = objective
-        self.bound = bound
+        self.bound = bound  # upper, of the other objective
         self.scales = [self._scale(place) for place in range(len(archive.case.objectives))]
 
     def _scale(self, place: int) -> float:
