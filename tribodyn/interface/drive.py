@@ -165,12 +165,10 @@ class GearPair:
         Figure
             Of matplotlib, or the part of one that took the place of `ax`.
         """
-        from contextlib import nullcontext
-
         from tribodyn.drawing.picture import pair_figure
         from tribodyn.post.style import in_place_of
 
-        with in_place_of(ax) if ax is not None else nullcontext():
+        with in_place_of(ax):
             return pair_figure(self._assembly, self.title)
 
     def __repr__(self) -> str:

@@ -4,7 +4,7 @@ import shutil
 import tempfile
 import weakref
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager, nullcontext
+from contextlib import ExitStack, contextmanager
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -54,8 +54,7 @@ class Run:
             weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         with Record(path) as record:
             self.kind, self.status, self.message = record.kind, record.status, record.message
-            self.summary: dict[str, Any] = record.summary
-            self.scenario: dict[str, Any] = record.scenario
+            self.summary, self.scenario = record.summary, record.scenario
             self.trust, self.reasons = record.trust, trust.reasons(record.summary)
 
     @cached_property
@@ -115,7 +114,7 @@ class Run:
         from tribodyn.post.style import in_place_of
         from tribodyn.studies.pages import figure
 
-        with records_of([self, *others]) as records, in_place_of(ax) if ax is not None else nullcontext():
+        with self._records(others) as records, in_place_of(ax):
             return figure(name, records, cycles=cycles, against=against)
 
     @in_python()
@@ -145,7 +144,7 @@ class Run:
         """
         from tribodyn.studies.pages import write_report
 
-        with records_of([self, *others]) as records:
+        with self._records(others) as records:
             return write_report(records, path or f"{self.path.stem}.html", force=force)
 
     @in_python()
@@ -169,7 +168,7 @@ class Run:
         """
         from tribodyn.studies.pages import report
 
-        with records_of([self, *others]) as records:
+        with self._records(others) as records:
             shown.check_teeth(records)
             return shown.Animation(report(records, figures=False))
 
@@ -200,12 +199,17 @@ class Run:
         check_target(target, force)
         return Path(shutil.copyfile(self.path, target))
 
+    @contextmanager
+    def _records(self, others: "tuple[Run, ...]") -> Iterator[list[Record]]:
+        """The records of this run and of others, open."""
+        with ExitStack() as stack:
+            yield [stack.enter_context(Record(run.path)) for run in (self, *others)]
+
     def __repr__(self) -> str:
         title = self.scenario.get("title", self.path.stem)
-        state = self.status if not self.message else f"{self.status}: {self.message}"
-        judged = f", {self.trust}" if self.trust else ""
-        why = f": {'; '.join(self.reasons)}" if self.reasons else ""
-        return f"<tribodyn run: {title} [{state}{judged}{why}], {self.path}>"
+        state = ": ".join(filter(None, (self.status, self.message)))
+        judged = ": ".join(filter(None, (self.trust, "; ".join(self.reasons))))
+        return f"<tribodyn run: {title} [{', '.join(filter(None, (state, judged)))}], {self.path}>"
 
     def _repr_html_(self) -> str:
         """Title, warnings, a small picture, the summary and how far to trust it, for notebooks."""
@@ -221,13 +225,6 @@ class Run:
                 summary_tables([record], [study.reported()]),
                 shown.listed("How far to trust it", [*self.reasons, *study.sentences(record)]),
             )
-
-
-@contextmanager
-def records_of(runs: "list[Run]") -> Iterator[list[Record]]:
-    """The records of runs, open."""
-    with ExitStack() as stack:
-        yield [stack.enter_context(Record(run.path)) for run in runs]
 
 
 @in_python()
@@ -272,9 +269,8 @@ def run(
     OutputError
         If the record cannot be written.
     """
-    laws = {"film": film, "friction": friction}
-    how: dict[str, Any] = {"force": force, "progress": progress, "allow_large": allow_large, **laws}
-    return recorded(scenario(source, overrides), output, **how)
+    how: dict[str, Any] = {"film": film, "friction": friction, "force": force, "progress": progress}
+    return recorded(scenario(source, overrides), output, allow_large=allow_large, **how)
 
 
 def recorded(case: CaseHead, output: str | Path | None, **how: Any) -> Run:
@@ -292,8 +288,7 @@ def recorded(case: CaseHead, output: str | Path | None, **how: Any) -> Run:
 def open_run(path: Path, folder: str | None = None) -> Run:
     """Open a record as a `Run`, with the properties that its study gives its runs."""
     with Record(path) as record:
-        kind = record.kind
-    return run_class(kind)(path, folder)
+        return run_class(record.kind)(path, folder)
 
 
 @cache

@@ -113,12 +113,9 @@ def kept_or_made(
 ) -> T:
     """Return what the cache holds, or make it and keep it there, while other processes wait for it.
 
-    Parameters
-    ----------
-    folder, name : of the file. The name is a digest of everything that the content depends on.
-    read : content -> what it stands for. None, or a ValueError, KeyError or TypeError where this process
-        cannot use it.
-    make : () -> the thing, and its content; None: it is not kept
+    The file's name is a digest of everything that its content depends on. `read` gives what the content
+    stands for; None, or a ValueError, KeyError or TypeError where this process cannot use it. `make` gives
+    the thing and its content, None if it is not to be kept.
     """
 
     def known() -> T | None:

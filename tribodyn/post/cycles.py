@@ -21,7 +21,7 @@ _SAME_PHASE = 1e-9
 class Window(NamedTuple):
     """Whole mesh cycles of a record."""
 
-    part: slice  # slice The samples, both ends of the cycles included.
+    part: slice  # the samples, both ends of the cycles included
     phase: np.ndarray  # (samples,); phase in mesh cycles, 0 at the first of these cycles
     time: np.ndarray  # (samples,); time, s, as recorded
     samples_per_cycle: int  # samples in one cycle
@@ -40,13 +40,7 @@ class KeyPoint(NamedTuple):
 
 
 def samples_per_cycle(record: Record) -> int:
-    """Find the number of samples in one mesh cycle from the pinion's rotation between samples.
-
-    Raises
-    ------
-    InputError
-        If the record holds less than two samples.
-    """
+    """Find the samples in one mesh cycle from the pinion's rotation; InputError below two samples."""
     if record.samples < 2:
         raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
     angle = record["pinion_angle"]
@@ -72,12 +66,7 @@ def pair_curve(
 
     In the sample that ends a cycle, the teeth that were pair 1 are already pair 0: their last point is taken
     from there, so that each piece reaches its end. Out of contact (transmission error NaN) the curve breaks.
-
-    Parameters
-    ----------
-    values : (samples of the record, pairs); dataset over time and pair
-    pair : number of the pair
-    abscissa : (samples of the window,); phase or time
+    `values` are a dataset over time and pair, `abscissa` phase or time of the window.
     """
     numbers = record.pairs
     values = np.where(np.isnan(record["transmission_error_normal"]), np.nan, values)[window.part]
@@ -180,21 +169,11 @@ class Spectrum(NamedTuple):
 
 
 def amplitude_spectrum(signal: np.ndarray, samples_per_cycle: int) -> Spectrum:
-    """Spectrum of the last whole cycles of a signal sampled uniformly in phase.
+    """Spectrum of the last whole cycles of a signal sampled uniformly in phase, k / samples_per_cycle.
 
     Any stretch of whole cycles serves, so it does not matter whether the signal includes the sample that
-    closes the last cycle and is the first of the next one.
-
-    Parameters
-    ----------
-    signal : (samples,); samples at the phases k / samples_per_cycle; what exceeds whole cycles is left out at
-        the beginning
-    samples_per_cycle : samples in one mesh cycle
-
-    Raises
-    ------
-    ValueError
-        If the signal does not hold a whole cycle, or holds NaN.
+    closes the last cycle and is the first of the next one. Raises ValueError if it does not hold a whole
+    cycle, or holds NaN.
     """
     signal = np.asarray(signal, dtype=float)
     cycles = signal.size // samples_per_cycle

@@ -158,7 +158,7 @@ def _percent(fraction: float, up: bool = False) -> str:
 
 
 def as_json(record: Record) -> dict[str, Any]:
-    """Turn a record's head and summary, SI units, into what `json.dumps` takes; NaN becomes None."""
+    """A record's head and summary, SI units, as `cli.printing.plain` turns them into JSON."""
     head = ("created", "tribodyn_version", "scenario_sha256")
     return {
         "record": str(record.path),
@@ -170,17 +170,5 @@ def as_json(record: Record) -> dict[str, Any]:
         **{name: record.attrs[name] for name in head},
         "samples": record.samples,
         **({"elements": len(record.elements)} if record.elements else {"pairs": list(record.pairs)}),
-        "summary": _plain(record.summary),
+        "summary": record.summary,
     }
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, (np.ndarray, np.generic)):
-        value = value.tolist()
-    if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value

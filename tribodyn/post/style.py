@@ -103,12 +103,12 @@ _place: ContextVar[Axes | None] = ContextVar("place", default=None)
 
 
 @contextmanager
-def in_place_of(axes: Axes) -> Iterator[None]:
-    """Draw the next figure where axes stand, which are removed from their figure.
+def in_place_of(axes: Axes | None) -> Iterator[None]:
+    """Draw the next figure where axes stand, which are removed from their figure; None: on its own.
 
     Raises InputError for axes that are in no grid, such as ``figure.add_axes(...)`` makes.
     """
-    if axes.get_subplotspec() is None:
+    if axes is not None and axes.get_subplotspec() is None:
         rule = "axes that stand in no grid have no room for a figure"
         raise InputError("ax", None, rule, "make them with plt.subplots")
     token = _place.set(axes)

@@ -33,9 +33,7 @@ class Head(NamedTuple):
     created: datetime
     #: name of a group of the layout -> arrays and numbers by name: the mesh cycle, outlines
     groups: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
-    scales: Mapping[str, Any] = MappingProxyType(
-        {}
-    )  # values along the axes that the run does not go on along
+    scales: Mapping[str, Any] = MappingProxyType({})  # values along the axes other than the run's own
     code: str = ""  # see `schema.CODE`; empty: nothing goes on with such a record
 
 

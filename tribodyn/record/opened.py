@@ -57,10 +57,6 @@ def _without_normal(summary: Mapping[str, Any]) -> dict[str, Any]:
 class OpenRecord:
     """A record, open for reading; a context manager.
 
-    Parameters
-    ----------
-    path : an HDF5 file that tribodyn wrote
-
     Raises InputError if the file is missing, damaged, not such a record, or of a newer format.
     """
 

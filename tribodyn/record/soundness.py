@@ -72,14 +72,9 @@ def reason_of(error: Exception) -> str:
 
 
 def check_sound(path: Path) -> None:
-    """Look through a file that will be read.
+    """Look through a file that will be read; raises OSError as from opening it.
 
-    Raises
-    ------
-    InputError
-        If it cannot be read safely: links to other files, a structure without end, sizes that it lacks.
-    OSError
-        As from opening it.
+    InputError if it cannot be read safely: links to other files, no end of groups, sizes that it lacks.
     """
     if _identity(path) in _own | _sound:
         return

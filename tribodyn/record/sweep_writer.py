@@ -64,12 +64,8 @@ class SweepHead(NamedTuple):
 class SweepWriter:
     """Puts the results of cases into `<name>.partial.h5`, which becomes `<name>.h5` when all are there.
 
-    Parameters
-    ----------
-    path : final name of the record
-    force : replace an existing record, and what an unfinished sweep left
-    resume : go on with what an unfinished sweep left, if there is anything
-
+    With `force` an existing record, and what an unfinished sweep left, are replaced; with `resume` that is
+    taken up.
     Raises InputError as `writer.check_target`, and where what is left belongs to another sweep.
     """
 
@@ -115,12 +111,9 @@ class SweepWriter:
         self._lock.release()
 
     def write(self, cases: np.ndarray, block: Mapping[str, Any]) -> None:
-        """Put the results of cases in their place.
+        """Put results, arrays (n, …) for every dataset of the layout, of cases (n,) in their place.
 
-        Parameters
-        ----------
-        cases : (n,); numbers of the cases, increasing, the last dimension running fastest
-        block : arrays (n, …) for every dataset of the layout
+        The numbers of the cases increase, the last dimension running fastest.
         """
         cases, block = np.asarray(cases), cases_withheld(block)
         runs = np.split(np.arange(len(cases)), np.flatnonzero(np.diff(cases) != 1) + 1)

@@ -23,9 +23,7 @@ class Rule(NamedTuple):
     factor: float = 1.0
     unit: str = ""
     offset: float = 0.0
-    extrapolates: bool = (
-        False  # whether a result beyond the limit is extrapolated only, not outside the model
-    )
+    extrapolates: bool = False  # whether beyond the limit a result is extrapolated, not outside the model
 
     def outside(self, values: np.ndarray) -> np.ndarray:
         """Where values are outside; NaN is not."""
@@ -112,22 +110,13 @@ class Judge:
 
     def take(
         self,
+        #: name of a rule -> a number, or values (n,) or (n, pairs, …); NaN where there is nothing to judge
         quantities: Mapping[str, Any],
-        places: Mapping[str, Any] | None = None,
-        pairs: Sequence[int] = (),
-        between_samples: bool = False,
+        places: Mapping[str, Any] | None = None,  # name -> where the n samples lie (n,)
+        pairs: Sequence[int] = (),  # numbers of the pairs along the second axis
+        between_samples: bool = False,  # whether values are extremes between samples, which count in no share
     ) -> None:
-        """Take a block of values.
-
-        Parameters
-        ----------
-        quantities : name of a rule -> a number, or values (n,) or (n, pairs, …); NaN where there is nothing
-            to judge
-        places : name -> where the n samples lie (n,)
-        pairs : numbers of the pairs along the second axis
-        between_samples : whether the values are those of extremes between samples, which do not count in any
-            share
-        """
+        """Take a block of values."""
         for name, given in quantities.items():
             rule, values = RULES[name], np.asarray(given, dtype=float)
             if values.size == 0:

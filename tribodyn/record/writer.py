@@ -89,14 +89,9 @@ def _is_ours(path: Path) -> bool:
 class RecordWriter:
     """Streams samples into `<name>.partial.h5`, which becomes `<name>.h5` when the run is complete.
 
-    A context manager: leaving it without `finish` marks the record failed and keeps what was written.
-
-    Parameters
-    ----------
-    path : final name of the record
-    head : what is known of the run before it starts
-    samples : number of samples that a complete run has
-    force : replace an existing record, and the remains of an unfinished run
+    A context manager: leaving it without `finish` marks the record failed and keeps what was written. A
+    complete run has so many `samples`; with `force` an existing record, and the remains of an unfinished run,
+    are replaced.
 
     Raises InputError as `check_target`, and where the file system refuses the file or has no room for it.
     """
@@ -148,19 +143,12 @@ class RecordWriter:
             self._unlock()
 
     def write(self, start: int, block: Mapping[str, Any]) -> None:
-        """Put samples `start`, `start + 1`, … in their place.
+        """Put samples `start`, `start + 1`, … in their place; blocks follow each other without a gap.
 
-        Parameters
-        ----------
-        start : index of the first sample: blocks follow each other without a gap
-        block : arrays (samples of the block, …) in SI units for any of the record's datasets along `time` (or
-            the axis that takes its place), itself included; one that no block names stays NaN. Flags take
-            booleans, NaN standing for "nothing to say".
-
-        Raises
-        ------
-        KeyError, ValueError
-            For a name the schema does not know or a shape that does not fit: errors of the program.
+        The block has arrays (its samples, …) in SI units for any of the record's datasets along `time` (or
+        the axis that takes its place), itself included; one that no block names stays NaN. Flags take
+        booleans, NaN standing for "nothing to say". Raises KeyError or ValueError for a name that the schema
+        does not know or a shape that does not fit: errors of the program.
         """
         length = len(block[self._axis])
         if start != self.written or start + length > self.samples:

@@ -38,19 +38,10 @@ def lock_path(path: Path) -> Path:
 class WritingLock:
     """Held from its making until `release`, or the end of the process.
 
-    Parameters
-    ----------
-    path : the record's final name
-
-    Raises
-    ------
-    InputError
-        If another process holds it.
-    OSError
-        If the file of the lock cannot be made.
+    Raises InputError if another process holds it, OSError if the file of the lock cannot be made.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path) -> None:  # the record's final name
         self._path = lock_path(path)
         self._number: int | None = None
         while self._number is None:

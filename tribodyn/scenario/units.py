@@ -62,10 +62,7 @@ def registry() -> Any:
 def to_si(value: Any, kind: Kind) -> float:
     """Convert the quantity `value`, written as TOML has it, to the SI unit of `kind`.
 
-    Raises
-    ------
-    NotAQuantity
-        No unit, an unknown unit, a unit of something else, not finite, or of a sign that is not allowed.
+    Raises NotAQuantity: no or an unknown unit, one of something else, not finite, of a sign not allowed.
     """
     write = f'write a quantity with a unit of {kind.name}, such as "{kind.example}"'
     if isinstance(value, (bool, dict, list)) or not isinstance(value, (int, float, str)):
@@ -260,6 +257,5 @@ QUANTITIES = {
         VISCOSITY,
         PRESSURE_VISCOSITY,
         PER_KELVIN,
-        VELOCITY,
     )
 }

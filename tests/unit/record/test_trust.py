@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 import tribodyn
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.cli.app import app
+from tribodyn.cli.printing import plain
 from tribodyn.errors import SimulationError
 from tribodyn.post.report import as_json
 from tribodyn.quantities.catalogue import QUANTITIES
@@ -143,7 +144,7 @@ def test_the_record_says_so(tmp_path, outside):
     with Record(tmp_path / "run.h5") as record:
         assert record.trust == OUTSIDE
         text = printed(summary_table(record))
-        found = json.loads(json.dumps(as_json(record), allow_nan=False))
+        found = json.loads(json.dumps(plain(as_json(record)), allow_nan=False))
     assert text.splitlines()[1].startswith(f"{OUTSIDE}: not to be trusted")
     assert (
         "Warning: outside the model: deflection of a pair of teeth over the module 30 %, at most 10 %" in text

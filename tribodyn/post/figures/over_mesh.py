@@ -69,24 +69,12 @@ STIFFNESS = Trace(
 )
 EFFICIENCY = Trace("efficiency", "Efficiency at each moment", "$η$", "%")
 
-#: Figures by name: the panels of each, from top to bottom.
-PANELS: dict[str, tuple[Trace, ...]] = {
-    "transmission-error": (TRANSMISSION_ERROR, DEFLECTION),
-    "normal-load": (NORMAL_LOAD,),
-    "friction": (FRICTION_FORCE, FRICTION_COEFFICIENT),
-    "film": (FILM_THICKNESS, FILM_PARAMETER),
-    "entrainment": (ENTRAINMENT, SLIDING),
-    "pressure": (HERTZ_PRESSURE, FLASH_TEMPERATURE),
-    "efficiency": (EFFICIENCY,),
-    "mesh-stiffness": (STIFFNESS,),
-}
 #: Film parameters that divide kinds of lubrication, and what lies between.
 LUBRICATION = ((1.0, "λ = 1: mixed above, boundary below"), (3.0, "λ = 3: full film above"))
 
 
-def over_phase(name: str, records: Sequence[Record], view: View) -> Figure:
-    """Draw the figure `name` of `PANELS`."""
-    panels = PANELS[name]
+def _over_phase(panels: Sequence[Trace], records: Sequence[Record], view: View) -> Figure:
+    """Draw panels from top to bottom."""
     figure = new_figure(WIDTH, (PANEL_HEIGHT + 0.15) * len(panels) + 0.5)
     rows = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
     for letter, axes, trace in zip("abc", rows, panels, strict=False):
@@ -212,8 +200,8 @@ def draw_speed(axes: Axes, record: Record, view: View) -> None:
     axes.set_xlabel(abscissa_label(view))
 
 
-def _over_phase(name: str, about: str) -> Drawing:
-    return Drawing(about, partial(over_phase, name))
+def _stacked(about: str, *panels: Trace) -> Drawing:
+    return Drawing(about, partial(_over_phase, panels))
 
 
 #: Of every record over time with loads, films and friction of pairs.
@@ -221,16 +209,16 @@ DRAWINGS: dict[str, Drawing] = {
     "overview": Drawing(
         "path of contact, transmission error, load, friction, film, efficiency", overview_figure
     ),
-    "transmission-error": _over_phase(
-        "transmission-error", "transmission error, and deflection along the normal of every pair"
+    "transmission-error": _stacked(
+        "transmission error, and deflection along the normal of every pair", TRANSMISSION_ERROR, DEFLECTION
     ),
     "spectrum": Drawing("spectrum of the rotational transmission error, with the modes", spectrum_figure),
-    "normal-load": _over_phase("normal-load", "normal load of every pair"),
-    "friction": _over_phase("friction", "friction force and coefficient"),
-    "film": _over_phase("film", "film thickness and film parameter"),
-    "entrainment": _over_phase("entrainment", "entrainment and sliding speed"),
-    "pressure": _over_phase("pressure", "Hertz pressure and flash temperature"),
-    "efficiency": _over_phase("efficiency", "instantaneous efficiency"),
-    "mesh-stiffness": _over_phase("mesh-stiffness", "stiffness of every pair, and of all together"),
+    "normal-load": _stacked("normal load of every pair", NORMAL_LOAD),
+    "friction": _stacked("friction force and coefficient", FRICTION_FORCE, FRICTION_COEFFICIENT),
+    "film": _stacked("film thickness and film parameter", FILM_THICKNESS, FILM_PARAMETER),
+    "entrainment": _stacked("entrainment and sliding speed", ENTRAINMENT, SLIDING),
+    "pressure": _stacked("Hertz pressure and flash temperature", HERTZ_PRESSURE, FLASH_TEMPERATURE),
+    "efficiency": _stacked("instantaneous efficiency", EFFICIENCY),
+    "mesh-stiffness": _stacked("stiffness of every pair, and of all together", STIFFNESS),
     "path-of-contact": Drawing("both gears in mesh, path of contact, key points", path_figure),
 }

@@ -22,7 +22,7 @@ from tribodyn.post.page.data import (
     series_data,
     series_of,
 )
-from tribodyn.post.page.rolling_teeth import rolling_teeth
+from tribodyn.post.page.rolling_teeth import LOAD, rolling_teeth
 from tribodyn.post.report import EXCEEDED
 from tribodyn.post.style import inline
 from tribodyn.quantities.quantity import Quantity, Reported
@@ -31,8 +31,6 @@ from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.withheld import reasons, warnings
 
-#: The dataset that is a pair's load.
-LOAD = "normal_load"
 #: Figures that are shown at first where a study names none.
 FIGURES = 4
 #: Mesh cycles that are shown at first.

@@ -10,13 +10,10 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post.figures.sweep.branch import axis_label, branches
 from tribodyn.post.page.data import packed
-from tribodyn.post.page.page import assembled, origin, picture, table, title_of
+from tribodyn.post.page.page import FIGURES, assembled, origin, picture, table, title_of
 from tribodyn.post.sweep_report import described, sweep_remarks, sweep_rows, sweep_warnings
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_reader import SweepRecord
-
-#: Figures shown at first.
-FIGURES = 4
 
 
 def sweep_page(

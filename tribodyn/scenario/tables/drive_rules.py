@@ -16,11 +16,7 @@ from tribodyn.geometry.flanks.modification import (
     uneven_teeth,
     vary_along_lead,
 )
-from tribodyn.scenario.tables.model_files import (
-    DriveTable,
-    MisalignmentTable,
-    flank_of,
-)
+from tribodyn.scenario.tables.model_files import DriveTable, MisalignmentTable, flank_of
 from tribodyn.scenario.tables.quality import broken_quality_rules, helix_allowance
 from tribodyn.scenario.tables.tooth_data import broken_tooth_rules, shape_errors
 
