@@ -61,20 +61,15 @@ class ContactPath(NamedTuple):
 
         ISO/TR 15144-1:2014, (93) and (94).
         """
-        pitch = [r * float(np.tan(self.pressure_angle)) for r in self.base_radius]
-        first, second = (
-            (tip - at) / self.base_pitch for tip, at in zip(self._tip_tangents, pitch, strict=True)
-        )
-        return first, second
+        (first, second), tangent = self._tip_tangents, float(np.tan(self.pressure_angle))
+        pinion, gear = self.base_radius
+        return (first - pinion * tangent) / self.base_pitch, (second - gear * tangent) / self.base_pitch
 
     @property
     def _tip_tangents(self) -> tuple[float, float]:
         """Lengths of the tangents to the base circles up to the tip circles, m."""
-        first, second = (
-            float(np.sqrt(tip**2 - base**2))
-            for tip, base in zip(self.tip_radius, self.base_radius, strict=True)
-        )
-        return first, second
+        (tip_1, tip_2), (base_1, base_2) = self.tip_radius, self.base_radius
+        return float(np.sqrt(tip_1**2 - base_1**2)), float(np.sqrt(tip_2**2 - base_2**2))
 
 
 def point_distances(path: ContactPath) -> Float[Array, " point"]:

@@ -120,14 +120,10 @@ def fixed_point(
     """Return the temperatures (bulk, oil) that a step maps to themselves, within `TOLERANCE`.
 
     By successive substitution, relaxed by Aitken's rule (Irons & Tuck 1969): thick oil that churns itself
-    warm would else swing between cold and hot. Where the way turns back, the next step is half as long.
-
-    Parameters
-    ----------
-    step : is called within the bounds only
-    bounds : of both, K. Where the step leads out of them from their edge, its result is returned as it is.
-
-    Raises SimulationError if there are none: the loss grows with the temperature faster than the heat leaves.
+    warm would else swing between cold and hot. Where the way turns back, the next step is half as long. The
+    step is called within the bounds (of both, K) only; where it leads out of them from their edge, its result
+    is returned as it is. Raises SimulationError if there are none: the loss grows with the temperature faster
+    than the heat leaves.
     """
     here, last, worst = start, (0.0, 0.0), 0.0
     # share of a change that is taken, and how far at most, K

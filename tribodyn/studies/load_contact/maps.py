@@ -173,14 +173,6 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
     return mesh
 
 
-def draw_across_face(axes: Axes, record: Record, quantity: OverFace, color: str) -> None:
-    """Draw a quantity over the face where a pair is at the pitch point, each slice as a step."""
-    values = at_pitch_point(record, quantity.dataset) * quantity.factor
-    axes.stairs(values, face_edges(record) * 1e3, baseline=None, color=color, label=record_label(record))
-    axes.set_xlabel("Place on the face, from its middle (mm)")
-    axes.set_ylabel(quantity.label)
-
-
 def _grid(maps: int) -> tuple[int, int]:
     """Rows and columns of maps: up to three beside each other, four in a square."""
     columns = 2 if maps == 4 else min(maps, 3)
@@ -196,7 +188,10 @@ def line_load_figure(records: Sequence[Record]) -> Figure:
     _maps(upper, records, LINE_LOAD)
     below = lower.subplots()
     for number, record in enumerate(records):
-        draw_across_face(below, record, LINE_LOAD, PALETTE[number % len(PALETTE)])
+        values, color = at_pitch_point(record, LINE_LOAD.dataset), PALETTE[number % len(PALETTE)]
+        edges, label = face_edges(record) * 1e3, record_label(record)
+        below.stairs(values * LINE_LOAD.factor, edges, baseline=None, color=color, label=label)
+    below.set(xlabel="Place on the face, from its middle (mm)", ylabel=LINE_LOAD.label)
     below.set_ylim(bottom=0)
     mark_panel(below, "abcdefgh"[len(records)], "Line load over the face, the pair at the pitch point")
     if len(records) > 1:

@@ -75,12 +75,8 @@ def _four_panels(records: Sequence[Record], curves: Callable[[Record], ElementCu
     panels = drawn.subplots(2, 2, sharex=True).ravel()
     for number, record in enumerate(records):
         draw_curve(panels, curves(record), PALETTE[number % len(PALETTE)], curves is by_number)
-    for letter, axes, title in zip("abcd", panels, CURVES, strict=True):
-        mark_panel(axes, letter, title)
     _finish_axes(panels, panels[2:], curves is by_number)
-    drawn.align_ylabels()
-    _finish(drawn, records, [("cam", "-"), ("crown", "--")])
-    return drawn
+    return _finish(drawn, panels, CURVES, records, (("cam", "-"), ("crown", "--")))
 
 
 def draw_curve(panels: Sequence[Axes], curve: ElementCurves, color: str, marked: bool) -> None:
@@ -129,14 +125,7 @@ def _over_time(
     panels = drawn.subplots(2, 1, sharex=True)
     titles = draw(panels, records, view)
     panels[1].set_xlabel(abscissa_label(view))
-    for letter, axes, title in zip("ab", panels, titles, strict=True):
-        mark_panel(axes, letter, title)
-    drawn.align_ylabels()
-    if len(records) == 1:
-        drawn.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
-    else:
-        _finish(drawn, records, [])
-    return drawn
+    return _finish(drawn, panels, titles, records)
 
 
 def _draw_loads(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
@@ -229,7 +218,16 @@ def _title(record: Record) -> str:
     return title if mode in title else f"{title} ({mode})"
 
 
-def _finish(drawn: Figure, records: Sequence[Record], lines: Sequence[tuple[str, Any]]) -> None:
+def _finish(
+    drawn: Figure,
+    panels: Sequence[Axes],
+    titles: Sequence[str],
+    records: Sequence[Record],
+    lines: Sequence[tuple[str, Any]] = (),
+) -> Figure:
+    for letter, axes, title in zip("abcd", panels, titles, strict=False):
+        mark_panel(axes, letter, title)
+    drawn.align_ylabels()
     handles = [Line2D([], [], color=QUIET, linestyle=style) for _, style in lines]
     labels = [name for name, _ in lines]
     if len(records) > 1:
@@ -237,7 +235,9 @@ def _finish(drawn: Figure, records: Sequence[Record], lines: Sequence[tuple[str,
         labels = [*map(record_label, records), *labels]
     else:
         drawn.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
-    drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6)
+    if labels:
+        drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6)
+    return drawn
 
 
 OF_A_POSITION: dict[str, Drawing] = {

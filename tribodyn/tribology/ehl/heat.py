@@ -97,16 +97,11 @@ def heated(
     known: Array,
     guess: FilmHeat | None = None,
 ) -> FilmHeat:
-    """Solve for the temperatures; SI.
+    """Solve for the temperatures under a film (x,), m, with quantities of its layers (x, layer).
 
-    Parameters
-    ----------
-    film : (x,), m
-    flow : (x, layer); of mass over the density at ambient pressure, per layer, m²/s; its sum is the same at
-        every x
-    made : (x, layer), heat of shear, W/m², at the temperatures `known`, K
-    feedback : (x, layer), by how much less is made where the whole film is warmer, W/(m² K), ≥ 0
-    guess : where the temperatures of the surfaces start
+    They are `flow` of mass over the density at ambient pressure, m²/s, its sum the same at every x; heat of
+    shear `made`, W/m², at the temperatures `known`, K; `feedback`, by how much less is made where the film
+    is warmer as a whole, W/(m² K), ≥ 0. The temperatures of the surfaces start at those of `guess`.
     """
     thermal, width, response = surfaces
     count = len(film)

@@ -202,12 +202,12 @@ def survey_film(load: float, material: float) -> float:
 
 def first_state(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
     """Return pressures, films and end of the film near the solution, for a central film from the survey."""
-    if central < THIN:
-        return _elastic(reduced, grid, central)
-    return _rigid(reduced, grid, central)
-
-
-def _elastic(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
+    if central >= THIN:
+        least = central / MARTIN_CENTRAL
+        end = MARTIN_END * math.sqrt(2.0 * least)
+        rigid = least + 0.5 * (end + grid.node) ** 2
+        pressure = _drawn_in(reduced, grid, central, rigid, 1.0)
+        return _loaded(reduced, grid, pressure, end, central, least)
     width = (1.06 * central) ** (2.0 / 3.0)
     end = 1.0 + 0.5 * width
     place = end + grid.node
@@ -216,14 +216,6 @@ def _elastic(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
     inlet = inlet * np.exp(-np.maximum(place + 1.0, 0.0) / (1.5 * width))
     pressure = np.sqrt(np.maximum(1.0 - place**2, 0.0) + inlet**2)
     return _loaded(reduced, grid, pressure, end, central, central)
-
-
-def _rigid(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
-    least = central / MARTIN_CENTRAL
-    end = MARTIN_END * math.sqrt(2.0 * least)
-    place = end + grid.node
-    pressure = _drawn_in(reduced, grid, central, least + 0.5 * place**2, 1.0)
-    return _loaded(reduced, grid, pressure, end, central, least)
 
 
 def _drawn_in(reduced: Reduced, grid: FilmGrid, central: float, thick: Array, most: float) -> Array:

@@ -34,25 +34,21 @@ _SHORTEST, _GROWTH = 1.0 / 64.0, 2.0
 
 
 class Instant(NamedTuple):
-    """A contact at an instant, and what shear and heat make of its flow (None: as at the start)."""
+    """A contact at an instant."""
 
     problem: LineContact
+    #: what shear and heat make of its flow, on the nodes of the start's grid; None: as at the start
     closure: FlowCorrection | None = None
 
 
 def march(
     instant_at: Callable[[float], Instant], times: Sequence[float] | Array, start: Solution
 ) -> Iterator[Solution]:
-    """Go through the solutions at the times after the first, at which the contact is `start`.
+    """Go through the solutions at the increasing times (s) after the first, at which the contact is `start`.
 
-    Raises InputError if a value has no meaning, SimulationError where the shortest step does not converge.
-
-    Parameters
-    ----------
-    instant_at : the contact at a time, s. Fluid and roughness must stay the same; load, radius and speeds may
-        change. A closure stands on the nodes of `start.grid`.
-    times : (K,), s, increasing; the film is steady before the first
-    start : at the first time, on a grid that suits the contact at all times (`grid_of`)
+    The film is steady before the first time, and its grid suits the contact at all times (`grid_of`). Load,
+    radius and speeds may change with the time, fluid and roughness may not. Raises InputError if a value has
+    no meaning, SimulationError where the shortest step does not converge.
     """
     known, before = [start], [_snapshot(start, float(times[0]))]
     for goal in times[1:]:
