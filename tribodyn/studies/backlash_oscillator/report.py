@@ -5,14 +5,9 @@ from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
 
 _OF_THE_WAYS = (
-    "rms_max",
-    "rms_max_frequency",
-    "contact_loss_from",
-    "contact_loss_to",
-    "contact_loss_fraction_max",
-    "back_contact_fraction_max",
-    "bistable_from",
-    "bistable_to",
+    *("rms_max", "rms_max_frequency"),
+    *("contact_loss_from", "contact_loss_to", "contact_loss_fraction_max", "back_contact_fraction_max"),
+    *("bistable_from", "bistable_to"),
 )
 _COUNTED = ("points_quasi_periodic", "points_chaotic", "points_failed")
 REPORTED: Reported = {

@@ -10,27 +10,16 @@ from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
 
 _STEADY = (
-    "central_film_min",
-    "minimum_film_min",
-    "film_parameter_min",
-    "friction_coefficient_mean",
-    "asperity_load_ratio_max",
-    "temperature_rise_max",
-    "hertz_pressure_max",
+    *("central_film_min", "minimum_film_min", "film_parameter_min"),
+    *("friction_coefficient_mean", "asperity_load_ratio_max"),
+    *("temperature_rise_max", "hertz_pressure_max"),
 )
 REPORTED: Reported = {
     "Geometry": quantities("contact_ratio"),
     "Solved contact": quantities(
-        "normal_load_max",
-        *_STEADY,
-        "pressure_max",
-        "positions_solved",
-        "central_film_departure_max",
-        "central_film_departure_mean",
-        "minimum_film_departure_max",
-        "transient_minimum_film_min",
-        "transient_friction_coefficient_mean",
-        "transient_positions_solved",
+        *("normal_load_max", *_STEADY, "pressure_max", "positions_solved"),
+        *("central_film_departure_max", "central_film_departure_mean", "minimum_film_departure_max"),
+        *("transient_minimum_film_min", "transient_friction_coefficient_mean", "transient_positions_solved"),
     ),
     "Solver": quantities("wall_time"),
 }

@@ -8,12 +8,8 @@ from tribodyn.record.reader import Record
 REPORTED: Reported = {
     "Geometry": quantities("ratio", "eccentricity"),
     "Dynamics": quantities(
-        "mesh_frequency",
-        "normal_load_max",
-        "elements_loaded_min",
-        "elements_loaded_max",
-        "output_torque_mean",
-        "output_torque_peak_to_peak",
+        *("mesh_frequency", "normal_load_max", "elements_loaded_min", "elements_loaded_max"),
+        *("output_torque_mean", "output_torque_peak_to_peak"),
     ),
     "Tribology": quantities("slip_speed_max", "spin_speed_max"),
     "Energy": quantities(
@@ -23,16 +19,10 @@ REPORTED: Reported = {
 }
 
 SWEPT = quantities(
-    "efficiency",
-    "efficiency_by_energy",
-    "normal_load_max",
-    "slip_speed_max",
-    "spin_speed_max",
-    "output_torque_mean",
-    "output_torque_peak_to_peak",
-    "power_friction_mean",
-    "power_cam_mean",
-    "power_crown_mean",
+    *("efficiency", "efficiency_by_energy"),
+    *("normal_load_max", "slip_speed_max", "spin_speed_max"),
+    *("output_torque_mean", "output_torque_peak_to_peak"),
+    *("power_friction_mean", "power_cam_mean", "power_crown_mean"),
 )
 
 #: What the modes amount to.
