@@ -10,7 +10,7 @@ from tribodyn.numerics.output_files import check_output, write_output
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies import STUDIES
-from tribodyn.studies.protocol.load import load
+from tribodyn.studies.protocol.load import Loaded, load
 from tribodyn.studies.protocol.study import Study
 
 if TYPE_CHECKING:
@@ -237,14 +237,22 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
 
 def sheet(record: Record | SweepRecord) -> "Sequence[TextTable]":
     """What `check` says of the scenario of a record; nothing where this version cannot make its case."""
+    try:
+        loaded = loaded_again(record)
+        return loaded.study.check(loaded.case, allow_large=True).tables
+    except (InputError, SimulationError):
+        return ()
+
+
+def loaded_again(record: Record | SweepRecord) -> Loaded:
+    """Load the scenario of a record; InputError, which names the record, where this version cannot."""
     with TemporaryDirectory(prefix="tribodyn-") as folder:
         scenario = Path(folder) / "scenario.toml"
         write_output(scenario, str(record.attrs.get("scenario", "")))
         try:
-            loaded = load(scenario)
-            return loaded.study.check(loaded.case, allow_large=True).tables
-        except (InputError, SimulationError):
-            return ()
+            return load(scenario)
+        except InputError as error:  # the file that it names is gone with this block
+            raise error.moved(lambda _: str(record.path)) from None
 
 
 def sweep_report(record: SweepRecord) -> str:

@@ -5,12 +5,9 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from importlib import resources
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
-from tribodyn.errors import InputError
-from tribodyn.numerics.output_files import write_output
-from tribodyn.post.page.page import document, table, warnings_of
+from tribodyn.post.page.page import document, summary_tables, table, warnings_of
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
@@ -21,7 +18,7 @@ from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.figures import pictures
 from tribodyn.studies.assessment.margins import LIMITS
 from tribodyn.studies.assessment.run import check
-from tribodyn.studies.protocol.load import load
+from tribodyn.studies.pages import loaded_again, overview
 from tribodyn.studies.protocol.study import Study
 
 _RPM = 30.0 / math.pi
@@ -39,13 +36,7 @@ _MARGINS = quantities("theta_B", "S_B", "S_intS", "S_lambda")
 def page(record: Record) -> str:
     """Write the page of an assessment's record; parts that lie beside it have their pictures on it."""
     summary = record.summary
-    with TemporaryDirectory(prefix="tribodyn-") as folder:
-        scenario = Path(folder) / "scenario.toml"
-        write_output(scenario, str(record.attrs["scenario"]))
-        try:
-            case: AssessmentCase = load(scenario).case
-        except InputError as error:  # the file that it names is gone with this block
-            raise error.moved(lambda _: str(record.path)) from None
+    case: AssessmentCase = loaded_again(record).case
     request = parts.request_of(case)
     taking_part = parts.parts(request)
     behind = parts.folder_of(Path(record.path))
@@ -243,9 +234,6 @@ def _list(heading: str, sentences: Mapping[str, str]) -> str:
 
 def _part(study: Study, title: str, done: Sequence[parts.TaskResult]) -> str:
     """Picture and summary of the first record of a part; of rows their extremes stand on the first page."""
-    from tribodyn.post.page.page import summary_tables
-    from tribodyn.studies.pages import overview
-
     for result in done:
         if not result.summary:
             continue

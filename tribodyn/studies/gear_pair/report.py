@@ -10,7 +10,7 @@ from tribodyn.post.report import on_closures, on_energy, on_methods
 from tribodyn.quantities.catalogue import QUANTITIES, quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
-from tribodyn.record.sweep_schema import OF_EVERY_SWEEP, WORD, SweepLayout
+from tribodyn.record.sweep_schema import WORD, SweepLayout
 from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
 from tribodyn.studies.protocol.cost import variable_bytes
@@ -98,22 +98,9 @@ STATE_NAMES = (
 
 def row_bytes(settings: Any) -> float:
     """Bytes of a case in the record of a sweep with these `evaluate.Settings`."""
-    sizes = {
-        "sample": settings.window * settings.samples,
-        "cycle": settings.points,
-        "mode": settings.modes,
-        "state_variable": len(STATE_NAMES),
-        "end": branches.ENDS,
-        "motion": branches.MOTIONS,
-        "return": MAX_PERIOD,
-    }
-    return variable_bytes({**_variables(settings), **OF_EVERY_SWEEP}.values(), sizes)
-
-
-def _variables(settings: Any) -> dict[str, Variable]:
-    """What is recorded of every case."""
-    ends = branches.END_VARIABLES if settings.followed else {}
-    return CASES | ends | (UNSTABLE if settings.unstable else {})
+    layout = layout_of(settings)
+    sizes = {name: len(values) for name, (_, values) in layout.scales.items()}
+    return variable_bytes(layout.variables.values(), sizes)
 
 
 def layout_of(settings: Any) -> SweepLayout:
@@ -130,7 +117,9 @@ def layout_of(settings: Any) -> SweepLayout:
     if settings.unstable:
         scales["motion"] = branches.MOTION, np.arange(1, branches.MOTIONS + 1)
         scales["return"] = RETURN, np.arange(1, MAX_PERIOD + 1)
-    return SweepLayout(_variables(settings), scales, {"samples_per_cycle": settings.samples})
+    ends = branches.END_VARIABLES if settings.followed else {}
+    variables = CASES | ends | (UNSTABLE if settings.unstable else {})
+    return SweepLayout(variables, scales, {"samples_per_cycle": settings.samples})
 
 
 REPORTED: Reported = {

@@ -11,7 +11,7 @@ from tribodyn.geometry.drive import MaterialData
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
-from tribodyn.scenario.tables.drive_data import RoundedDistance
+from tribodyn.scenario.tables.drive_data import RoundedDistance, rounded_distance_of
 from tribodyn.studies.gears.prepare import PreparedGears
 from tribodyn.studies.protocol.recording import CheckResult, TextTable
 from tribodyn.tribology.closure import (
@@ -43,8 +43,6 @@ def rounded_in(toml: str) -> RoundedDistance | None:
     """How the centre distance in the text of a scenario is rounded; None: it is meant as written."""
     if "centre_distance" not in toml:  # most have none, and need not be read
         return None
-    from tribodyn.scenario.tables.drive_data import rounded_distance_of
-
     return rounded_distance_of(tomllib.loads(toml).get("drive", {}))
 
 

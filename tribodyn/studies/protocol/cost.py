@@ -98,11 +98,6 @@ def refuse_large(estimate: Estimate, allow_large: bool) -> None:
     )
 
 
-def not_resumed(about: str) -> InputError:
-    """What to say where a run of a study is to go on that cannot."""
-    return InputError("--resume", None, f"{about}: such a run cannot go on", "omit it")
-
-
 def _size(size: float) -> str:
     for unit, name in ((GIB, "GiB"), (2.0**20, "MiB")):
         if size >= unit:

@@ -9,13 +9,13 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from tribodyn.errors import InputError
 from tribodyn.numerics.registry import cannot_be_loaded
 from tribodyn.studies.protocol.cost import (
     WORTH_SAYING,
     Estimate,
     as_data,
     described,
-    not_resumed,
     refuse_large,
     share_of_limits,
 )
@@ -25,7 +25,6 @@ from tribodyn.studies.protocol.recording import RunResult as RunResult
 from tribodyn.studies.protocol.recording import TextTable as TextTable
 
 if TYPE_CHECKING:
-    from tribodyn.errors import InputError
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.post.page.data import PageMap, Profiles
     from tribodyn.quantities.quantity import Quantity, Reported
@@ -114,7 +113,7 @@ class Study:
         of_data = self._part("scenario", "table_for", optional=True)
         return of_data(data) if of_data else self._part("scenario", "Scenario")
 
-    def broken_rules(self, scenario: Any) -> "Iterable[InputError]":
+    def broken_rules(self, scenario: Any) -> Iterable[InputError]:
         """Go through the rules that tie keys of a scenario together and that this one breaks."""
         rules = self._part("rules", "broken_rules", optional=True)
         return rules(scenario) if rules else ()
@@ -163,16 +162,12 @@ class Study:
         resume: bool = False,
         client: Any = None,
     ) -> RunResult:
-        """Run a case and write its record; arguments and errors as of `protocol.run.run`.
+        """Run a case and write its record; arguments, result and errors as of `protocol.run.run`.
 
-        Returns
-        -------
-        RunResult
-            `status` is "failed" where the simulation could not go on: the path then is the partial record's.
-            An efficiency in `summary` that cannot be is None, see `record.withheld`.
+        An efficiency in the summary that cannot be is None, see `record.withheld`.
         """
         if resume and not self.resumes:
-            raise not_resumed(self.about)
+            raise InputError("--resume", None, f"{self.about}: such a run cannot go on", "omit it")
         refuse_large(self.estimate(case), allow_large)
         how = {"resume": resume, "client": client} if self.resumes else {}
         try:

@@ -4,10 +4,9 @@ A pure function of plain data, so that it runs in this process or in another one
 the same numbers in both. Nothing of a case depends on the others that it is evaluated with.
 """
 
-import threading
-from collections import OrderedDict
 from collections.abc import Callable, Hashable, Sequence
-from functools import partial
+from dataclasses import dataclass, field
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -246,7 +245,7 @@ def _fill(
 
 def tabulated(case: Case) -> Tabulated:
     """The case's table, made once for all cases that share it; raises as `prepare` does."""
-    return _made_once(_tables, table_key(case), lambda: tables(case))
+    return _tables(_Wanted(table_key(case), lambda: tables(case)))
 
 
 def _start(prepared: PreparedPair, settings: SweepSettings) -> np.ndarray:
@@ -259,28 +258,22 @@ def _start(prepared: PreparedPair, settings: SweepSettings) -> np.ndarray:
     if not settings.steady or initial != "static":
         return initial_state(model, initial)
     creeping = model.mechanics._replace(nominal_speed=CREEP)
-    # whose table is kept with the result, so that no other takes its place
+    # the model, which is kept with the result, keeps another table from taking this one's identity
     key = (id(model.table), model.options, *(np.asarray(value).tobytes() for value in creeping))
     still = frictionless(model._replace(mechanics=creeping))
-    return _made_once(_equilibria, key, lambda: (model.table, static_equilibrium(still)))[1].copy()
+    return _equilibria(_Wanted(key, lambda: static_equilibrium(still))).copy()
 
 
-def _made_once(kept: OrderedDict[Hashable, Any], key: Hashable, make: Callable[[], Any]) -> Any:
-    with _lock:
-        if key in kept:
-            kept.move_to_end(key)
-            return kept[key]
-    made = make()
-    with _lock:
-        kept[key] = made
-        while len(kept) > TABLES_KEPT:
-            kept.popitem(last=False)
-    return made
+@dataclass(frozen=True)
+class _Wanted:
+    """A result that is made once: everything that it depends on, and how it is made."""
+
+    key: Hashable
+    make: Callable[[], Any] = field(compare=False)
 
 
-_lock = threading.Lock()
-_tables: OrderedDict[Hashable, Tabulated] = OrderedDict()
-_equilibria: OrderedDict[Hashable, tuple[Any, np.ndarray]] = OrderedDict()
+_tables = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
+_equilibria = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
 
 
 def _fail(rows: dict[str, np.ndarray], i: int, reason: str) -> None:
