@@ -92,10 +92,7 @@ def scenario(source: Source, overrides: Mapping[str, Any] | None = None) -> Any:
     A value with a unit is a text, ``"3 mm"``, or a quantity of pint. NumPy numbers and arrays are taken as
     Python's numbers and lists.
     """
-    return _case(source, {str(key): in_toml(value) for key, value in (overrides or {}).items()})
-
-
-def _case(source: Source, changes: dict[str, Any]) -> Any:
+    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
     if isinstance(source, (str, Path)):
         return load_scenario(source, changes)
     if isinstance(source, CaseHead):

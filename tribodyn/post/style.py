@@ -275,16 +275,15 @@ def panel_title(letter: str, title: str) -> str:
 
 def name_above(axes: Axes, place: float, text: str, row: int, color: str = QUIET, size: float = 6.5) -> None:
     """Write a name above the axes at a place along them, in a row that is counted upwards."""
-    axes.annotate(
-        text,
-        (place, 1),
-        xycoords=("data", "axes fraction"),
-        xytext=(0, 3 + ROW * row),
-        textcoords="offset points",
-        ha="center",
-        fontsize=size,
-        color=color,
-    )
+    where = {"xycoords": ("data", "axes fraction"), "ha": "center"}
+    write_beside(axes, text, (place, 1), (0, 3 + ROW * row), size, color, **where)
+
+
+def write_beside(
+    axes: Axes, text: str, place: Any, offset: tuple[float, float], size: float, color: str, **how: Any
+) -> None:
+    """Write a text of a size so many points beside a place; `how` as of `Axes.annotate`."""
+    axes.annotate(text, place, xytext=offset, textcoords="offset points", fontsize=size, color=color, **how)
 
 
 def mark_panel(axes: Axes, letter: str, title: str = "", rows: int = 0) -> None:

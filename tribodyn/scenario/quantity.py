@@ -90,16 +90,11 @@ def scenario_file() -> Reference:
     return Reference("name of a scenario, or a path", "scenarios")
 
 
-def csv_file(*columns: str, as_list: bool = False) -> Reference:
-    """A field that may name a CSV file with these columns."""
+def csv_file(*columns: str, as_list: bool = False, record: RecordReader | None = None) -> Reference:
+    """A field that may name a CSV file with these columns, or a record that `record` takes them from."""
     counted = ("columns " if len(columns) > 1 else "a column ") + " and ".join(columns)
-    return Reference(f"CSV file with {counted}", columns=columns, as_list=as_list)
-
-
-def csv_or_record(*columns: str, record: RecordReader) -> Reference:
-    """A field that may name a CSV file with these columns, or a record that they are taken from."""
-    counted = " and ".join(columns)
-    return Reference(f"CSV file with columns {counted}, or a record", columns=columns, record=record)
+    what = f"CSV file with {counted}{', or a record' if record else ''}"
+    return Reference(what, columns=columns, as_list=as_list, record=record)
 
 
 class Draws:

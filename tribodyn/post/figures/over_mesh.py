@@ -39,6 +39,7 @@ from tribodyn.post.style import (
     panel_title,
     prepare_grid,
     read_formulas,
+    write_beside,
 )
 from tribodyn.record.reader import Record
 
@@ -124,16 +125,8 @@ def draw_lubrication(axes: Axes) -> None:
     for value, text in LUBRICATION:
         if value < top:
             axes.axhline(value, color=QUIET, linewidth=0.8, linestyle=(0, (5, 2)))
-            axes.annotate(
-                text,
-                (0.995, value),
-                xycoords=("axes fraction", "data"),
-                xytext=(0, 2),
-                textcoords="offset points",
-                ha="right",
-                fontsize=6.5,
-                color=QUIET,
-            )
+            where: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "ha": "right"}
+            write_beside(axes, text, (0.995, value), (0, 2), 6.5, QUIET, **where)
 
 
 #: Size of the overview, inch, and its rows and columns.

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 
 from tribodyn.post.cycles import Window, key_points, last_cycles, pair_curve
 from tribodyn.post.figures.scale import scale
-from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal, name_above
+from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal, name_above, write_beside
 from tribodyn.quantities.quantity import SHOWN
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
@@ -217,15 +217,8 @@ def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bo
         for position, pair in enumerate(pairs):
             row = rows - 1 - (number if several else position)
             shade = color if several or position else INK
-            axes.annotate(
-                heads[pair],
-                (1, 1),
-                xycoords="axes fraction",
-                xytext=(9, 3 + ROW * row),
-                textcoords="offset points",
-                fontsize=6.5,
-                color=shade,
-            )
+            above = (9, 3 + ROW * row)
+            write_beside(axes, heads[pair], (1, 1), above, 6.5, shade, xycoords="axes fraction")
             for place, (_, names) in zip(places, points, strict=True):
                 if pair in names:
                     name_above(axes, place, f"${names[pair]}$", row, shade, 7.5)

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.fields import LoadCurve
-from tribodyn.scenario.quantity import Switch, Table, csv_or_record, written
+from tribodyn.scenario.quantity import Switch, Table, csv_file, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.gears.scenario import GearScenario, Oil, broken_gear_rules, gear_fields, oil_fields
@@ -59,7 +59,7 @@ def loads_of_record(path: Path, key: str) -> dict[str, Any]:
     }
 
 
-LOADS = csv_or_record("roll_angle", "normal_load", record=loads_of_record)
+LOADS = csv_file("roll_angle", "normal_load", record=loads_of_record)
 
 
 class EhlContact(Table):

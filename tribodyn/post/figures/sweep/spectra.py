@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
 from tribodyn.post.figures.sweep.branch import Branch, axis_label, chosen_branch, sweep_title
-from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, mark_panel, name_above, new_figure
+from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, mark_panel, name_above, new_figure, write_beside
 from tribodyn.record.sweep_reader import SweepRecord
 
 #: Orders of the mesh that the Campbell diagram draws, and that the waterfall shows at least.
@@ -99,14 +99,8 @@ def _draw_modes(axes: Axes, branch: Branch) -> None:
             continue
         axes.plot(branch.x, modes[:, mode], color=QUIET, linestyle=(0, (4, 2)), linewidth=0.9)
         first = known[np.argmin(branch.x[known])]
-        axes.annotate(
-            f"mode {mode + 1}: {modes[first, mode]:.3g} kHz",
-            (branch.x[first], modes[first, mode]),
-            xytext=(2, 2),
-            textcoords="offset points",
-            fontsize=7,
-            color=INK,
-        )
+        name = f"mode {mode + 1}: {modes[first, mode]:.3g} kHz"
+        write_beside(axes, name, (branch.x[first], modes[first, mode]), (2, 2), 7, INK)
     axes.set_ylim(0, 1.15 * float(np.nanmax(modes)))
 
 
@@ -129,15 +123,8 @@ def _draw_orders(axes: Axes, branch: Branch, largest: float) -> None:
         )
         if inside.size:
             last = inside[np.argmax(branch.x[inside])]
-            axes.annotate(
-                "$f_m$" if order == 1 else f"{order}$f_m$",
-                (branch.x[last], ray[last]),
-                xytext=(3, 4),
-                textcoords="offset points",
-                fontsize=7,
-                color=PALETTE[0],
-                annotation_clip=False,
-            )
+            name, end = "$f_m$" if order == 1 else f"{order}$f_m$", (branch.x[last], ray[last])
+            write_beside(axes, name, end, (3, 4), 7, PALETTE[0], annotation_clip=False)
     axes.margins(x=0.03)
 
 
