@@ -76,22 +76,12 @@ def figure(
     cycles: int | Literal["auto"] | None = "auto",
     against: str | None = None,
 ) -> "Figure":
-    """Draw one figure from one record, or from several to compare them.
+    """Draw one figure, of `names(records)` or "overview", from an open record, or from several, compared.
 
-    Parameters
-    ----------
-    name : one of `names(records)`, or `overview` (of the first record)
-    records : records, open; one colour each
-    cycles : int, None or "auto"
-        How many of the last whole mesh cycles to show, None for the whole run. By default two, and the whole
-        run where speed or load change in it.
-    against : str, optional
-        `phase` (mesh cycles) or `time` (ms). By default phase, and time where speed or load change.
-
-    Raises
-    ------
-    InputError
-        For an unknown name or abscissa, no record, or a record without samples.
+    `cycles` are the last whole mesh cycles to show, None for the whole run; by default two, and the whole run
+    where speed or load change in it. `against` is "phase" (mesh cycles) or "time" (ms), by default phase, and
+    time where speed or load change. Raises InputError for an unknown name or abscissa, no record, or a record
+    without samples.
     """
     from tribodyn.post.cycles import transient
     from tribodyn.post.figures.panel import View
@@ -170,19 +160,11 @@ def drawable_of_sweep(records: Sequence[SweepRecord]) -> "Mapping[str, SweepDraw
 def sweep_figure(
     name: str, records: Sequence[SweepRecord], at: Mapping[str, float | str] | None = None
 ) -> "Figure":
-    """Draw one figure of sweeps.
+    """Draw one figure of sweeps, of `sweep_names(records)` or "overview", which is the first of them.
 
-    Parameters
-    ----------
-    name : one of `sweep_names(records)`, or "overview", which is the first of them
-    records : several are compared where the figure has curves; some figures show the first
-    at : mapping, optional
-        Parameter's name to value in SI, for a figure of one case.
-
-    Raises
-    ------
-    InputError
-        For an unknown name or a sweep that the figure cannot show.
+    Several are compared where the figure has curves; some figures show the first. `at` has values of
+    parameters by name, SI, for a figure of one case. Raises InputError for an unknown name, or a sweep that
+    the figure cannot show.
     """
     from tribodyn.post.style import house_style
 
