@@ -108,7 +108,7 @@ def _answer(
     json: JsonOption = False,
 ) -> None:
     """Print what a verb finds, and keep it."""
-    from tribodyn.cli.printing import print_files, print_findings, print_json
+    from tribodyn.cli.printing import print_files, print_findings, print_json, write_json
     from tribodyn.cli.progress import progress_bar
     from tribodyn.studies.protocol.load import load
 
@@ -116,8 +116,12 @@ def _answer(
     loaded = load(scenario, overrides(settings))
     with progress_bar(loaded.case.name) as progress, loaded.naming():
         answer = function(loaded.case, progress=progress)
-    if output is not None:
-        _keep(answer, output, force)
+    if output is not None and output.suffix == ".json":
+        write_json(output, answer.as_dict(), force)
+    elif output is not None:
+        from tribodyn.post.style import save
+
+        save(answer.plot(), output, force=force)
     files = [output] if output is not None else []
     if json:
         print_json(answer.as_dict() | ({"files": [str(output)]} if files else {}))
@@ -138,14 +142,3 @@ def _check(output: Path | None, force: bool) -> None:
     if not output.absolute().parent.is_dir():
         raise InputError("--output", str(output), "its folder is not there", "make it, or choose another")
     check_output(output, force)
-
-
-def _keep(answer: "Finding", output: Path, force: bool) -> None:
-    if output.suffix == ".json":
-        from tribodyn.cli.printing import write_json
-
-        write_json(output, answer.as_dict(), force)
-        return
-    from tribodyn.post.style import save
-
-    save(answer.plot(), output, force=force)

@@ -82,15 +82,6 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
         outside = "" if fraction >= 1 else "; the rest is extrapolated, see closure_in_range"
         sentences.append(f"The film law is inside its range in {_percent(fraction)} of the contact{outside}.")
         sentences += exceeded(summary, "closure_exceeded", "film law")
-    sentences += _other_ranges(summary)
-    if summary.get("pitch_point", "regular") != "regular":
-        sentences.append(f"At the pitch point {summary['pitch_point']}; pressure there is no merit figure.")
-    return sentences
-
-
-def _other_ranges(summary: Mapping[str, Any]) -> list[str]:
-    """Sentences on the ranges of laws, where the record names its laws."""
-    sentences = []
     if summary.get("film_thickness") == "minimum":
         sentences.append(f"The film is the minimum film, which {summary['film_law']} gives.")
     if summary.get("film_range") == "none stated":
@@ -114,6 +105,8 @@ def _other_ranges(summary: Mapping[str, Any]) -> list[str]:
         sentences.append(
             f"The table of solved contacts gives {' and '.join(errors)} of 95 % of those it was held against."
         )
+    if summary.get("pitch_point", "regular") != "regular":
+        sentences.append(f"At the pitch point {summary['pitch_point']}; pressure there is no merit figure.")
     return sentences
 
 

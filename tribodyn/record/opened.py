@@ -164,7 +164,9 @@ class OpenRecord:
             values = np.asarray(dataset[part])
         except (OSError, RuntimeError) as error:
             raise self._damaged(error) from error
-        return harmless_texts(values) if values.dtype.kind == "S" else samples_withheld(name, values)
+        if values.dtype.kind == "S":
+            return np.vectorize(harmless, otypes=["U"])(np.char.decode(values, "utf-8", "replace"))
+        return samples_withheld(name, values)
 
     def _damaged(self, error: Exception) -> InputError:
         return InputError(
@@ -193,11 +195,6 @@ def attributes(item: Any) -> dict[str, Any]:
         harmless(name): harmless_data(value.item() if isinstance(value, np.generic) else value)
         for name, value in item.attrs.items()
     }
-
-
-def harmless_texts(values: np.ndarray) -> np.ndarray:
-    """Texts of a dataset, decoded."""
-    return np.vectorize(harmless, otypes=["U"])(np.char.decode(values, "utf-8", "replace"))
 
 
 def harmless_data(value: Any) -> Any:

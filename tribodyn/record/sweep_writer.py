@@ -31,7 +31,7 @@ from tribodyn.record.soundness import UNREADABLE, check_sound, remember_own
 from tribodyn.record.sweep_schema import SWEEP, SweepLayout, VariedKey
 from tribodyn.record.withheld import cases_withheld
 from tribodyn.record.writer import check_target, conclude, refuse_existing
-from tribodyn.record.writing_lock import WritingLock, remove_orphans, scratch_path
+from tribodyn.record.writing_lock import locked, scratch_path
 
 #: What the root says of a sweep that is not complete.
 NOTE = "the sweep is going on, or was stopped: cases whose status is 0 are still to be done"
@@ -75,21 +75,11 @@ class SweepWriter:
         self._variables = head.layout.variables
         if not (resume and not force and self.partial.exists()):
             check_target(self.path, force)
-        try:
-            self._lock = WritingLock(self.path)
-        except OSError as error:
-            raise unwritable(self.path, error) from error
-        try:
-            remove_orphans(self.path)
+        with locked(self.path) as self._lock:
             self._places = self._datasets(head, force, resume)
             with h5py.File(self.partial, "r") as file:
                 self.status: np.ndarray = file["status"][...].ravel()  # pyright: ignore
             self._file = disk.open_existing(self.partial)
-        except BaseException as error:
-            self._lock.release()
-            if isinstance(error, OSError):
-                raise unwritable(self.path, error) from error
-            raise
 
     def _datasets(self, head: SweepHead, force: bool, resume: bool) -> dict[str, layout.DataPlace]:
         """Places of all datasets in what is left, or in a file made anew."""

@@ -24,7 +24,7 @@ from tribodyn.record.layout import Head, create, encode, write_summary, write_tr
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, partial_path
 from tribodyn.record.soundness import remember_own
 from tribodyn.record.withheld import samples_withheld
-from tribodyn.record.writing_lock import WritingLock, refuse_if_written, remove_orphans, scratch_path
+from tribodyn.record.writing_lock import locked, refuse_if_written, scratch_path
 
 
 def check_target(path: Path, force: bool = False) -> None:
@@ -106,21 +106,13 @@ class RecordWriter:
         self._variables = {**head.layout.along, **head.layout.others}
         self._head = head
         check_target(self.path, force)
-        self._lock: WritingLock | None = None
-        try:
-            self._lock = WritingLock(self.path)
-            remove_orphans(self.path)
+        with locked(self.path) as self._lock:
             refuse_existing(self.path, force)  # another may just have ended
             blank = create(head, samples)
             self._place = blank.places
             with replacing(self.partial, scratch_path(self.path)) as scratch:
                 disk.write_new(scratch, blank.content, blank.blanks)
             self._file = disk.open_existing(self.partial)
-        except BaseException as error:
-            self._unlock()
-            if not isinstance(error, OSError):
-                raise
-            raise unwritable(self.path, error) from error
         self._open = True
 
     def __enter__(self) -> Self:
@@ -140,7 +132,7 @@ class RecordWriter:
             elif self._open:
                 self.fail(f"{kind.__name__}: {error}" if kind else "the run ended without a summary")
         finally:
-            self._unlock()
+            self._lock.release()
 
     def write(self, start: int, block: Mapping[str, Any]) -> None:
         """Put samples `start`, `start + 1`, … in their place; blocks follow each other without a gap.
@@ -194,7 +186,7 @@ class RecordWriter:
             remember_own(self.path)
         except OSError as error:
             raise unwritable(self.path, error, f"all samples, without a summary: {self.partial}") from error
-        self._unlock()
+        self._lock.release()
         return self.path
 
     def fail(self, message: str, summary: Mapping[str, Any] | None = None) -> Path:
@@ -209,7 +201,7 @@ class RecordWriter:
             remember_own(self.partial)
         except OSError as error:
             raise unwritable(self.partial, error, f"{self._so_far()}; {message}") from error
-        self._unlock()
+        self._lock.release()
         return self.partial
 
     def _write_trimmed(self, scratch: Path, change: Callable[[h5py.File], None]) -> None:
@@ -232,10 +224,6 @@ class RecordWriter:
             raise ValueError("the record is closed")
         self._open = False
         self._file.close()
-
-    def _unlock(self) -> None:
-        if self._lock:
-            self._lock.release()
 
 
 def conclude(status: str, message: str, summary: Mapping[str, Any], file: h5py.File) -> None:

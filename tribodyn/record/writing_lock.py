@@ -11,12 +11,13 @@ import importlib
 import os
 import re
 import stat
+from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from tribodyn.errors import InputError
-from tribodyn.numerics.output_files import CAREFUL
+from tribodyn.numerics.output_files import CAREFUL, unwritable
 
 #: What a file system says that has no locks: then there is none, as there was none before.
 _NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}
@@ -70,6 +71,22 @@ class WritingLock:
             self._path.unlink()
         if os.name != "nt":
             os.close(number)
+
+
+@contextlib.contextmanager
+def locked(path: Path) -> Iterator[WritingLock]:
+    """Take the lock of a record and tidy up, to begin it; the lock is released only if that fails."""
+    lock = None
+    try:
+        lock = WritingLock(path)
+        remove_orphans(path)
+        yield lock
+    except BaseException as error:
+        if lock:
+            lock.release()
+        if isinstance(error, OSError):
+            raise unwritable(path, error) from error
+        raise
 
 
 def refuse_if_written(path: Path) -> None:

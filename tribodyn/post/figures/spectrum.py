@@ -46,18 +46,13 @@ def mode_frequencies(record: Record) -> np.ndarray:
     return np.atleast_1d(np.asarray(record.summary.get("mode_frequencies", []), dtype=float))
 
 
-def _orders_shown(record: Record, mesh: float, spectrum: Spectrum) -> float:
-    """Orders up to a little above the highest mode, and at most those that the sampling resolves."""
-    modes = mode_frequencies(record)
-    wanted = 1.08 * float(modes.max()) / mesh if modes.size else 0.0
-    return min(max(wanted, ORDERS + 0.5), float(spectrum.orders[-1]))
-
-
 def draw_spectrum(axes: Axes, record: Record, color: str) -> tuple[float, float]:
     """Draw amplitude (µm) over frequency (kHz), orders as stems; highest amplitude and frequency."""
     spectrum, window = steady_spectrum(record)
-    mesh = window.mesh_frequency
-    limit = _orders_shown(record, mesh, spectrum)
+    mesh, modes = window.mesh_frequency, mode_frequencies(record)
+    # orders up to a little above the highest mode, and at most those that the sampling resolves
+    wanted = 1.08 * float(modes.max()) / mesh if modes.size else 0.0
+    limit = min(max(wanted, ORDERS + 0.5), float(spectrum.orders[-1]))
     amplitudes = np.abs(spectrum.amplitudes) * 1e6
     shown = (spectrum.orders > 0) & (spectrum.orders <= limit)
     axes.plot(spectrum.orders[shown] * mesh * 1e-3, amplitudes[shown], color=color, linewidth=0.7, alpha=0.4)
@@ -71,7 +66,7 @@ def draw_spectrum(axes: Axes, record: Record, color: str) -> tuple[float, float]
     for order in range(1 if step == 1 else step, count + 1, step):
         text = "$f_m$" if order == 1 else f"{order}$f_m$"
         name_above(axes, places[order - 1], text, 0)
-    for number, frequency in enumerate(mode_frequencies(record), start=1):
+    for number, frequency in enumerate(modes, start=1):
         if frequency <= limit * mesh:
             axes.axvline(frequency * 1e-3, color=PALETTE[3], linewidth=0.9, linestyle=(0, (4, 2)), zorder=1)
             name_above(axes, frequency * 1e-3, f"mode {number}", 1, PALETTE[3])
