@@ -27,7 +27,9 @@ class Efficiencies:
     """Efficiencies, %, of all drives of the study under one law.
 
     `involute` (drive,), `cycloid` (drive, circle) at `SMALL`, `CHOSEN` and `LARGE` circles, `crossover` of
-    the first drive.
+    the first drive, `apart`: maximum distance of cycloid and involute at the chosen circles. What is gained,
+    percentage points: `by_circles`, of the smallest over the largest, by drive; by the smallest and largest
+    circles `by_ratio`, of i = 3 over 1 at module 2 mm, and `by_module`, of 6 mm over 2 mm at i = 1.
     """
 
     def __init__(self, law: Law) -> None:
@@ -37,22 +39,10 @@ class Efficiencies:
         self.cycloid = 100.0 * np.array([study.cycloid(circles) for study in studies])
         self.crossover = studies[0].crossover()
         self.exact_speeds = 100.0 * studies[0].cycloid(circles, exact_speeds=True)
-
-    def gain_by_circles(self) -> np.ndarray:
-        """What the smallest circles gain over the largest, by drive, percentage points."""
-        return self.cycloid[:, 0] - self.cycloid[:, 2]
-
-    def gain_by_ratio(self) -> np.ndarray:
-        """What i = 3 gains over i = 1 at module 2 mm, smallest and largest circles."""
-        return (self.cycloid[2] - self.cycloid[0])[[0, 2]]
-
-    def gain_by_module(self) -> np.ndarray:
-        """What module 6 mm gains over 2 mm at i = 1, smallest and largest circles."""
-        return (self.cycloid[4] - self.cycloid[0])[[0, 2]]
-
-    def apart(self) -> float:
-        """Maximum distance of cycloid and involute at the chosen circles."""
-        return float(np.max(np.abs(self.cycloid[:, 1] - self.involute)))
+        self.apart = float(np.max(np.abs(self.cycloid[:, 1] - self.involute)))
+        self.by_circles = self.cycloid[:, 0] - self.cycloid[:, 2]
+        self.by_ratio = (self.cycloid[2] - self.cycloid[0])[[0, 2]]
+        self.by_module = (self.cycloid[4] - self.cycloid[0])[[0, 2]]
 
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
@@ -95,21 +85,21 @@ def _efficiencies(tables: dict[Law, Efficiencies]) -> dict[str, tuple[Any, ...]]
     return {
         "veciana/04": (ehl.crossover, ""),
         "veciana/05": both(lambda table: table.crossover),
-        "veciana/06": (float(ehl.gain_by_circles().min()), ""),
-        "veciana/07": (float(ehl.gain_by_circles().max()), ""),
-        "veciana/08": both(lambda table: table.gain_by_circles().min()),
-        "veciana/09": both(lambda table: table.gain_by_circles().max()),
-        "veciana/10": (float(ehl.gain_by_ratio().min()), ""),
-        "veciana/11": (float(ehl.gain_by_ratio().max()), ""),
-        "veciana/12": both(lambda table: table.gain_by_ratio().min()),
-        "veciana/13": both(lambda table: table.gain_by_ratio().max()),
-        "veciana/14": (float(ehl.gain_by_module().max()), ""),
-        "veciana/15": both(lambda table: table.gain_by_module().max()),
-        "veciana/17": (float(ehl.gain_by_module().min()), ""),
-        "veciana/18": both(lambda table: table.gain_by_module().min()),
+        "veciana/06": (float(ehl.by_circles.min()), ""),
+        "veciana/07": (float(ehl.by_circles.max()), ""),
+        "veciana/08": both(lambda table: table.by_circles.min()),
+        "veciana/09": both(lambda table: table.by_circles.max()),
+        "veciana/10": (float(ehl.by_ratio.min()), ""),
+        "veciana/11": (float(ehl.by_ratio.max()), ""),
+        "veciana/12": both(lambda table: table.by_ratio.min()),
+        "veciana/13": both(lambda table: table.by_ratio.max()),
+        "veciana/14": (float(ehl.by_module.max()), ""),
+        "veciana/15": both(lambda table: table.by_module.max()),
+        "veciana/17": (float(ehl.by_module.min()), ""),
+        "veciana/18": both(lambda table: table.by_module.min()),
         "veciana/16": (
-            ehl.apart(),
-            f"EHL; {both(Efficiencies.apart)[1]}; loss of the cycloid, %, i = 1, m 2 mm, with the paper's "
-            f"rolling speeds -> with the motion of the contact along the path in them: {exact}",
+            ehl.apart,
+            f"EHL; {both(lambda table: table.apart)[1]}; loss of the cycloid, %, i = 1, m 2 mm, with the "
+            f"paper's rolling speeds -> with the motion of the contact along the path in them: {exact}",
         ),
     }
