@@ -72,20 +72,17 @@ class MarchedAgain:
         self.started = True
         if not self.extremes:
             return part
-        native = self._native or self._follower(state)
+        if self._native is None:
+            method = choose(AUTO, self._model, state).method
+            self._native = NativeIntegrator(method, self._model, 0, self._tolerances)
+            self._native.extremes = True
         found = no_extremes()
         for cycle in range(len(part.samples) // self._samples):
-            native.started = False
-            again = native.integrate(part.samples[cycle * self._samples], first_cycle + cycle, 1)
+            self._native.started = False
+            again = self._native.integrate(part.samples[cycle * self._samples], first_cycle + cycle, 1)
             assert again.extremes is not None
             take_in(found, again.extremes)
         return part._replace(extremes=found)
-
-    def _follower(self, state: Float[Array, " state"]) -> NativeIntegrator:
-        method = choose(AUTO, self._model, state).method
-        self._native = NativeIntegrator(method, self._model, 0, self._tolerances)
-        self._native.extremes = True
-        return self._native
 
 
 def make_integrator(

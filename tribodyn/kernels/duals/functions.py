@@ -61,35 +61,11 @@ def exp_dual(x):
     return chained(x, value, value)
 
 
-@part_for(elementary.log, DUAL)
-def log_dual(x):
-    """Natural logarithm."""
-    return chained(x, math.log(value_of(x)), 1.0 / value_of(x))
-
-
-@part_for(elementary.log1p, DUAL)
-def log1p_dual(x):
-    """log(1 + x)."""
-    return chained(x, elementary.log1p(value_of(x)), 1.0 / (1.0 + value_of(x)))
-
-
 @part_for(elementary.expm1, DUAL)
 def expm1_dual(x):
     """exp(x) − 1."""
     value = elementary.expm1(value_of(x))
     return chained(x, value, 1.0 + value)
-
-
-@part_for(elementary.sin, DUAL)
-def sin_dual(x):
-    """Sine."""
-    return chained(x, math.sin(value_of(x)), math.cos(value_of(x)))
-
-
-@part_for(elementary.cos, DUAL)
-def cos_dual(x):
-    """Cosine."""
-    return chained(x, math.cos(value_of(x)), -math.sin(value_of(x)))
 
 
 @part_for(elementary.tan, DUAL)
@@ -120,6 +96,12 @@ def power_of_dual_exponent(x, exponent):
     return elementary.exp(exponent * elementary.log(x))
 
 
+part_for(elementary.log, DUAL)(lambda x: chained(x, math.log(value_of(x)), 1.0 / value_of(x)))
+part_for(elementary.log1p, DUAL)(
+    lambda x: chained(x, elementary.log1p(value_of(x)), 1.0 / (1.0 + value_of(x)))
+)
+part_for(elementary.sin, DUAL)(lambda x: chained(x, math.sin(value_of(x)), math.cos(value_of(x))))
+part_for(elementary.cos, DUAL)(lambda x: chained(x, math.cos(value_of(x)), -math.sin(value_of(x))))
 part_for(elementary.truncate, DUAL)(lambda x: int(value_of(x)))
 part_for(elementary.plain, DUAL)(lambda x: value_of(x))
 part_for(elementary.largest_slope, DUAL)(lambda x: largest_slope_of(x))

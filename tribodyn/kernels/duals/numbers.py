@@ -14,7 +14,7 @@ from numba.core.typeconv.castgraph import Conversion
 from numba.core.typing.templates import AbstractTemplate, signature
 from numba.extending import lower_builtin, lower_cast, models, register_model
 
-from tribodyn.kernels.lanes.vectors import FUSE, broadcast, intrinsic, of_operator
+from tribodyn.kernels.lanes.vectors import COMPARISONS, FUSE, broadcast, intrinsic, of_operator
 
 #: Directions that a number carries its derivatives in: two AVX-512 registers, four of AVX2.
 DIRECTIONS = 16
@@ -158,18 +158,12 @@ for _operations, _emit in (
     ((operator.mul, operator.imul), _product),
     ((operator.truediv, operator.itruediv), _quotient),
 ):
-    for _one in _operations:
-        _binary(_one, DUAL, _arithmetic(_emit))
+    for _symbol in _operations:
+        _binary(_symbol, DUAL, _arithmetic(_emit))
 
-for _one, _sign in (
-    (operator.lt, "<"),
-    (operator.le, "<="),
-    (operator.gt, ">"),
-    (operator.ge, ">="),
-    (operator.eq, "=="),
-):
+for _symbol, _sign in COMPARISONS.items():
     _binary(
-        _one,
+        _symbol,
         types.boolean,
         lambda context, builder, a, b, sign=_sign: builder.fcmp_ordered(sign, a[0], b[0]),
     )

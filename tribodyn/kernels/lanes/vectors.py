@@ -32,6 +32,8 @@ _GIVEN: str | None = cast(Any, config).CPU_FEATURES
 #: Whether it multiplies and adds in one, without which a division is better left to the divider.
 FUSED = "+fma" in (binding.get_host_cpu_features().flatten() if _GIVEN is None else _GIVEN).split(",")
 
+#: Comparisons that hold of numbers only; `!=` holds of what is not a number too.
+COMPARISONS = {operator.lt: "<", operator.le: "<=", operator.gt: ">", operator.ge: ">=", operator.eq: "=="}
 #: Products and sums may fuse: fewer roundings. The order of operations stays as written.
 FUSE = ("contract",)
 
@@ -112,12 +114,8 @@ def _lowering(emit):
     return lambda context, builder, signature, values: emit(builder, *values)
 
 
-def _arithmetic(name):
-    return lambda builder, a, b: getattr(builder, name)(a, b, flags=FUSE)
-
-
-def _integer(name):
-    return lambda builder, a, b: getattr(builder, name)(a, b)
+def _instruction(name, **flags):
+    return lambda builder, a, b: getattr(builder, name)(a, b, **flags)
 
 
 for _operator, _inplace, _float, _int in (
@@ -125,11 +123,11 @@ for _operator, _inplace, _float, _int in (
     (operator.sub, operator.isub, "fsub", "sub"),
     (operator.mul, operator.imul, "fmul", "mul"),
 ):
-    for _one in (_operator, _inplace):
+    for _symbol in (_operator, _inplace):
         _register(
-            _one,
-            (signature(INDICES, INDICES, INDICES), _integer(_int)),
-            (signature(LANES, LANES, LANES), _arithmetic(_float)),
+            _symbol,
+            (signature(INDICES, INDICES, INDICES), _instruction(_int)),
+            (signature(LANES, LANES, LANES), _instruction(_float, flags=FUSE)),
         )
 
 
@@ -161,17 +159,13 @@ def quotient(builder, a, b):
     return _fma(builder, _fma(builder, opposite, q, a), r, q)
 
 
-for _one in (operator.truediv, operator.itruediv):
-    _register(_one, (signature(LANES, LANES, LANES), quotient if FUSED else _arithmetic("fdiv")))
+for _symbol in (operator.truediv, operator.itruediv):
+    _register(
+        _symbol, (signature(LANES, LANES, LANES), quotient if FUSED else _instruction("fdiv", flags=FUSE))
+    )
 _register(operator.neg, (signature(LANES, LANES), lambda builder, a: builder.fneg(a)))
 
-for _operator, _sign in (
-    (operator.lt, "<"),
-    (operator.le, "<="),
-    (operator.gt, ">"),
-    (operator.ge, ">="),
-    (operator.eq, "=="),
-):
+for _operator, _sign in COMPARISONS.items():
     _register(
         _operator,
         (
@@ -188,8 +182,8 @@ _register(
     (signature(MASK, INDICES, INDICES), lambda builder, a, b: builder.icmp_signed("!=", a, b)),
     (signature(MASK, LANES, LANES), lambda builder, a, b: builder.fcmp_unordered("!=", a, b)),
 )
-_register(operator.and_, (signature(MASK, MASK, MASK), _integer("and_")))
-_register(operator.or_, (signature(MASK, MASK, MASK), _integer("or_")))
+_register(operator.and_, (signature(MASK, MASK, MASK), _instruction("and_")))
+_register(operator.or_, (signature(MASK, MASK, MASK), _instruction("or_")))
 _register(operator.invert, (signature(MASK, MASK), lambda builder, a: builder.not_(a)))
 
 
