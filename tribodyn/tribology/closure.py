@@ -14,15 +14,7 @@ from tribodyn.numerics.elementary import as_float, is_jax, minimum
 from tribodyn.tribology.contact import DutyRange, NominalConditions, Surfaces
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import (
-    ActiveLaw,
-    Closure,
-    FilmData,
-    FilmLaw,
-    FrictionData,
-    FrictionLaw,
-    LawInput,
-)
+from tribodyn.tribology.law import ActiveLaw, Closure, FilmData, FilmLaw, FrictionData, FrictionLaw, LawInput
 from tribodyn.tribology.oil import LubricantData, lubricant_around
 from tribodyn.tribology.surface_state import exceeded
 from tribodyn.tribology.trial import try_laws

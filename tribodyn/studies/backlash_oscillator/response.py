@@ -12,16 +12,7 @@ from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.orbit import motions as orbit
 from tribodyn.solve.orbit.motions import Orbit
 from tribodyn.studies.backlash_oscillator.case import SAMPLES, BacklashOscillatorCase
-from tribodyn.studies.backlash_oscillator.motion import (
-    BACK,
-    FREE,
-    FREQUENCY,
-    INTEGRAL,
-    MAXIMUM,
-    MINIMUM,
-    SQUARE,
-    OscillatorMap,
-)
+from tribodyn.studies.backlash_oscillator.motion import FREQUENCY, OscillatorMap
 
 UP, DOWN = 0, 1
 #: Periods over which a motion that is not periodic is measured.
@@ -156,15 +147,15 @@ def measured(
     oscillator: OscillatorMap, states: np.ndarray, cases: np.ndarray, periods: int
 ) -> dict[str, np.ndarray]:
     """Measures of motions over some periods, by their names in the record."""
-    sums = oscillator.measures(states, cases, periods)
+    integral, square, free, back, maximum, minimum = oscillator.measures(states, cases, periods).T
     duration = periods * 2.0 * np.pi / oscillator.parameters[cases, FREQUENCY]
-    mean = sums[:, INTEGRAL] / duration
+    mean = integral / duration
     return {
         "mean_displacement": mean,
-        "rms_displacement": np.sqrt(np.maximum(sums[:, SQUARE] / duration - mean * mean, 0.0)),
-        "peak_to_peak_displacement": sums[:, MAXIMUM] - sums[:, MINIMUM],
-        "contact_loss_fraction": sums[:, FREE] / duration,
-        "back_contact_fraction": sums[:, BACK] / duration,
+        "rms_displacement": np.sqrt(np.maximum(square / duration - mean * mean, 0.0)),
+        "peak_to_peak_displacement": maximum - minimum,
+        "contact_loss_fraction": free / duration,
+        "back_contact_fraction": back / duration,
     }
 
 

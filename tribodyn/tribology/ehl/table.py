@@ -88,16 +88,9 @@ def spread(duty: DutyRange, count: int) -> tuple[Array, Array]:
 
 def solve_one(contact: Contact, duty: Array) -> Array:
     """Ln of film, ln of friction coefficient, and the asperities' share at a duty; NaN: none found."""
-    line_load, entrainment, curvature, ratio = map(math.exp, duty)
-    problem = LineContact(
-        line_load,
-        1.0 / curvature,
-        entrainment,
-        contact.fluid,
-        contact.effective_modulus,
-        ratio * entrainment,
-        contact.roughness,
-    )
+    line_load, speed, curvature, ratio = map(math.exp, duty)
+    fluid, modulus, roughness, *_ = contact
+    problem = LineContact(line_load, 1.0 / curvature, speed, fluid, modulus, ratio * speed, roughness)
     try:
         found = solve_coupled(problem, contact.rheology, contact.thermal, step=STEP)
     except SimulationError:
