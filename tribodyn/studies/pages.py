@@ -25,17 +25,10 @@ if TYPE_CHECKING:
 OVERVIEW = "overview"
 
 
-def study_of_record(record: Record) -> Study:
-    """Return the study that a record is of; InputError if no installed package knows it."""
-    return _installed(record, record.kind, "study")
-
-
-def study_of_sweep(record: SweepRecord) -> Study:
-    """Return the study whose cases a sweep has; raises as `study_of_record`."""
-    return _installed(record, record.kind_of_study, "sweep")
-
-
-def _installed(record: Record | SweepRecord, kind: str, what: str) -> Study:
+def study_of_record(record: Record | SweepRecord) -> Study:
+    """Return the study of a record, or of a sweep's cases; InputError if no installed package knows it."""
+    sweep = isinstance(record, SweepRecord)
+    kind, what = (record.kind_of_study, "sweep") if sweep else (record.kind, "study")
     if kind not in STUDIES:
         rule = f'a {what} of kind "{kind}", which nothing that is installed knows'
         raise InputError("record", str(record.path), rule, "install the package that offers it")
@@ -149,9 +142,9 @@ def sweep_names(records: Sequence[SweepRecord]) -> tuple[str, ...]:
 
 def drawable_of_sweep(records: Sequence[SweepRecord]) -> "Mapping[str, SweepDrawing]":
     """Figures that can be drawn from sweeps, by name."""
-    study = study_of_sweep(records[0])
+    study = study_of_record(records[0])
     for record in records[1:]:
-        if study_of_sweep(record) is not study:
+        if study_of_record(record) is not study:
             rule = f"of kind {record.kind_of_study}, the first of {study.kind}"
             raise InputError("record", str(record.path), rule, "draw them apart")
     return study.sweep_drawings()
@@ -186,7 +179,7 @@ def sweep_table(record: SweepRecord) -> "Group":
     """Lay out the summary of a sweep for the terminal."""
     from tribodyn.post.sweep_report import sweep_table as table_of
 
-    return table_of(record, study_of_sweep(record).sweep_table())
+    return table_of(record, study_of_record(record).sweep_table())
 
 
 def report(records: Sequence[Record], figures: bool = True) -> str:
@@ -241,7 +234,7 @@ def sweep_report(record: SweepRecord) -> str:
     """Write the page of a sweep: its quantities over the first varied key, and its pictures."""
     from tribodyn.post.page.sweep_page import sweep_page
 
-    study = study_of_sweep(record)
+    study = study_of_record(record)
     pictures = []
     for name in sweep_names([record]):
         try:
