@@ -12,15 +12,7 @@ from tribodyn.record.schema import Layout
 from tribodyn.scenario.quantity import NotNegative, Positive, Switch, Table, Text
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.case import GearCase
-from tribodyn.studies.protocol.cost import (
-    FINITE_ELEMENTS,
-    Driver,
-    Estimate,
-    load_sharing,
-    recorded,
-    steady_states,
-    total,
-)
+from tribodyn.studies.protocol import cost
 from tribodyn.tribology.oil import LubricantData
 
 _ALONG = ("roll_angle",)
@@ -97,16 +89,16 @@ class AssessmentCase(GearCase):
 _POSITIONS, _PLACES = 60, 120
 
 
-def estimate(case: AssessmentCase) -> Estimate:
+def estimate(case: AssessmentCase) -> cost.Estimate:
     """What a run of a case takes."""
     settings = case.settings
-    return total(
+    return cost.total(
         (
-            Driver("assessment.speeds", settings.speeds, 46),
-            Driver("assessment.samples", settings.samples, 16),
+            cost.Driver("assessment.speeds", settings.speeds, 46),
+            cost.Driver("assessment.samples", settings.samples, 16),
         ),
-        recorded(LAYOUT, {"roll_angle": _PLACES}, outlines=True),
-        load_sharing(float(_POSITIONS) * (1 + len(settings.torque_shares)), 1.0, _POSITIONS),
-        steady_states(settings.speeds, len(settings.friction_laws), settings.samples),
-        FINITE_ELEMENTS,
+        cost.recorded(LAYOUT, {"roll_angle": _PLACES}, outlines=True),
+        cost.load_sharing(float(_POSITIONS) * (1 + len(settings.torque_shares)), 1.0, _POSITIONS),
+        cost.steady_states(settings.speeds, len(settings.friction_laws), settings.samples),
+        cost.FINITE_ELEMENTS,
     )

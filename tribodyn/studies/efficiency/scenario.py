@@ -27,16 +27,7 @@ from tribodyn.studies.gears.scenario import (
     gear_fields,
     oil_fields,
 )
-from tribodyn.studies.protocol.cost import (
-    FINITE_ELEMENTS,
-    PAIRS,
-    Driver,
-    Estimate,
-    load_sharing,
-    quasi_static_cycle,
-    recorded,
-    total,
-)
+from tribodyn.studies.protocol import cost
 
 if TYPE_CHECKING:
     from tribodyn.studies.efficiency.places import Sharing
@@ -57,15 +48,15 @@ class EfficiencyCase(LubricatedCase):
 _POSITIONS = 3000.0
 
 
-def estimate(case: EfficiencyCase) -> Estimate:
+def estimate(case: EfficiencyCase) -> cost.Estimate:
     """What a run of a case takes."""
     samples, slices = float(case.samples_per_cycle), case.mesh.slices
-    sizes = {"time": case.samples_per_cycle + 1, "pair": PAIRS, "dof": 6}
-    parts = [recorded(LAYOUT, sizes, outlines=True), quasi_static_cycle(samples)]
+    sizes = {"time": case.samples_per_cycle + 1, "pair": cost.PAIRS, "dof": 6}
+    parts = [cost.recorded(LAYOUT, sizes, outlines=True), cost.quasi_static_cycle(samples)]
     if case.mesh.at_load:
-        parts += [FINITE_ELEMENTS, load_sharing(samples + _POSITIONS, slices, samples)]
-    drivers = Driver("output.samples_per_cycle", samples, 200), Driver("mesh.slices", slices, 21)
-    return total(drivers, *parts)
+        parts += [cost.FINITE_ELEMENTS, cost.load_sharing(samples + _POSITIONS, slices, samples)]
+    drivers = cost.Driver("output.samples_per_cycle", samples, 200), cost.Driver("mesh.slices", slices, 21)
+    return cost.total(drivers, *parts)
 
 
 class EfficiencyMesh(Table):

@@ -8,18 +8,7 @@ from tribodyn.dynamics.parameters import STATES
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
-from tribodyn.studies.protocol.cost import (
-    MARCHED_SAMPLE,
-    PAIRS,
-    SAMPLE_BYTES,
-    Driver,
-    Estimate,
-    in_memory,
-    marching,
-    mesh_table,
-    recorded,
-    total,
-)
+from tribodyn.studies.protocol import cost
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
 #: and an attribute of a record holds no longer spectrum.
@@ -53,57 +42,57 @@ def window_of(cycles: int) -> int:
     return max(1, min(cycles // 4, WIDEST_WINDOW))
 
 
-def estimate(case: Case) -> Estimate:
+def estimate(case: Case) -> cost.Estimate:
     """What a run of a case takes."""
     samples, cycles = float(case.output.samples_per_cycle), float(case.solver.cycles)
     sides = 1 if case.mesh.backlash is None else 2
-    sizes = {"time": int(samples * cycles) + 1, "pair": PAIRS * sides, "dof": 6}
-    record = recorded(LAYOUT, sizes, _READ)
+    sizes = {"time": int(samples * cycles) + 1, "pair": cost.PAIRS * sides, "dof": 6}
+    record = cost.recorded(LAYOUT, sizes, _READ)
     block, window = min(max(cycles / 4.0, 1.0), 50.0) * samples, window_of(int(cycles)) * samples
-    return total(
+    return cost.total(
         _drivers(case),
         record,
         _table(case),
-        in_memory(block * sides, SAMPLE_BYTES),
-        in_memory(_WINDOW_HELD * window, record.record / (samples * cycles + 1.0)),
+        cost.in_memory(block * sides, cost.SAMPLE_BYTES),
+        cost.in_memory(_WINDOW_HELD * window, record.record / (samples * cycles + 1.0)),
         _marching(case, cycles),
     )
 
 
-def estimate_in_sweep(case: Case, cycles: int, window: int, together: int) -> Estimate:
+def estimate_in_sweep(case: Case, cycles: int, window: int, together: int) -> cost.Estimate:
     """What a case of a sweep takes that marches so many mesh cycles, and the memory of those together."""
     samples = float(case.output.samples_per_cycle)
-    marched = () if cycles == STEADY_CYCLES else (Driver("--transient", cycles, STEADY_CYCLES),)
-    return total(
+    marched = () if cycles == STEADY_CYCLES else (cost.Driver("--transient", cycles, STEADY_CYCLES),)
+    return cost.total(
         (*_drivers(case), *marched),
         _table(case)._replace(record=0.0),
-        in_memory(3.0 * together * window * samples, STATES * 8.0),
-        in_memory(window * samples, SAMPLE_BYTES),
+        cost.in_memory(3.0 * together * window * samples, STATES * 8.0),
+        cost.in_memory(window * samples, cost.SAMPLE_BYTES),
         _marching(case, float(cycles), together=True),
-        Estimate(seconds=MARCHED_SAMPLE * window * samples),
+        cost.Estimate(seconds=cost.MARCHED_SAMPLE * window * samples),
     )
 
 
-def _drivers(case: Case) -> tuple[Driver, ...]:
+def _drivers(case: Case) -> tuple[cost.Driver, ...]:
     """Keys that make a case large."""
     return (
-        Driver("output.samples_per_cycle", case.output.samples_per_cycle, 200),
-        Driver("solver.cycles", case.solver.cycles, 20),
-        Driver("mesh.points", case.mesh.points, 65),
-        Driver("mesh.slices", case.mesh.slices, 21),
+        cost.Driver("output.samples_per_cycle", case.output.samples_per_cycle, 200),
+        cost.Driver("solver.cycles", case.solver.cycles, 20),
+        cost.Driver("mesh.points", case.mesh.points, 65),
+        cost.Driver("mesh.slices", case.mesh.slices, 21),
     )
 
 
-def _table(case: Case) -> Estimate:
+def _table(case: Case) -> cost.Estimate:
     mesh = case.mesh
-    return mesh_table(
+    return cost.mesh_table(
         float(mesh.points), 1 if mesh.backlash is None else 2, mesh.slices if mesh.at_load else None
     )
 
 
-def _marching(case: Case, cycles: float, *, together: bool = False) -> Estimate:
+def _marching(case: Case, cycles: float, *, together: bool = False) -> cost.Estimate:
     solver, samples = case.solver, case.output.samples_per_cycle
-    return marching(
+    return cost.marching(
         cycles, _radians(case), solver.method, float(solver.max_steps), samples, together=together
     )
 
