@@ -178,22 +178,21 @@ def _check_flank(assembly: Assembly, flank: FlankModification, side: Side) -> No
     maximum = MAXIMUM_SHARE * module
     deepest = min(maximum, MAXIMUM_TIP_SHARE * thickness)
     for name, relief, most in (("tip_relief", flank.tip, deepest), ("root_relief", flank.root, maximum)):
-        _require(key + name, relief.amount, 0.0, most, "deepest relief of this tooth")
+        _require(key + name, relief.amount, most, "deepest relief of this tooth")
         if relief.amount:
             path = assembly.r_end - assembly.r_start
-            _require(key + name + "_length", relief.length, 0.0, path, "path of contact", above=True)
-    for name, amount in lead_amounts(flank.lead).items():
-        _require(key + name, amount, 0.0, maximum, "tenth of the module")
+            _require(key + name + "_length", relief.length, path, "path of contact", above=True)
+    amounts = lead_amounts(flank.lead)
     if flank.profile_error is not None:
-        worst = float(np.max(np.abs(flank.profile_error[1])))
-        _require(key + "profile_error", worst, 0.0, maximum, "tenth of the module")
+        amounts["profile_error"] = float(np.max(np.abs(flank.profile_error[1])))
     if len(flank.pitch_error):
-        worst = float(np.max(np.abs(flank.pitch_error)))
-        _require(key + "pitch_errors", worst, 0.0, maximum, "tenth of the module")
+        amounts["pitch_errors"] = float(np.max(np.abs(flank.pitch_error)))
+    for name, amount in amounts.items():
+        _require(key + name, amount, maximum, "tenth of the module")
 
 
-def _require(key: str, value: float, lowest: float, highest: float, name: str, above: bool = False) -> None:
-    if not (lowest <= value <= highest) or (above and value <= lowest):
+def _require(key: str, value: float, highest: float, name: str, above: bool = False) -> None:
+    if not 0.0 <= value <= highest or (above and value <= 0.0):
         raise InputError(
             key,
             f"{value * 1e6:.6g} um",
