@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tribodyn.cli.options import JsonOption, ReplaceOption, SetOption, drives, overrides
-from tribodyn.numerics.output_files import make_folder
+from tribodyn.numerics.output_files import check_output, make_folder, write_output
 
 if TYPE_CHECKING:
     from tribodyn.geometry.assembly import Assembly
@@ -74,7 +74,6 @@ def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tup
     """The pair with a free-form path, and the drive file that was written of it."""
     import tomli_w
 
-    from tribodyn.numerics.output_files import write_output
     from tribodyn.studies.gears.drive_file import as_spline, load_drive
 
     fitted = as_spline(model, values, "--as-spline")
@@ -91,7 +90,6 @@ def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int, 
     from tribodyn.drawing.cad import tooth_profile, write_gear, write_pair, write_profile, write_rack
     from tribodyn.drawing.picture import pair_figure
     from tribodyn.geometry.drive import SIDES
-    from tribodyn.numerics.output_files import check_output
     from tribodyn.post.style import save
 
     def file(what: str) -> Path:

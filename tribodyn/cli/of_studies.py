@@ -12,6 +12,7 @@ import typer
 from tribodyn.cli.options import JsonOption, ReplaceOption, ScenarioArgument, SetOption, overrides
 from tribodyn.cli.run import run, run_loaded
 from tribodyn.errors import InputError
+from tribodyn.numerics.output_files import check_output
 
 if TYPE_CHECKING:
     from tribodyn.studies.protocol.verb import Finding, Option, Verb
@@ -132,8 +133,6 @@ def _answer(
 
 def _check(output: Path | None, force: bool) -> None:
     """Raise InputError at a file that could not be written in the end."""
-    from tribodyn.numerics.output_files import check_output
-
     if output is None:
         return
     if output.suffix not in ENDINGS:

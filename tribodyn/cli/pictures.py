@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 from tribodyn.numerics import child
-from tribodyn.numerics.output_files import make_folder
+from tribodyn.numerics.output_files import check_output, make_folder
 from tribodyn.numerics.work import usable_cores
 
 if TYPE_CHECKING:
@@ -61,7 +61,6 @@ def save_all(
 ) -> list[Path]:
     """Make figures by name and write them into files named after `beside`; raises as `write_output`."""
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.numerics.output_files import check_output
     from tribodyn.post.style import save
 
     names = list(names)

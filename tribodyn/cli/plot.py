@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tribodyn.cli.options import ReplaceOption, records_and_plots
+from tribodyn.errors import InputError
 
 if TYPE_CHECKING:
     from tribodyn.record.sweep_reader import SweepRecord
@@ -74,7 +75,6 @@ def plot(
 
     from tribodyn.cli.pictures import draw, save_all
     from tribodyn.cli.printing import print_files, print_json
-    from tribodyn.errors import InputError
     from tribodyn.record.reader import Record
     from tribodyn.record.sweep_reader import SweepRecord, is_sweep
     from tribodyn.scenario.sources import is_file
@@ -107,7 +107,6 @@ def plot(
 
 def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
     """Read NAME=VALUE, in the unit given or the record's."""
-    from tribodyn.errors import InputError
     from tribodyn.scenario.units import ANGULAR_SPEED, Kind, NotAQuantity, to_si
 
     units = {axis.name: axis.units for axis in record.parameters if axis.values.dtype.kind in "fi"}

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from tribodyn.cli.options import JsonOption, ReplaceOption, papers
-from tribodyn.numerics.output_files import make_folder
+from tribodyn.numerics.output_files import check_output, make_folder
 
 EXAMPLES = (
     "\b\nExit status 4 if a value is outside its tolerance. Examples:\n"
@@ -35,7 +35,6 @@ def validate(
     from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, end
     from tribodyn.cli.printing import print_files, print_json, print_table
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.numerics.output_files import check_output
     from tribodyn.validation.rows import SHOWN, counted, counts
 
     if plots is not None:

@@ -41,7 +41,6 @@ def check_cover(x: np.ndarray, first: Any, last: Any, key: str) -> None:
     """Refuse a table over roll angle that does not reach from the first to the last contact.
 
     Traced limits are not checked. Half a microradian is allowed, so that limits printed to six digits serve.
-
     Raises InputError with the range that is needed.
     """
     if is_jax(first) or is_jax(last):

@@ -27,7 +27,7 @@ from tribodyn.scenario.quantity import (
 from tribodyn.tribology.oil import OilType
 
 Amount = Annotated[float, InUnit(units.not_negative(units.RELIEF))]
-Extent = Annotated[float, InUnit(units.positive(units.LENGTH))]
+Length = Annotated[float, InUnit(units.positive(units.LENGTH))]
 Shape = Literal["linear", "parabolic"]
 
 _EXPONENT = {"linear": 1.0, "parabolic": 2.0}
@@ -37,12 +37,12 @@ class Modification(Table):
     """What is missing on the flanks of a gear, along their normal: the driving flanks, or both."""
 
     tip_relief: Amount = written("0 um", description="at the end of the active profile")
-    tip_relief_length: Extent | None = Field(
+    tip_relief_length: Length | None = Field(
         None, description="along the line of action, from the end of the active path; default: the module"
     )
     tip_relief_shape: Shape = "linear"
     root_relief: Amount = written("0 um", description="at the beginning of the active profile")
-    root_relief_length: Extent | None = Field(
+    root_relief_length: Length | None = Field(
         None, description="along the line of action, from the end of the active path; default: the module"
     )
     root_relief_shape: Shape = "linear"
@@ -100,7 +100,6 @@ def _relief(table: Modification, end: str, module: float) -> Relief:
     return Relief(amount, length, _EXPONENT[getattr(table, f"{end}_relief_shape")])
 
 
-Length = Annotated[float, InUnit(units.positive(units.LENGTH))]
 Angle = Annotated[float, InUnit(units.positive(units.ANGLE_KIND))]
 Mass = Annotated[float, InUnit(units.positive(units.MASS))]
 Inertia = Annotated[float, InUnit(units.positive(units.INERTIA))]

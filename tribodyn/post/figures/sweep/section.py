@@ -100,12 +100,9 @@ def chosen_case(record: SweepRecord, at: Mapping[str, float | str]) -> tuple[int
     for name in at:
         if name not in scales:
             raise InputError("--at", name, "not a dimension of the sweep", f"one of {', '.join(scales)}")
-    wanted: list[int | slice] = []
-    for name, values in scales.items():
-        if name not in at:
-            wanted.append(slice(None))
-        else:
-            wanted.append(index_of(values, name, at[name]))
+    wanted = [
+        index_of(values, name, at[name]) if name in at else slice(None) for name, values in scales.items()
+    ]
     mask = np.zeros(record["status"].shape, dtype=bool)
     mask[tuple(wanted)] = True
     mask &= record["status"] == DONE
