@@ -12,7 +12,17 @@ from tools.compare_versions.versions import MADE
 
 #: Differ from run to run, or say which version ran; the scenario's text is compared by what it leads to.
 VOLATILE = frozenset(
-    {"created", "wall_time", "tribodyn_version", "scenario", "scenario_sha256", "model", "record", "pictures"}
+    {
+        "created",
+        "wall_time",
+        "tribodyn_version",
+        "code_sha256",
+        "scenario",
+        "scenario_sha256",
+        "model",
+        "record",
+        "pictures",
+    }
 )
 #: Attributes that HDF5's dimension scales keep themselves with; `dims` says the same in names.
 SCALES = frozenset({"DIMENSION_LIST", "REFERENCE_LIST", "CLASS", "NAME", "_Encoding", "_Netcdf4Dimid"})
