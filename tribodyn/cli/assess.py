@@ -36,15 +36,14 @@ def assess(
 ) -> None:
     """Assess a drive: loads, vibration, film, temperatures, losses, margins; one folder, one report."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, end
-    from tribodyn.cli.printing import print_files, print_json, write_json
+    from tribodyn.cli.printing import print_files, print_json, print_rich, write_json
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.cli.show import print_summary
     from tribodyn.errors import InputError
     from tribodyn.numerics.output_files import check_output, make_folder
     from tribodyn.post.report import as_json
     from tribodyn.record.reader import Record
     from tribodyn.studies import STUDIES
-    from tribodyn.studies.pages import write_report
+    from tribodyn.studies.pages import summary_table, write_report
     from tribodyn.studies.protocol.load import load
 
     loaded = load(scenario, overrides(settings))
@@ -71,7 +70,7 @@ def assess(
         if json:
             print_json(data)
             return
-        print_summary(record)
+        print_rich(summary_table(record))
     for what, file in (("record", result.path), ("data", folder / DATA), ("report", page)):
         print_files(what, [file])
     limits = data.get("limits", {}).items()

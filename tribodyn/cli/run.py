@@ -77,7 +77,7 @@ def run_loaded(
     """Run the case that `made` gives and show what became of it; `how` as of `protocol.run.run`."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
     from tribodyn.cli.pictures import draw_pictures, drawer, overview_path
-    from tribodyn.cli.printing import print_files, print_json
+    from tribodyn.cli.printing import print_files, print_json, print_rich
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import OutputError
     from tribodyn.numerics.output_files import check_output
@@ -99,10 +99,10 @@ def run_loaded(
         if ahead and not failed:
             ahead.draw(result.path, force)
         if not json:
-            from tribodyn.cli.show import print_summary
+            from tribodyn.studies.pages import summary_table
 
             with Record(result.path) as opened:
-                print_summary(opened)
+                print_rich(summary_table(opened))
         drawn = ahead.pictures() if ahead and not failed else None
     page = None
     try:

@@ -1,14 +1,11 @@
 """`tribodyn show`: what a record says."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from tribodyn.cli.options import JsonOption
-
-if TYPE_CHECKING:
-    from tribodyn.record.reader import Record
 
 EXAMPLES = "\b\nExamples:\n  tribodyn show crc-23-47.h5\n  tribodyn show crc-23-47-pinion_speed.h5 --json"
 
@@ -21,22 +18,12 @@ def show(
     from tribodyn.post.report import as_json
     from tribodyn.post.sweep_report import sweep_as_json
     from tribodyn.record.sweep_reader import SweepRecord, open_any
-    from tribodyn.studies.pages import sweep_table
+    from tribodyn.studies.pages import summary_table, sweep_table
 
     with open_any(record) as opened:
         sweep = isinstance(opened, SweepRecord)
         if json:
             data = sweep_as_json(opened) if sweep else as_json(opened)
             print_json({**data, "scenario": opened.scenario})
-        elif sweep:
-            print_rich(sweep_table(opened))
         else:
-            print_summary(opened)
-
-
-def print_summary(record: "Record") -> None:
-    """Write the summary of an open record to stdout."""
-    from tribodyn.cli.printing import print_rich
-    from tribodyn.studies.pages import summary_table
-
-    print_rich(summary_table(record))
+            print_rich(sweep_table(opened) if sweep else summary_table(opened))
