@@ -6,8 +6,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from tribodyn.errors import InputError, InputErrors
 from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.scenario.sources import find_scenario, read_toml
@@ -104,10 +102,6 @@ class Grid:
     def ends(self) -> list[Any]:
         """Cases at the first and the last values of all axes."""
         return [self.case(place) for place in ((0,) * len(self.shape), tuple(n - 1 for n in self.shape))]
-
-    def flat(self, place: Sequence[int]) -> int:
-        """Return the place's number, the last axis running fastest."""
-        return int(np.ravel_multi_index(tuple(place), self.shape))
 
 
 def _put(data: dict[str, Any], key: str, value: Any) -> None:

@@ -69,7 +69,8 @@ def single_steps(grid: Grid, waiting: np.ndarray, size: int) -> Iterator[list[Ch
     numbers = numbers[waiting[numbers]]
     for part in range(0, len(numbers), size):
         chosen = np.sort(numbers[part : part + size])
-        yield [Chunk(chosen, tuple(case_or_reason(grid, number) for number in chosen))]
+        places = zip(*np.unravel_index(chosen, grid.shape), strict=True)
+        yield [Chunk(chosen, tuple(case_or_reason(grid, place) for place in places))]
 
 
 def chained_steps(
@@ -95,7 +96,7 @@ def chained_steps(
         for part in range(0, len(open_lanes), size):
             chosen = open_lanes[part : part + size]
             chosen = chosen[np.argsort(numbers[chosen])]
-            cases = tuple(case_or_reason(grid, grid.flat(places[i])) for i in chosen)
+            cases = tuple(case_or_reason(grid, places[i]) for i in chosen)
             ways = tuple(_way(grid, behind[i], places[i]) for i in chosen)
             chunks.append(Chunk(numbers[chosen], cases, states[chosen], ways))
         yield chunks
@@ -119,10 +120,10 @@ def _way(
     )
 
 
-def case_or_reason(grid: Grid, number: int) -> Any:
-    """The case of a number of the grid, or why there is none."""
+def case_or_reason(grid: Grid, place: Sequence[int]) -> Any:
+    """The case at a place of the grid, or why there is none."""
     try:
-        return grid.case(np.unravel_index(number, grid.shape))  # pyright: ignore[reportArgumentType]
+        return grid.case(place)
     except InputError as error:
         return str(error)
 
