@@ -11,7 +11,8 @@ from tests.support.closures import LOCAL_LAWS, VECIANA, coulomb, under
 from tribodyn.geometry.families.involute import InvolutePath
 from tribodyn.studies.efficiency.published import exact, hoehn, path_contact, torque_ratio
 from tribodyn.tribology.contact import NominalConditions
-from tribodyn.tribology.friction.mean import iso_14179_1, niemann
+from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
+from tribodyn.tribology.friction.niemann import niemann
 from tribodyn.validation.veciana_study import cycloid_contact
 
 teeth = st.integers(14, 60)

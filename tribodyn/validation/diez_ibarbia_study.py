@@ -35,7 +35,7 @@ from tribodyn.studies.efficiency.published import exact, hoehn, tip_contact_rati
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import nominal_conditions
-from tribodyn.tribology.friction.mean import niemann
+from tribodyn.tribology.friction.niemann import niemann
 
 #: Positions over one pitch: the efficiency is then known to 1e-6 (test_load_contact_efficiency).
 POSITIONS = 240

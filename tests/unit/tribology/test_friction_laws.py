@@ -8,7 +8,8 @@ import pytest
 from tests.support.closures import POINT, VECIANA, known, under
 from tribodyn.tribology.contact import NominalConditions
 from tribodyn.tribology.friction.benedict_kelley import benedict_kelley
-from tribodyn.tribology.friction.mean import iso_14179_1, niemann
+from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
+from tribodyn.tribology.friction.niemann import niemann
 from tribodyn.tribology.friction.xu import xu
 
 #: Coefficients of friction (EHL, mixed EHL) over the slide-to-roll ratio: a separate prototype of the two

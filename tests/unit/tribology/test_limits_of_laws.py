@@ -16,7 +16,9 @@ from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, masjedi_khonsar
 from tribodyn.tribology.friction import FRICTION_LAWS, benedict_kelley, coulomb, xu
 from tribodyn.tribology.friction import masjedi_khonsari as mixed
 from tribodyn.tribology.friction import none as frictionless
-from tribodyn.tribology.friction.mean import ISO_14179_1, NIEMANN, SCHLENK
+from tribodyn.tribology.friction.iso_14179_1 import LAW as ISO
+from tribodyn.tribology.friction.niemann import LAW as NIEMANN
+from tribodyn.tribology.friction.schlenk import LAW as SCHLENK
 from tribodyn.tribology.surface_state import range_shares, surface_state
 
 PAGE = Path(__file__).parents[3] / "docs" / "ehl.md"
@@ -119,7 +121,7 @@ def test_limits_are_those_that_the_law_names(law, given):
         assert inside == float(min(shares) >= 1.0)
 
 
-@pytest.mark.parametrize("law", [ISO_14179_1, NIEMANN, SCHLENK], ids=lambda law: law.name)
+@pytest.mark.parametrize("law", [ISO, NIEMANN, SCHLENK], ids=lambda law: law.name)
 @pytest.mark.parametrize("speed", [0.9, 7.0, 41.0])
 @pytest.mark.parametrize("torque", [40.0, 900.0])
 def test_limits_of_mean_coefficients(law, speed, torque):
@@ -131,7 +133,7 @@ def test_limits_of_mean_coefficients(law, speed, torque):
     given = LIU_NI._replace(nominal=lambda: mesh)
     found = float(law.made(given, {}).in_range)
     intensity = torque / r1 * (r2 / r1 + 1) / (width * 2 * r1 * r2 / r1) / 1e6
-    if law is ISO_14179_1:
+    if law is ISO:
         wanted = min(speed / 2, 25 / speed, intensity / 1.4, 14 / intensity)
     else:
         wanted = 50 / speed

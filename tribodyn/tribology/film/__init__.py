@@ -1,4 +1,4 @@
-"""The film laws, those of one kind in a file, and their registry."""
+"""The film laws: one per file, and their registry."""
 
 from tribodyn.numerics.registry import Registry
 from tribodyn.tribology.law import FilmLaw
@@ -11,7 +11,7 @@ FILM_LAWS: Registry[FilmLaw] = Registry(
         "masjedi-khonsari-as-printed": "tribodyn.tribology.film.masjedi_khonsari:AS_PRINTED",
         "dowson-higginson": "tribodyn.tribology.film.dowson_higginson:LAW",
         "moes": "tribodyn.tribology.film.moes:LAW",
-        "solved": "tribodyn.tribology.ehl.laws:FILM",
+        "solved": "tribodyn.tribology.film.solved:LAW",
     },
     "tribodyn.film_laws",
     FilmLaw,

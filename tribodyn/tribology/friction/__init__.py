@@ -1,4 +1,4 @@
-"""The friction laws, those of one kind in a file, and their registry."""
+"""The friction laws: one per file, and their registry."""
 
 from tribodyn.numerics.registry import Registry
 from tribodyn.tribology.law import FrictionLaw
@@ -18,10 +18,10 @@ FRICTION_LAWS: Registry[FrictionLaw] = Registry(
         "masjedi-khonsari-veciana-peak": f"{_MIXED}:VECIANA_PEAK",
         "xu": "tribodyn.tribology.friction.xu:LAW",
         "benedict-kelley": "tribodyn.tribology.friction.benedict_kelley:LAW",
-        "niemann": "tribodyn.tribology.friction.mean:NIEMANN",
-        "schlenk": "tribodyn.tribology.friction.mean:SCHLENK",
-        "iso-14179-1": "tribodyn.tribology.friction.mean:ISO_14179_1",
-        "solved": "tribodyn.tribology.ehl.laws:FRICTION",
+        "niemann": "tribodyn.tribology.friction.niemann:LAW",
+        "schlenk": "tribodyn.tribology.friction.schlenk:LAW",
+        "iso-14179-1": "tribodyn.tribology.friction.iso_14179_1:LAW",
+        "solved": "tribodyn.tribology.friction.solved:LAW",
     },
     "tribodyn.friction_laws",
     FrictionLaw,

@@ -1,10 +1,13 @@
-"""Coulomb's law: one coefficient, whatever load and speed."""
+"""Coulomb's law: one coefficient, whatever load and speed; and how laws of a mean coefficient are made."""
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import as_float, law
 from tribodyn.numerics.parameter import Parameter
-from tribodyn.tribology.law import FrictionLaw, LawInput
+from tribodyn.tribology.contact import NominalConditions
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput
 
 
 class Constant(NamedTuple):
@@ -25,6 +28,36 @@ def constant(contact, film, surfaces, parameters):
 def range_of_constant(contact, film, surfaces, parameters):
     """Smallest share allowed by the limits of the formula of the mean coefficient."""
     return 0.0 * contact.sliding + parameters.in_range
+
+
+def mean_of_mesh(
+    given: LawInput, mean: Callable[[NominalConditions], Any], share: Callable[[NominalConditions], Any]
+) -> Constant:
+    """Parameters from the conditions at the pitch point: mean coefficient, share that its limits allow."""
+    conditions = given.nominal()
+    return Constant(as_float(mean(conditions)), as_float(share(conditions)))
+
+
+def mean_law(
+    name: str,
+    about: str,
+    mean: Callable[[NominalConditions], Any],
+    share: Callable[[NominalConditions], Any],
+    range: str,
+    limit: str,
+    ratio: tuple[float, float, float],
+) -> FrictionLaw:
+    """Law of a mean coefficient over the mesh; `ratio` to the solved contact as in `JudgedRange`."""
+    return FrictionLaw(
+        name,
+        about,
+        constant,
+        partial(mean_of_mesh, mean=mean, share=share),
+        in_range=range_of_constant,
+        range=range,
+        limits=(limit,),
+        judged=JudgedRange((0.5, 2.0), ratio),
+    )
 
 
 def _given(given: LawInput, coefficient: float) -> Constant:

@@ -16,12 +16,13 @@ from tribodyn.tribology.closure import closure, duty_range, with_laws
 from tribodyn.tribology.contact import DutyRange, local_contact
 from tribodyn.tribology.ehl import table as tables
 from tribodyn.tribology.ehl.coupled import solve_coupled
-from tribodyn.tribology.ehl.laws import solved_film, solved_friction
 from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, polynomial
 from tribodyn.tribology.ehl.lookup import clipped as clipped_at
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.film.solved import solved_film
 from tribodyn.tribology.friction import FRICTION_LAWS
+from tribodyn.tribology.friction.solved import solved_friction
 from tribodyn.tribology.surface_state import surface_state
 
 DUTY = DutyRange((1e5, 6e5), (0.1, 0.2), (100.0, 130.0), (0.02, 0.8))

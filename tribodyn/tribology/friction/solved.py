@@ -1,6 +1,4 @@
-"""Film and friction of the solved contact, from a table made before the run over the duty of the mesh."""
-
-from typing import Any
+"""Friction of the solved contact, from a table made before the run over the duty of the mesh."""
 
 from tribodyn.numerics.elementary import law
 from tribodyn.tribology.contact import hertz_half_width
@@ -14,33 +12,8 @@ from tribodyn.tribology.ehl.lookup import (
     polynomial,
     variables,
 )
-from tribodyn.tribology.law import FilmLaw, FrictionLaw, LawInput
-
-
-@law
-def solved_film(contact, surfaces, parameters):
-    """Ln of the mean gap on the line of centres (m), 1, and the asperities' share."""
-    x, y, z, s = variables(contact, parameters)
-    return polynomial(parameters.film, x, y, z, s), 1.0, asperity_share(parameters, x, y, z, s)
-
-
-def solved_table(given: LawInput) -> Any:
-    """Return the table of a case; it is solved where it is not kept."""
-    from tribodyn.tribology.ehl.table import table_of
-
-    return table_of(given)
-
-
-FILM = FilmLaw(
-    "solved",
-    "mixed thermal contact solved before the run over the duty of the mesh: mean gap on the line of centres",
-    solved_film,
-    solved_table,
-    range=RANGE,
-    limits=LIMITS,
-    in_range=in_table,
-    table_error=lambda table: table.film_error,
-)
+from tribodyn.tribology.film.solved import solved_table
+from tribodyn.tribology.law import FrictionLaw
 
 
 @law
@@ -59,7 +32,7 @@ def in_its_table(contact, film, surfaces, parameters):
     return in_table(contact, surfaces, parameters)
 
 
-FRICTION = FrictionLaw(
+LAW = FrictionLaw(
     "solved",
     "mixed thermal contact at the limiting shear stress, solved before the run over the duty of the mesh",
     solved_friction,
