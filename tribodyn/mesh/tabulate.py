@@ -22,18 +22,8 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.geometry.path import kinematics
+from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.table import (
-    Elasticity,
-    MeshData,
-    Slots,
-    back_entry,
-    check_backlash,
-    check_bores,
-    mesh_table,
-    slots,
-    unloaded_gap,
-)
 from tribodyn.numerics.curve import check_cover, interpolate
 from tribodyn.numerics.elementary import cos, is_jax, namespace
 from tribodyn.numerics.iteration import chebyshev_basis
@@ -55,7 +45,7 @@ def pair_slots(assembly: Assembly) -> int:
 def tabulate(
     assembly: Assembly,
     materials: tuple[MaterialData, MaterialData],
-    mesh: MeshData,
+    mesh: table.MeshData,
     pairs: int,
     back: bool = False,
 ) -> MeshCycle:
@@ -79,15 +69,15 @@ def tabulate(
         r = r - (path.rotation(r) - at.roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
     motion = kinematics(path, r)
     compliance, coupling = _compliance(assembly, materials, mesh, curve, r_nodes, at.roll, pairs)
-    gap = unloaded_gap(assembly, mesh, at, motion.pressure_angle)
+    gap = table.unloaded_gap(assembly, mesh, at, motion.pressure_angle)
     linear = mesh.compliance != "energy" or mesh.hertz == "linear"
     hertz = 0.0 if linear else hertz_coefficient(*materials, assembly.common_width)
-    return mesh_table(assembly, at, motion, Elasticity(compliance, coupling, gap, hertz))
+    return table.mesh_table(assembly, at, motion, table.Elasticity(compliance, coupling, gap, hertz))
 
 
-def _check_options(assembly: Assembly, mesh: MeshData, back: bool) -> None:
+def _check_options(assembly: Assembly, mesh: table.MeshData, back: bool) -> None:
     if mesh.compliance == "energy":
-        check_bores(assembly.drive)
+        table.check_bores(assembly.drive)
     if mesh.compliance == "constant" and mesh.stiffness is None:
         raise InputError(
             "mesh.stiffness", rule="is needed for compliance = 'constant'", remedy="give one pair's"
@@ -101,10 +91,10 @@ def _check_options(assembly: Assembly, mesh: MeshData, back: bool) -> None:
             f"compliance = '{mesh.compliance}' already contains the contact",
             "use 'linear', or compliance = 'energy'",
         )
-    check_backlash(mesh, back)
+    table.check_backlash(mesh, back)
 
 
-def _slots(assembly: Assembly, pairs: int, points: int, back: bool) -> Slots:
+def _slots(assembly: Assembly, pairs: int, points: int, back: bool) -> table.Slots:
     """Pairs on the path of contact.
 
     Where the path has a corner at the pitch point a segment also begins when a pair passes it, for no spline
@@ -113,10 +103,10 @@ def _slots(assembly: Assembly, pairs: int, points: int, back: bool) -> Slots:
     (start, end), pitch = assembly.roll_limits, assembly.pitch_angle
     leave = assembly.contact_ratio - (pairs - 1)
     marks = [leave, (-start / pitch) % 1.0] if assembly.family.corner else [leave]
-    mirrored = [(back_entry(start, pitch) - mark) % 1.0 for mark in (0.0, *marks)] if back else []
+    mirrored = [(table.back_entry(start, pitch) - mark) % 1.0 for mark in (0.0, *marks)] if back else []
     xp = namespace(start, leave)
     boundary = _apart(xp.sort(xp.stack([0.0 * leave, 1.0 + 0.0 * leave, *marks, *mirrored])))
-    return slots(boundary, (start, end), pitch, pairs, points, back)
+    return table.slots(boundary, (start, end), pitch, pairs, points, back)
 
 
 def _apart(boundary: Float[Array, " boundary"]) -> Float[Array, " boundary"]:
@@ -160,7 +150,7 @@ class _RollCurve(NamedTuple):
 def _compliance(
     assembly: Assembly,
     materials: tuple[MaterialData, MaterialData],
-    mesh: MeshData,
+    mesh: table.MeshData,
     curve: _RollCurve,
     r_nodes: Float[Array, "2 17"],
     roll: Float[Array, "segment node pair"],

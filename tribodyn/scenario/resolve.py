@@ -12,19 +12,9 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, printable_path, quoted
 from tribodyn.geometry.families import FAMILIES
+from tribodyn.scenario import sources
 from tribodyn.scenario.messages import Key, Origins
 from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out, references
-from tribodyn.scenario.sources import (
-    DRIVES,
-    SCENARIOS,
-    TooMuch,
-    broken_bounds,
-    find_model,
-    is_file,
-    parsed,
-    read_curve,
-    read_toml,
-)
 
 #: In the table of a model: the name of a file that says everything which the table does not.
 LIKE = "like"
@@ -49,7 +39,7 @@ def resolve(path: Path, overrides: Mapping[str, Any], table_of: TableOf) -> Reso
 
     Overrides are values by dotted key; a string is read as TOML where it is TOML, else taken as it stands.
     """
-    return resolve_table(read_toml(path), path, overrides, table_of)
+    return resolve_table(sources.read_toml(path), path, overrides, table_of)
 
 
 def resolve_table(
@@ -63,7 +53,7 @@ def resolve_table(
         known = _marked(known, table_of)
         for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):
             _override(known, dotted, value)
-            if any(mark.folder == SCENARIOS for mark in known.marks.values()):
+            if any(mark.folder == sources.SCENARIOS for mark in known.marks.values()):
                 known = _marked(known, table_of)
     except InputError as error:
         raise origins.locate(error) from None
@@ -75,7 +65,7 @@ def resolve_table(
         except InputError as error:
             errors.append(origins.locate(error))
     data = defaults_written_out(data, table_of(data))
-    errors += [origins.locate(error) for error in broken_bounds(data)]
+    errors += [origins.locate(error) for error in sources.broken_bounds(data)]
     return Resolved(data, origins, errors)
 
 
@@ -99,7 +89,7 @@ class _References(NamedTuple):
     def _of_family(self) -> dict[Key, Reference]:
         """The points that the family of each drive needs; a scenario within this one has a drive as well."""
         found: dict[Key, Reference] = {}
-        named = [key for key, mark in self.marks.items() if mark.folder == DRIVES]
+        named = [key for key, mark in self.marks.items() if mark.folder == sources.DRIVES]
         for drive in {("drive",), *named}:  # a drive file read alone has its own table there
             name = _at(self.data, (*drive, "family"))
             if isinstance(name, str) and name in FAMILIES:
@@ -111,7 +101,7 @@ class _References(NamedTuple):
 def _marked(known: _References, table_of: TableOf) -> _References:
     """Say which keys may name files; a scenario within this one is opened first, for it has such keys too."""
     marks = references(table_of(known.data))
-    inner = [key for key, mark in marks.items() if mark.folder == SCENARIOS]
+    inner = [key for key, mark in marks.items() if mark.folder == sources.SCENARIOS]
     if not inner:
         return known._replace(marks=marks)
     for key in inner:
@@ -127,8 +117,8 @@ def unresolved_keys(errors: Iterable[InputError]) -> set[str]:
 def toml_value(text: str) -> Any:
     """Return what `text` means: a TOML value if it is one, else the text itself."""
     try:
-        data = parsed(f"value = {text}")
-    except (tomllib.TOMLDecodeError, TooMuch):
+        data = sources.parsed(f"value = {text}")
+    except (tomllib.TOMLDecodeError, sources.TooMuch):
         return text
     return data["value"] if len(data) == 1 else text
 
@@ -170,18 +160,18 @@ def _put_content(known: _References, key: Key) -> None:
         return
     referring, dotted = _referring(known, key), ".".join(map(str, key))
     if mark.folder:
-        file = find_model(name, mark.folder, dotted, referring)
-        holder[key[-1]] = read_toml(file)
+        file = sources.find_model(name, mark.folder, dotted, referring)
+        holder[key[-1]] = sources.read_toml(file)
     else:
         file = referring.parent / name
-        if not is_file(file):
+        if not sources.is_file(file):
             columns = ",".join(f"{column} [unit]" for column in mark.columns)
             remedy = f"give a CSV file that begins with {columns}{', or a record' if mark.record else ''}"
             raise InputError(dotted, quoted(name), f"no such file: {printable_path(file)}", remedy)
         if mark.record is not None and file.suffix == ".h5":
             curve = mark.record(file, dotted)
         else:
-            curve = read_curve(file, dotted, mark.columns)
+            curve = sources.read_curve(file, dotted, mark.columns)
         column = curve[mark.columns[0]]
         quantities = [f"{number!r} {column['unit']}" for number in column["values"]]
         holder[key[-1]] = quantities if mark.as_list else curve
@@ -198,9 +188,11 @@ def _put_under(known: _References, key: Key, folder: str) -> None:
     holder[key[-1]] = name  # until it is found: what is missing in the table then is no mistake of its own
     if not isinstance(name, str):
         raise InputError(dotted, quoted(name), "not the name of a model", "write a name in quotes")
-    file = find_model(name, folder, dotted, _referring(known, (*key, LIKE)))
+    file = sources.find_model(name, folder, dotted, _referring(known, (*key, LIKE)))
     written_in = {leaf: origins.of((*key, *leaf)) for leaf in _leaves(table)}
-    holder[key[-1]] = _merged(read_toml(file), {name: value for name, value in table.items() if name != LIKE})
+    holder[key[-1]] = _merged(
+        sources.read_toml(file), {name: value for name, value in table.items() if name != LIKE}
+    )
     origins.put(key, str(file))
     for leaf, where in written_in.items():
         origins.put((*key, *leaf), where)

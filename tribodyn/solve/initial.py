@@ -6,20 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.dynamics import parameters
 from tribodyn.dynamics.contact_forces import APPROACH, COS
 from tribodyn.dynamics.equations import derivatives, load_torque
-from tribodyn.dynamics.parameters import (
-    DISPLACEMENTS,
-    DRIVE_SHAFT,
-    MOTOR_SLIP,
-    SLIP,
-    STATES,
-    TWIST,
-    VELOCITIES,
-    XI,
-    XI_RATE,
-    Model,
-)
 from tribodyn.errors import SimulationError
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
@@ -54,15 +43,15 @@ TOO_SOFT = (
 
 
 def accelerations(
-    states: Float[Array, "*places state"], phase: Any, segment: Any, model: Model
+    states: Float[Array, "*places state"], phase: Any, segment: Any, model: parameters.Model
 ) -> Float[Array, "*places state"]:
     """Derivatives of states per mesh cycle, many at once and without compiled code, each at its place."""
     rates: dict[int, Any] = {}
     derivatives(phase, 0.0, segment, np.moveaxis(states, -1, 0), model, {}, rates)
-    return np.stack([np.broadcast_to(rates[i], states.shape[:-1]) for i in range(STATES)], axis=-1)
+    return np.stack([np.broadcast_to(rates[i], states.shape[:-1]) for i in range(parameters.STATES)], axis=-1)
 
 
-def static_deflection(model: Model, torque: float) -> float:
+def static_deflection(model: parameters.Model, torque: float) -> float:
     """Deflection of the mesh under a gear torque, all on the first segment's pairs, m; a scale."""
     table = model.table
     channel, in_contact = np.asarray(table.channel)[-1, 0, :, :, 0], np.asarray(table.in_contact)[-1]
@@ -71,7 +60,9 @@ def static_deflection(model: Model, torque: float) -> float:
     return abs(torque) / (float(table.gear_pitch_radius) * cosine) / stiffness
 
 
-def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Float[Array, " state"]:
+def static_equilibrium(
+    model: parameters.Model, phase: float = 0.0, segment: int = 0
+) -> Float[Array, " state"]:
     """State at which nothing accelerates relative to the pinion, at one phase of the mesh.
 
     Solved by damped Newton steps on the equations of motion themselves, friction included, for the
@@ -85,40 +76,40 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
     time = phase * float(model.table.pitch_angle) / float(mechanics.nominal_speed)
     torque = float(load_torque(time, 0.0, mechanics))
     deflection = static_deflection(model, max(abs(torque), 1e-3))
-    unknown: list[int] = list(DISPLACEMENTS)
-    equation = list(VELOCITIES)
-    shaft = model.options.drive == DRIVE_SHAFT
+    unknown: list[int] = list(parameters.DISPLACEMENTS)
+    equation = list(parameters.VELOCITIES)
+    shaft = model.options.drive == parameters.DRIVE_SHAFT
     scale = np.full(len(unknown), deflection)
-    y = np.zeros(STATES)
-    y[XI] = _first_touch(model, phase, segment)
+    y = np.zeros(parameters.STATES)
+    y[parameters.XI] = _first_touch(model, phase, segment)
     if shaft:
-        unknown.append(TWIST)
+        unknown.append(parameters.TWIST)
         torques = max(abs(float(mechanics.drive_torque)), abs(torque), 1e-3)
         scale = np.append(scale, torques / mechanics.shaft_stiffness)
     values = y[unknown]
 
-    def residual(values: Trials, model: Model = model) -> Trials:
+    def residual(values: Trials, model: parameters.Model = model) -> Trials:
         """What is left of the accelerations at values of the unknown states, the others as in `y`."""
-        states = np.broadcast_to(y, (*values.shape[:-1], STATES)).copy()
+        states = np.broadcast_to(y, (*values.shape[:-1], parameters.STATES)).copy()
         states[..., unknown] = values
         rate = accelerations(states, phase, segment, model)
         if not shaft:
             return rate[..., equation]
-        twisting = rate[..., MOTOR_SLIP] - rate[..., SLIP]
+        twisting = rate[..., parameters.MOTOR_SLIP] - rate[..., parameters.SLIP]
         return np.concatenate([rate[..., equation], twisting[..., None]], axis=-1)
 
     if shaft:  # which the free bodies twist in proportion
         twist = np.append(np.zeros(len(scale) - 1), scale[-1])
         free, twisted = residual(values)[-1], residual(values + twist)[-1]
         values[-1] = scale[-1] * free / (free - twisted)
-    push = float(residual(values)[equation.index(XI_RATE)]) * float(mechanics.gear_inertia)
+    push = float(residual(values)[equation.index(parameters.XI_RATE)]) * float(mechanics.gear_inertia)
     if abs(push) <= _NO_LOAD * _torques(model) * float(model.table.gear_pitch_radius):
         y[unknown] = values
         return y
     side = 1.0 if push > 0.0 else -1.0
     # beyond the width over which contact sets in, where the stiffness vanishes like the load
     clear = 3.0 * deflection + float(mechanics.contact_width) + _maximum_gap(model, segment, side)
-    values[unknown.index(XI)] = side * clear
+    values[unknown.index(parameters.XI)] = side * clear
     tolerance = 1e-6 * float(np.linalg.norm(residual(values))) + 1e-30
     found = _root(residual, values, scale, tolerance)
     if found is None:  # damping of a moving error holds the flanks all but apart, or deep in each other
@@ -165,7 +156,7 @@ def _root(
     return values if np.linalg.norm(value) <= tolerance else None
 
 
-def _maximum_gap(model: Model, segment: int, side: float) -> float:
+def _maximum_gap(model: parameters.Model, segment: int, side: float) -> float:
     """Largest distance between the flanks of a side (±1), as ξ, m: by static transmission error, backlash."""
     table = model.table
     there = (np.asarray(table.side) * side > 0) & (np.asarray(table.in_contact)[segment] > 0)
@@ -175,22 +166,22 @@ def _maximum_gap(model: Model, segment: int, side: float) -> float:
     return float(max(0.0, np.max(channel[..., _GAP, 0])) / np.min(channel[..., _COSINE, 0]))
 
 
-def _first_touch(model: Model, phase: float, segment: int) -> float:
+def _first_touch(model: parameters.Model, phase: float, segment: int) -> float:
     """ξ at which the first of the driving flanks touches while no bearing is loaded, m."""
     work: dict[tuple[int, int], Any] = {}
-    derivatives(phase, 0.0, segment, np.zeros(STATES), model, work, {})
+    derivatives(phase, 0.0, segment, np.zeros(parameters.STATES), model, work, {})
     table = model.table
     driving = np.flatnonzero((np.asarray(table.side) > 0) & (np.asarray(table.in_contact)[segment] > 0))
     return min(float(-work[APPROACH, i] / work[COS, i]) for i in map(int, driving)) + 0.0  # not −0
 
 
-def _torques(model: Model) -> float:
+def _torques(model: parameters.Model) -> float:
     """Sum of the magnitudes of all torques on the gears, N m."""
     mechanics = model.mechanics
     load = np.concatenate([mechanics.load_torques, mechanics.load_amplitudes, [mechanics.load_torque]])
     return float(np.sum(np.abs(load)) + abs(mechanics.drive_torque))
 
 
-def initial_state(model: Model, kind: str) -> Float[Array, " state"]:
+def initial_state(model: parameters.Model, kind: str) -> Float[Array, " state"]:
     """State at the start of a run: "static" equilibrium, or "unloaded" with the flanks just touching."""
-    return static_equilibrium(model) if kind == "static" else np.zeros(STATES)
+    return static_equilibrium(model) if kind == "static" else np.zeros(parameters.STATES)

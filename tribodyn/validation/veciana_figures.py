@@ -17,40 +17,30 @@ from matplotlib.figure import Figure
 from tribodyn.post.style import PALETTE, QUIET, mark_panel, new_figure
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.surface_state import surface_state
-from tribodyn.validation.veciana_study import (
-    CHOSEN,
-    DRIVES,
-    EFFECTIVE_MODULUS,
-    LAWS,
-    PINION_TEETH,
-    DriveUnderLaw,
-    Law,
-    closure_of,
-    contact_height,
-)
+from tribodyn.validation import veciana_study
 
 #: Drives of the panels of figures 5 and 6, and the gear ratios of figure 10.
-PANELS = (*DRIVES[:3], DRIVES[0], *DRIVES[3:])
+PANELS = (*veciana_study.DRIVES[:3], veciana_study.DRIVES[0], *veciana_study.DRIVES[3:])
 RATIOS = (1.0, 1.5, 2.0, 2.5, 3.0)
 CIRCLE = "$d_{g1}/d_1$", "$d_{g2}/d_1$"
-COLOUR = dict(zip(LAWS, PALETTE, strict=False))
+COLOUR = dict(zip(veciana_study.LAWS, PALETTE, strict=False))
 PROFILES = {"involute": "-", "cycloid": "--", "cycloid, exact speeds": ":"}
 #: Half the pinion's angle from one pair to the next, rad.
-HALF = math.pi / PINION_TEETH
+HALF = math.pi / veciana_study.PINION_TEETH
 
 
 def figure_1(_: Path) -> Figure:
     """Friction coefficient against slide-to-roll ratio at R 5 mm, V_e 5 m/s, p_H 2 GPa (Table 2)."""
     ratio = np.linspace(0.0, 1.0, 401)
     radius, speed, pressure = 5e-3, 5.0, 2.0e9
-    load = 2.0 * math.pi * radius * pressure**2 / EFFECTIVE_MODULUS
+    load = 2.0 * math.pi * radius * pressure**2 / veciana_study.EFFECTIVE_MODULUS
     slid = ratio * speed
     rolled = speed + slid / 2, speed - slid / 2
     contact = local_contact(load + 0 * slid, 1 / radius + 0 * slid, speed + 0 * slid, slid, *rolled)
     figure = new_figure(4.4, 3.0)
     axes = figure.subplots()
-    for law in LAWS:
-        friction = surface_state(contact, closure_of(law)).friction_coefficient
+    for law in veciana_study.LAWS:
+        friction = surface_state(contact, veciana_study.closure_of(law)).friction_coefficient
         axes.plot(ratio, friction, color=COLOUR[law], label=law)
     axes.set_xlabel("Slide-to-roll ratio (–)")
     axes.set_ylabel("Friction coefficient µ (–)")
@@ -59,11 +49,11 @@ def figure_1(_: Path) -> Figure:
     return figure
 
 
-def surfaces(law: Law, _: Path) -> Figure:
+def surfaces(law: veciana_study.Law, _: Path) -> Figure:
     """Efficiency over both generating circles; the thick curve is where the involute is as good."""
     circle = np.linspace(0.1, 0.4, 31)
     approach, recess = np.meshgrid(circle, circle, indexing="ij")
-    studies = {drive: DriveUnderLaw(*drive, law) for drive in DRIVES}
+    studies = {drive: veciana_study.DriveUnderLaw(*drive, law) for drive in veciana_study.DRIVES}
     percentages = {drive: 100.0 * study.cycloid(approach, recess) for drive, study in studies.items()}
     figure = new_figure(8.2, 5.0)
     panels = figure.subplots(2, 3, sharex=True, sharey=True)
@@ -87,10 +77,10 @@ def surfaces(law: Law, _: Path) -> Figure:
 
 def figure_8(_: Path) -> Figure:
     """Contact height of the pinion and maximum pressure angle against the generating circles."""
-    study = DriveUnderLaw(1.0, 2e-3, "EHL")
+    study = veciana_study.DriveUnderLaw(1.0, 2e-3, "EHL")
     ends = np.array([-HALF, HALF]), np.array([0.5, 0.5])
     circle = np.linspace(0.1, 0.4, 121)
-    heights = np.array([contact_height(study.cycloid_pair(c, rotation=ends)) for c in circle])
+    heights = np.array([veciana_study.contact_height(study.cycloid_pair(c, rotation=ends)) for c in circle])
     figure = new_figure(4.6, 3.0)
     axes = figure.subplots()
     other = axes.twinx()
@@ -99,10 +89,10 @@ def figure_8(_: Path) -> Figure:
     (height,) = axes.plot(circle, 1e3 * heights, color=PALETTE[0], label="contact height")
     angles = np.degrees(HALF / (2.0 * circle))
     (angle,) = other.plot(circle, angles, color=PALETTE[1], label="maximum pressure angle")
-    involute = 1e3 * contact_height(study.involute_pair(ends))
+    involute = 1e3 * veciana_study.contact_height(study.involute_pair(ends))
     axes.axhline(involute, color=PALETTE[0], linestyle=":", linewidth=0.9)
     other.axhline(20.0, color=PALETTE[1], linestyle=":", linewidth=0.9)
-    axes.axvline(CHOSEN, color=QUIET, linestyle=":", linewidth=0.9)
+    axes.axvline(veciana_study.CHOSEN, color=QUIET, linestyle=":", linewidth=0.9)
     axes.set_xlabel("$d_{g1,2}/d_1$ (dotted: the involute, and 0.17)")
     axes.set_ylabel("Contact height (mm)")
     other.set_ylabel("Pressure angle α′ (°)")
@@ -114,12 +104,12 @@ def figure_9(_: Path) -> Figure:
     """Contact conditions along the path, i = 1, m = 2 mm, d_g = 0.17 d_1."""
     psi = np.linspace(-HALF, HALF, 1200)  # an even number: not at the pitch point itself
     rotation = psi, np.full_like(psi, 1.0 / psi.size)
-    studies = {law: DriveUnderLaw(1.0, 2e-3, law) for law in LAWS}
+    studies = {law: veciana_study.DriveUnderLaw(1.0, 2e-3, law) for law in veciana_study.LAWS}
     study = studies["EHL"]
     pairs = (
         study.involute_pair(rotation),
-        study.cycloid_pair(CHOSEN, rotation=rotation),
-        study.cycloid_pair(CHOSEN, rotation=rotation, exact_speeds=True),
+        study.cycloid_pair(veciana_study.CHOSEN, rotation=rotation),
+        study.cycloid_pair(veciana_study.CHOSEN, rotation=rotation, exact_speeds=True),
     )
     degrees = np.degrees(psi)
     figure = new_figure(8.6, 6.0)
@@ -133,7 +123,7 @@ def figure_9(_: Path) -> Figure:
         a.plot(degrees, np.abs(pinion - gear), line, color=PALETTE[2], label=f"$V_s$ {name}")
         if line != ":":
             right.plot(degrees, 1e3 * (1.0 / pair.curvature), line, color=PALETTE[3], label=f"R {name}")
-        for law in LAWS:
+        for law in veciana_study.LAWS:
             state = studies[law].solve(pair)
             for axes, values in (
                 (b, 1e-3 * state.normal_load),
@@ -162,13 +152,13 @@ def figure_10(_: Path) -> Figure:
     """Efficiency of both profiles against module, for gear ratios 1 … 3."""
     modules = np.linspace(2e-3, 6e-3, 9)
     figure = new_figure(8.6, 3.2)
-    for letter, axes, law in zip("abc", figure.subplots(1, 3), LAWS, strict=True):
+    for letter, axes, law in zip("abc", figure.subplots(1, 3), veciana_study.LAWS, strict=True):
         for colour, ratio in zip(PALETTE, RATIOS, strict=False):
-            studies = [DriveUnderLaw(ratio, float(module), law) for module in modules]
+            studies = [veciana_study.DriveUnderLaw(ratio, float(module), law) for module in modules]
             efficiencies = (
                 [study.involute() for study in studies],
-                [study.cycloid(CHOSEN) for study in studies],
-                [study.cycloid(CHOSEN, exact_speeds=True) for study in studies],
+                [study.cycloid(veciana_study.CHOSEN) for study in studies],
+                [study.cycloid(veciana_study.CHOSEN, exact_speeds=True) for study in studies],
             )
             for (name, line), values in zip(PROFILES.items(), efficiencies, strict=True):
                 percentages, label = 100.0 * np.array(values, dtype=float), f"i = {ratio:g}, {name}"

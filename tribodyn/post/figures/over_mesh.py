@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tribodyn.post import style
 from tribodyn.post.cycles import last_cycles, transient
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import (
@@ -25,22 +26,6 @@ from tribodyn.post.figures.panel import (
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.figures.spectrum import spectrum_figure
-from tribodyn.post.style import (
-    INK,
-    PALETTE,
-    PANEL_HEIGHT,
-    QUIET,
-    STYLE,
-    WIDTH,
-    Margins,
-    mark_panel,
-    new_figure,
-    new_grid,
-    panel_title,
-    prepare_grid,
-    read_formulas,
-    write_beside,
-)
 from tribodyn.record.reader import Record
 
 TRANSMISSION_ERROR = Trace("transmission_error_rotational", "Transmission error", "$r_pθ_p - r_gθ_g$", "µm")
@@ -76,7 +61,7 @@ LUBRICATION = ((1.0, "λ = 1: mixed above, boundary below"), (3.0, "λ = 3: full
 
 def _over_phase(panels: Sequence[Trace], records: Sequence[Record], view: View) -> Figure:
     """Draw panels from top to bottom."""
-    figure = new_figure(WIDTH, (PANEL_HEIGHT + 0.15) * len(panels) + 0.5)
+    figure = style.new_figure(style.WIDTH, (style.PANEL_HEIGHT + 0.15) * len(panels) + 0.5)
     rows = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
     for letter, axes, trace in zip("abc", rows, panels, strict=False):
         names = draw(axes, records, trace, view, first=axes is rows[0], last=axes is rows[-1])
@@ -86,7 +71,7 @@ def _over_phase(panels: Sequence[Trace], records: Sequence[Record], view: View) 
             title = "Stiffness of each pair, and of all pairs together along the pitch tangent"
         if trace is FILM_PARAMETER:
             draw_lubrication(axes)
-        mark_panel(axes, letter if len(panels) > 1 else "", title, names)
+        style.mark_panel(axes, letter if len(panels) > 1 else "", title, names)
     figure.align_ylabels()
     legend(figure, list(rows), records, view)
     if len(records) == 1:
@@ -104,7 +89,7 @@ def draw_total_stiffness(axes: Axes, records: Sequence[Record], view: View) -> N
         angle = np.nan_to_num(record["pressure_angle"][window.part])
         single = record["mesh_stiffness"][window.part]
         total = np.sum(single * np.cos(angle) ** 2, axis=1) * STIFFNESS.factor
-        color = INK if len(records) == 1 else PALETTE[number % len(PALETTE)]
+        color = style.INK if len(records) == 1 else style.PALETTE[number % len(style.PALETTE)]
         axes.plot(
             abscissa(window, view),
             total,
@@ -124,9 +109,9 @@ def draw_lubrication(axes: Axes) -> None:
     axes.set_ylim(0.0, top)
     for value, text in LUBRICATION:
         if value < top:
-            axes.axhline(value, color=QUIET, linewidth=0.8, linestyle=(0, (5, 2)))
+            axes.axhline(value, color=style.QUIET, linewidth=0.8, linestyle=(0, (5, 2)))
             where: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "ha": "right"}
-            write_beside(axes, text, (0.995, value), (0, 2), 6.5, QUIET, **where)
+            style.write_beside(axes, text, (0.995, value), (0, 2), 6.5, style.QUIET, **where)
 
 
 #: Size of the overview, inch, and its rows and columns.
@@ -141,31 +126,31 @@ TRACES = (DEFLECTION, NORMAL_LOAD, FRICTION_FORCE, FILM_THICKNESS, EFFICIENCY)
 def overview_figure(records: Sequence[Record], view: View) -> Figure:
     """Draw what the first record holds in six panels; of a transient its speed and load in the first."""
     record = records[0]
-    drawn, rows = new_grid(*GRID)
+    drawn, rows = style.new_grid(*GRID)
     if view.cycles is None and transient(record):
         draw_speed(rows[0, 0], record, view)
-        mark_panel(rows[0, 0], "a", "Speed and load, means of a mesh cycle")
+        style.mark_panel(rows[0, 0], "a", "Speed and load, means of a mesh cycle")
     else:
         draw_path(rows[0, 0], record)
-        mark_panel(rows[0, 0], "a", PATH)
+        style.mark_panel(rows[0, 0], "a", PATH)
     for letter, axes, trace in zip("bcdef", rows.flat[1:], TRACES, strict=True):
         names = draw(axes, [record], trace, view)
-        mark_panel(axes, letter, trace.title, names)
+        style.mark_panel(axes, letter, trace.title, names)
     legend(drawn, list(rows.flat[1:]), [record], view)
     drawn.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
     if isinstance(drawn, Figure) and len(drawn.axes) == rows.size:
-        drawn.set_layout_engine(Margins(**OVERVIEW))
+        drawn.set_layout_engine(style.Margins(**OVERVIEW))
     return drawn
 
 
 def prepare_overview() -> None:
     """Do what needs no record: make the grid of panels, read the formulas."""
-    prepare_grid(*GRID)
+    style.prepare_grid(*GRID)
     titles = [PATH, *(trace.title for trace in TRACES)]
-    marked = [panel_title(letter, title) for letter, title in zip("abcdef", titles, strict=True)]
+    marked = [style.panel_title(letter, title) for letter, title in zip("abcdef", titles, strict=True)]
     names = [f"${name}$" for name in ("B_g", "C_p", "P", "C_g", "B_p")]
-    read_formulas([*marked, *(trace.label for trace in TRACES), *names], STYLE["font.size"])
-    read_formulas([*names, KEY_POINTS + ALONE], STYLE["legend.fontsize"])
+    style.read_formulas([*marked, *(trace.label for trace in TRACES), *names], style.STYLE["font.size"])
+    style.read_formulas([*names, KEY_POINTS + ALONE], style.STYLE["legend.fontsize"])
 
 
 def draw_speed(axes: Axes, record: Record, view: View) -> None:
@@ -182,8 +167,8 @@ def draw_speed(axes: Axes, record: Record, view: View) -> None:
     )
     right = axes.twinx()
     for side, values, color, label in (
-        (axes, speed, PALETTE[0], "Pinion speed (rpm)"),
-        (right, torque, PALETTE[1], "Torque on the gear (N m)"),
+        (axes, speed, style.PALETTE[0], "Pinion speed (rpm)"),
+        (right, torque, style.PALETTE[1], "Torque on the gear (N m)"),
     ):
         side.plot(x, values, color=color)
         side.set_ylabel(label, color=color)

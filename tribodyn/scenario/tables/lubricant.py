@@ -5,20 +5,7 @@ from typing import Any, cast
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.tables.model_files import Lubricant
-from tribodyn.tribology.oil import (
-    MAXIMUM_VISCOSITY,
-    MINIMUM_VISCOSITY,
-    OIL_TYPES,
-    TEMPERATURE_RANGE,
-    UNITS,
-    ZERO_CELSIUS,
-    FzgStages,
-    LubricantData,
-    OilSheet,
-    by_type,
-    kinematic_viscosity,
-    lubricant_from,
-)
+from tribodyn.tribology import oil
 
 #: What is taken for an oil: densities at 15 °C, kg/m³, and the kinematic viscosity at 40 °C at most, m²/s.
 DENSITIES, THICKEST = (650.0, 1300.0), 0.1
@@ -36,29 +23,29 @@ _DIRECT = {
 _EXAMPLES = {"viscosity_40": '"220 mm**2/s"', "viscosity_100": '"19 mm**2/s"', "density_15": '"0.89 g/cm**3"'}
 
 
-def lubricant_of(lubricant: Lubricant, oil_temperature: float | None = None) -> LubricantData:
+def lubricant_of(lubricant: Lubricant, oil_temperature: float | None = None) -> oil.LubricantData:
     """Return the lubricant's numbers, at the oil's temperature (K) where a data sheet gives them.
 
     Rules as in `broken_lubricant_rules`.
     """
-    given = {name: value for name in UNITS if (value := getattr(lubricant, name)) is not None}
-    stages = FzgStages(
+    given = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
+    stages = oil.FzgStages(
         lubricant.fzg_scuffing_stage, lubricant.fzg_micropitting_stage, lubricant.fzg_micropitting_temperature
     )
     if (sheet := sheet_of(lubricant)) is not None and oil_temperature is not None:
-        return lubricant_from(sheet, oil_temperature, stages)
-    typical = by_type(lubricant.type) if lubricant.type else {}
+        return oil.lubricant_from(sheet, oil_temperature, stages)
+    typical = oil.by_type(lubricant.type) if lubricant.type else {}
     numbers: dict[str, Any] = {name: number.value for name, number in typical.items()} | given
-    return LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
+    return oil.LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
 
 
-def sheet_of(lubricant: Lubricant) -> OilSheet | None:
+def sheet_of(lubricant: Lubricant) -> oil.OilSheet | None:
     """Return the data sheet of a lubricant; None where it is given by the numbers that the laws read."""
     if lubricant.type is None or lubricant.viscosity_40 is None:
         return None
-    given = {name: value for name in UNITS if (value := getattr(lubricant, name)) is not None}
+    given = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
     viscosity_100, density_15 = cast(float, lubricant.viscosity_100), cast(float, lubricant.density_15)
-    return OilSheet(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given)
+    return oil.OilSheet(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given)
 
 
 def broken_lubricant_rules(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
@@ -79,7 +66,7 @@ def broken_lubricant_rules(lubricant: Lubricant, oil_temperature: float | None) 
 
 
 def _direct(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
-    known = by_type(lubricant.type) if lubricant.type else {}
+    known = oil.by_type(lubricant.type) if lubricant.type else {}
     for name, example in _DIRECT.items():
         if getattr(lubricant, name) is None and name not in known:
             remedy = f"add {name} = {example}"
@@ -87,7 +74,7 @@ def _direct(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[Inp
                 remedy += ", or the data sheet: type, viscosity_40, viscosity_100 and density_15"
             yield InputError(f"lubricant.{name}", rule="missing", remedy=remedy)
     if oil_temperature is not None:
-        given = f"{oil_temperature - ZERO_CELSIUS:.6g} degC"
+        given = f"{oil_temperature - oil.ZERO_CELSIUS:.6g} degC"
         rule = "contradicts a lubricant whose inlet_viscosity is given at one temperature"
         remedy = "leave it out, or give the data sheet: type, viscosity_40, viscosity_100 and density_15"
         yield InputError("operating.oil_temperature", given, rule, remedy)
@@ -97,7 +84,7 @@ def _sheet(lubricant: Lubricant) -> Iterator[InputError]:
     if lubricant.type is None:
         rule = "missing: pressure-viscosity, limiting shear and lubricant factor go by it"
         yield InputError(
-            "lubricant.type", rule=rule, remedy=f"write one of {', '.join(map(quoted, OIL_TYPES))}"
+            "lubricant.type", rule=rule, remedy=f"write one of {', '.join(map(quoted, oil.OIL_TYPES))}"
         )
     for name in _SHEET:
         if getattr(lubricant, name) is None:
@@ -126,22 +113,22 @@ def _sheet(lubricant: Lubricant) -> Iterator[InputError]:
     if at_100 >= at_40:
         rule = f"must be below viscosity_40, {1e6 * at_40:g} mm**2/s: oil gets thinner as it warms up"
         yield InputError("lubricant.viscosity_100", given, rule, "swap the two, or check the data sheet")
-    elif at_100 < MINIMUM_VISCOSITY:
-        rule = f"ASTM D341 holds from {1e6 * MINIMUM_VISCOSITY:g} mm**2/s on"
+    elif at_100 < oil.MINIMUM_VISCOSITY:
+        rule = f"ASTM D341 holds from {1e6 * oil.MINIMUM_VISCOSITY:g} mm**2/s on"
         remedy = "give inlet_viscosity and the other numbers that the laws read instead of the data sheet"
         yield InputError("lubricant.viscosity_100", given, rule, remedy)
 
 
 def _temperature(lubricant: Lubricant, temperature: float) -> Iterator[InputError]:
-    low, high = (round(limit - ZERO_CELSIUS) for limit in TEMPERATURE_RANGE)
-    key, given = "operating.oil_temperature", f"{temperature - ZERO_CELSIUS:.6g} degC"
-    if not TEMPERATURE_RANGE[0] <= temperature <= TEMPERATURE_RANGE[1]:
+    low, high = (round(limit - oil.ZERO_CELSIUS) for limit in oil.TEMPERATURE_RANGE)
+    key, given = "operating.oil_temperature", f"{temperature - oil.ZERO_CELSIUS:.6g} degC"
+    if not oil.TEMPERATURE_RANGE[0] <= temperature <= oil.TEMPERATURE_RANGE[1]:
         rule = f"outside {low} to {high} degC, for which viscosity and density are derived from a data sheet"
         yield InputError(key, given, rule, f"write a temperature from {low} to {high} degC")
     elif lubricant.viscosity_40 and lubricant.viscosity_100:
-        viscosity = kinematic_viscosity(lubricant.viscosity_40, lubricant.viscosity_100, temperature)
-        limits = f"{1e6 * MINIMUM_VISCOSITY:g} to {1e6 * MAXIMUM_VISCOSITY:g} mm**2/s"
-        if not MINIMUM_VISCOSITY <= viscosity <= MAXIMUM_VISCOSITY:
+        viscosity = oil.kinematic_viscosity(lubricant.viscosity_40, lubricant.viscosity_100, temperature)
+        limits = f"{1e6 * oil.MINIMUM_VISCOSITY:g} to {1e6 * oil.MAXIMUM_VISCOSITY:g} mm**2/s"
+        if not oil.MINIMUM_VISCOSITY <= viscosity <= oil.MAXIMUM_VISCOSITY:
             rule = f"the oil has {1e6 * viscosity:.2g} mm**2/s there, and ASTM D341 holds from {limits}"
-            other = "lower" if viscosity < MINIMUM_VISCOSITY else "higher"
+            other = "lower" if viscosity < oil.MINIMUM_VISCOSITY else "higher"
             yield InputError(key, given, rule, f"write a {other} temperature, or take another oil")

@@ -7,74 +7,60 @@ from pydantic import Field
 from tribodyn.geometry.drive import PROFILES
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Relief
-from tribodyn.scenario import units
+from tribodyn.scenario import quantity, units
 from tribodyn.scenario.fields import ErrorCurve
-from tribodyn.scenario.quantity import (
-    InUnit,
-    Names,
-    NotNegative,
-    Number,
-    Positive,
-    Printed,
-    PrintedQuantity,
-    Switch,
-    Table,
-    Text,
-    csv_file,
-    model_file,
-    written,
-)
 from tribodyn.tribology.oil import OilType
 
-Amount = Annotated[float, InUnit(units.not_negative(units.RELIEF))]
-Length = Annotated[float, InUnit(units.positive(units.LENGTH))]
+Amount = Annotated[float, quantity.InUnit(units.not_negative(units.RELIEF))]
+Length = Annotated[float, quantity.InUnit(units.positive(units.LENGTH))]
 Shape = Literal["linear", "parabolic"]
 
 _EXPONENT = {"linear": 1.0, "parabolic": 2.0}
 
 
-class Modification(Table):
+class Modification(quantity.Table):
     """What is missing on the flanks of a gear, along their normal: the driving flanks, or both."""
 
-    tip_relief: Amount = written("0 um", description="at the end of the active profile")
+    tip_relief: Amount = quantity.written("0 um", description="at the end of the active profile")
     tip_relief_length: Length | None = Field(
         None, description="along the line of action, from the end of the active path; default: the module"
     )
     tip_relief_shape: Shape = "linear"
-    root_relief: Amount = written("0 um", description="at the beginning of the active profile")
+    root_relief: Amount = quantity.written("0 um", description="at the beginning of the active profile")
     root_relief_length: Length | None = Field(
         None, description="along the line of action, from the end of the active path; default: the module"
     )
     root_relief_shape: Shape = "linear"
-    lead_relief_start: Amount = written("0 um", description="at one end of the face, parabolic")
-    lead_relief_end: Amount = written("0 um", description="at the other end")
-    lead_unmodified: Annotated[float, InUnit(units.not_negative(units.LENGTH))] = written(
+    lead_relief_start: Amount = quantity.written("0 um", description="at one end of the face, parabolic")
+    lead_relief_end: Amount = quantity.written("0 um", description="at the other end")
+    lead_unmodified: Annotated[float, quantity.InUnit(units.not_negative(units.LENGTH))] = quantity.written(
         "0 mm", description="straight part of the face between the two, in its middle"
     )
     crowning: Amount | None = Field(
         None, description="the same at both ends of the face, without a straight part"
     )
-    profile_error: Annotated[ErrorCurve, csv_file("roll_angle", "error")] | None = Field(
+    profile_error: Annotated[ErrorCurve, quantity.csv_file("roll_angle", "error")] | None = Field(
         None, description="positive where material is missing"
     )
     pitch_errors: Annotated[
-        tuple[Annotated[float, InUnit(units.DEVIATION)], ...], csv_file("error", as_list=True)
+        tuple[Annotated[float, quantity.InUnit(units.DEVIATION)], ...],
+        quantity.csv_file("error", as_list=True),
     ] = Field((), description="one per tooth, positive where material is missing")
-    both_flanks: Switch = Field(
+    both_flanks: quantity.Switch = Field(
         False, description="whether reliefs, crowning and profile error are on the back flanks too"
     )
 
 
-class MisalignmentTable(Table):
+class MisalignmentTable(quantity.Table):
     """Angles between the axes of the gears."""
 
-    in_plane: Annotated[float, InUnit(units.SMALL_ANGLE)] = written(
+    in_plane: Annotated[float, quantity.InUnit(units.SMALL_ANGLE)] = quantity.written(
         "0 arcmin", description="within the plane of action"
     )
-    out_of_plane: Annotated[float, InUnit(units.SMALL_ANGLE)] = written(
+    out_of_plane: Annotated[float, quantity.InUnit(units.SMALL_ANGLE)] = quantity.written(
         "0 arcmin", description="perpendicular to the plane of action"
     )
-    from_quality: NotNegative = Field(
+    from_quality: quantity.NotNegative = Field(
         0.0, description="share of both gears' helix slope tolerances that adds to in_plane"
     )
 
@@ -100,29 +86,29 @@ def _relief(table: Modification, end: str, module: float) -> Relief:
     return Relief(amount, length, _EXPONENT[getattr(table, f"{end}_relief_shape")])
 
 
-Angle = Annotated[float, InUnit(units.positive(units.ANGLE_KIND))]
-Mass = Annotated[float, InUnit(units.positive(units.MASS))]
-Inertia = Annotated[float, InUnit(units.positive(units.INERTIA))]
-Pressure = Annotated[float, InUnit(units.positive(units.PRESSURE))]
-FaceWidth = Annotated[float, InUnit(units.positive(units.LENGTH), "20 mm")]
-Radius = Annotated[float, InUnit(units.positive(units.LENGTH), "12 mm")]
-KinematicViscosity = Annotated[float, InUnit(units.positive(units.KINEMATIC_VISCOSITY))]
-Diameter = Annotated[float, InUnit(units.positive(units.LENGTH), "30 mm")]
-Rounding = Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.03 mm")]
-Allowance = Annotated[float, InUnit(units.DEVIATION, "-60 um")]
-Span = Annotated[float, InUnit(units.positive(units.LENGTH), "32.4 mm")]
-OverPins = Annotated[float, InUnit(units.positive(units.LENGTH), "83.2 mm")]
-Pin = Annotated[float, InUnit(units.positive(units.LENGTH), "5.25 mm")]
+Angle = Annotated[float, quantity.InUnit(units.positive(units.ANGLE_KIND))]
+Mass = Annotated[float, quantity.InUnit(units.positive(units.MASS))]
+Inertia = Annotated[float, quantity.InUnit(units.positive(units.INERTIA))]
+Pressure = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE))]
+FaceWidth = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "20 mm")]
+Radius = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "12 mm")]
+KinematicViscosity = Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY))]
+Diameter = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "30 mm")]
+Rounding = Annotated[float, quantity.InUnit(units.not_negative(units.LENGTH), "0.03 mm")]
+Allowance = Annotated[float, quantity.InUnit(units.DEVIATION, "-60 um")]
+Span = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "32.4 mm")]
+OverPins = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "83.2 mm")]
+Pin = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "5.25 mm")]
 Grade = Annotated[int, Field(strict=True, ge=1, le=11)]
-Roughness = Annotated[float, InUnit(units.positive(units.LENGTH), "0.5 um")]
+Roughness = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "0.5 um")]
 
 
-class Described(Table):
+class Described(quantity.Table):
     """What every model begins with; a table in a scenario may leave it out."""
 
-    title: Text = Field("own values", description="what it is, in a line")
-    source: Text = Field("not stated", description="where the numbers come from")
-    assumptions: Text = Field("", description="what the source does not give and was chosen here")
+    title: quantity.Text = Field("own values", description="what it is, in a line")
+    source: quantity.Text = Field("not stated", description="where the numbers come from")
+    assumptions: quantity.Text = Field("", description="what the source does not give and was chosen here")
 
 
 class Material(Described):
@@ -130,18 +116,18 @@ class Material(Described):
 
     youngs_modulus: Pressure
     poisson_ratio: Annotated[float, Field(strict=True, ge=0, lt=0.5)]
-    density: Annotated[float, InUnit(units.positive(units.DENSITY))]
-    thermal_conductivity: Annotated[float, InUnit(units.positive(units.CONDUCTIVITY))]
-    specific_heat: Annotated[float, InUnit(units.positive(units.SPECIFIC_HEAT))]
-    hardness: Annotated[float, InUnit(units.positive(units.PRESSURE), "7 GPa")] = Field(
+    density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY))]
+    thermal_conductivity: Annotated[float, quantity.InUnit(units.positive(units.CONDUCTIVITY))]
+    specific_heat: Annotated[float, quantity.InUnit(units.positive(units.SPECIFIC_HEAT))]
+    hardness: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "7 GPa")] = Field(
         description="Vickers hardness as a pressure"
     )
 
 
-MaterialReference = Annotated[Material, model_file("materials")]
+MaterialReference = Annotated[Material, quantity.model_file("materials")]
 
 
-class Gear(Table):
+class Gear(quantity.Table):
     """One gear of a drive."""
 
     teeth: Annotated[int, Field(strict=True, ge=4, le=10_000)]
@@ -150,14 +136,14 @@ class Gear(Table):
         None, description="where the body is held; default: 0.2 times the reference diameter"
     )
     bore_diameter: Diameter | None = Field(None, description="in place of the bore's radius")
-    profile_shift: Number = Field(0.0, description="x, times the module")
-    addendum: Positive | None = Field(
+    profile_shift: quantity.Number = Field(0.0, description="x, times the module")
+    addendum: quantity.Positive | None = Field(
         None, description="h_a*, times the module; default: the rack's, else 1 (ISO 53)"
     )
-    dedendum: Positive | None = Field(
+    dedendum: quantity.Positive | None = Field(
         None, description="h_f*, times the module; default: the rack's, else 1.25 (ISO 53)"
     )
-    fillet_radius: NotNegative | None = Field(
+    fillet_radius: quantity.NotNegative | None = Field(
         None, description="of the cutter's tip, times the module; default: the rack's, else 0.25 (ISO 53 C)"
     )
     tip_radius: Radius | None = Field(None, description="takes the place of the addendum")
@@ -180,21 +166,23 @@ class Gear(Table):
     inertia: Inertia | None = Field(None, description="polar; default: from outline, bore and width")
     material: MaterialReference | None = Field(None, description="default: the drive's")
     quality: Grade | None = Field(None, description="its tolerance class; default: the drive's")
-    modification: Modification = written({})
+    modification: Modification = quantity.written({})
 
 
 class DriveTable(Described):
     """A gear pair (`models/drives/`)."""
 
-    family: Annotated[Text, Names(FAMILIES)] = Field(description="family of the path of contact")
+    family: Annotated[quantity.Text, quantity.Names(FAMILIES)] = Field(
+        description="family of the path of contact"
+    )
     module: Length
     pressure_angle: Angle | None = Field(
         None, description="of the rack for involutes; at the pitch point for other families, if they take one"
     )
-    centre_distance: Annotated[Printed, PrintedQuantity(units.positive(units.LENGTH))] | None = Field(
-        None, description="of involutes; default: that of nominal teeth in mesh without backlash"
-    )
-    rack: Annotated[Text, Names(PROFILES)] | None = Field(
+    centre_distance: (
+        Annotated[quantity.Printed, quantity.PrintedQuantity(units.positive(units.LENGTH))] | None
+    ) = Field(None, description="of involutes; default: that of nominal teeth in mesh without backlash")
+    rack: Annotated[quantity.Text, quantity.Names(PROFILES)] | None = Field(
         None, description="basic rack, for what the pressure angle and the gears do not say themselves"
     )
     shape: dict[str, Any] | None = Field(None, description="what else the family needs, see `tribodyn list`")
@@ -216,37 +204,37 @@ class Lubricant(Described):
     type: OilType | None = Field(None, description="base oil; needed with a data sheet")
     viscosity_40: KinematicViscosity | None = Field(None, description="kinematic, at 40 °C")
     viscosity_100: (
-        Annotated[float, InUnit(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
+        Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
     ) = Field(None, description="kinematic, at 100 °C")
-    density_15: Annotated[float, InUnit(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = Field(
-        None, description="at 15 °C"
+    density_15: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = (
+        Field(None, description="at 15 °C")
     )
-    asperity_friction: NotNegative | None = Field(None, description="f_c; default: by type")
-    limiting_shear_coefficient: Positive | None = Field(None, description="Λ_lim; default: by type")
-    inlet_viscosity: Annotated[float, InUnit(units.positive(units.VISCOSITY))] | None = Field(
+    asperity_friction: quantity.NotNegative | None = Field(None, description="f_c; default: by type")
+    limiting_shear_coefficient: quantity.Positive | None = Field(None, description="Λ_lim; default: by type")
+    inlet_viscosity: Annotated[float, quantity.InUnit(units.positive(units.VISCOSITY))] | None = Field(
         None, description="dynamic; without a data sheet"
     )
-    pressure_viscosity: Annotated[float, InUnit(units.positive(units.PRESSURE_VISCOSITY))] | None = Field(
-        None, description="default: by type and viscosity"
+    pressure_viscosity: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE_VISCOSITY))] | None = (
+        Field(None, description="default: by type and viscosity")
     )
-    viscosity_pressure_index: Positive | None = Field(
+    viscosity_pressure_index: quantity.Positive | None = Field(
         None, description="z of Roelands' law; default: from pressure_viscosity and viscosity"
     )
-    temperature_viscosity: Annotated[float, InUnit(units.not_negative(units.PER_KELVIN))] | None = Field(
-        None, description="default: slope of the viscosity over temperature"
+    temperature_viscosity: Annotated[float, quantity.InUnit(units.not_negative(units.PER_KELVIN))] | None = (
+        Field(None, description="default: slope of the viscosity over temperature")
     )
-    density: Annotated[float, InUnit(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
+    density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
         None, description="at the oil's temperature; default: from density_15"
     )
-    load_exponent: NotNegative | None = Field(
+    load_exponent: quantity.NotNegative | None = Field(
         None,
         description="d of Niemann's lubricant factor; default: 0 with a type, else 0.0651, mineral oil 75W90 "
         "(Diez-Ibarbia et al.)",
     )
-    lubricant_factor: Positive | None = Field(
+    lubricant_factor: quantity.Positive | None = Field(
         None, description="X_L of Niemann and of ISO/TR 15144-1; default: by type, else 1"
     )
-    schlenk_factor: Positive | None = Field(
+    schlenk_factor: quantity.Positive | None = Field(
         None, description="X_L of Schlenk; default: by type, else that of mineral oil"
     )
     fzg_scuffing_stage: Annotated[int, Field(strict=True, ge=1, le=14)] | None = Field(
@@ -255,6 +243,6 @@ class Lubricant(Described):
     fzg_micropitting_stage: Annotated[int, Field(strict=True, ge=5, le=11)] | None = Field(
         None, description="failure load stage of the FZG micropitting test C-GF/8.3"
     )
-    fzg_micropitting_temperature: Annotated[float, InUnit(units.TEMPERATURE_KIND, "90 degC")] = written(
-        "90 degC", description="oil temperature of that test"
+    fzg_micropitting_temperature: Annotated[float, quantity.InUnit(units.TEMPERATURE_KIND, "90 degC")] = (
+        quantity.written("90 degC", description="oil temperature of that test")
     )

@@ -6,22 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float
-from tribodyn.solve.branch.arclength import (
-    FIRST,
-    FOLD,
-    GROWTH,
-    LOCATED,
-    MERGING,
-    MOST_PLACES,
-    NEAR_ZERO,
-    SMALLEST,
-    Arclength,
-    BranchEnd,
-    BranchPoint,
-    Seed,
-    SystemFamily,
-    kind_of_end,
-)
+from tribodyn.solve.branch import arclength
 from tribodyn.solve.orbit.motions import UNSTABLE, Orbit
 
 #: Places on a branch at most.
@@ -38,7 +23,7 @@ class UnstableBranch(NamedTuple):
     orbits: list[Orbit]  # the motions
     #: where it becomes stable again, or merges with a motion of fewer periods; None: it goes on beyond the
     #: range, or cannot be followed farther
-    finish: BranchEnd | None
+    finish: arclength.BranchEnd | None
 
     @property
     def states(self) -> Float[Array, "point state"]:
@@ -58,9 +43,9 @@ class UnstableBranch(NamedTuple):
 
 
 def unstable_branches(
-    family: SystemFamily,
+    family: arclength.SystemFamily,
     line: int,
-    seeds: Sequence[Seed],
+    seeds: Sequence[arclength.Seed],
     span: tuple[float, float],
     *,
     tolerance: float = 1e-7,
@@ -72,18 +57,18 @@ def unstable_branches(
     reach = max(map(abs, span))
     found = []
     for seed in seeds:
-        size = max(abs(seed.value), NEAR_ZERO * reach)
-        found.append(_followed(Arclength(family, line, seed, size, tolerance), span))
+        size = max(abs(seed.value), arclength.NEAR_ZERO * reach)
+        found.append(_followed(arclength.Arclength(family, line, seed, size, tolerance), span))
     return found
 
 
-def _followed(way: Arclength, span: tuple[float, float]) -> UnstableBranch | None:
+def _followed(way: arclength.Arclength, span: tuple[float, float]) -> UnstableBranch | None:
     """The unstable part within a range of the parameter; None where there is none."""
     seed = way.seed
     here = way.begin()
-    step, places, count = FIRST, list[BranchPoint](), 0
+    step, places, count = arclength.FIRST, list[arclength.BranchPoint](), 0
     finish = None
-    while here is not None and count < MOST and not (count > MOST_PLACES and not places):
+    while here is not None and count < MOST and not (count > arclength.MOST_PLACES and not places):
         found = way.next(here, step)
         if found is None:
             break
@@ -99,14 +84,14 @@ def _followed(way: Arclength, span: tuple[float, float]) -> UnstableBranch | Non
             break
         if beyond.unstable:
             places.append(beyond)
-        here, step = beyond, step * GROWTH
+        here, step = beyond, step * arclength.GROWTH
     if not places:
         return None
     values = np.array([place.point[-1] for place in places]) * way.units[-1]
     return UnstableBranch(seed.period, values, [_orbit(way, place) for place in places], finish)
 
 
-def _orbit(way: Arclength, place: BranchPoint) -> Orbit:
+def _orbit(way: arclength.Arclength, place: arclength.BranchPoint) -> Orbit:
     state, residual = place.point[:-1] * way.units[:-1], way.extent * place.residual
     return Orbit(
         state, state, way.seed.period, residual, place.multipliers, False, UNSTABLE, "shooting", 0, ""
@@ -114,8 +99,11 @@ def _orbit(way: Arclength, place: BranchPoint) -> Orbit:
 
 
 def _at_border(
-    way: Arclength, here: BranchPoint, beyond: BranchPoint, span: tuple[float, float]
-) -> BranchPoint | None:
+    way: arclength.Arclength,
+    here: arclength.BranchPoint,
+    beyond: arclength.BranchPoint,
+    span: tuple[float, float],
+) -> arclength.BranchPoint | None:
     """The place at the border of the range, between one inside and one outside."""
     borders = np.array(span) / way.units[-1]
     border = borders[int(beyond.point[-1] > borders[1])]
@@ -125,18 +113,20 @@ def _at_border(
     return way.met(here.point + share * (beyond.point - here.point), along, here.tangent)
 
 
-def _inside(way: Arclength, place: BranchPoint, span: tuple[float, float]) -> bool:
+def _inside(way: arclength.Arclength, place: arclength.BranchPoint, span: tuple[float, float]) -> bool:
     return span[0] <= place.point[-1] * way.units[-1] <= span[1]
 
 
-def _finish(way: Arclength, last: BranchPoint, beyond: BranchPoint, merged: bool) -> BranchEnd:
+def _finish(
+    way: arclength.Arclength, last: arclength.BranchPoint, beyond: arclength.BranchPoint, merged: bool
+) -> arclength.BranchEnd:
     """Where the branch becomes stable, or merges, between two of its places."""
     period, multiplier = way.seed.period, complex(last.multipliers[0])
     if not merged and last.tangent[-1] * beyond.tangent[-1] < 0.0:
         _, value, within = way.turning(last, beyond)
-        return BranchEnd(FOLD, value, within, period, multiplier)
+        return arclength.BranchEnd(arclength.FOLD, value, within, period, multiplier)
     step = float(np.linalg.norm(beyond.point - last.point))
-    while abs(beyond.point[-1] - last.point[-1]) > LOCATED and step > SMALLEST:
+    while abs(beyond.point[-1] - last.point[-1]) > arclength.LOCATED and step > arclength.SMALLEST:
         step /= 2.0
         middle = way.met(last.point + step * last.tangent, last.tangent, last.tangent)
         if middle is None:
@@ -145,12 +135,12 @@ def _finish(way: Arclength, last: BranchPoint, beyond: BranchPoint, merged: bool
             beyond = middle
         else:
             last = middle
-    kind = MERGING if merged else kind_of_end(beyond.multipliers, last.multipliers, False)
+    kind = arclength.MERGING if merged else arclength.kind_of_end(beyond.multipliers, last.multipliers, False)
     value, behind = (float(place.point[-1] * way.units[-1]) for place in (last, beyond))
-    return BranchEnd(kind, 0.5 * (value + behind), abs(value - behind), period, multiplier)
+    return arclength.BranchEnd(kind, 0.5 * (value + behind), abs(value - behind), period, multiplier)
 
 
-def _merged(last: BranchPoint, place: BranchPoint) -> bool:
+def _merged(last: arclength.BranchPoint, place: arclength.BranchPoint) -> bool:
     """Whether a motion's halves become equal, or have changed places, so that they were equal in between."""
     if last.halves is None or place.halves is None:
         return False

@@ -18,17 +18,7 @@ from tribodyn.numerics.cache import use_compilation_cache
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import in_threads
 from tribodyn.solve.integrator import Ensemble, March, Status, nothing_yet
-from tribodyn.solve.jax.integrator import (
-    METHODS,
-    Carried,
-    DiffraxMethod,
-    SegmentControl,
-    SegmentResult,
-    beginning,
-    over_cycle,
-    padded_phases,
-    steps_end_on,
-)
+from tribodyn.solve.jax import integrator
 from tribodyn.solve.lanes.batch import by_shape
 from tribodyn.solve.tolerances import tolerances_of_many
 
@@ -45,7 +35,7 @@ def width_here() -> int:
 class BatchPart(NamedTuple):
     """Cases that are integrated side by side, by their places in the batch."""
 
-    method: DiffraxMethod
+    method: integrator.DiffraxMethod
     width: int  # at least the number of cases; what is missing is filled up
     one_table: bool  # whether all cases of this shape have the same
     places: Int[Array, " case"]
@@ -69,7 +59,7 @@ def through_jax(
     """
     use_compilation_cache()
     result = nothing_yet(states, march.window * march.samples, march.extremes)
-    parts = _parts(models, METHODS[method], width_here())
+    parts = _parts(models, integrator.METHODS[method], width_here())
     threads = workers if jax.default_backend() == "cpu" else 1
     cancelled = threading.Event()
     ticks: list[BatchPart] = []
@@ -86,7 +76,7 @@ def through_jax(
     return result
 
 
-def _parts(models: Sequence[Model], method: DiffraxMethod, width: int) -> list[BatchPart]:
+def _parts(models: Sequence[Model], method: integrator.DiffraxMethod, width: int) -> list[BatchPart]:
     """Parts of cases of one shape, those of low speed, which take the most steps, side by side."""
     parts = []
     for group in by_shape(models):
@@ -110,16 +100,16 @@ def _cycles(part: BatchPart, models: Sequence[Model], march: March, result: Ense
         *(stacked([getattr(model, name) for model in mine]) for name in ("surfaces", "film", "friction")),
     )
     boundary = np.array([np.asarray(table.boundary) for table in tables])
-    grids = [padded_phases(row, march.samples) for row in boundary]
+    grids = [integrator.padded_phases(row, march.samples) for row in boundary]
     dense = np.array([at for at, _ in grids])
-    control = SegmentControl(
+    control = integrator.SegmentControl(
         jnp.full(dense.shape, np.nan, dtype=float),
-        jnp.asarray(steps_end_on(mine)),
+        jnp.asarray(integrator.steps_end_on(mine)),
         jnp.full(part.width, march.rtol, dtype=float),
         jnp.asarray(tolerances_of_many(mine, result.state[rows], march.rtol)),
         jnp.full(part.width, march.max_steps, dtype=int),
     )
-    carried = beginning(result.state[rows])
+    carried = integrator.beginning(result.state[rows])
     for done in range(march.cycles):
         kept = done - (march.cycles - march.window)
         if kept == 0:
@@ -157,11 +147,11 @@ def _compiled(
     part: BatchPart,
     options: Options,
     numbers: Any,
-    carried: Carried,
+    carried: integrator.Carried,
     cycle: int,
     started: bool,
-    control: SegmentControl,
-) -> tuple[Carried, SegmentResult]:
+    control: integrator.SegmentControl,
+) -> tuple[integrator.Carried, integrator.SegmentResult]:
     """Give `over_one_cycle`; what was not yet compiled is compiled by one thread while the others wait."""
     shapes = tuple((x.shape, x.dtype) for x in jax.tree.leaves((numbers, control)))
     key = (part.method, options, part.one_table, shapes)
@@ -181,19 +171,21 @@ _known: set[tuple[Any, ...]] = set()
 
 @partial(jax.jit, static_argnames=("method", "options", "one_table"))
 def over_one_cycle(
-    method: DiffraxMethod,
+    method: integrator.DiffraxMethod,
     options: Options,
     one_table: bool,
     numbers: Any,
-    carried: Carried,
+    carried: integrator.Carried,
     cycle: Any,
     started: Any,
-    control: SegmentControl,
-) -> tuple[Carried, SegmentResult]:
+    control: integrator.SegmentControl,
+) -> tuple[integrator.Carried, integrator.SegmentResult]:
     """`jax.integrator.over_cycle` mapped over the cases: a leading axis on all but cycle and started."""
 
-    def over_case(numbers: Any, carried: Carried, control: SegmentControl) -> tuple[Carried, SegmentResult]:
-        return over_cycle(method, options, numbers, carried, cycle, started, control)
+    def over_case(
+        numbers: Any, carried: integrator.Carried, control: integrator.SegmentControl
+    ) -> tuple[integrator.Carried, integrator.SegmentResult]:
+        return integrator.over_cycle(method, options, numbers, carried, cycle, started, control)
 
     return jax.vmap(over_case, in_axes=((None if one_table else 0, 0, 0, 0, 0), 0, 0))(
         numbers, carried, control

@@ -11,18 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import (
-    DISPLACEMENTS,
-    DRIVE_SHAFT,
-    DRIVE_SPEED,
-    ENERGY_CONSISTENT,
-    MOTOR_SLIP,
-    SLIP,
-    STATES,
-    TWIST,
-    VELOCITIES,
-    Model,
-)
+from tribodyn.dynamics import parameters
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import usable_cores
 from tribodyn.solve.choice import choose
@@ -34,13 +23,13 @@ from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales
 
 
-def moving_states(model: Model) -> tuple[int, ...]:
+def moving_states(model: parameters.Model) -> tuple[int, ...]:
     """Indices of the states that the map over a mesh cycle acts on."""
-    free = {*DISPLACEMENTS, *VELOCITIES}
-    if model.options.drive != DRIVE_SPEED:
-        free |= {SLIP}
-    if model.options.drive == DRIVE_SHAFT:
-        free |= {TWIST, MOTOR_SLIP}
+    free = {*parameters.DISPLACEMENTS, *parameters.VELOCITIES}
+    if model.options.drive != parameters.DRIVE_SPEED:
+        free |= {parameters.SLIP}
+    if model.options.drive == parameters.DRIVE_SHAFT:
+        free |= {parameters.TWIST, parameters.MOTOR_SLIP}
     return tuple(sorted(free))
 
 
@@ -53,7 +42,7 @@ class GearMap:
 
     def __init__(
         self,
-        models: Sequence[Model],
+        models: Sequence[parameters.Model],
         starts: Float[Array, "case state"],
         moving: tuple[int, ...],
         *,
@@ -78,7 +67,7 @@ class GearMap:
 
     def full(self, states: Float[Array, "row moving"]) -> Float[Array, "row state"]:
         """States of the model from states of the map."""
-        whole = np.zeros((len(states), STATES))
+        whole = np.zeros((len(states), parameters.STATES))
         whole[:, self.moving] = states
         return whole
 
@@ -89,7 +78,7 @@ class GearMap:
         result = self.integrate(self.full(states), cases, periods, 1, fine)
         end, reasons = result.state, reasons_of(result.status, result.reached)
         for row, case in enumerate(cases):
-            if self.models[case].options.formulation == ENERGY_CONSISTENT and not reasons[row]:
+            if self.models[case].options.formulation == parameters.ENERGY_CONSISTENT and not reasons[row]:
                 engage_next(end[row], self.models[case])
         after = np.concatenate([result.samples[:, 1:], end[:, None]], axis=1)[..., self.moving]
         after[[bool(reason) for reason in reasons]] = np.nan
@@ -102,7 +91,7 @@ class GearMap:
         from tribodyn.solve.march.variational import march_with_derivative
 
         scale = self.scale[cases]
-        directions = np.zeros((len(cases), STATES, len(self.moving)))
+        directions = np.zeros((len(cases), parameters.STATES, len(self.moving)))
         directions[:, self.moving] = scale[:, :, None] * np.eye(len(self.moving))
         derived = march_with_derivative(
             [self.models[case] for case in cases],

@@ -14,17 +14,7 @@ from typing import Literal
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.orbit.motions import (
-    MAX_PERIOD,
-    Orbit,
-    PeriodMap,
-    Recurrence,
-    failed_orbit,
-    orbit_without_period,
-    recognised,
-    recurrences,
-    wanderings,
-)
+from tribodyn.solve.orbit import motions
 from tribodyn.solve.orbit.shooting import NEUTRAL, Shot, closed_orbit, critical_direction, shoot
 
 Method = Literal["auto", "marching", "shooting"]
@@ -52,14 +42,14 @@ LEAVING, LARGEST_PUSH = 100, 0.1
 
 
 def find(
-    period_map: PeriodMap,
+    period_map: motions.PeriodMap,
     states: Float[Array, "case state"],
     *,
     tolerance: float = 1e-7,
     max_periods: int = 2000,
     method: Method = "auto",
     progress: Callable[[float], None] | None = None,
-) -> list[Orbit]:
+) -> list[motions.Orbit]:
     """Steady states of all systems of a map, each from its own start.
 
     `tolerance` is the maximum scaled change over a period of the motion, `max_periods` are those that a
@@ -71,7 +61,7 @@ def find(
         orbits = []
         for case, shot in enumerate(shoot(period_map, states, np.arange(len(states)), 1, tolerance)):
             if shot.reason:
-                orbits.append(failed_orbit(shot.state, 0, shot.reason))
+                orbits.append(motions.failed_orbit(shot.state, 0, shot.reason))
                 continue
             orbits.append(replace(closed_orbit(period_map, shot, case, 1, 0, tolerance), method=method))
         return orbits
@@ -90,11 +80,11 @@ class Progress:
         self.current, self.scale = states.copy(), scale
         self.marched = np.zeros(len(states), dtype=int)
         self.next_shot: dict[tuple[int, int], int] = {}
-        self.seen: dict[int, list[Recurrence]] = {}
+        self.seen: dict[int, list[motions.Recurrence]] = {}
         self.smallest = np.full(len(states), np.inf)
         self.history: list[list[float]] = [[] for _ in states]
         self.track: dict[int, Float[Array, "period state"]] = dict(enumerate((states / scale)[:, None]))
-        self.fallback: dict[int, Orbit] = {}
+        self.fallback: dict[int, motions.Orbit] = {}
         self.fine = np.zeros(len(states), dtype=bool)
 
     def take(self, case: int, states: Float[Array, "period state"]) -> None:
@@ -102,8 +92,8 @@ class Progress:
         self.current[case] = states[-1]
         self.marched[case] += BLOCK
         self.track[case] = np.concatenate([self.track[case], states / self.scale[case]])[-LOOK:]
-        found = recurrences(self.track[case])
-        self.seen[case] = recognised(found)
+        found = motions.recurrences(self.track[case])
+        self.seen[case] = motions.recognised(found)
         self.smallest[case] = min(recurrence.change for recurrence in found)
         earlier = min(recurrence.earlier for recurrence in found)
         self.history[case].append(max(self.smallest[case], earlier))
@@ -135,7 +125,7 @@ class Progress:
             return
         if max(blocks[-STUCK:]) >= 0.5 * max(blocks[-2 * STUCK : -STUCK]):
             self.fine[case] = True
-            for n in range(1, MAX_PERIOD + 1):
+            for n in range(1, motions.MAX_PERIOD + 1):
                 self.next_shot.pop((case, n), None)
 
     def describe(self, case: int) -> str:
@@ -147,12 +137,14 @@ class Progress:
 class OrbitSearch:
     """The search of `find` by marching and shooting; `orbits` fills up as it goes on."""
 
-    def __init__(self, period_map: PeriodMap, states, tolerance: float, max_periods: int, method: Method):
+    def __init__(
+        self, period_map: motions.PeriodMap, states, tolerance: float, max_periods: int, method: Method
+    ):
         self.period_map, self.tolerance = period_map, tolerance
         self.max_periods, self.method = max_periods, method
         self.progress = Progress(states, period_map.scale)
         self.pending = np.arange(len(states))
-        self.orbits: dict[int, Orbit] = {}
+        self.orbits: dict[int, motions.Orbit] = {}
 
     def advance(self) -> None:
         """March all pending systems over a block, and shoot where that promises something."""
@@ -160,7 +152,9 @@ class OrbitSearch:
         wanted: dict[int, list[int]] = {}
         for case, states, reason in self._block():
             if reason:
-                self.orbits[case] = failed_orbit(progress.current[case], int(progress.marched[case]), reason)
+                self.orbits[case] = motions.failed_orbit(
+                    progress.current[case], int(progress.marched[case]), reason
+                )
                 continue
             progress.take(case, states)
             period = self._candidate(case)
@@ -185,7 +179,7 @@ class OrbitSearch:
     def _candidate(self, case: int) -> int:
         """Period for which to try shooting; 0 for none."""
         size = self.progress.current.shape[1]
-        smaller: list[Recurrence] = []
+        smaller: list[motions.Recurrence] = []
         for recurrence in self.progress.seen[case]:
             n, last, rate = recurrence.period, recurrence.change, recurrence.rate
             divisors = (other for other in smaller if n % other.period == 0)
@@ -209,7 +203,7 @@ class OrbitSearch:
                 return n
         return 0
 
-    def _shoot(self, cases: list[int], period: int, steps: int) -> Iterator[tuple[int, Shot, Orbit]]:
+    def _shoot(self, cases: list[int], period: int, steps: int) -> Iterator[tuple[int, Shot, motions.Orbit]]:
         """Shoot from where marching stands; the shots that close, with their orbits."""
         places = np.array(cases)
         current = self.progress.current[places]
@@ -270,7 +264,7 @@ class OrbitSearch:
                     progress.fallback[case] = orbit
         if wandering:
             cases: Int[Array, " case"] = np.array(wandering)
-            found = wanderings(self.period_map, progress.current[cases], cases)
+            found = motions.wanderings(self.period_map, progress.current[cases], cases)
             for case, motion in zip(wandering, found, strict=True):
                 remarks = [progress.describe(case), motion.describe()]
                 beside = progress.fallback.get(case)
@@ -280,4 +274,4 @@ class OrbitSearch:
                 last, cycles = progress.current[case], int(progress.marched[case])
                 smallest = float(progress.smallest[case])
                 message = "; ".join(remarks)
-                self.orbits[case] = orbit_without_period(last, cycles, smallest, motion.kind, message)
+                self.orbits[case] = motions.orbit_without_period(last, cycles, smallest, motion.kind, message)

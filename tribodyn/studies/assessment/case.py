@@ -37,7 +37,7 @@ SAMPLES: dict[str, Variable] = {
 LAYOUT = Layout(ROLL, SAMPLES, groups={"geometry": GEOMETRY})
 
 
-class AssessmentAsked(Table):
+class AssessmentTable(Table):
     """What is asked beyond the duty, and what the standards need to know."""
 
     application_factor: Positive = Field(1.0, description="K_A, what the driven and the driving machine add")
@@ -81,7 +81,7 @@ class AssessmentCase(GearCase):
     lubricant: LubricantData  # with its data sheet, at the temperature of the oil
     oil_temperature: float  # of the duty, K
     quality: Quality  # deviations of the gears by ISO 1328-1
-    settings: AssessmentAsked
+    settings: AssessmentTable
     limits: Mapping[str, Any]  # name of a limit -> its value, SI units
 
 

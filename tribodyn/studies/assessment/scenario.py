@@ -16,7 +16,7 @@ from tribodyn.scenario.tables.losses import LossesTable, TemperatureTable
 from tribodyn.scenario.tables.lubricant import lubricant_of
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.quality import tolerances_of
-from tribodyn.studies.assessment.case import AssessmentAsked, AssessmentCase
+from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
 from tribodyn.studies.gears.scenario import FaceSlices, GearScenario, Oil, broken_gear_rules, gear_fields
 from tribodyn.tribology.friction import FRICTION_LAWS
 
@@ -63,7 +63,7 @@ class AssessmentScenario(GearScenario):
         None, description="bulk temperature of the teeth; default: the estimate of ISO/TR 15144-1"
     )
     losses: LossesTable | None = Field(None, description="load-independent losses; default: none")
-    assessment: AssessmentAsked = written({})
+    assessment: AssessmentTable = written({})
     limits: AssessmentLimits = written({})
 
 

@@ -10,6 +10,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
+from tribodyn.studies.design import case
 from tribodyn.studies.design.candidates.candidates import PITCH_ERRORS, PROFILE_ERROR
 from tribodyn.studies.design.candidates.sources import (
     Sources,
@@ -17,19 +18,6 @@ from tribodyn.studies.design.candidates.sources import (
     refused,
     require_key,
     units_by_name,
-)
-from tribodyn.studies.design.case import (
-    DRAWN,
-    START,
-    Constraint,
-    Free,
-    Objective,
-    Tolerance,
-    WeightedDuty,
-    apart,
-    flat,
-    naming_key,
-    unit_of,
 )
 from tribodyn.studies.protocol.study import Study
 
@@ -60,20 +48,20 @@ def parts_of_design(table: Any, sources: Sources) -> tuple[dict[str, Any], list[
     errors += _contradictions(constraints)
     duties = collect("design.duty", table.duty, _duty, free, sources)
     tolerances = collect("design.tolerance", table.tolerance, _tolerance, sources)
-    collect("", list(flat(table.confirm)), lambda _, key: require_key("design.confirm", key, sources))
-    key_names = apart([naming_key(entry.keys) for entry in free])
-    names = apart([tolerance.key for tolerance in tolerances])
+    collect("", list(case.flat(table.confirm)), lambda _, key: require_key("design.confirm", key, sources))
+    key_names = case.apart([case.naming_key(entry.keys) for entry in free])
+    names = case.apart([tolerance.key for tolerance in tolerances])
     fields = {
         "free": tuple(key._replace(name=name) for key, name in zip(free, key_names, strict=True)),
         "objectives": objectives[0] if objectives else (),
         "constraints": tuple(constraints),
-        "duties": tuple(duties) or (WeightedDuty(1.0, {}, ""),),
+        "duties": tuple(duties) or (case.WeightedDuty(1.0, {}, ""),),
         "tolerances": tuple(entry._replace(name=name) for entry, name in zip(tolerances, names, strict=True)),
     }
     return fields, errors
 
 
-def _free(place: str, table: Any, sources: Sources) -> Free:
+def _free(place: str, table: Any, sources: Sources) -> case.Free:
     keys = (table.key,) if isinstance(table.key, str) else table.key
     if not isinstance(keys, (list, tuple)) or not keys or not all(isinstance(key, str) for key in keys):
         raise InputError(f"{place}.key", quoted(table.key), "not a key", 'write key = "drive.module"')
@@ -90,7 +78,7 @@ def _free(place: str, table: Any, sources: Sources) -> Free:
             if value in table.choices[:number]:
                 raise InputError(f"{place}.choices.{number}", quoted(value), "is there twice", "remove one")
             _require(f"{place}.choices.{number}", keys, (value,), sources)
-        return Free(tuple(keys), "", 0.0, len(table.choices) - 1.0, choices=tuple(table.choices))
+        return case.Free(tuple(keys), "", 0.0, len(table.choices) - 1.0, choices=tuple(table.choices))
     for name, value in (("from", low), ("to", high)):
         if value is None:
             raise InputError(f"{place}.{name}", None, "missing", f'add {name} = "…" with its unit')
@@ -109,7 +97,7 @@ def _free(place: str, table: Any, sources: Sources) -> Free:
     if whole and not all(isinstance(value, int) for value in (low, high)):
         raise InputError(place, f"{quoted(low)} … {quoted(high)}", "not whole numbers", "write such as 17")
     low, high = first.value / last.si, last.value / last.si
-    return Free(tuple(keys), "", low, high, last.unit, last.si, last.units, whole)
+    return case.Free(tuple(keys), "", low, high, last.unit, last.si, last.units, whole)
 
 
 def _varied(place: str, key: str, sources: Sources) -> None:
@@ -141,14 +129,14 @@ class _Number(NamedTuple):
 def _number(place: str, value: Any, kind: Kind | None) -> _Number:
     if kind is not None:
         try:
-            number, unit = to_si(value, kind), unit_of(value) or ""
+            number, unit = to_si(value, kind), case.unit_of(value) or ""
         except NotAQuantity as error:
             raise InputError(place, quoted(value), error.rule, error.remedy) from None
         found = _Number(number, unit, kind.si.replace("**", ""), factor_to_si(unit, kind) if unit else 1.0)
     elif isinstance(value, (int, float)) and not isinstance(value, bool):
         found = _Number(float(value))
     elif (base := base_units(value)) is not None:
-        unit = unit_of(str(value)) or ""
+        unit = case.unit_of(str(value)) or ""
         single = base_units(f"1 {unit}")
         found = _Number(base[0], unit, base[1], single[0] if single else 1.0)
     else:
@@ -158,7 +146,7 @@ def _number(place: str, value: Any, kind: Kind | None) -> _Number:
     return found
 
 
-def _twice(free: Sequence[Free]) -> list[InputError]:
+def _twice(free: Sequence[case.Free]) -> list[InputError]:
     seen: set[str] = set()
     errors = []
     for number, entry in enumerate(free):
@@ -170,7 +158,7 @@ def _twice(free: Sequence[Free]) -> list[InputError]:
     return errors
 
 
-def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[Objective, ...]:
+def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[case.Objective, ...]:
     if (table.minimise is None) == (table.maximise is None):
         rule = "missing" if table.minimise is None else "contradicts maximise"
         remedy = (
@@ -179,7 +167,7 @@ def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[
         raise InputError("design.minimise", None, rule, remedy)
     if table.maximise is not None:
         name = quantity_name("design.maximise", table.maximise, studies)
-        return (Objective(f"-{name}", ((name, -1.0),)),)
+        return (case.Objective(f"-{name}", ((name, -1.0),)),)
     given = table.minimise
     if not isinstance(given, (str, list, tuple)) or given in ([], ()):
         remedy = 'write minimise = "peak_to_peak", a list of two, or [{ figure = "…", weight = 1.0 }, …]'
@@ -195,10 +183,10 @@ def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[
     names = [quantity_name(place, name, studies) for place, name in places.items()]
     if len(set(names)) < len(names):
         raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another figure")
-    return tuple(Objective(name, ((name, 1.0),)) for name in names)
+    return tuple(case.Objective(name, ((name, 1.0),)) for name in names)
 
 
-def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> Objective:
+def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> case.Objective:
     terms = []
     for number, entry in enumerate(given):
         place = f"design.minimise.{number}"
@@ -210,18 +198,18 @@ def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> Objective:
         if not number or not isfinite(weight) or not weight:
             raise InputError(f"{place}.weight", quoted(weight), "not a weight", "write a number such as 0.5")
         terms.append((quantity_name(f"{place}.figure", entry["figure"], studies), float(weight)))
-    return Objective(" + ".join(f"{weight:g} {name}" for name, weight in terms), tuple(terms))
+    return case.Objective(" + ".join(f"{weight:g} {name}" for name, weight in terms), tuple(terms))
 
 
-def _constraint(place: str, text: str, studies: Mapping[str, Study]) -> Constraint:
+def _constraint(place: str, text: str, studies: Mapping[str, Study]) -> case.Constraint:
     match = _CONSTRAINT.match(text)
     if match is None:
         remedy = 'write "contact_ratio >= 1.3" or "hertz_pressure_max <= 1.5 GPa"'
         raise InputError(place, quoted(text), "not FIGURE <= LIMIT or FIGURE >= LIMIT", remedy)
     name = quantity_name(place, match[1], studies)
     sign = 1.0 if match[2] in ("<=", "≤", "<") else -1.0
-    if match[3] == START:
-        return Constraint(text, name, sign, START)
+    if match[3] == case.START:
+        return case.Constraint(text, name, sign, case.START)
     unit = units_by_name(studies)[name]
     value = toml_value(match[3])
     if isinstance(value, float) and not isfinite(value):
@@ -229,17 +217,17 @@ def _constraint(place: str, text: str, studies: Mapping[str, Study]) -> Constrai
     if unit == "1":
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise InputError(place, quoted(text), f"{name} is a plain number", "write the limit without unit")
-        return Constraint(text, name, sign, float(value))
+        return case.Constraint(text, name, sign, float(value))
     kind = Kind(f"{name} ({unit})", unit, f"1 {unit}")
     try:
-        return Constraint(text, name, sign, to_si(value, kind))
+        return case.Constraint(text, name, sign, to_si(value, kind))
     except NotAQuantity as error:
         raise InputError(
             place, quoted(text), error.rule, f"write the limit in {unit} or a multiple"
         ) from None
 
 
-def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
+def _contradictions(constraints: Sequence[case.Constraint]) -> list[InputError]:
     numbers = [constraint for constraint in constraints if not isinstance(constraint.limit, str)]
     return [
         InputError(
@@ -255,23 +243,23 @@ def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
     ]
 
 
-def _duty(place: str, table: Any, free: Sequence[Free], sources: Sources) -> WeightedDuty:
-    keys = flat(table.set)
+def _duty(place: str, table: Any, free: Sequence[case.Free], sources: Sources) -> case.WeightedDuty:
+    keys = case.flat(table.set)
     for key in keys:
         _require(f"{place}.set", (key,), (keys[key],), sources)
         if any(key in other.keys for other in free):
             raise InputError(f"{place}.set", quoted(key), "is free too", "choose one of them")
     name = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in keys.items())
-    return WeightedDuty(table.weight, keys, name)
+    return case.WeightedDuty(table.weight, keys, name)
 
 
-def _tolerance(place: str, table: Any, sources: Sources) -> Tolerance:
+def _tolerance(place: str, table: Any, sources: Sources) -> case.Tolerance:
     _varied(f"{place}.key", table.key, sources)
     (_, schema), key = require_key(f"{place}.key", table.key, sources)
     if is_drawn(schema, key):
         if table.plus_minus is not None:
             raise InputError(f"{place}.plus_minus", quoted(table.plus_minus), "counts samples", "omit it")
-        return Tolerance(table.key, "", 0.0, "", DRAWN)
+        return case.Tolerance(table.key, "", 0.0, "", case.DRAWN)
     if table.plus_minus is None:
         raise InputError(f"{place}.plus_minus", None, "missing", 'add plus_minus = "…" with its unit')
     kind = kind_at(schema, key)
@@ -284,4 +272,4 @@ def _tolerance(place: str, table: Any, sources: Sources) -> Tolerance:
         raise InputError(f"{place}.plus_minus", written, "not a length", "write such as 3 um")
     if size.value <= 0:
         raise InputError(f"{place}.plus_minus", written, "not positive", "write such as 1 um")
-    return Tolerance(table.key, "", size.value / size.si, size.unit, table.distribution)
+    return case.Tolerance(table.key, "", size.value / size.si, size.unit, table.distribution)

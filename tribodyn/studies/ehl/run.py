@@ -11,16 +11,7 @@ from tribodyn.errors import InputError
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.numerics.shapes import Array
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
-from tribodyn.studies.ehl.along_path import (
-    PairWay,
-    PreparedEhl,
-    loaded,
-    prepare,
-    profiles,
-    seen_by,
-    solved_at,
-    way,
-)
+from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.case import BEGIN, END, PLACES, SAMPLES, EhlCase, layout_of, unsolved
 from tribodyn.studies.ehl.squeezed import SteadyContact, squeezed, steady_of
 from tribodyn.studies.gears.check import check_gears
@@ -41,8 +32,8 @@ def run(
     """Run a case and write its record; see `study.Study.run`."""
     path = target(case, output, force)
     begun = perf_counter()
-    study = prepare(case)
-    over = way(study)
+    study = along_path.prepare(case)
+    over = along_path.way(study)
     laws = by_laws(study, over)
     arrays = solve(study, over, progress or (lambda _share: None))
     summary = _summary(study, over, arrays, laws)
@@ -69,19 +60,19 @@ def run(
 
 def check(case: EhlCase) -> CheckResult:
     """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
-    return check_gears(prepare(case))
+    return check_gears(along_path.prepare(case))
 
 
 def quantities_of(case: EhlCase) -> dict[str, Any]:
     """Summary of a case without a record."""
-    study = prepare(case)
-    over = way(study)
+    study = along_path.prepare(case)
+    over = along_path.way(study)
     return _summary(study, over, solve(study, over, lambda _share: None), by_laws(study, over))
 
 
-def solve(study: PreparedEhl, over: PairWay, progress: Progress) -> dict[str, Array]:
+def solve(study: along_path.PreparedEhl, over: along_path.PairWay, progress: Progress) -> dict[str, Array]:
     """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
-    case, seen = study.case, seen_by(study, over)
+    case, seen = study.case, along_path.seen_by(study, over)
     start, count = float(study.cycle.roll_start), len(over.roll)
     alone = {name: known for name, known in SAMPLES.items() if not name.endswith("_by_law")}
     arrays = unsolved(alone, count) | {
@@ -95,13 +86,13 @@ def solve(study: PreparedEhl, over: PairWay, progress: Progress) -> dict[str, Ar
         "hertz_pressure": np.asarray(seen.surface.hertz_pressure),
     }
     steady: list[SteadyContact | None] = [None] * count
-    for at in map(int, np.flatnonzero(loaded(over))):
-        found = solved_at(study, over, seen, at)
+    for at in map(int, np.flatnonzero(along_path.loaded(over))):
+        found = along_path.solved_at(study, over, seen, at)
         if found is not None:
             solution, problem = found.solution, found.solution.problem
             gap = solution.mean_gap
             central = float(np.interp(0.0, solution.place, gap))
-            values = profiles(found) | {
+            values = along_path.profiles(found) | {
                 "half_width": problem.half_width,
                 "central_film_thickness": central,
                 "minimum_film_thickness": float(np.min(gap)),
@@ -117,7 +108,7 @@ def solve(study: PreparedEhl, over: PairWay, progress: Progress) -> dict[str, Ar
                 arrays[name][at] = value
             if case.transient:
                 steady[at] = steady_of(found)
-        flat = solved_at(study, over, seen, at, smooth=True)
+        flat = along_path.solved_at(study, over, seen, at, smooth=True)
         if flat is not None:
             arrays["central_film_smooth"][at] = flat.solution.central_film_thickness
             arrays["minimum_film_smooth"][at] = flat.solution.minimum_film_thickness
@@ -128,7 +119,7 @@ def solve(study: PreparedEhl, over: PairWay, progress: Progress) -> dict[str, Ar
     return arrays
 
 
-def by_laws(study: PreparedEhl, over: PairWay) -> dict[str, dict[str, Array]]:
+def by_laws(study: along_path.PreparedEhl, over: along_path.PairWay) -> dict[str, dict[str, Array]]:
     """Film by every film law and friction by every friction law that needs no values of its own.
 
     The solved law is left out: it is tabulated from the contacts that are solved here.
@@ -136,43 +127,46 @@ def by_laws(study: PreparedEhl, over: PairWay) -> dict[str, dict[str, Array]]:
     films, frictions = {}, {}
     for name in FILM_LAWS:
         if name != "solved":
-            films[name] = np.asarray(seen_by(study, over, name).surface.central_film_thickness)
+            films[name] = np.asarray(along_path.seen_by(study, over, name).surface.central_film_thickness)
     for name in FRICTION_LAWS:
         if name in ("solved", "none"):
             continue
         try:
-            seen = seen_by(study, over, friction=name)
+            seen = along_path.seen_by(study, over, friction=name)
         except InputError:  # it wants a value of its own
             continue
         frictions[name] = np.abs(np.asarray(seen.surface.friction_coefficient)) + 0.0 * over.roll
     return {"film": films, "friction": frictions}
 
 
-def meant_by(study: PreparedEhl, over: PairWay, law: str) -> str:
+def meant_by(study: along_path.PreparedEhl, over: along_path.PairWay, law: str) -> str:
     """Which dataset of the solved contact a film law stands for.
 
     Its central or its minimum film; and that between smooth surfaces, where the law knows no roughness.
     """
     smooth = replace(study, case=replace(study.case, roughness=1e-3 * study.case.roughness))
     rough, flat = (
-        seen_by(prepared, over, law).surface.central_film_thickness for prepared in (study, smooth)
+        along_path.seen_by(prepared, over, law).surface.central_film_thickness for prepared in (study, smooth)
     )
     kind = "smooth" if np.array_equal(np.asarray(rough), np.asarray(flat)) else "thickness"
     return f"{FILM_LAWS[law].thickness}_film_{kind}"
 
 
-def _traction(study: PreparedEhl, over: PairWay) -> list[float]:
+def _traction(study: along_path.PreparedEhl, over: along_path.PairWay) -> list[float]:
     """Friction coefficient over slide-to-roll ratio, where the load is highest; NaN: not solved."""
-    seen, at = seen_by(study, over), int(np.argmax(over.line_load))
+    seen, at = along_path.seen_by(study, over), int(np.argmax(over.line_load))
     curve = []
     for ratio in TRACTION:
-        found = solved_at(study, over, seen, at, slide_to_roll=ratio)
+        found = along_path.solved_at(study, over, seen, at, slide_to_roll=ratio)
         curve.append(np.nan if found is None else abs(found.friction) / float(over.line_load[at]))
     return curve
 
 
 def _summary(
-    study: PreparedEhl, over: PairWay, arrays: dict[str, Array], laws: dict[str, dict[str, Array]]
+    study: along_path.PreparedEhl,
+    over: along_path.PairWay,
+    arrays: dict[str, Array],
+    laws: dict[str, dict[str, Array]],
 ) -> dict[str, Any]:
     solved = np.isfinite(arrays["central_film_thickness"])
     if not np.any(solved):

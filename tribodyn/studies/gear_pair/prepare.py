@@ -8,20 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import (
-    CLASSICAL,
-    DRIVE_SHAFT,
-    DRIVE_SPEED,
-    DRIVE_TORQUE,
-    ENERGY_CONSISTENT,
-    HERTZ_IN_TABLE,
-    HERTZ_POWER_LAW,
-    SLIDING_DYNAMIC,
-    SLIDING_KINEMATIC,
-    Mechanics,
-    Model,
-    Options,
-)
+from tribodyn.dynamics import parameters
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
 from tribodyn.mesh.equilibrium import contacts, elastic, settled
@@ -44,7 +31,7 @@ SWEEPS_NONLINEAR = 12
 class PreparedPair(PreparedGears[Case]):
     """A case made ready to integrate."""
 
-    model: Model
+    model: parameters.Model
     #: (mass kg, inertia kg m²); of pinion and gear alone, without what is attached to them
     masses: tuple[tuple[float, float], tuple[float, float]]
     given: Case  # as it was before: with the oil that enters the mesh
@@ -103,7 +90,7 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> PreparedPair:
     warm, thermal = at_tooth_temperature(case, assembly, _quasi_static_loss(made))
     surfaces, film, friction = closure = closure_of(warm)
     mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle, closure)
-    model = Model(table, mechanics, surfaces, film.parameters, friction.parameters, options)
+    model = parameters.Model(table, mechanics, surfaces, film.parameters, friction.parameters, options)
     return PreparedPair(warm, assembly, cycle, thermal, model, (pinion, gear), case)
 
 
@@ -141,18 +128,22 @@ def tables(case: Case) -> Tabulated:
     return Tabulated(cycle, polynomials(cycle), (pinion, gear), assembly, split)
 
 
-def _options(case: Case, cycle: MeshCycle, closure: Closure) -> Options:
-    drive = DRIVE_SPEED
+def _options(case: Case, cycle: MeshCycle, closure: Closure) -> parameters.Options:
+    drive = parameters.DRIVE_SPEED
     if case.operating.source == "torque":
-        drive = DRIVE_TORQUE if case.operating.shaft_stiffness is None else DRIVE_SHAFT
+        drive = parameters.DRIVE_TORQUE if case.operating.shaft_stiffness is None else parameters.DRIVE_SHAFT
     linear = float(cycle.hertz_coefficient) == 0.0
-    return Options(
+    return parameters.Options(
         film=closure.film.functions,
         friction=closure.friction.functions,
-        sliding=SLIDING_DYNAMIC if case.friction.sliding == "dynamic" else SLIDING_KINEMATIC,
-        formulation=ENERGY_CONSISTENT if case.mesh.formulation == "energy-consistent" else CLASSICAL,
+        sliding=parameters.SLIDING_DYNAMIC
+        if case.friction.sliding == "dynamic"
+        else parameters.SLIDING_KINEMATIC,
+        formulation=parameters.ENERGY_CONSISTENT
+        if case.mesh.formulation == "energy-consistent"
+        else parameters.CLASSICAL,
         drive=drive,
-        hertz=HERTZ_IN_TABLE if linear else HERTZ_POWER_LAW,
+        hertz=parameters.HERTZ_IN_TABLE if linear else parameters.HERTZ_POWER_LAW,
         sweeps=_sweeps(cycle),
         averaged=int(float(cycle.pitch_point_length) > 0.0),
     )
@@ -171,7 +162,7 @@ def _sweeps(cycle: MeshCycle) -> int:
 
 def _mechanics(
     case: Case, pinion: tuple[float, float], gear: tuple[float, float], cycle: MeshCycle
-) -> Mechanics:
+) -> parameters.Mechanics:
     operating, bearings = case.operating, case.bearings
     pinion_radius, gear_radius = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
     equivalent_mass = pinion[1] * gear[1] / (pinion[1] * gear_radius**2 + gear[1] * pinion_radius**2)
@@ -183,7 +174,7 @@ def _mechanics(
     balance = operating.gear_torque * pinion_radius / gear_radius
     times, torques = (np.asarray(values, dtype=float) for values in operating.torque_table or ((), ()))
     harmonics = np.array(operating.torque_harmonics, dtype=float).reshape(-1, 3)
-    return Mechanics(
+    return parameters.Mechanics(
         pinion_mass=pinion[0],
         gear_mass=gear[0],
         pinion_inertia=pinion[1] + rigid,

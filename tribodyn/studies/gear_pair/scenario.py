@@ -12,17 +12,7 @@ from pydantic import Field
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.table import MeshData
-from tribodyn.scenario import units
-from tribodyn.scenario.fields import (
-    Angle,
-    Error,
-    ErrorCurve,
-    Inertia,
-    StiffnessCurve,
-    Torque,
-    TorqueCurve,
-    TorsionalDamping,
-)
+from tribodyn.scenario import fields, units
 from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, Text, csv_file, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings, Stiffness, bearings_of
 from tribodyn.scenario.tables.drive_data import backlash_of
@@ -55,17 +45,17 @@ Smoothing = Annotated[float, InUnit(units.positive(units.LENGTH), "0.1 um")]
 class TorqueHarmonic(Table):
     """A cosine in the load torque."""
 
-    amplitude: Torque
+    amplitude: fields.Torque
     frequency: Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY))]
-    phase: Angle = written("0 deg")
+    phase: fields.Angle = written("0 deg")
 
 
 class ErrorHarmonic(Table):
     """A cosine in the static transmission error, over the mesh cycle."""
 
     order: Count = Field(description="1: mesh frequency, 2: twice that, …")
-    amplitude: Error
-    phase: Angle = written("0 deg")
+    amplitude: fields.Error
+    phase: fields.Angle = written("0 deg")
 
 
 class Operating(OiledOperatingTable):
@@ -74,22 +64,22 @@ class Operating(OiledOperatingTable):
     source: Literal["speed", "torque"] = Field(
         "speed", description="speed: the pinion's rotation is prescribed; torque: a motor with inertia"
     )
-    gear_torque_table: Annotated[TorqueCurve, csv_file("time", "torque")] | None = Field(
+    gear_torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
         None, description="over time, added to the load"
     )
     gear_torque_harmonics: tuple[TorqueHarmonic, ...] = Field(
         (), max_length=MOST_HARMONICS, description="added to the load"
     )
-    load_inertia: Inertia = written("0 kg*m**2")
-    load_damping: TorsionalDamping = written(
+    load_inertia: fields.Inertia = written("0 kg*m**2")
+    load_damping: fields.TorsionalDamping = written(
         "0 N*m*s/rad", description="load that grows with speed above nominal"
     )
-    drive_inertia: Inertia = written("0 kg*m**2", description="of the motor")
+    drive_inertia: fields.Inertia = written("0 kg*m**2", description="of the motor")
     shaft_stiffness: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
         None, description="between motor and pinion; default: rigid"
     )
-    shaft_damping: TorsionalDamping = written("0 N*m*s/rad")
-    speed_regulation: TorsionalDamping = written(
+    shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
+    speed_regulation: fields.TorsionalDamping = written(
         "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
     )
 
@@ -109,7 +99,7 @@ class TransmissionError(Table):
     """Static transmission error e of a pair, positive where material is missing."""
 
     harmonics: tuple[ErrorHarmonic, ...] = Field((), max_length=MOST_HARMONICS)
-    table: Annotated[ErrorCurve, csv_file("roll_angle", "error")] | None = None
+    table: Annotated[fields.ErrorCurve, csv_file("roll_angle", "error")] | None = None
 
 
 class Mesh(Table):
@@ -125,7 +115,7 @@ class Mesh(Table):
     )
     foundation_coupling: FoundationCoupling = True
     stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
-    table: Annotated[StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = Field(
+    table: Annotated[fields.StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = Field(
         None, description='of a single pair, with compliance = "table"'
     )
     formulation: Literal["classical", "energy-consistent"] = Field(

@@ -13,18 +13,8 @@ from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import record_label, record_title
 from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
+from tribodyn.studies.load_contact import maps
 from tribodyn.studies.load_contact.case import BODIES
-from tribodyn.studies.load_contact.maps import (
-    FILM,
-    LINE_LOAD,
-    PRESSURE,
-    draw_map,
-    face_map_figure,
-    line_load_figure,
-    over_phase,
-    over_roll,
-    pair_over_phase,
-)
 
 MAP_CURVES = "Transmission error over the mesh cycle, less its mean, at every torque"
 PHASE = "Phase (mesh cycles)"
@@ -57,7 +47,7 @@ def _loaded_error(records: Sequence[Record]) -> Figure:
 def draw_error(axes: Axes, records: Sequence[Record], name: str) -> None:
     """Draw a transmission error of every record over the phase, its peak to peak in the legend."""
     for number, record in enumerate(records):
-        phase, error = over_phase(record, name)
+        phase, error = maps.over_phase(record, name)
         spread = f"peak to peak {np.ptp(error) * 1e6:.3g} µm"
         label = f"{record_label(record)}: {spread}" if len(records) > 1 else spread
         axes.plot(phase, error * 1e6, color=colour(number), label=label)
@@ -71,7 +61,7 @@ def _load_sharing(records: Sequence[Record]) -> Figure:
     rows[0].set_xlabel(PHASE)
     for number, record in enumerate(records):
         load = record["normal_load"]
-        roll, share = over_roll(record, load / np.sum(load, axis=1, keepdims=True))
+        roll, share = maps.over_roll(record, load / np.sum(load, axis=1, keepdims=True))
         rows[1].plot(np.degrees(roll), 100.0 * share, color=colour(number))
     show_contact(rows[1], records)
     rows[1].set_ylabel("Share of the load (%)")
@@ -84,7 +74,7 @@ def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
     """Draw the normal load of each pair over the phase; colours tell records apart, or pairs of one."""
     for number, record in enumerate(records):
         for pair in reversed(record.pairs):
-            phase, load = pair_over_phase(record, "normal_load", pair)
+            phase, load = maps.pair_over_phase(record, "normal_load", pair)
             if np.nanmax(load) > 0.0:
                 which = number if len(records) > 1 else 1 - pair
                 style = PAIR_STYLES.get(pair, "-")
@@ -101,7 +91,7 @@ def _mesh_stiffness(records: Sequence[Record]) -> Figure:
 
 def show_contact(axes: Axes, records: Sequence[Record]) -> None:
     """Show, of an axis of roll angles, those at which the pair of any record carries load."""
-    rolls = [over_roll(record, record["normal_load"]) for record in records]
+    rolls = [maps.over_roll(record, record["normal_load"]) for record in records]
     loaded = np.degrees(np.concatenate([roll[load > 0.0] for roll, load in rolls]))
     if loaded.size:
         axes.set_xlim(np.min(loaded) - 0.5, np.max(loaded) + 0.5)
@@ -111,7 +101,7 @@ def show_contact(axes: Axes, records: Sequence[Record]) -> None:
 def draw_stiffness(axes: Axes, records: Sequence[Record]) -> None:
     """Draw the mesh stiffness of every record over the phase."""
     for number, record in enumerate(records):
-        phase, stiffness = over_phase(record, "mesh_stiffness")
+        phase, stiffness = maps.over_phase(record, "mesh_stiffness")
         axes.plot(phase, stiffness * 1e-6, color=colour(number))
     axes.set(xlabel=PHASE, ylabel="Mesh stiffness (N/µm)")
     axes.set_ylim(bottom=0)
@@ -140,7 +130,7 @@ def draw_root_stress(axes: Axes, records: Sequence[Record], name: str, body: str
     for number, record in enumerate(records):
         stress = record[name][:, list(record["body"]).index(body)]
         worst = np.max(stress, axis=-1) if name == "root_tension" else np.min(stress, axis=-1)
-        roll, values = over_roll(record, worst)
+        roll, values = maps.over_roll(record, worst)
         axes.plot(np.degrees(roll), values * 1e-6, color=colour(number), linestyle=style)
     axes.margins(y=0.05)
 
@@ -193,8 +183,8 @@ def _overview(records: Sequence[Record]) -> Figure:
         draw_harris(panels[2], [record])
     else:
         draw_stiffness(panels[2], [record])
-    draw_map(panels[3], [record], record, LINE_LOAD)
-    draw_map(panels[4], [record], record, PRESSURE)
+    maps.draw_map(panels[3], [record], record, maps.LINE_LOAD)
+    maps.draw_map(panels[4], [record], record, maps.PRESSURE)
     for body, style in (("pinion", "-"), ("gear", "--")):
         draw_root_stress(panels[5], [record], "root_tension", body, style)
     show_contact(panels[5], [record])
@@ -204,13 +194,15 @@ def _overview(records: Sequence[Record]) -> Figure:
         "Transmission error under load",
         "Normal load of each pair",
         "Harris map: error over torque" if "torque" in record else "Stiffness of all pairs",
-        LINE_LOAD.title,
-        PRESSURE.title,
+        maps.LINE_LOAD.title,
+        maps.PRESSURE.title,
         "Root tension of one pair",
     )
     for letter, axes, title in zip("abcdef", panels, titles, strict=True):
         mark_panel(axes, letter, title)
-    head = f"{record_title(record)}.  Maps: {LINE_LOAD.explained[0].lower()}{LINE_LOAD.explained[1:]}"
+    head = (
+        f"{record_title(record)}.  Maps: {maps.LINE_LOAD.explained[0].lower()}{maps.LINE_LOAD.explained[1:]}"
+    )
     drawn.suptitle(head, x=0.01, ha="left", fontsize=11)
     return drawn
 
@@ -253,14 +245,15 @@ DRAWINGS: dict[str, Drawing] = {
     ),
     "loaded-error": _drawing("loaded and unloaded transmission error", _loaded_error),
     "load-sharing": _drawing("load of every pair, and its share", _load_sharing),
-    "line-load": _drawing("line load over roll angle and face", line_load_figure),
+    "line-load": _drawing("line load over roll angle and face", maps.line_load_figure),
     "pressure-map": _drawing(
-        "Hertz pressure over roll angle and face", lambda records: face_map_figure(records, PRESSURE)
+        "Hertz pressure over roll angle and face",
+        lambda records: maps.face_map_figure(records, maps.PRESSURE),
     ),
     "film-map": _drawing(
         "film thickness over roll angle and face, with a lubricant",
-        lambda records: face_map_figure(records, FILM),
-        lambda record: FILM.dataset in record,
+        lambda records: maps.face_map_figure(records, maps.FILM),
+        lambda record: maps.FILM.dataset in record,
         ("film-map", "{path} holds no film", "run the scenario with a lubricant and a speed"),
     ),
     "root-stress": _drawing("root stress on both sides of the tooth", _root_stress),

@@ -16,18 +16,9 @@ import numpy as np
 from scipy.special import ndtr
 
 from tribodyn.numerics.shapes import Array
+from tribodyn.tribology.ehl import reynolds
 from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import HERTZ_LOAD, FilmGrid, at_faces
-from tribodyn.tribology.ehl.reynolds import (
-    FilmState,
-    FlowCorrection,
-    SmoothReduced,
-    Squeeze,
-    cells,
-    mean_fluidity,
-    mesh_speed,
-    stored,
-)
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 #: Separations over σ below which the asperities count as pressed flat.
@@ -100,7 +91,7 @@ class RoughReduced(NamedTuple):
     compliance: float = 1.0
 
 
-Reduced = SmoothReduced | RoughReduced
+Reduced = reynolds.SmoothReduced | RoughReduced
 
 
 def asperities(thick: Array, reduced: RoughReduced) -> tuple[Array, Array]:
@@ -117,11 +108,11 @@ def gap(thick: Array, reduced: RoughReduced) -> tuple[Array, Array]:
 
 
 def rough_residual(
-    state: FilmState,
+    state: reynolds.FilmState,
     reduced: RoughReduced,
     grid: FilmGrid,
-    closure: FlowCorrection,
-    squeeze: Squeeze | None = None,
+    closure: reynolds.FlowCorrection,
+    squeeze: reynolds.Squeeze | None = None,
 ) -> tuple[Array, Array]:
     """Residuals and Jacobian: faces, films, load, end; by pressures within the film, films, H_0, Q, X_e."""
     last, nodes, thick = grid.end, len(grid.node), state.film
@@ -132,13 +123,15 @@ def rough_residual(
     unit, scale = reduced.film_unit, reduced.hertz_pressure
     pressure = state.pressure[film]
     exponent, slope = log_viscosity(scale * pressure, reduced.fluid)
-    fluidity, upstream, downstream = mean_fluidity(closure.thinning[film] + closure.response[film] * exponent)
+    fluidity, upstream, downstream = reynolds.mean_fluidity(
+        closure.thinning[film] + closure.response[film] * exponent
+    )
     slope = scale * closure.response[film] * slope
     density, growth = relative_density(scale * pressure, reduced.fluid)
     growth = scale * growth
     dense, share, kept = at_faces(grid, density), 1.0 + at_faces(grid, closure.drift[film]), 1.0
     if squeeze is not None:
-        speed = mesh_speed(squeeze, state.end, grid)
+        speed = reynolds.mesh_speed(squeeze, state.end, grid)
         share, kept = share - speed[:-1], 1.0 - speed[-1]
     middle = at_faces(grid, mean[film])
     factor, widened = pressure_flow_factor(middle * unit, reduced.roughness)
@@ -178,8 +171,8 @@ def rough_residual(
     matrix[size - 1, size - 2] = 1.0
     if squeeze is not None:
         matrix[:last, size - 1] += squeeze.rate * (dense * middle - state.flow)
-        values[:last] += stored(squeeze, grid, density * mean[film])
-        length = squeeze.rate * cells(grid)
+        values[:last] += reynolds.stored(squeeze, grid, density * mean[film])
+        length = squeeze.rate * reynolds.cells(grid)
         by_film = np.broadcast_to(length * density * opened[film], (last, last + 1))
         matrix[:last, inner : inner + last + 1] += np.triu(by_film, 1)
         by_pressure = np.broadcast_to((length * growth * mean[film])[1:last], (last, inner))
@@ -187,7 +180,7 @@ def rough_residual(
     return values, matrix
 
 
-def with_films(state: FilmState, reduced: RoughReduced, grid: FilmGrid) -> FilmState:
+def with_films(state: reynolds.FilmState, reduced: RoughReduced, grid: FilmGrid) -> reynolds.FilmState:
     """Return a state of smooth surfaces with its films, and no pressure behind the film."""
     pressure = state.pressure.copy()
     pressure[grid.end :] = 0.0
