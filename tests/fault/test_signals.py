@@ -30,7 +30,7 @@ SOLVING = (
     "def noted(*given, **more):\n    open('begun', 'w').close()\n    return solve(*given, **more)\n"
     "module.{name} = noted\n"
 )
-PATH = SOLVING.format(module="tribodyn.studies.ehl.run", name="solved_at")
+PATH = SOLVING.format(module="tribodyn.studies.ehl.along_path", name="solved_at")
 TABLE = SOLVING.format(module="tribodyn.tribology.ehl.table", name="solve_one")
 SOLVED_LAWS = ("--set", "film.law=solved", "--set", "friction.law=solved")
 LONG = ("--set", "solver.cycles=20000", "--set", "output.samples_per_cycle=20")
@@ -89,7 +89,7 @@ def begun(
 def wait(condition: Callable[[], object], process: "subprocess.Popen[str]") -> None:
     started = time.monotonic()
     while not condition():
-        assert process.poll() is None
+        assert process.poll() is None, process.communicate()[1]
         assert time.monotonic() - started < 300
         time.sleep(0.02)
 

@@ -98,8 +98,10 @@ STATE_NAMES = (
 
 def row_bytes(settings: Any) -> float:
     """Bytes of a case in the record of a sweep with these `evaluate.Settings`."""
-    layout = layout_of(settings)
+    # sizes without the scales: as many samples may be asked for as no memory holds
+    layout = layout_of(settings._replace(samples=1, points=1))
     sizes = {name: len(values) for name, (_, values) in layout.scales.items()}
+    sizes |= {"sample": settings.window * settings.samples, "cycle": settings.points}
     return variable_bytes(layout.variables.values(), sizes)
 
 
