@@ -74,6 +74,24 @@ def test_a_march_goes_on_where_it_stopped(cases):
     assert np.max(np.abs(second.samples - whole.samples)[..., XI]) < 1e-6 * scale
 
 
+@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
+def test_extremes_are_those_of_the_window(cases, method: str):
+    """The start from rest, whose loads are higher than those of the window, has no part in them."""
+    models, states = cases[0][:2], cases[1][:2] + 0.0
+    states[:, XI] *= 1.5
+    settings = {"samples": SAMPLES, "rtol": 1e-9, "method": method}
+    whole = march(models, states, cycles=6, window=1, extremes=True, **settings)
+    before = march(models, states, cycles=5, window=0, **settings)
+    last = march(
+        models, before.state, cycles=1, window=1, started=True, first_cycle=5, extremes=True, **settings
+    )
+    every = march(models, states, cycles=6, window=6, extremes=True, **settings)
+    measure = whole.extremes.measure
+    np.testing.assert_allclose(measure, last.extremes.measure, rtol=1e-6)
+    assert np.all(every.extremes.measure >= measure - 1e-9 * np.abs(measure))
+    assert np.any(every.extremes.measure > 1.01 * np.abs(measure))
+
+
 def test_a_march_over_no_cycle_leaves_everything_as_it_is(cases):
     models, states = cases
     for method in ("auto", "rodas4", "tsit5"):
