@@ -67,12 +67,12 @@ def wrong_arrows(source: str, *, typing_only: bool) -> list[str]:
     """Imports of a folder that point to where it must not look, as ``module:line imports module``."""
     allowed = MAY_IMPORT[source] | {source, "errors", ""}
     return [
-        f"{one.importer}:{one.line} imports {one.imported}"
-        for one in imports(ROOT)
-        if folder(one.importer) == source
-        and one.imported.split(".")[0] == ROOT.name
-        and folder(one.imported) not in allowed
-        and one.typing_only is typing_only
+        f"{arrow.importer}:{arrow.line} imports {arrow.imported}"
+        for arrow in imports(ROOT)
+        if folder(arrow.importer) == source
+        and arrow.imported.split(".")[0] == ROOT.name
+        and folder(arrow.imported) not in allowed
+        and arrow.typing_only is typing_only
     ]
 
 
@@ -110,14 +110,16 @@ def test_imports_for_type_checkers_point_the_same_way(source):
 
 
 def test_errors_import_nothing_of_the_package():
-    assert [one for one in imports(ROOT) if folder(one.importer) == "errors" and one.imported in FILES] == []
+    assert [
+        arrow for arrow in imports(ROOT) if folder(arrow.importer) == "errors" and arrow.imported in FILES
+    ] == []
 
 
 def test_drawing_takes_of_the_pictures_of_results_their_style_and_the_gears_alone():
     taken = {
-        one.imported
-        for one in imports(ROOT)
-        if folder(one.importer) == "drawing" and folder(one.imported) == "post"
+        arrow.imported
+        for arrow in imports(ROOT)
+        if folder(arrow.importer) == "drawing" and folder(arrow.imported) == "post"
     }
     assert taken <= {"tribodyn.post.style", "tribodyn.post.figures.gears_in_mesh"}
 
@@ -140,9 +142,9 @@ def test_no_circle_by_folder():
 @pytest.mark.parametrize("source", PHYSICS)
 def test_physics_knows_no_file_format_or_picture(source):
     found = [
-        f"{one.importer}:{one.line} imports {one.imported}"
-        for one in imports(ROOT)
-        if folder(one.importer) == source and one.imported.split(".")[0] in BORDERS
+        f"{arrow.importer}:{arrow.line} imports {arrow.imported}"
+        for arrow in imports(ROOT)
+        if folder(arrow.importer) == source and arrow.imported.split(".")[0] in BORDERS
     ]
     assert not found, "\n".join(found)
 
@@ -151,10 +153,10 @@ def test_physics_knows_no_file_format_or_picture(source):
 def test_a_study_imports_no_other(study):
     others = tuple(f"tribodyn.studies.{other}" for other in KINDS.values() if other != study)
     found = [
-        f"{one.importer}:{one.line} imports {one.imported}"
-        for one in imports(ROOT)
-        if f"{one.importer}.".startswith(f"tribodyn.studies.{study}.")
-        and f"{one.imported}.".startswith(tuple(f"{other}." for other in others))
+        f"{arrow.importer}:{arrow.line} imports {arrow.imported}"
+        for arrow in imports(ROOT)
+        if f"{arrow.importer}.".startswith(f"tribodyn.studies.{study}.")
+        and f"{arrow.imported}.".startswith(tuple(f"{other}." for other in others))
     ]
     assert not found, "\n".join(found)
 
@@ -233,10 +235,10 @@ def test_one_module_starts_processes():
         if "LocalCluster(" in text:
             found += [name] * (text.count("isolated_environment()") != text.count("LocalCluster("))
     found += [
-        f"{one.importer}:{one.line} imports {one.imported}"
-        for one in imports(ROOT)
-        if one.imported.split(".")[0] in programs
-        and not one.typing_only
-        and one.importer != "tribodyn.numerics.child"
+        f"{arrow.importer}:{arrow.line} imports {arrow.imported}"
+        for arrow in imports(ROOT)
+        if arrow.imported.split(".")[0] in programs
+        and not arrow.typing_only
+        and arrow.importer != "tribodyn.numerics.child"
     ]
     assert not found, "\n".join(found)

@@ -24,12 +24,12 @@ def mean_friction(places: int) -> float:
     lost = sliding = 0.0
     for place in np.linspace(start + 0.2e-3, end - 0.2e-3, places):
         share = 1.0 if end - pitch < place < start + pitch else 0.5
-        one, two = speed * place, speed * teeth[0] / teeth[1] * (whole - place)
+        pinion_speed, gear_speed = speed * place, speed * teeth[0] / teeth[1] * (whole - place)
         contact = td.line_contact(
             line_load=share * load,
             radius=place * (whole - place) / whole,
-            entrainment_speed=(one + two) / 2,
-            sliding_speed=one - two,
+            entrainment_speed=(pinion_speed + gear_speed) / 2,
+            sliding_speed=pinion_speed - gear_speed,
             viscosity=13.28e-3,
             pressure_viscosity=1.6e-8,
             effective_modulus=226.37e9,
@@ -37,8 +37,8 @@ def mean_friction(places: int) -> float:
             limiting_coefficient=0.053,
             temperature_viscosity=0.035,
         )
-        lost += share * abs(contact.friction_coefficient * (one - two))
-        sliding += share * abs(one - two)
+        lost += share * abs(contact.friction_coefficient * (pinion_speed - gear_speed))
+        sliding += share * abs(pinion_speed - gear_speed)
     return lost / sliding
 
 

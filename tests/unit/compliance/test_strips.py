@@ -161,11 +161,11 @@ def test_without_waves_the_strips_are_plane_strain():
 
 def quadratic(coefficients, x, y):
     """Values and slopes along x and y, (3, point), of three quadratic functions of (3, 6) coefficients."""
-    one, none = np.ones_like(x), np.zeros_like(x)
+    ones, none = np.ones_like(x), np.zeros_like(x)
     terms = (
-        [one, x, y, x * x, x * y, y * y],
-        [none, one, none, 2 * x, y, none],
-        [none, none, one, none, x, 2 * y],
+        [ones, x, y, x * x, x * y, y * y],
+        [none, ones, none, 2 * x, y, none],
+        [none, none, ones, none, x, 2 * y],
     )
     return [coefficients @ np.stack(rows) for rows in terms]
 

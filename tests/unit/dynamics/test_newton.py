@@ -175,7 +175,7 @@ def expected(model, y, phase, segment, cycle):
 def loads_of(on, approach, compliance, coupling):
     """Loads of the pairs, each touching or apart."""
     for touching in product((True, False), repeat=len(on)):
-        chosen = [i for i, one in zip(on, touching, strict=True) if one]
+        chosen = [i for i, contact in zip(on, touching, strict=True) if contact]
         matrix = np.array([[compliance[i] if i == j else coupling[i, j] for j in chosen] for i in chosen])
         found = dict.fromkeys(on, 0.0)
         if chosen:

@@ -46,9 +46,10 @@ def quantity(case, of):
     ("name", "shape"),
     [
         pytest.param(
-            *one, marks=() if one[0] in (INVOLUTE, "cycloidal-23-47", "spline-23-47") else pytest.mark.soak
+            *family,
+            marks=() if family[0] in (INVOLUTE, "cycloidal-23-47", "spline-23-47") else pytest.mark.soak,
         )
-        for one in FAMILIES.items()
+        for family in FAMILIES.items()
     ],
 )
 def test_contact_ratio_of_every_family(name, shape):

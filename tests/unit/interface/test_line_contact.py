@@ -36,9 +36,11 @@ def test_attributes_and_plot():
 
 
 def test_friction_has_the_sign_of_the_sliding_speed():
-    one, other = (td.line_contact(**GIVEN, sliding_speed=v).friction_coefficient for v in (1e-4, -1e-4))
-    assert one > 0.0
-    assert other == pytest.approx(-one)
+    coefficient, other = (
+        td.line_contact(**GIVEN, sliding_speed=v).friction_coefficient for v in (1e-4, -1e-4)
+    )
+    assert coefficient > 0.0
+    assert other == pytest.approx(-coefficient)
 
 
 def test_index_of_roelands_isotherm_where_none_is_given():

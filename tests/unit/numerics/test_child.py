@@ -105,7 +105,7 @@ def test_it_inherits_no_file_and_no_state_of_signals(tmp_path):
             open_files, blocked, group = code(
                 "import os, signal\nfiles = [os.readlink(f'/proc/self/fd/{n}') for n in range(3, 99)"
                 " if os.path.islink(f'/proc/self/fd/{n}')]\n"
-                "print([one for one in files if not one.startswith('pipe:')])\n"
+                "print([file for file in files if not file.startswith('pipe:')])\n"
                 "print(signal.pthread_sigmask(signal.SIG_BLOCK, ()))\nprint(os.getpgrp() == os.getpid())"
             ).splitlines()
         finally:
@@ -177,6 +177,6 @@ def test_a_program_is_run_and_ended_with_what_it_started(tmp_path):
     numbers = tmp_path / "numbers"
     with pytest.raises(TimeoutError):
         child.run_program(["sh", "-c", f"sleep 600 & echo $! $$ > {numbers}; wait"], 2.0)
-    assert gone([int(one) for one in numbers.read_text().split()], 15.0)
+    assert gone([int(number) for number in numbers.read_text().split()], 15.0)
     with pytest.raises(OSError, match="no-such"):
         child.run_program(["/no-such-program"], 60.0)

@@ -37,7 +37,7 @@ def test_arrays_of_the_same_content_are_the_same(counted):
 
 
 @pytest.mark.parametrize(
-    ("one", "other"),
+    ("argument", "other"),
     [
         (np.arange(4.0), np.arange(4.0)[::-1]),
         (np.arange(4.0), np.arange(4.0).reshape(2, 2)),
@@ -47,9 +47,9 @@ def test_arrays_of_the_same_content_are_the_same(counted):
         (Held(np.zeros(1)), (np.zeros(1),)),
     ],
 )
-def test_what_differs_is_not_mistaken(counted, one, other):
+def test_what_differs_is_not_mistaken(counted, argument, other):
     function, _ = counted
-    assert function(one) != function(other)
+    assert function(argument) != function(other)
 
 
 def test_an_array_that_is_changed_afterwards_is_another(counted):

@@ -93,7 +93,7 @@ def test_what_cannot_be_is_refused(key, value, at, rule, remedy):
     ],
 )
 def test_what_is_missing_is_named(table, name):
-    without = SCENARIO | {table: {key: one for key, one in SCENARIO[table].items() if key != name}}
+    without = SCENARIO | {table: {key: value for key, value in SCENARIO[table].items() if key != name}}
     with pytest.raises(InputError, match="missing") as refused:
         scenario(without)
     assert refused.value.key == f"{table}.{name}"
@@ -113,7 +113,7 @@ def test_check_says_every_value_and_its_origin():
 
 
 def test_an_oil_without_a_data_sheet_is_as_given():
-    direct = {key: one for key, one in SCENARIO["operating"].items() if key != "oil_temperature"}
+    direct = {key: value for key, value in SCENARIO["operating"].items() if key != "oil_temperature"}
     data = oil_data(scenario(SCENARIO | {"lubricant": "liu-ni-2022", "operating": direct}).lubricant)
     assert data["inlet_viscosity"] == {"value": 0.35, "unit": "Pa s", "origin": "given"}
     assert "oil_temperature" not in data

@@ -63,7 +63,7 @@ def test_own_errors_are_added():
 
 def test_misalignment_of_the_helix_tolerances():
     """√(f_Hβ1² + f_Hβ2²) over the common face, of class 6."""
-    one = case("load-contact-18-36", mesh__misalignment__from_quality=1.0, mesh__slices=None or 21)
+    reference = case("load-contact-18-36", mesh__misalignment__from_quality=1.0, mesh__slices=None or 21)
     other = case("load-contact-18-36", mesh__misalignment__from_quality=2.0, mesh__slices=21)
     table = load("load-contact-18-36", GEARS).case.drive
     d = [1e3 * table.module * body.teeth for body in (table.pinion, table.gear)]
@@ -71,7 +71,7 @@ def test_misalignment_of_the_helix_tolerances():
     slopes = [np.sqrt(2) * (0.05 * d[i] ** 0.5 + 0.35 * b[i] ** 0.5 + 4) for i in (0, 1)]
     expected = np.hypot(*slopes) * 1e-3 / min(b)
     assert (
-        other.mesh.modifications.misalignment.in_plane - one.mesh.modifications.misalignment.in_plane
+        other.mesh.modifications.misalignment.in_plane - reference.mesh.modifications.misalignment.in_plane
         == pytest.approx(expected)
     )
 

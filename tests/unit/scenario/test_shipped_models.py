@@ -41,7 +41,9 @@ def test_viscosity_at_100_degrees_grows_with_the_grade(kind):
     assert at_100 == sorted(at_100)
     # of the same grade a PAO has the higher viscosity index
     others = [case(lubricant=f"iso-vg-{grade}-mineral").lubricant.sheet.viscosity_100 for grade in GRADES]
-    assert kind == "mineral" or all(one > other for one, other in zip(at_100, others, strict=True))
+    assert kind == "mineral" or all(
+        viscosity > other for viscosity, other in zip(at_100, others, strict=True)
+    )
 
 
 @pytest.mark.parametrize("name", ["18CrNiMo7-6", "16MnCr5", "20MnCr5", "42CrMo4", "C45"])

@@ -58,9 +58,9 @@ def test_what_the_sheet_prints_is_taken_back():
 
 
 def test_diameters_are_twice_the_radii():
-    one = load_drive(PAIR, {"drive.gear.bore_radius": "20 mm", "drive.gear.tip_radius": "93 mm"}).drive
+    pair = load_drive(PAIR, {"drive.gear.bore_radius": "20 mm", "drive.gear.tip_radius": "93 mm"}).drive
     other = load_drive(PAIR, {"drive.gear.bore_diameter": "40 mm", "drive.gear.tip_diameter": "186 mm"}).drive
-    assert one == other
+    assert pair == other
 
 
 def test_the_middle_of_the_tolerance_is_taken():

@@ -50,7 +50,7 @@ def test_a_place_that_is_not_found_is_no_end(start):
     class WithGap(Lines):
         def at(self, lines, values):
             inside = [abs(value - between) < 1e-4 for value in values]
-            outside = [value for value, one in zip(values, inside, strict=True) if not one]
+            outside = [value for value, missing in zip(values, inside, strict=True) if not missing]
             period_map, _ = super().at(lines, outside)
             return period_map, ["not here" if missing else "" for missing in inside]
 

@@ -54,8 +54,8 @@ def test_bits_depend_neither_on_order_nor_company_nor_workers(cases):
     alone = [march(models[i : i + 1], states[i : i + 1], **settings) for i in (0, 5)]
     for name, expected in arrays_of(whole).items():
         np.testing.assert_array_equal(arrays_of(shuffled)[name], expected[order], err_msg=name)
-        for i, one in zip((0, 5), alone, strict=True):
-            np.testing.assert_array_equal(arrays_of(one)[name][0], expected[i], err_msg=name)
+        for i, ensemble in zip((0, 5), alone, strict=True):
+            np.testing.assert_array_equal(arrays_of(ensemble)[name][0], expected[i], err_msg=name)
 
 
 def arrays_of(ensemble):

@@ -16,15 +16,15 @@ def orbits(rates, **options):
 
 def test_period_doubling_of_the_logistic_map():
     """Fixed point 1 − 1/r with multiplier 2 − r; the two-cycle's multiplier is 4 + 2r − r²."""
-    one, two, four, eight = orbits([2.8, 3.3, 3.5, 3.55])
-    kinds = (one.kind, two.kind, four.kind, eight.kind)
+    fixed_point, two, four, eight = orbits([2.8, 3.3, 3.5, 3.55])
+    kinds = (fixed_point.kind, two.kind, four.kind, eight.kind)
     assert kinds == ("period-1", "period-2", "period-4", "period-8")
-    assert one.state[0] == pytest.approx(1.0 - 1.0 / 2.8, abs=1e-9)
-    assert one.multipliers[0] == pytest.approx(2.0 - 2.8, abs=1e-6)
+    assert fixed_point.state[0] == pytest.approx(1.0 - 1.0 / 2.8, abs=1e-9)
+    assert fixed_point.multipliers[0] == pytest.approx(2.0 - 2.8, abs=1e-6)
     assert two.multipliers[0] == pytest.approx(4.0 + 2.0 * 3.3 - 3.3**2, abs=1e-6)
     cycle = np.roots([3.3**2, -3.3 * 4.3, 4.3]).real  # x² − (r+1)/r x + (r+1)/r² = 0
     assert np.min(np.abs(cycle - two.state[0])) < 1e-9
-    assert all(orbit.stable and orbit.residual <= 1e-9 for orbit in (one, two, four))
+    assert all(orbit.stable and orbit.residual <= 1e-9 for orbit in (fixed_point, two, four))
 
 
 def test_period_three_of_the_logistic_map():

@@ -51,7 +51,9 @@ def warm() -> set[str]:
     return set()
 
 
-@pytest.mark.parametrize("size", SIZES, ids=lambda one: f"{one.kind}-{'-'.join(map(str, one.more.values()))}")
+@pytest.mark.parametrize(
+    "size", SIZES, ids=lambda size: f"{size.kind}-{'-'.join(map(str, size.more.values()))}"
+)
 def test_estimates_are_true(size: Size, tmp_path: Path, warm: set[str]):
     """Memory and record within a factor of two, with a few MiB that no estimate counts; time by its order."""
     if size.kind not in warm:

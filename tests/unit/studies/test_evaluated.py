@@ -12,7 +12,9 @@ from tribodyn.studies.protocol.evaluated import evaluated, evaluated_quantities
     "kind", [name for name, study in STUDIES.items() if study.has_gears and study.swept()]
 )
 def test_teeth_have_their_distances_in_every_study_of_gears(kind):
-    units = {one.name: one.si for one in evaluated_quantities(study_of({"kind": kind})).values()}
+    units = {
+        quantity.name: quantity.si for quantity in evaluated_quantities(study_of({"kind": kind})).values()
+    }
     assert units["contact_ratio"] == "1"
     assert {name: units[name] for name in LIMITS} == LIMITS
 

@@ -20,8 +20,8 @@ def test_it_says_which_limits_the_duty_exceeds():
     """W is as the torque."""
     light, heavy = (checked(operating__gear_torque=torque) for torque in ("3000 N*m", "6000 N*m"))
     factors = [
-        {limit["limit"]: limit["factor"] for limit in one.data["laws"]["closure_exceeded"].values()}
-        for one in (light, heavy)
+        {limit["limit"]: limit["factor"] for limit in result.data["laws"]["closure_exceeded"].values()}
+        for result in (light, heavy)
     ]
     assert factors[1]["W ≤ 5e-4"] == pytest.approx(2.0 * factors[0]["W ≤ 5e-4"])
     said = [remark for remark in heavy.remarks if remark.startswith("Limits of the film law exceeded")]
@@ -36,7 +36,7 @@ def test_a_law_without_range_by_the_solved_contact_says_how_far_it_is_off():
     assert judged is not None
     assert [laws["friction_judged"][name] for name in ("low", "median", "high")] == list(judged.ratio)
     assert laws["friction_judged"]["limits"] == 0
-    (table,) = (one for one in found.tables if one.title.startswith("Laws"))
+    (table,) = (table for table in found.tables if table.title.startswith("Laws"))
     assert any("no range by the solved contact" in cell for row in table.rows for cell in row)
 
 

@@ -28,4 +28,4 @@ def test_oil_in_the_mesh_may_be_warmer_than_around_it(sheet: LubricantData):
     for celsius, said in ((39.0, True), (40.0, False), (100.0, False), (101.0, True)):
         (*remarks,) = oil_remarks(replace(cold, temperature=celsius + 273.15))
         assert bool(remarks) == said
-        assert all(f"at {celsius:g} °C" in one for one in remarks)
+        assert all(f"at {celsius:g} °C" in remark for remark in remarks)

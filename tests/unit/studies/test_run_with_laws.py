@@ -139,8 +139,8 @@ def test_the_record_names_the_laws_that_were_used(tmp_path):
 def test_two_laws_of_one_name_in_one_file_have_kernels_of_their_own():
     """What is kept on disk is looked up by this identity."""
     first, second = (lambda c, f, s, p: 0.03), (lambda c, f, s, p: 0.05)
-    layouts = [function_layout(one) for one in (first, second)]
-    assert all(one.kept for one in layouts)
+    layouts = [function_layout(law) for law in (first, second)]
+    assert all(layout.kept for layout in layouts)
     assert layouts[0].identity != layouts[1].identity
 
 

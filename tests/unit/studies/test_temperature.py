@@ -74,8 +74,8 @@ def test_the_estimate_of_the_standard_holds_at_its_own_temperature():
 
 def test_how_the_oil_reaches_the_mesh():
     dip, spray, submerged = (
-        quantities_of(case({"temperature.lubrication": one}))["bulk_temperature"] - 353.15
-        for one in ("dip", "spray", "submerged")
+        quantities_of(case({"temperature.lubrication": lubrication}))["bulk_temperature"] - 353.15
+        for lubrication in ("dip", "spray", "submerged")
     )
     assert spray / dip == pytest.approx(1.2, rel=0.02)
     assert submerged / dip == pytest.approx(0.2, rel=0.05)
@@ -102,7 +102,8 @@ def test_losses_are_off_unless_asked_for():
 def test_mean_friction_reads_the_oil_around_the_gears():
     """Schlenk's and Niemann's coefficients are of the viscosity at the oil's temperature."""
     warm, cold = (
-        quantities_of(case({"friction.law": "schlenk", "temperature.model": one})) for one in ("iso", "oil")
+        quantities_of(case({"friction.law": "schlenk", "temperature.model": model}))
+        for model in ("iso", "oil")
     )
     assert warm["friction_coefficient_mean"] == pytest.approx(cold["friction_coefficient_mean"], rel=1e-12)
     assert warm["bulk_temperature"] > 353.15
@@ -111,7 +112,9 @@ def test_mean_friction_reads_the_oil_around_the_gears():
 
 @pytest.mark.parametrize("changes", [{}, NETWORK | LOSSES])
 def test_dynamics_and_efficiency_find_the_same_temperature(changes):
-    motion, still = (warm_of(one) for one in (prepare_motion(case(changes, MOTION)), prepare(case(changes))))
+    motion, still = (
+        warm_of(prepared) for prepared in (prepare_motion(case(changes, MOTION)), prepare(case(changes)))
+    )
     assert motion.temperatures.bulk == pytest.approx(still.temperatures.bulk, abs=0.05)
     assert motion.lubricant.supply == pytest.approx(still.lubricant.supply, abs=0.05)
 

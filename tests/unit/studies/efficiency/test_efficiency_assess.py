@@ -7,5 +7,5 @@ def test_an_assessment_needs_the_first_law_only():
     laws = ("schlenk", "niemann", "masjedi-khonsari")
     request = Request("pair", tables, 100.0, 96.0, (96.0,), (100.0,), laws, 1e-6, 0)
     done = tasks(request)
-    assert [one.scenario["friction"]["law"] for one in done] == list(laws)
-    assert [one.needed for one in done] == [True, False, False]
+    assert [task.scenario["friction"]["law"] for task in done] == list(laws)
+    assert [task.needed for task in done] == [True, False, False]

@@ -71,7 +71,7 @@ def test_one_pair_at_a_time_has_constant_input_torque(study):
 
 def test_the_running_model_at_rest_has_the_same_loads_and_friction(prepared):
     """Back flanks of the six-degree-of-freedom model, in bearings that do not give, at random phases."""
-    stiff = {f"bearings.{one}.stiffness_{axis}": "1e13 N/m" for one in ("pinion", "gear") for axis in "xy"}
+    stiff = {f"bearings.{body}.stiffness_{axis}": "1e13 N/m" for body in ("pinion", "gear") for axis in "xy"}
     same = {"operating.gear_torque": "-500 N*m", "friction.law": "coulomb", "friction.coefficient": 0.06}
     case = prepared("crc-23-47", **same, **stiff, **{"mesh.backlash": "0.05 mm"})
     cycle = case.cycle
@@ -145,6 +145,6 @@ def test_relief_acts_on_the_flanks_that_carry(torque: float):
         at = places(study.cycle, study.path, np.linspace(0.003, 0.997, 31), study.duty.sharing)
         return engage(at, study.duty).normal_load
 
-    plain, one, two = loads({}), loads(relief), loads(both)
-    assert np.array_equal(one, plain) == (torque < 0.0)
-    assert not np.allclose(two, plain, rtol=1e-3)
+    plain, one_flank, both_flanks = loads({}), loads(relief), loads(both)
+    assert np.array_equal(one_flank, plain) == (torque < 0.0)
+    assert not np.allclose(both_flanks, plain, rtol=1e-3)

@@ -165,18 +165,22 @@ def test_quantities_of_a_mesh_cycle_in_plain_loops(study: PreparedEfficiency):
     over, mesh, state = _sampled(study)
     found = _quantities(study, over, mesh, state)
     phases = [
-        min(max(float(one) + off, 1e-9), 1.0 - 1e-9) for one in study.cycle.boundary for off in (-1e-9, 1e-9)
+        min(max(float(boundary) + off, 1e-9), 1.0 - 1e-9)
+        for boundary in study.cycle.boundary
+        for off in (-1e-9, 1e-9)
     ]
     beside, jumps = _at_jumps(study)
     np.testing.assert_allclose(beside.phase, phases, rtol=0.0, atol=1e-15)
     loaded = [
-        (at, one, k, q)
-        for at, one in ((mesh, state), (beside, jumps))
-        for k in range(len(one.normal_load))
+        (at, solution, k, q)
+        for at, solution in ((mesh, state), (beside, jumps))
+        for k in range(len(solution.normal_load))
         for q in range(2)
-        if one.normal_load[k, q] > 0.0
+        if solution.normal_load[k, q] > 0.0
     ]
-    films = [(float(one.central_film_thickness[k, q]), float(at.roll[k, q])) for at, one, k, q in loaded]
+    films = [
+        (float(solution.central_film_thickness[k, q]), float(at.roll[k, q])) for at, solution, k, q in loaded
+    ]
     film, roll = min(films)
     assert found["film_min"] == film
     assert found["film_parameter_min"] == pytest.approx(
@@ -188,16 +192,16 @@ def test_quantities_of_a_mesh_cycle_in_plain_loops(study: PreparedEfficiency):
         ("hertz_pressure_max", "hertz_pressure"),
         ("flash_temperature_max", "flash_temperature_rise"),
     ):
-        assert found[name] == max(float(getattr(one, dataset)[k, q]) for _, one, k, q in loaded)
+        assert found[name] == max(float(getattr(solution, dataset)[k, q]) for _, solution, k, q in loaded)
     count = len(over.turned) - 1
     forces = [0.0, 0.0]
     for k in range(count):
         for slot, force in enumerate(over.by_pair(state.friction_force)[k]):
             forces[slot] += abs(float(force)) / count
     np.testing.assert_allclose(found["friction_force_mean"], forces, rtol=1e-13)
-    inside = [float(state.closure_in_range[k, q]) for _, one, k, q in loaded if one is state]
+    inside = [float(state.closure_in_range[k, q]) for _, solution, k, q in loaded if solution is state]
     assert found["closure_in_range_fraction"] == pytest.approx(
-        sum(one == 1.0 for one in inside) / len(inside)
+        sum(flag == 1.0 for flag in inside) / len(inside)
     )
     speed = float(study.duty.pinion_speed)
     assert found["mesh_frequency"] == pytest.approx(18.0 * speed / (2.0 * math.pi), rel=1e-14)
@@ -217,7 +221,7 @@ def test_quantities_of_a_mesh_cycle_in_plain_loops(study: PreparedEfficiency):
 
 def test_loss_factors_are_of_one_coefficient_alone(study: PreparedEfficiency):
     """1 − μ H_v, and Höhn's formula where the pitch point lies in single contact."""
-    known: Any = {one: SimpleNamespace(efficiency=0.5) for one in ("elastic", "uniform")}
+    known: Any = {sharing: SimpleNamespace(efficiency=0.5) for sharing in ("elastic", "uniform")}
     duty = study.duty
     assert not {"loss_factor", "efficiency_hoehn"} & efficiencies(study, known).keys()
     coulomb = replace(study, duty=duty._replace(closure=of_case(study.case, "coulomb", coefficient=0.07)))

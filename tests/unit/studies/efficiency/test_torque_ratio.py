@@ -122,8 +122,10 @@ def test_circles_may_be_arrays():
     pair = cycloid_contact(TEETH, RADIUS, RATIO, circles, circles.T)
     found = torque_ratio(pair, *DUTY, under("xu", VECIANA)).efficiency
     assert found.shape == (2, 2)
-    one = cycloid_contact(TEETH, RADIUS, RATIO, 0.2, 0.3)
-    assert found[0, 1] == pytest.approx(torque_ratio(one, *DUTY, under("xu", VECIANA)).efficiency, abs=1e-14)
+    contact = cycloid_contact(TEETH, RADIUS, RATIO, 0.2, 0.3)
+    assert found[0, 1] == pytest.approx(
+        torque_ratio(contact, *DUTY, under("xu", VECIANA)).efficiency, abs=1e-14
+    )
 
 
 def test_quadrature_is_exact_for_what_it_should_be():

@@ -120,9 +120,9 @@ def test_numbers_of_the_mechanics(operating: dict[str, Any]):
         "load_times": times,
         "load_torques": torques,
         "load_slopes": [] if shaft else slopes_by_hand(*map(list, TABLE)),
-        "load_amplitudes": [one[0] for one in harmonics],
-        "load_frequencies": [one[1] for one in harmonics],
-        "load_phases": [one[2] + 0.5 * math.pi for one in harmonics],
+        "load_amplitudes": [harmonic[0] for harmonic in harmonics],
+        "load_frequencies": [harmonic[1] for harmonic in harmonics],
+        "load_phases": [harmonic[2] + 0.5 * math.pi for harmonic in harmonics],
     }
     assert set(expected) == set(found._fields)
     for name, value in expected.items():

@@ -142,7 +142,7 @@ def test_extremes_of_blocks_are_those_of_the_whole(rng):
     cycles = np.arange(30) / 10
     for start in (0, 10, 20):
         part = slice(start, start + 10)
-        extremes.add(cycles[part], {name: one[part] for name, one in values.items()})
+        extremes.add(cycles[part], {name: samples[part] for name, samples in values.items()})
     found = extremes.values()
     assert found["normal_load_max"] == values["normal_load"].max()
     assert found["film_min"] == values["central_film_thickness"].min()

@@ -66,5 +66,5 @@ def test_a_new_field_of_a_case_matters_until_it_is_said_not_to():
     wider = dataclasses.make_dataclass(
         "Wider", [("new", int)], bases=(type(case),), frozen=True, kw_only=True
     )
-    fields = {one.name: getattr(case, one.name) for one in dataclasses.fields(case)}
+    fields = {field.name: getattr(case, field.name) for field in dataclasses.fields(case)}
     assert table_key(wider(**fields, new=1)) != table_key(wider(**fields, new=2))
