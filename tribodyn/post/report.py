@@ -106,7 +106,9 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
             f"The table of solved contacts gives {' and '.join(errors)} of 95 % of those it was held against."
         )
     if summary.get("pitch_point", "regular") != "regular":
-        sentences.append(f"At the pitch point {summary['pitch_point']}; pressure there is no merit figure.")
+        sentences.append(
+            f"At the pitch point {summary['pitch_point']}; pressure there is no measure of merit."
+        )
     return sentences
 
 

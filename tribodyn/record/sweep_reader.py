@@ -114,7 +114,7 @@ class SweepRecord(OpenRecord):
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """Figures of the whole sweep."""
+        """Quantities of the whole sweep."""
         return attributes(self._file["summary"])
 
     def count(self) -> dict[str, int]:

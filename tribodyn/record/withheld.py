@@ -13,7 +13,7 @@ import numpy as np
 
 from tribodyn.record import trust
 
-#: Figures and datasets of this name, and those whose names begin with it and an underscore, are efficiencies.
+#: Quantities and datasets of this name, or whose names begin with it and an underscore, are efficiencies.
 EFFICIENCY = "efficiency"
 #: Added to a quantity's name: why it is withheld.
 WITHHELD = "_withheld"
@@ -41,7 +41,7 @@ def reason_to_withhold(value: float) -> str:
 
 
 def withheld(summary: Mapping[str, Any]) -> dict[str, Any]:
-    """Figures of a run; an efficiency that cannot be is None, and its name with `WITHHELD` says why."""
+    """Quantities of a run; an efficiency that cannot be is None, and its name with `WITHHELD` says why."""
     result: dict[str, Any] = {}
     for name, value in summary.items():
         result[name] = value

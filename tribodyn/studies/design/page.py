@@ -46,9 +46,9 @@ def before_and_after(record: Record) -> tuple[TextTable, ...]:
     rows = [
         row for name, value in after.items() if (row := _row(record.scenario, name, before.get(name), value))
     ]
-    columns = ("figure", "start", "best", "unit", "change")
+    columns = ("quantity", "start", "best", "unit", "change")
     of_keys = TextTable("Before and after", ("key", "start", "best"), keys)
-    return of_keys, TextTable("Figures before and after", columns, rows)
+    return of_keys, TextTable("Quantities before and after", columns, rows)
 
 
 def _row(search: Mapping[str, Any], name: str, before: Any, after: Any) -> tuple[str, ...] | None:

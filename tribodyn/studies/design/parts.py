@@ -182,7 +182,7 @@ def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[
         raise InputError("design.minimise", quoted(list(given)), rule, "bound the others: subject_to")
     names = [quantity_name(place, name, studies) for place, name in places.items()]
     if len(set(names)) < len(names):
-        raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another figure")
+        raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another quantity")
     return tuple(case.Objective(name, ((name, 1.0),)) for name in names)
 
 
@@ -192,7 +192,7 @@ def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> case.Object
         place = f"design.minimise.{number}"
         if not isinstance(entry, Mapping) or set(entry) - {"figure", "weight"} or "figure" not in entry:
             remedy = 'write { figure = "peak_to_peak", weight = 0.5 }'
-            raise InputError(place, quoted(entry), "not a figure and its weight", remedy)
+            raise InputError(place, quoted(entry), "not a quantity and its weight", remedy)
         weight = entry.get("weight", 1.0)
         number = isinstance(weight, (int, float)) and not isinstance(weight, bool)
         if not number or not isfinite(weight) or not weight:
@@ -205,7 +205,7 @@ def _constraint(place: str, text: str, studies: Mapping[str, Study]) -> case.Con
     match = _CONSTRAINT.match(text)
     if match is None:
         remedy = 'write "contact_ratio >= 1.3" or "hertz_pressure_max <= 1.5 GPa"'
-        raise InputError(place, quoted(text), "not FIGURE <= LIMIT or FIGURE >= LIMIT", remedy)
+        raise InputError(place, quoted(text), "not QUANTITY <= LIMIT or QUANTITY >= LIMIT", remedy)
     name = quantity_name(place, match[1], studies)
     sign = 1.0 if match[2] in ("<=", "≤", "<") else -1.0
     if match[3] == case.START:

@@ -76,7 +76,9 @@ def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mappin
         quantity.with_unit(float(value))
         for quantity, value in zip(sought, np.atleast_1d(summary["objective_searched"]), strict=True)
     )
-    return f"Figures are those of {fine}, and {stands}; searched with {coarse}, where the best has {before}."
+    return (
+        f"Quantities are those of {fine}, and {stands}; searched with {coarse}, where the best has {before}."
+    )
 
 
 def _quantity_in(text: str, known: Mapping[str, Any]) -> str:

@@ -234,7 +234,7 @@ def _why_none(case: DesignCase, archive: Archive) -> str:
     nearest = archive.nearest()
     if nearest is None:
         reason = archive.evaluations[-1].score.message if archive.evaluations else "none was evaluated"
-        return f"no candidate has figures: {reason}"
+        return f"no candidate has quantities: {reason}"
     missed = [
         f"{constraint.text} by {-100 * margin:.3g} %"
         for constraint, margin in zip(case.constraints, nearest.score.margins, strict=True)

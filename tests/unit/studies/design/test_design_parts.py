@@ -47,7 +47,7 @@ def search(**design: Any) -> Any:
         ({"maximise": "contact_ratio"}, "design.minimise", "contradicts maximise"),
         ({"minimise": ["peak_to_peak"] * 2}, "design.minimise", "the same twice"),
         ({"minimise": [{"figure": "peak_to_peak", "weight": 0}]}, "design.minimise.0.weight", "not a weight"),
-        ({"subject_to": ["contact_ratio"]}, "design.subject_to.0", "not FIGURE <= LIMIT"),
+        ({"subject_to": ["contact_ratio"]}, "design.subject_to.0", "not QUANTITY <= LIMIT"),
         ({"subject_to": ["contact_ration > 1"]}, "design.subject_to.0", 'did you mean "contact_ratio"'),
         ({"subject_to": ["hertz_pressure_max <= 1.5"]}, "design.subject_to.0", "unit"),
         ({"subject_to": ["contact_ratio >= 1.5 mm"]}, "design.subject_to.0", "plain number"),

@@ -123,7 +123,7 @@ def test_a_front_without_duties_is_drawn_and_told(tmp_path: Path):
         said = " ".join(sentences(record))
         text = report([record])
     assert "Maximum Hertz pressure" in said
-    for shown in ("Figures before and after", "data:image/png;base64,", "drive.pinion.profile_shift"):
+    for shown in ("Quantities before and after", "data:image/png;base64,", "drive.pinion.profile_shift"):
         assert shown in text
 
 

@@ -64,7 +64,7 @@ def _fitting(case: DesignCase) -> tuple[str, str]:
             return "differential-evolution", "whole numbers or choices"
         if len(case.free) > MANY and derivatives_of(case):
             return "slsqp", "many continuous values, derivatives through JAX"
-        return "cobyqa", "continuous values, figures that may have kinks"
+        return "cobyqa", "continuous values, quantities that may have kinks"
     if two != (wanted in FRONTS) and wanted != "every":
         rule = "needs two objectives" if not two else "takes one objective"
         remedy = "choose auto, or " + ("another method" if not two else " or ".join(FRONTS))
