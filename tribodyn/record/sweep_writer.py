@@ -75,11 +75,15 @@ class SweepWriter:
         self._variables = head.layout.variables
         if not (resume and not force and self.partial.exists()):
             check_target(self.path, force)
-        with locked(self.path) as self._lock:
-            self._places = self._datasets(head, force, resume)
-            with h5py.File(self.partial, "r") as file:
-                self.status: np.ndarray = file["status"][...].ravel()  # pyright: ignore
-            self._file = disk.open_existing(self.partial)
+        try:
+            with locked(self.path) as self._lock:
+                self._places = self._datasets(head, force, resume)
+                with h5py.File(self.partial, "r") as file:
+                    self.status: np.ndarray = file["status"][...].ravel()  # pyright: ignore
+                self._file = disk.open_existing(self.partial)
+        except KeyboardInterrupt as error:
+            self._say_what_is_kept(error)
+            raise
 
     def _datasets(self, head: SweepHead, force: bool, resume: bool) -> dict[str, layout.DataPlace]:
         """Places of all datasets in what is left, or in a file made anew."""
@@ -95,10 +99,14 @@ class SweepWriter:
         return self
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        if isinstance(error, KeyboardInterrupt) and self.partial.exists():
-            error.add_note(f"the cases done so far: {self.partial}, --resume goes on")
+        if isinstance(error, KeyboardInterrupt):
+            self._say_what_is_kept(error)
         self._file.close()
         self._lock.release()
+
+    def _say_what_is_kept(self, error: KeyboardInterrupt) -> None:
+        if self.partial.exists():
+            error.add_note(f"the cases done so far: {self.partial}, --resume goes on")
 
     def write(self, cases: np.ndarray, block: Mapping[str, Any]) -> None:
         """Put results, arrays (n, …) for every dataset of the layout, of cases (n,) in their place.

@@ -140,16 +140,17 @@ def run(
             record.put(FACTORS.index(factor), {START_FIGURES: numbers_of_cases(names, archive.scoring.start)})
             return archive
 
-        archive = at(1)
-        for factor in sorted(before.known):
-            for candidate in at(factor).recorded.values():
-                keep(candidate)
-
         def so_far(**more: Any) -> dict[str, Any]:
             where = {"method": name, "method_reason": reason, "engine": pool.name, "workers": pool.workers}
-            return headline(case, archive, at(1)) | where | more | {"wall_time": perf_counter() - begun}
+            found = headline(case, archive, at(1)) if archive else {}
+            return found | where | more | {"wall_time": perf_counter() - begun}
 
+        archive = None
         try:
+            archive = at(1)
+            for factor in sorted(before.known):
+                for candidate in at(factor).recorded.values():
+                    keep(candidate)
             _search(case, at(1), name)
             end = converged(case, at, name)
             archive = end.archive
@@ -160,9 +161,9 @@ def run(
             about = _about(case, archive, pool, best, before.moved, record)
             summary = so_far(**_resolved(case, at(1), end, best), **about)
         except KeyboardInterrupt as error:
-            best = chosen_best(case, archive)
+            best = chosen_best(case, archive) if archive else None
             kept = record.fail(str(error) or "interrupted by the user", so_far())
-            if best is not None:
+            if archive and best:
                 files = write_best(case, {**best.values, **archive.more}, path, force)
                 error.add_note(f"the best so far: {files[0]}")
             error.add_note(f"the {record.written} evaluations so far: {kept}, --resume goes on")
