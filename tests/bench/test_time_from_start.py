@@ -10,6 +10,7 @@ is printed, not asserted.
 """
 
 import sys
+from statistics import median
 
 import pytest
 
@@ -108,8 +109,8 @@ def start_of_threads(tmp_path_factory):
             few, all_of_them = (
                 [sys.executable, "-c", f"import {names}"] for names in (libraries, libraries + more)
             )
-            times = [(times_of(all_of_them, folder), times_of(few, folder, **ONE_THREAD)) for _ in range(4)]
-            found[libraries + more] = min(whole[0] for whole, _ in times) - min(part[0] for _, part in times)
+            times = [(times_of(all_of_them, folder), times_of(few, folder, **ONE_THREAD)) for _ in range(8)]
+            found[libraries + more] = median(whole[0] - part[0] for whole, part in times)
     return found
 
 
@@ -132,13 +133,11 @@ def test_python_takes_as_long_as_the_command_line(kind, tmp_path, capsys, monkey
     }
     libraries = "numpy" if kind in PLAIN else "numpy, scipy.linalg" + (", xarray" if kind == "sweep" else "")
     threads = start_of_threads[libraries]
-    best, ratio = dict.fromkeys(commands, float("inf")), float("inf")
-    for _ in range(6):
-        for name, command in commands.items():
-            best[name] = min(best[name], times_of(command, tmp_path)[0])
-        ratio = (best["Python"] - threads) / best["command"]
-        if ratio < 1.1:
-            break
+    rounds = []  # in turn; a median: one lucky round of either has no say
+    while len(rounds) < 15 and (len(rounds) < 3 or median(rounds) >= 1.1):
+        command, in_python = (times_of(words, tmp_path)[0] for words in commands.values())
+        rounds.append((in_python - threads) / command)
+    ratio = median(rounds)
     with capsys.disabled():
-        print(f"\n{kind}: Python takes {ratio:.2f} of the command line's {best['command']:.2f} s")
+        print(f"\n{kind}: Python takes {ratio:.2f} of the command line's {command:.2f} s")
     assert ratio < 1.1
