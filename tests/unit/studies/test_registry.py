@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import shutil
+import subprocess
 import sys
 from importlib.metadata import EntryPoint, EntryPoints
 from pathlib import Path
@@ -142,6 +143,16 @@ def pendulum(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, offered) -> Path:
     path = tmp_path / "metre.toml"
     path.write_text(SCENARIO, encoding="utf-8")
     return path
+
+
+def test_no_kind_loads_matplotlib_to_report():
+    reporting = (
+        "import sys\n"
+        "from tribodyn.studies import STUDIES\n"
+        "assert all(STUDIES[kind].reported() for kind in STUDIES)\n"
+        "assert 'matplotlib' not in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", reporting], check=True, timeout=300)
 
 
 def test_an_unknown_kind_in_a_scenario_is_one_error(tmp_path: Path):

@@ -5,7 +5,6 @@ from tribodyn.post.report import on_closures
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
-from tribodyn.studies.load_contact.maps import FILM, LINE_LOAD, PRESSURE, face_map
 
 REPORTED: Reported = {
     "Geometry": quantities(
@@ -45,6 +44,8 @@ PANELS = ("loaded_transmission_error", "normal_load", "mesh_stiffness")
 
 def maps(record: Record) -> list[PageMap]:
     """Line load, Hertz pressure and, with a lubricant, film of one pair over its roll angle and the face."""
+    from tribodyn.studies.load_contact.maps import FILM, LINE_LOAD, PRESSURE, face_map  # imports Matplotlib
+
     if record.samples < 2:
         return []
     found = []
