@@ -121,11 +121,15 @@ class Judge:
             rule, values = RULES[name], np.asarray(given, dtype=float)
             if values.size == 0:
                 continue
+            ends = np.array([np.fmax.reduce(values, axis=None), np.fmin.reduce(values, axis=None)])
+            inside = not rule.outside(ends).any()
             if values.ndim and not between_samples:
-                broken = rule.outside(values)
-                outside = int(np.sum(broken.reshape(len(values), -1).any(axis=1))) if broken.any() else 0
+                broken = 0 if inside else np.sum(rule.outside(values).reshape(len(values), -1).any(axis=1))
                 self._samples[name] = self._samples.get(name, 0) + len(values)
-                self._outside[name] = self._outside.get(name, 0) + outside
+                self._outside[name] = self._outside.get(name, 0) + int(broken)
+            if inside:  # where that is, nobody asks
+                self._worst.setdefault(name, (float(ends[0]), {}))
+                continue
             beyond = np.where(np.isnan(values), -np.inf, rule.beyond(values))
             at = np.unravel_index(int(np.argmax(beyond)), values.shape)
             value, known = float(values[at]), self._worst.get(name)

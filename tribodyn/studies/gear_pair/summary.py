@@ -87,12 +87,10 @@ class RunningExtremes:
                 self._add(f"{flanks}mesh_force_max", 1, mesh_force(block, slots), cycles, block["time"])
 
     def _add(self, name: str, sign: int, values: np.ndarray, cycles: np.ndarray, time: np.ndarray) -> None:
-        if np.all(np.isnan(values)):
-            return
-        row, *pair = np.unravel_index(int(np.nanargmax(sign * values)), values.shape)
-        value = float(values[(row, *pair)])
+        value = float((np.fmax if sign > 0 else np.fmin).reduce(values, axis=None))  # NaN: there is none
         old = self.by_name.get(name)
-        if old is None or sign * value > sign * old.value:
+        if sign * value > (-np.inf if old is None else sign * old.value):
+            row, *pair = np.unravel_index(int(np.argmax(values == value)), values.shape)
             number = self._pairs[int(pair[0])] if pair else None
             self.by_name[name] = Extreme(value, float(time[row]), float(cycles[row]), number)
 
@@ -250,8 +248,8 @@ def quantities_of(block: Mapping[str, np.ndarray], module: float, clearance: flo
     The deflection of a pair is its load over its stiffness, both as recorded.
     """
     stiffness = np.where(block["mesh_stiffness"] > 0.0, block["mesh_stiffness"], np.nan)
-    places = block["displacement"][:, :4].reshape(-1, 2, 2)
-    moved = np.max(np.hypot(places[..., 0], places[..., 1]), axis=1)
+    pinion_x, pinion_y, gear_x, gear_y = block["displacement"][:, :4].T
+    moved = np.maximum(np.hypot(pinion_x, pinion_y), np.hypot(gear_x, gear_y))
     return {
         "deflection": block["normal_load"] / stiffness / module,
         "friction_coefficient": block["friction_coefficient"],

@@ -84,13 +84,19 @@ def central_film_thickness(log_W, log_U, log_G, log_S, log_V, log_curvature):
 
 
 @law
-def rough_film(contact, surfaces, parameters):
-    """Ln of the smooth central film (m), roughness factor, asperity load share; see `FilmLaw`."""
+def _groups(contact, parameters):
+    """Logarithms of the dimensionless groups W, U, G, σ̄ and V, and of the curvature in 1/m."""
     log_curvature = log(contact.curvature)
     log_W = log(contact.line_load) + log_curvature - parameters.log_modulus
     log_U = log(contact.entrainment) + log_curvature + parameters.log_inlet_viscosity - parameters.log_modulus
     log_S = log_curvature + parameters.log_roughness
-    log_G, log_V = parameters.log_material, parameters.log_hardness
+    return log_W, log_U, parameters.log_material, log_S, parameters.log_hardness, log_curvature
+
+
+@law
+def rough_film(contact, surfaces, parameters):
+    """Ln of the smooth central film (m), roughness factor, asperity load share; see `FilmLaw`."""
+    log_W, log_U, log_G, log_S, log_V, log_curvature = _groups(contact, parameters)
     share = asperity_load_ratio(log_W, log_U, log_G, log_S, log_V, parameters.log_asperity_factor)
     log_smooth, rough = central_film_thickness(log_W, log_U, log_G, log_S, log_V, log_curvature)
     return log_smooth, rough, share
@@ -114,7 +120,7 @@ def in_ranges(contact, surfaces, parameters):
     """Shares allowed by `FITTED_RANGE`, then by `JUDGED_RANGE`, in the order of the law's limits."""
     load, material = moes_numbers(contact, surfaces)
     fitted = in_fitted_range(contact, surfaces, parameters)
-    _, roughened, _ = rough_film(contact, surfaces, parameters)
+    _, roughened = central_film_thickness(*_groups(contact, parameters))
     low = load / _M_LOW, material / _L_LOW
     high = _M_HIGH / load, _L_HIGH / material, _FACTOR_HIGH / roughened
     return (*fitted, *low, *high, _HEAT_HIGH / inlet_heating(contact, surfaces))
