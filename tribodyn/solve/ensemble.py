@@ -136,11 +136,11 @@ def one_by_one(
         tolerances = tolerances_from(model, states[case], march.rtol, march.max_steps)
         integrator = make_integrator(chosen, model, march.samples, tolerances)
         integrator.started = march.started
-        size = cycles_at_once(chosen, march.cycles)
         done = 0
         while done < march.cycles and not cancelled.is_set():
             # calls end where the window begins, so that nothing before it is kept for long
             end = opening if done < opening else march.cycles
+            size = cycles_at_once(chosen, march.cycles, march.samples, result.steps[case], done)
             cycles = min(size, end - done)
             integrator.extremes = march.extremes and done >= opening
             part = integrator.integrate(result.state[case], march.first_cycle + done, cycles)

@@ -15,8 +15,10 @@ from tribodyn.solve.methods import AUTO, Runs, integrator_class, runs
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import StepTolerances, tolerances_from
 
-#: Mesh cycles between two writes of a native run, at most.
-MAXIMUM_CYCLES = 50
+#: Of a native run between two writes, at most: mesh cycles, samples, and steps, judged by those before.
+MAXIMUM_CYCLES, MAXIMUM_SAMPLES, MAXIMUM_STEPS = 250, 20_000, 50_000
+#: Mesh cycles before the first write, at most: how many steps they take is not known.
+FIRST_CYCLES = 50
 
 
 class TransientSettings(NamedTuple):
@@ -96,9 +98,15 @@ def make_integrator(
     return made
 
 
-def cycles_at_once(method: str, cycles: int) -> int:
-    """Mesh cycles between two writes: a quarter of a native run, at most 50; else 1, as a cycle is slow."""
-    return max(1, min(cycles // 4, MAXIMUM_CYCLES)) if runs(method) is Runs.NATIVE else 1
+def cycles_at_once(method: str, cycles: int, samples: int, steps: int = 0, done: int = 0) -> int:
+    """Mesh cycles between two writes: up to a quarter of a native run, else 1, as a cycle is slow.
+
+    The steps that the cycles done took say how many of them are worth a write. No result depends on it.
+    """
+    if runs(method) is not Runs.NATIVE:
+        return 1
+    allowed = MAXIMUM_STEPS * done // steps if steps else FIRST_CYCLES
+    return max(1, min(cycles // 4, MAXIMUM_CYCLES, MAXIMUM_SAMPLES // max(samples, 1), allowed))
 
 
 def transient(
@@ -111,12 +119,12 @@ def transient(
     """
     tolerances = tolerances_from(model, state, settings.rtol, settings.max_steps)
     integrator = make_integrator(settings.method, model, settings.samples, tolerances, settings.extremes)
-    size = cycles_at_once(settings.method, settings.cycles)
     cycle_time = float(model.table.pitch_angle) / model.mechanics.nominal_speed
     opening = settings.cycles - settings.window
     steps = evaluations = done = 0
     while done < settings.cycles:
         end = settings.cycles if done >= opening else opening
+        size = cycles_at_once(settings.method, settings.cycles, settings.samples, steps, done)
         count = min(size, end - done)
         part = integrator.integrate(state, done, count)
         steps += part.steps

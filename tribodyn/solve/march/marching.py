@@ -60,6 +60,7 @@ class Control(NamedTuple):
     """What the step control of one case needs."""
 
     step: float  # first step to try, mesh cycles
+    last_error: float  # of the step before
     atol: Float[Array, " state"]  # (STATES,); absolute tolerances
     scale: Float[Array, " state"]  # (STATES,); sizes of the states
     stops: Float[Array, "segment stop"]  # (segments, stops); phases that steps end on, see `reversal.stops`
@@ -74,7 +75,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
     `out` (cycles · samples, STATES) receives the states at the samples of all cycles, whatever the window;
     `work` and `buffer` are scratch, from `right_hand_side.work_array` and the method's `buffer`; `search` is
     used where `march.extremes` says that they are sought. Returns status, cycles reached since the first,
-    step, steps, evaluations, samples written.
+    step and error to go on with, steps, evaluations, samples written.
     """
     samples, table = march.samples, model.table
     segments = table.in_contact.shape[0]
@@ -83,7 +84,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
     steps = 0
     evaluations = 0
     written = 0
-    last_error = rules.MINIMUM_ERROR
+    last_error = control.last_error
     turning = model.options.sliding == SLIDING_DYNAMIC and rules.resolves_turns(control.atol[XI_RATE], model)
     for cycle in range(march.cycles):
         whole = float(march.first_cycle + cycle)
@@ -110,7 +111,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                 taken, speed = steps - steps_before, nominal_speed + y[SLIP]
                 failure = rules.refusal(taken, march.max_steps, step, speed, nominal_speed)
                 if failure > 0.0:
-                    return int(failure), cycle + phase, step, steps, evaluations, written
+                    return int(failure), cycle + phase, step, last_error, steps, evaluations, written
                 place = Place(phase, whole, segment, end)
                 evaluations += method.attempt(fresh, step, place, y, control, model, work, buffer)
                 fresh = False
@@ -128,7 +129,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                 error = rules.step_error(worst, total)
                 accepted, undefined, failure = rules.step_outcome(error, step, new, model)
                 if failure > 0.0:
-                    return int(failure), cycle + phase, step, steps, evaluations, written
+                    return int(failure), cycle + phase, step, last_error, steps, evaluations, written
                 if undefined:
                     step *= rules.RETRY
                     continue
@@ -163,7 +164,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                 if turning:
                     step = minimum(step, rules.longest_step(segment, model, work))
                 last_error = maximum(error, rules.MINIMUM_ERROR)
-    return Status.DONE.value, float(march.cycles), step, steps, evaluations, written
+    return Status.DONE.value, float(march.cycles), step, last_error, steps, evaluations, written
 
 
 def scratch_buffer(rows: int) -> Float[Array, "row state"]:
@@ -184,7 +185,7 @@ class NativeIntegrator:
         self.tolerances = tolerances
         self.extremes = False
         self._pairs = int(model.table.side.shape[0])
-        self.step = rules.FIRST_STEP
+        self.step, self.last_error = rules.FIRST_STEP, rules.MINIMUM_ERROR
         self.started = False
 
     def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
@@ -194,8 +195,8 @@ class NativeIntegrator:
         rtol, atol, max_steps = self.tolerances
         march = March(first_cycle, cycles, cycles, self.samples, self.started, rtol, max_steps, self.extremes)
         search = Search.begun(self._pairs)
-        control = Control(self.step, atol, atol / rtol, self._stops)
-        status, reached, self.step, steps, evaluations, written = self._integrate(
+        control = Control(self.step, self.last_error, atol, atol / rtol, self._stops)
+        status, reached, self.step, self.last_error, steps, evaluations, written = self._integrate(
             march, control, self._model, y, out, self._work, self._buffer, search
         )
         self.started = True

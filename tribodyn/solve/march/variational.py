@@ -29,7 +29,7 @@ from tribodyn.solve.march import explicit_8
 from tribodyn.solve.march.extreme_search import ignore_segment, ignore_step
 from tribodyn.solve.march.marching import Control, march_with
 from tribodyn.solve.march.reversal import stops_of_many
-from tribodyn.solve.march.step_control import FIRST_STEP
+from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR
 from tribodyn.solve.methods import rodas4
 from tribodyn.solve.right_hand_side import engage, work_array
 from tribodyn.solve.tolerances import tolerances_of_many
@@ -129,9 +129,10 @@ def march_with_derivative(
         method = METHODS[methods[row]]
         y, work = _duals((STATES,)), _duals(work_array(models[row]).shape)
         y[:, :count], y[:, VALUE] = directions[row], states[row]
-        control = Control(FIRST_STEP, atol[row], atol[row] / rtol, stops[row], method.tolerance)
+        scales = atol[row], atol[row] / rtol
+        control = Control(FIRST_STEP, MINIMUM_ERROR, *scales, stops[row], method.tolerance)
         model = numbers[row]
-        status, reached, _, steps, _, _ = method.integrate(
+        status, reached, _, _, steps, _, _ = method.integrate(
             march, control, model, y, _duals((cycles, STATES)), work, _duals(method.buffer().shape)
         )
         if status == Status.DONE:
