@@ -102,7 +102,7 @@ SWEEP_HEAD = SweepHead(
     (VariedKey("speed", "operating.pinion_speed", "rad/s", [1.0, 2.0, 3.0]),),
     "x = 1\n",
     (),
-    SweepLayout({"figure": Variable((), "1", "a figure")}),
+    SweepLayout({"quantity": Variable((), "1", "a quantity")}),
 )
 
 
@@ -111,7 +111,7 @@ def sweep_record(path: Path, resume: bool = False, most: int = 3) -> None:
     with SweepWriter(path, SWEEP_HEAD, resume=resume) as writer:
         for case in np.flatnonzero(writer.status == 0)[:most]:
             rows = SWEEP_HEAD.layout.empty_rows(1)
-            rows["figure"][:], rows["status"][:], rows["message"][0] = case, DONE, "ä"
+            rows["quantity"][:], rows["status"][:], rows["message"][0] = case, DONE, "ä"
             writer.write(np.array([case]), rows)
         if most == 3:
             writer.finish({})

@@ -164,7 +164,7 @@ def search_faults(record: Record) -> Iterator[str]:
     if "duties" in summary or study.batch():
         return
     for name, value in study.quantities_of(again).items():
-        known = summary["figures_best"].get(name)
+        known = summary["quantities_best"].get(name)
         if name != "wall_time" and known is not None and not np.isclose(value, known, rtol=1e-6):
             yield f"the best scenario has {name} = {value:.9g}, the search {known:.9g}"
 

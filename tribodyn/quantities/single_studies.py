@@ -155,7 +155,7 @@ COMPUTATION = (
         "evaluations_feasible", "Feasible evaluations", digits=",d", below="of these feasible"
     ).defined_as("Candidates that satisfy all constraints."),
     Quantity(
-        "evaluations_without_figures",
+        "evaluations_without_quantities",
         "Evaluations without quantities",
         digits=",d",
         below="of these without quantities",

@@ -162,7 +162,7 @@ def _read(task: Task, path: Path) -> TaskResult:
         with Record(path) as record:
             return TaskResult(path, record.summary)
     data = json.loads(path.read_text(encoding="utf-8"))
-    rows = {name: np.array(row, dtype=float) for name, row in data["figures"].items()}
+    rows = {name: np.array(row, dtype=float) for name, row in data["quantities"].items()}
     return TaskResult(path, rows=rows, failures=tuple(data["failures"]))
 
 
@@ -194,7 +194,7 @@ def _varied(study: Study, task: Task) -> dict[str, Any]:
         "scenario": tomli_w.dumps(dict(task.scenario)),
         "varied": task.key,
         "values": list(task.values),
-        "figures": rows,
+        "quantities": rows,
         "failures": failures,
     }
 

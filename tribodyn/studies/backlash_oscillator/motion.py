@@ -223,7 +223,7 @@ class Rows(NamedTuple):
 
     strobes: Float[Array, "row period 2"]  # states after every period
     tangents: Float[Array, "row 2 2"]  # the identity before, the derivative of the last state after
-    measures: Float[Array, "row figure"]  # zeros before, extremes ∓inf
+    measures: Float[Array, "row quantity"]  # zeros before, extremes ∓inf
     status: Int[Array, " row"]
 
 
@@ -265,7 +265,7 @@ class OscillatorMap:
 
     def measures(
         self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int
-    ) -> Float[Array, "row figure"]:
+    ) -> Float[Array, "row quantity"]:
         """Integrals and extremes (R, 6) over some periods, see INTEGRAL and the others."""
         return self._run(states, cases, periods, False, True)[0].measures
 

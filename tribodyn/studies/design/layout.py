@@ -21,7 +21,7 @@ OBJECTIVES = ("objective", "objective_2")
 #: Datasets of what was evaluated about the best.
 LOWER, UPPER = "objective_lower", "objective_upper"
 #: Dataset of the quantities of the base scenario as it stands.
-START_FIGURES = "start_figures"
+START_QUANTITIES = "start_quantities"
 #: Dataset of the resolution of every evaluation.
 REFINEMENT = "refinement"
 #: Share of its range by which a free key is moved about the best.
@@ -64,27 +64,27 @@ def layout_of(case: DesignCase) -> Layout:
     if case.constraints:
         about = "how far the constraint holds, over its limit; negative where it does not"
         samples["margin"] = along(about, "1", "constraint")
-    samples["case_figures"] = along("figures of every duty and sample, SI", "1", "case", "figure")
+    samples["case_quantities"] = along("quantities of every duty and sample, SI", "1", "case", "quantity")
     if shapes_gears(case):
         samples["shape"] = along("least distance of the gears from the limits of their existence, in modules")
     samples[REFINEMENT] = along(
         "resolution over that of the scenario: 1 in the search, more in its last stage"
     )
     samples["feasible"] = flag(("evaluation",), "whether all constraints hold", "not_judged no yes")
-    samples["message"] = along("why a candidate has no figures")._replace(dtype=f"S{MESSAGE}", fill=b"")
+    samples["message"] = along("why a candidate has no quantities")._replace(dtype=f"S{MESSAGE}", fill=b"")
     scales = {
         "duty": "number of the duty",
         "constraint": "number of the constraint",
         "case": "number of the case: samples run within duties",
         "level": "resolutions over that of the scenario",
-        "figure": "figures: those of objectives and constraints, then others",
+        "quantity": "names: those of objectives and constraints, then others",
         "moved": "number of a free key, and behind them of a tolerance, moved about the best",
     }
-    about = "figures of every duty and sample at the start, as in case_figures, on the resolutions asked for"
+    about = "quantities of every duty and sample at the start, as in case_quantities, on all resolutions"
     lower = "first objective with one key moved down about the best, the others kept"
     upper = "first objective with one key moved up about the best"
     others = {
-        START_FIGURES: Variable(("level", "case", "figure"), "1", about),
+        START_QUANTITIES: Variable(("level", "case", "quantity"), "1", about),
         LOWER: Variable(("moved",), units, lower),
         UPPER: Variable(("moved",), units, upper),
     }
@@ -107,7 +107,7 @@ def scales_of(case: DesignCase, names: Sequence[str]) -> dict[str, np.ndarray]:
         "duty": np.arange(len(case.duties)),
         "case": np.arange(len(case.duties) * len(samples_of(case))),
         "level": np.array(FACTORS, dtype=float),
-        "figure": np.array(names),
+        "quantity": np.array(names),
         "moved": np.arange(len(case.free) + len(case.tolerances)),
     }
     return scales | ({"constraint": np.arange(len(case.constraints))} if case.constraints else {})
@@ -119,7 +119,7 @@ def row_of(case: DesignCase, names: Sequence[str], candidate: Candidate, number:
     row: dict[str, Any] = {
         "evaluation": float(number),
         "objective_at_duty": score.by_duty,
-        "case_figures": numbers_of_cases(names, candidate.found),
+        "case_quantities": numbers_of_cases(names, candidate.found),
         REFINEMENT: float(candidate.factor),
         "feasible": float(score.feasible),
         "message": " ".join(score.message.split()),
@@ -142,7 +142,7 @@ def numbers_of_cases(names: Sequence[str], found: Results) -> np.ndarray:
 
 def unfinished_in(case: DesignCase, record: Record) -> Unfinished:
     """Read what a record of the same search holds."""
-    names = [str(name) for name in record["figure"]]
+    names = [str(name) for name in record["quantity"]]
 
     def quantities(numbers: Sequence[float]) -> dict[str, float]:
         pairs = zip(names, map(float, numbers), strict=True)
@@ -150,7 +150,7 @@ def unfinished_in(case: DesignCase, record: Record) -> Unfinished:
 
     columns = [record[f"free_{free.name}"] for free in case.free]
     known: dict[int, list[tuple[Overrides, Results]]] = {}
-    for row, (cases, message) in enumerate(zip(record["case_figures"], record["message"], strict=True)):
+    for row, (cases, message) in enumerate(zip(record["case_quantities"], record["message"], strict=True)):
         found: Results = [quantities(numbers) or str(message) for numbers in cases]
         if all(found):
             values: Overrides = {}
@@ -158,7 +158,7 @@ def unfinished_in(case: DesignCase, record: Record) -> Unfinished:
                 values |= dict.fromkeys(free.keys, _value(free, float(column[row])))
             known.setdefault(int(record[REFINEMENT][row]), []).append((values, found))
     start: dict[int, Results] = {}
-    for factor, cases in zip(record["level"], record[START_FIGURES], strict=True):
+    for factor, cases in zip(record["level"], record[START_QUANTITIES], strict=True):
         of_start: Results = [quantities(numbers) for numbers in cases]
         if all(of_start):
             start[int(factor)] = of_start

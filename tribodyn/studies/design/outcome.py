@@ -68,13 +68,13 @@ def headline(case: DesignCase, archive: Archive, searched: Archive) -> dict[str,
         "objective_start": None if score.message else signed(case, score.objectives),
         "start_feasible": score.feasible,
         "evaluations": len(scores),
-        "evaluations_without_figures": sum(bool(other.message) for other in scores),
+        "evaluations_without_quantities": sum(bool(other.message) for other in scores),
         "evaluations_feasible": sum(other.feasible for other in scores),
     }
     if score.message:
         summary["start_message"] = score.message
     if messages := Counter(other.message for other in scores if other.message):
-        summary["without_figures_message"] = messages.most_common(1)[0][0]
+        summary["without_quantities_message"] = messages.most_common(1)[0][0]
     if best is None:
         return summary
     summary["objective"] = signed(case, best.score.objectives)
@@ -88,8 +88,8 @@ def headline(case: DesignCase, archive: Archive, searched: Archive) -> dict[str,
     if case.constraints:
         summary["constraints_start"] = scoring.constrained(scoring.start)
         summary["constraints_best"] = scoring.constrained(best.found)
-    summary["figures_start"] = dict(scoring.at_start)
-    summary["figures_best"] = dict(best.score.quantities)
+    summary["quantities_start"] = dict(scoring.at_start)
+    summary["quantities_best"] = dict(best.score.quantities)
     if len(case.objectives) > 1:
         points = archive.front()
         summary["front"] = {

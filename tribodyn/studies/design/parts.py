@@ -170,7 +170,7 @@ def _objectives(_place: str, table: Any, studies: Mapping[str, Study]) -> tuple[
         return (case.Objective(f"-{name}", ((name, -1.0),)),)
     given = table.minimise
     if not isinstance(given, (str, list, tuple)) or given in ([], ()):
-        remedy = 'write minimise = "peak_to_peak", a list of two, or [{ figure = "…", weight = 1.0 }, …]'
+        remedy = 'write minimise = "peak_to_peak", a list of two, or [{ quantity = "…", weight = 1.0 }, …]'
         raise InputError("design.minimise", quoted(given), "not the name of a quantity", remedy)
     if not isinstance(given, str) and not all(isinstance(name, str) for name in given):
         return (_weighted(given, studies),)
@@ -190,14 +190,14 @@ def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> case.Object
     terms = []
     for number, entry in enumerate(given):
         place = f"design.minimise.{number}"
-        if not isinstance(entry, Mapping) or set(entry) - {"figure", "weight"} or "figure" not in entry:
-            remedy = 'write { figure = "peak_to_peak", weight = 0.5 }'
+        if not isinstance(entry, Mapping) or set(entry) - {"quantity", "weight"} or "quantity" not in entry:
+            remedy = 'write { quantity = "peak_to_peak", weight = 0.5 }'
             raise InputError(place, quoted(entry), "not a quantity and its weight", remedy)
         weight = entry.get("weight", 1.0)
         number = isinstance(weight, (int, float)) and not isinstance(weight, bool)
         if not number or not isfinite(weight) or not weight:
             raise InputError(f"{place}.weight", quoted(weight), "not a weight", "write a number such as 0.5")
-        terms.append((quantity_name(f"{place}.figure", entry["figure"], studies), float(weight)))
+        terms.append((quantity_name(f"{place}.quantity", entry["quantity"], studies), float(weight)))
     return case.Objective(" + ".join(f"{weight:g} {name}" for name, weight in terms), tuple(terms))
 
 

@@ -13,13 +13,13 @@ from tribodyn.studies.design.candidates.sources import split
 
 REPORTED: Reported = {
     "Search": quantities(
-        "objective_name", "method", "evaluations", "evaluations_feasible", "evaluations_without_figures"
+        "objective_name", "method", "evaluations", "evaluations_feasible", "evaluations_without_quantities"
     ),
     "Solver": quantities("wall_time"),
 }
 
 SWEPT = quantities(
-    "objective", "objective_start", "evaluations", "evaluations_feasible", "evaluations_without_figures"
+    "objective", "objective_start", "evaluations", "evaluations_feasible", "evaluations_without_quantities"
 )
 SWEEP_TABLE = quantities("objective", "objective_start", "evaluations")
 
@@ -46,7 +46,7 @@ def sentences(record: Record) -> list[str]:
         for key, value in summary.get("best", {}).items()
     ]
     before, after = summary.get("constraints_start", {}), summary.get("constraints_best", {})
-    known = summary.get("figures_best", {})
+    known = summary.get("quantities_best", {})
     for text, value in after.items():
         if name := _quantity_in(text, known):
             found.append(f"{text}: at its worst {_change(search, name, before.get(text), value)}.")
@@ -56,10 +56,10 @@ def sentences(record: Record) -> list[str]:
         ends = (summary[f"objective_{end}confirmed"] for end in ("start_", ""))
         change = _change(search, names[0], *ends)
         found.append(f"Evaluated once more as design.confirm says: {change}.")
-    if "without_figures_message" in summary:
-        count = summary["evaluations_without_figures"]
+    if "without_quantities_message" in summary:
+        count = summary["evaluations_without_quantities"]
         found.append(
-            f"{count} candidates have no quantities, most because: {summary['without_figures_message']}"
+            f"{count} candidates have no quantities, most because: {summary['without_quantities_message']}"
         )
     return found
 
@@ -71,7 +71,7 @@ def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mappin
         ", ".join(f"{key} = {value}" for key, value in summary[name].items())
         for name in ("resolution", "resolution_searched")
     )
-    stands = "do not change there" if summary["figure_stands"] else "still change there"
+    stands = "do not change there" if summary["quantity_stands"] else "still change there"
     before = " and ".join(
         quantity.with_unit(float(value))
         for quantity, value in zip(sought, np.atleast_1d(summary["objective_searched"]), strict=True)

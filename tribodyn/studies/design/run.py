@@ -38,7 +38,7 @@ from tribodyn.studies.design.case import DesignCase, Free
 from tribodyn.studies.design.layout import (
     LOWER,
     MOVED,
-    START_FIGURES,
+    START_QUANTITIES,
     UPPER,
     layout_of,
     names_of,
@@ -137,7 +137,8 @@ def run(
         @cache
         def at(factor: int) -> Archive:
             archive = Archive(case, pool, keep, factor, before)
-            record.put(FACTORS.index(factor), {START_FIGURES: numbers_of_cases(names, archive.scoring.start)})
+            at_start = numbers_of_cases(names, archive.scoring.start)
+            record.put(FACTORS.index(factor), {START_QUANTITIES: at_start})
             return archive
 
         def so_far(**more: Any) -> dict[str, Any]:
@@ -211,7 +212,7 @@ def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Candida
         "resolution": resolutions(case, end.archive.factor),
         "resolution_searched": resolutions(case, 1),
         "objective_searched": signed(case, before),
-        "figure_stands": end.stands,
+        "quantity_stands": end.stands,
         "evaluations_finer": end.evaluations,
     }
 

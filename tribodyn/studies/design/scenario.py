@@ -71,7 +71,7 @@ class DesignTable(Table):
 
     free: tuple[FreeKey, ...] = Field(description="keys that the search may change", min_length=0)
     minimise: Any = Field(
-        None, description="a quantity; a list of { figure, weight }; or two quantities for a front"
+        None, description="a quantity; a list of { quantity, weight }; or two quantities for a front"
     )
     maximise: Text | None = Field(None, description="a quantity, in place of minimise")
     subject_to: tuple[Text, ...] = Field(

@@ -86,7 +86,7 @@ def design(
         Key to bounds, ``{"drive.pinion.profile_shift": (-0.2, 0.4)}``, or to a list of texts to choose among;
         or entries as the scenario has them.
     minimise : str or list, optional
-        Name of a quantity; two of them; or a list of ``{"figure": …, "weight": …}``.
+        Name of a quantity; two of them; or a list of ``{"quantity": …, "weight": …}``.
     subject_to : sequence of str
         ``"contact_ratio >= 1.3"``.
     maximise, part, method, evaluations, **more

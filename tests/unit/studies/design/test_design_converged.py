@@ -127,6 +127,6 @@ def test_the_relief_of_the_tutorial_is_the_best_that_another_method_finds():
         ).summary[FIGURE]
         for torque in torques
     ]
-    assert found.summary["figure_stands"]
+    assert found.summary["quantity_stands"]
     assert sum(fine) / 4 <= 2.30e-6
     assert found.objective == pytest.approx(sum(fine) / 4, rel=5e-3)

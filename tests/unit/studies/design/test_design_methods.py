@@ -129,7 +129,7 @@ def test_more_of_a_figure():
 
 def test_a_weighted_sum_is_relative_to_the_start():
     formulas = Formulas(**{F: lambda x, y: 2.0 + x, G: lambda x, y: 4.0 - x})
-    weighted = [{"figure": F, "weight": 3.0}, {"figure": G, "weight": 1.0}]
+    weighted = [{"quantity": F, "weight": 3.0}, {"quantity": G, "weight": 1.0}]
     archive, _ = search(formulas, minimise=weighted)
     found = headline(archive.case, archive, archive)
     assert found["objective_start"] == 4.0

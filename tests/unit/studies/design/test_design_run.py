@@ -160,4 +160,4 @@ def test_a_cluster_finds_what_this_machine_finds(tmp_path: Path):
     assert there.summary["workers"] == 2
     for name in ("objective_start", "objective", "best", "evaluations"):
         assert getattr(there, name) == getattr(here, name)
-    assert there.summary["figures_best"] == here.summary["figures_best"]
+    assert there.summary["quantities_best"] == here.summary["quantities_best"]

@@ -26,7 +26,7 @@ def figures(x: np.ndarray) -> list[dict[str, float]]:
 @pytest.mark.parametrize("over_duties", ["mean", "worst"])
 @pytest.mark.parametrize("weighted", [False, True])
 def test_the_chain_rule(over: str, over_duties: str, weighted: bool):
-    terms = [{"figure": F, "weight": -2.0}, {"figure": G, "weight": 1.0}]
+    terms = [{"quantity": F, "weight": -2.0}, {"quantity": G, "weight": 1.0}]
     design = {
         "free": FREE,
         "minimise": terms if weighted else G,
@@ -50,16 +50,16 @@ def test_the_chain_rule(over: str, over_duties: str, weighted: bool):
 
 
 @pytest.mark.parametrize(
-    ("scenario", "figure", "key"),
+    ("scenario", "quantity", "key"),
     [
         ("involute-18-36", "dynamic_factor", "drive.pinion.profile_shift"),
         ("load-contact-18-36", "peak_to_peak", "drive.pinion.profile_shift"),
         ("efficiency-involute-18-36", "specific_sliding_max", "drive.pinion.profile_shift"),
     ],
 )
-def test_what_cannot_be_differentiated(scenario: str, figure: str, key: str):
+def test_what_cannot_be_differentiated(scenario: str, quantity: str, key: str):
     free = [{"key": key, "from": -0.1, "to": 0.1}]
-    assert derivatives_of(loaded_search(scenario, {"free": free, "minimise": figure}, {}).case) is None
+    assert derivatives_of(loaded_search(scenario, {"free": free, "minimise": quantity}, {}).case) is None
 
 
 @pytest.mark.soak

@@ -34,7 +34,7 @@ def test_figures_of_every_scenario_are_those_of_its_own_run(tmp_path: Path):
     found = td.design(
         BASE,
         FREE,
-        [{"figure": "peak_to_peak", "weight": 0.8}, {"figure": "efficiency.loss", "weight": 0.2}],
+        [{"quantity": "peak_to_peak", "weight": 0.8}, {"quantity": "efficiency.loss", "weight": 0.2}],
         ["efficiency.contact_ratio >= 1.2"],
         overrides=SHORT,
         output=tmp_path / "a.h5",

@@ -72,7 +72,7 @@ def evaluate(
         requests = [own(name, schema, overrides, scenarios) for overrides in several]
         keys = [json.dumps(request, sort_keys=True) for request in requests]
         once = dict(zip(keys, requests, strict=True))
-        known = dict(zip(once, _figures(data, list(once.values()), workers), strict=True))
+        known = dict(zip(once, _found(data, list(once.values()), workers), strict=True))
         found = [_with(whole, name, known[key]) for whole, key in zip(found, keys, strict=True)]
     return found
 
@@ -86,7 +86,7 @@ def _with(known: dict[str, Any] | str, name: str, more: dict[str, Any] | str) ->
     return known | {f"{name}.{key}" if name else key: value for key, value in more.items()}
 
 
-def _figures(data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None) -> Results:
+def _found(data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None) -> Results:
     """Quantities of cases of one scenario."""
     cases: list[Any] = []
     for overrides in several:
