@@ -174,13 +174,13 @@ def _end_with_input() -> None:
     inner = open(writing, "wb", buffering=0)
     with open(reading, "rb", buffering=0) as replaced:
         os.dup2(replaced.fileno(), 0, inheritable=False)
-    threading.Thread(target=_pass_on, args=(outer, inner), daemon=True).start()
+    # the thread may come to run only after the parent has ended, where this process computes at once
+    threading.Thread(target=_pass_on, args=(os.getppid(), outer, inner), daemon=True).start()
 
 
-def _pass_on(outer: Any, inner: Any) -> NoReturn:
+def _pass_on(parent: int, outer: Any, inner: Any) -> NoReturn:
     import select
 
-    parent = os.getppid()
     while True:
         # Windows waits for sockets alone, and no process inherits a pipe there
         if os.name == "nt" or select.select([outer], [], [], _LOOK_EVERY)[0]:

@@ -23,8 +23,8 @@ import os, sys, time
 from tribodyn.numerics import child
 busy = "import os; os.fork(); os.write(1, b'%d\\\\n' % os.getpid())\\nwhile True: pass"
 process = child.start("builtins:exec", busy)
-print(int(process.stdout.readline()), int(process.stdout.readline()), sep="\\n", flush=True)
 EXTRA
+print(int(process.stdout.readline()), int(process.stdout.readline()), sep="\\n", flush=True)
 time.sleep(600)
 """
 #: A process that has inherited the pipes' ends and outlives its parent.
