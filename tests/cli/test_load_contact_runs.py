@@ -36,6 +36,8 @@ def test_the_record_carries_the_load(both: dict[str, Path]):
         assert summary["normal_load_max"] == pytest.approx(alone, rel=1e-9)
         assert summary["line_load_max"] == pytest.approx(alone / 0.0267, rel=1e-9)
         assert summary["face_load_factor"] == pytest.approx(1.0, abs=1e-9)
+        even = np.where(record["normal_load"] > 0.0, 1.0, np.nan)
+        np.testing.assert_allclose(record["face_load_factor"], even, atol=1e-9)
         # a separate prototype counts 1.733 grid positions at this torque, ± 0.02
         assert summary["contact_ratio_effective"] == pytest.approx(1.733, abs=0.02)
         # unmodified flanks have no error without load

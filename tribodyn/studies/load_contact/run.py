@@ -193,7 +193,6 @@ def film_over_face(
 
 def record_arrays(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Float[Array, "position ..."]]:
     """Datasets of the record, over the phase first."""
-    carrying = loaded.normal_load > 0.0
     teeth = float(study.case.drive.pinion.teeth)
     return {
         "phase": loaded.phase - loaded.phase[0],
@@ -205,7 +204,7 @@ def record_arrays(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Floa
         "line_load": loaded.line_load,
         "hertz_pressure": loaded.pressure,
         "half_width": loaded.half_width,
-        "face_load_factor": np.where(carrying, loaded.face_load_factor, np.nan),
+        "face_load_factor": loaded.face_load_factor,
         "root_tension": np.moveaxis(loaded.root_tension, 0, 1),
         "root_compression": np.moveaxis(loaded.root_compression, 0, 1),
         "mesh_stiffness": loaded.mesh_stiffness,
