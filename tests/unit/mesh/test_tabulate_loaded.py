@@ -112,6 +112,11 @@ def test_back_flanks_stand_half_a_pitch_behind_their_front_flanks(start, span):
     at = slots(boundary, (start, start + span), 1.0, pairs, 5, True)
     assert np.all(np.diff(boundary) > 0.0)
     for segment in range(len(boundary) - 1):
+        # within a segment no pair begins or ends, and none in contact passes a mark
+        on_path = (at.roll[segment, 1:-1] > start) & (at.roll[segment, 1:-1] < start + span)
+        assert np.all(on_path == (at.in_contact[segment] > 0.0))
+        low, high = np.sort(at.roll[segment, [0, -1]], axis=0)[..., None]
+        assert not np.any((low + 1e-9 < start + np.array(marks)) & (start + np.array(marks) < high - 1e-9))
         for node in (1, 2, 3):
             front = start + at.phase[segment, node] + np.arange(-5, 6)
             for rolls, own in ((front, slice(0, pairs)), (0.5 - front, slice(pairs, None))):

@@ -1,10 +1,11 @@
-"""Where friction reverses: on a table whose distances are parabolas over the phase, with known roots."""
+"""Where friction reverses: on a table whose distances are cubics over the phase, with known roots."""
 
 from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
 import pytest
+from numpy.polynomial import Polynomial
 
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIDING_KINEMATIC
 from tribodyn.mesh.cycle import CHANNELS
@@ -14,7 +15,7 @@ DISTANCE = CHANNELS.index("signed_distance")
 BOUNDARY = np.array([0.0, 0.37, 1.0])
 CELLS = 7
 #: Distance of each pair over the phase, mm: coefficients from the constant term on.
-PAIRS = ((-0.9, 2.0, 0.7), (0.8, -1.3, -0.4), (-2.0, 0.1, 0.0))
+PAIRS = ((-0.9, 2.0, 0.7, 0.3), (0.8, -1.3, -0.4, -0.2), (-2.0, 0.1, 0.0, 0.0))
 
 
 def model(in_contact=((1, 1, 1), (1, 0, 1)), width=0.05, sliding=SLIDING_KINEMATIC):
@@ -24,9 +25,9 @@ def model(in_contact=((1, 1, 1), (1, 0, 1)), width=0.05, sliding=SLIDING_KINEMAT
         size = (end - start) / CELLS
         for cell in range(CELLS):
             left = start + cell * size
-            for slot, (a, b, c) in enumerate(PAIRS):
-                place = a + b * left + c * left**2, (b + 2 * c * left) * size, c * size**2, 0.0
-                channel[segment, cell, slot, DISTANCE] = place
+            for slot, pair in enumerate(PAIRS):
+                place = Polynomial(pair)(Polynomial([left, size])).coef
+                channel[segment, cell, slot, DISTANCE, : len(place)] = place
     return cast(
         Any,
         SimpleNamespace(
@@ -38,8 +39,7 @@ def model(in_contact=((1, 1, 1), (1, 0, 1)), width=0.05, sliding=SLIDING_KINEMAT
 
 
 def roots(pair, distance, low, high):
-    a, b, c = PAIRS[pair]
-    found = np.roots([c, b, a - distance]) if c else np.array([(distance - a) / b])
+    found = (Polynomial(PAIRS[pair]) - distance).roots()
     return [float(root.real) for root in found if abs(root.imag) < 1e-12 and low <= root.real <= high]
 
 

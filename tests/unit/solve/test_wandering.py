@@ -132,6 +132,16 @@ def test_a_motion_is_judged_by_its_shortest_period(over):
     assert "twice the period" in left.message
 
 
+def test_a_motion_is_shot_where_it_has_been_moved():
+    """Over both periods, or only over the one that it has: the residual of one is five times that of both."""
+    methods = []
+    for start in 1.0 - 1.0 / 2.8 + np.geomspace(1e-12, 1e-1, 100):
+        orbit = closed_orbit(ClosedForm(logistic, [2.8], 1), shot_at(start, 2.8, 2), 0, 2, 0, 1e-10)
+        methods.append(orbit.method)
+        assert methods[-1] == ("marching" if orbit.state[0] == start else "shooting")
+    assert set(methods) == {"marching", "shooting"}
+
+
 def test_a_neutral_motion_is_said_to_be():
     turn = np.array([[0.0, -1.0], [1.0, 0.0]])
     neutral = Affine(turn, np.zeros(2), np.ones(2))

@@ -1,6 +1,7 @@
 """Figures of load contact studies, from a short run: units of axes, pairs followed from cycle to cycle."""
 
 from collections.abc import Iterator
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -27,6 +28,12 @@ LABELS = {
     "root-stress": ["Root tension (MPa)", "", "Root compression (MPa)", ""],
     "mesh-stiffness": ["Mesh stiffness (N/µm)"],
 }
+
+
+class OfTeeth(dict[str, np.ndarray]):
+    """A record of teeth that differ."""
+
+    pairs = (0, 1, 2)
 
 
 @pytest.fixture(scope="module")
@@ -66,6 +73,17 @@ def test_a_pair_is_followed_over_its_roll_angle(record: Record):
     assert np.all(np.diff(roll) > 0)
     assert load[0] == load[-1] == 0.0
     assert np.interp(0.0, roll, load) == pytest.approx(load.max(), rel=0.02)
+
+
+@pytest.mark.parametrize("cycles", [3, 5])
+def test_one_pair_of_teeth_is_followed_through_its_life(cycles):
+    """The first that begins: of three numbers, the third of the first cycle; each has a value of its own."""
+    phase = np.arange(4 * cycles) / 4
+    tooth = np.floor(phase)[:, None] + np.arange(3)
+    record = OfTeeth(phase=phase, roll_angle=phase[:, None] - tooth)
+    roll, values = over_roll(cast(Any, record), tooth)
+    np.testing.assert_array_equal(values, 2.0)
+    np.testing.assert_allclose(roll, np.arange(12) / 4 - 2.0)
 
 
 def test_a_map_covers_the_contact_and_the_face(record: Record):
