@@ -61,3 +61,36 @@ def test_a_module_is_named_in_a_list_and_under_another_name(tmp_path):
     found = mutants._imported(file, tmp_path)
     wanted = {"solve.methods.dopri5", "geometry.families.involute", "dynamics.equations"}
     assert {f"tribodyn.{module}" for module in wanted} <= found
+
+
+SUITE = """
+from pathlib import Path
+from tribodyn.geometry.law import law
+
+def test_fails_once():
+    mark = Path(__file__).with_name("mark")
+    before = mark.exists()
+    mark.touch()
+    assert before
+
+def test_same():
+    assert law(2.0) == 2.0
+"""
+
+
+@pytest.mark.slow
+def test_what_fails_by_chance_notices_nothing(tmp_path):
+    for name, text in (
+        (f"{PACKAGE}/geometry/law.py", "def law(x):\n    return x + 0\n"),
+        ("tests/unit/geometry/test_law.py", SUITE),
+    ):
+        (tmp_path / name).parent.mkdir(parents=True)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    (tmp_path / PACKAGE / "__init__.py").touch()
+    same, another = changes(tmp_path / PACKAGE, ["geometry"])
+    test = "tests/unit/geometry/test_law.py::test_"
+    tests = mutants.Tests(tmp_path, 60)
+    with tests.server:
+        assert tests.noticed(same, every=True) == ""
+        assert tests.failing == {test + "fails_once"}
+        assert tests.noticed(another, every=True) == test + "same"
