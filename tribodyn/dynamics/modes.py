@@ -62,7 +62,9 @@ def _mean_stiffness(model: Model, cycle: MeshCycle) -> Float[Array, "2 2"]:
         compliance=cycle.compliance + own,
         coupling=cycle.coupling + shared - own[..., None] * np.eye(own.shape[-1]),
     )
-    load = quasi_static(moving, _static_torque(model)).normal_load
+    # N m; 1 N on the pitch circle where there is no load
+    torque = max(abs(float(mechanics.load_torque)), float(model.table.gear_pitch_radius))
+    load = quasi_static(moving, torque).normal_load
     carrying = np.where(load > 0.0, 1.0, 0.0)
     contact = carrying * 0.9 * float(cycle.hertz_coefficient) * np.maximum(load, 1e-6) ** -0.1
     both = carrying[..., :, None] * carrying[..., None, :]
@@ -73,8 +75,3 @@ def _mean_stiffness(model: Model, cycle: MeshCycle) -> Float[Array, "2 2"]:
     matrix = np.einsum("snij,snik,snjl->snkl", stiffness, normal, normal)
     inside = (matrix[:, 1:] + matrix[:, :-1]).mean(axis=1) / 2.0
     return np.tensordot(np.diff(cycle.boundary), inside, axes=1)
-
-
-def _static_torque(model: Model) -> float:
-    """Constant part of the load, N m; 1 N on the pitch circle where there is none."""
-    return max(abs(float(model.mechanics.load_torque)), float(model.table.gear_pitch_radius))

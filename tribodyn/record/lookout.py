@@ -110,12 +110,8 @@ def _kept(look: Look) -> _Kept:
 def serve(module: str, name: str) -> None:
     """Answer every path on standard input with what a function says of it; both are hexadecimal."""
     look: Look = getattr(import_module(module), name)
-    call = forked if hasattr(os, "fork") else _in_itself
+    call = forked if hasattr(os, "fork") else lambda look, path: look(path)[:_LONGEST]
     for line in sys.stdin.buffer:
         reply = call(look, Path(os.fsdecode(bytes.fromhex(line.decode()))))
         sys.stdout.buffer.write(reply.encode(errors="replace").hex().encode() + b"\n")
         sys.stdout.buffer.flush()
-
-
-def _in_itself(look: Look, path: Path) -> str:
-    return look(path)[:_LONGEST]

@@ -141,11 +141,8 @@ def check(drive: Drive) -> None:
             rule = "the flank of an S-gear is a power law up to one module from the pitch line only"
             raise InputError(f"drive.{side}.addendum", float(height), rule, "use at most 1")
     reach = 50 * drive.module
-    require_reach(drive, path, -reach, reach, _advice)
-
-
-def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
-    return "shape.form_factor", drive.shape.form_factor, "use a larger one, or lower teeth and racks"
+    advice = "shape.form_factor", drive.shape.form_factor, "use a larger one, or lower teeth and racks"
+    require_reach(drive, path, -reach, reach, lambda *_: advice)
 
 
 FAMILY = Family(

@@ -55,14 +55,10 @@ def _increasing(values: tuple[float, ...]) -> tuple[float, ...]:
     return values
 
 
-def _form(value: Any) -> str:
-    return "(range)" if isinstance(value, dict | FrequencyRange) else "(list)"
-
-
 Frequencies = Annotated[
     Annotated[FrequencyRange, Tag("(range)")]
     | Annotated[tuple[Positive, ...], AfterValidator(_increasing), Tag("(list)")],
-    Discriminator(_form),
+    Discriminator(lambda value: "(range)" if isinstance(value, dict | FrequencyRange) else "(list)"),
 ]
 """A list of frequencies, or a table with from, to and step."""
 

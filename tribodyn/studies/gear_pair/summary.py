@@ -87,7 +87,7 @@ class RunningExtremes:
                 self._add(f"{flanks}mesh_force_max", 1, mesh_force(block, slots), cycles, block["time"])
 
     def _add(self, name: str, sign: int, values: np.ndarray, cycles: np.ndarray, time: np.ndarray) -> None:
-        value = float((np.fmax if sign > 0 else np.fmin).reduce(values, axis=None))  # NaN: there is none
+        value = float((np.fmax if sign > 0 else np.fmin).reduce(values, axis=None))  # NaN: nothing there
         old = self.by_name.get(name)
         if sign * value > (-np.inf if old is None else sign * old.value):
             row, *pair = np.unravel_index(int(np.argmax(values == value)), values.shape)

@@ -1,9 +1,9 @@
 """No friction."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tribodyn.numerics.elementary import law
-from tribodyn.tribology.law import FrictionLaw, LawInput
+from tribodyn.tribology.law import FrictionLaw
 
 
 class NoParameters(NamedTuple):
@@ -22,10 +22,10 @@ def no_heat(contact, film, surfaces, parameters, coefficient):
     return 0.0 * contact.sliding
 
 
-def _none(given: LawInput) -> Any:
-    return NoParameters()
-
-
 LAW = FrictionLaw(
-    "none", "frictionless flanks; the film is still reported", no_friction, _none, flash_temperature=no_heat
+    "none",
+    "frictionless flanks; the film is still reported",
+    no_friction,
+    lambda given: NoParameters(),
+    flash_temperature=no_heat,
 )
