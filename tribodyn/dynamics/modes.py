@@ -52,7 +52,7 @@ def _mean_stiffness(model: Model, cycle: MeshCycle) -> Float[Array, "2 2"]:
     """Mean over the mesh cycle of Σ_ij k_ij n_i n_jᵀ of the pairs that carry, n = (cos α, sin α); N/m."""
     if model.mechanics.load_torque < 0.0:  # it presses the back flanks together, in the mirrored world
         cycle = cycle._replace(side=-cycle.side)
-    still = np.sin(cycle.pressure_angle) * np.where(cycle.side > 0, 1.0, 0.0)
+    still = np.sin(cycle.pressure_angle)
     mechanics = model.mechanics
     # what a load on one pair moves the axes apart, it takes from the others: one more compliance they share
     bearings = 1.0 / mechanics.pinion_stiffness_y + 1.0 / mechanics.gear_stiffness_y

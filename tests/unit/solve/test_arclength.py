@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
-from tribodyn.solve.branch.arclength import FOLD, MERGING, PERIOD_DOUBLING, Arclength, BranchPoint, Seed
+from tribodyn.solve.branch.arclength import (
+    FOLD,
+    MERGING,
+    PERIOD_DOUBLING,
+    Arclength,
+    BranchPoint,
+    Seed,
+    follow_arc,
+)
 from tribodyn.solve.branch.continuation import Leg, follow
 from tribodyn.solve.branch.unstable import unstable_branches
 
@@ -148,6 +156,16 @@ def test_the_parameter_turns_at_the_vertex_of_a_parabola():
     assert found is ends[0]
     assert value == pytest.approx(0.9, abs=1e-8)
     assert within == pytest.approx(9e-8, rel=1e-2)
+
+
+@pytest.mark.parametrize("before", [1e-4, 3e-3, 7e-3])
+def test_a_fold_is_found_from_as_far_as_the_parameter_hardly_moves(before):
+    """a = x³ − x, which turns back at x = −1/√3."""
+    x = -1.0 / np.sqrt(3.0) - before
+    turn = follow_arc(Lines(cubic, 1), 0, Seed(x**3 - x, np.array([x]), 1, 1.0), 1.0, tolerance=1e-9)
+    assert turn is not None
+    assert turn.folded
+    assert turn.value == pytest.approx(2.0 / np.sqrt(27.0), abs=2e-5)
 
 
 def test_it_begins_at_the_value_of_the_seed():

@@ -11,6 +11,7 @@ from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact.maps import (
     at_pitch_point,
+    face_edges,
     face_map,
     over_phase,
     over_roll,
@@ -95,7 +96,9 @@ def test_a_map_covers_the_contact_and_the_face(record: Record):
     assert np.all(loaded[1:-1])
     assert not loaded[-1]
     np.testing.assert_allclose(found.face, record["slice"])
-    width = record.mesh_cycle["face_width"]
+    width, edges = record.mesh_cycle["face_width"], face_edges(record)
+    np.testing.assert_allclose((edges[1:] + edges[:-1]) / 2.0, found.face, atol=1e-12)
+    assert edges[-1] - edges[0] == pytest.approx(width)
     assert np.mean(at_pitch_point(record, "line_load")) * width == pytest.approx(
         record["normal_load"].max(), rel=0.02
     )
