@@ -43,7 +43,7 @@ def test_figures_of_every_scenario_are_those_of_its_own_run(tmp_path: Path):
         sensitivities=False,
     )
     assert found.status == "complete"
-    start, best = (found.summary[f"figures_{end}"] for end in ("start", "best"))
+    start, best = (found.summary[f"quantities_{end}"] for end in ("start", "best"))
     contact = td.run(str(tmp_path / "a-best.toml")).summary
     name = "loaded_transmission_error_peak_to_peak"
     assert contact[name] == pytest.approx(best[name], rel=1e-9)
