@@ -141,8 +141,8 @@ def test_a_part_that_was_changed_by_hand_is_refused_and_force_renews_it(assessed
     cut = parts / "efficiency-masjedi-khonsari.h5"
     cut.write_bytes(cut.read_bytes()[:5000])
     rows = min(parts.glob("*.json"))
-    figures = json.loads(rows.read_text(encoding="utf-8"))["figures"]
-    name, values = next((name, row) for name, row in figures.items() if None not in row and any(row))
+    rows_of_cases = json.loads(rows.read_text(encoding="utf-8"))["quantities"]
+    name, values = next((name, row) for name, row in rows_of_cases.items() if None not in row and any(row))
     text = rows.read_text(encoding="utf-8")
     rows.write_text(text.replace(repr(values[0]), repr(100.0 * values[0])), encoding="utf-8")
     assert rows.read_text(encoding="utf-8") != text
@@ -153,7 +153,7 @@ def test_a_part_that_was_changed_by_hand_is_refused_and_force_renews_it(assessed
     assert "--force" in said
     again = assess(folder, "--force")
     assert again["simulated"] == assessed["simulated"]
-    assert json.loads(rows.read_text(encoding="utf-8"))["figures"][name] == values
+    assert json.loads(rows.read_text(encoding="utf-8"))["quantities"][name] == values
 
 
 def test_a_change_runs_only_what_it_concerns(assessed: dict, folder: Path):
