@@ -42,7 +42,7 @@ def before_and_after(record: Record) -> tuple[TextTable, ...]:
         return ()
     start, best = (summary.get(name, {}) for name in ("start", "best"))
     keys = [(key, str(start.get(key, "–")), str(value)) for key, value in best.items()]
-    before, after = (summary.get(f"figures_{name}", {}) for name in ("start", "best"))
+    before, after = (summary.get(f"quantities_{name}", {}) for name in ("start", "best"))
     rows = [
         row for name, value in after.items() if (row := _row(record.scenario, name, before.get(name), value))
     ]

@@ -8,8 +8,10 @@ import pytest
 
 import tribodyn as td
 from tribodyn.errors import InputError
+from tribodyn.record.reader import Record
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate
+from tribodyn.studies.design.page import before_and_after
 from tribodyn.studies.design.short_form import loaded_search, parts_of
 
 RELIEF = "drive.pinion.modification.tip_relief"
@@ -57,6 +59,12 @@ def test_figures_of_every_scenario_are_those_of_its_own_run(tmp_path: Path):
     loss = terms[1] / start["efficiency.power_friction_mean"]
     assert found.objective == pytest.approx(0.8 * terms[0] + 0.2 * loss, rel=1e-9)
     assert found.objective < found.objective_start == pytest.approx(1.0)
+    with Record(tmp_path / "a.h5") as record:
+        _, shown = before_and_after(record)
+    change = next(
+        float(row[-1].removesuffix(" %")) for row in shown.rows if row[0].endswith("error, peak to peak")
+    )
+    assert change == pytest.approx(100.0 * (terms[0] - 1.0), abs=0.06)
 
 
 def test_two_objectives_of_two_kinds():
