@@ -12,6 +12,7 @@ import pytest
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
+from tribodyn.studies.design.page import before_and_after
 from tribodyn.studies.design.report import sentences
 from tribodyn.studies.pages import report
 
@@ -121,8 +122,9 @@ def test_a_front_without_duties_is_drawn_and_told(tmp_path: Path):
     assert all(found.plot(name).get_axes() for name in pictures)
     with Record(tmp_path / "a.h5") as record:
         said = " ".join(sentences(record))
-        text = report([record])
+        text, (_, quantities) = report([record]), before_and_after(record)
     assert "Maximum Hertz pressure" in said
+    assert {"Maximum Hertz pressure", "Contact ratio"} <= {row[0] for row in quantities.rows}
     for shown in ("Quantities before and after", "data:image/png;base64,", "drive.pinion.profile_shift"):
         assert shown in text
 
