@@ -51,7 +51,7 @@ from tribodyn.dynamics.extremes import (
 from tribodyn.dynamics.outputs import outputs, outputs_with_extremes
 from tribodyn.dynamics.parameters import STATES, XI
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of
+from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of, worthwhile
 from tribodyn.solve.right_hand_side import work_array
 
 OVERRIDES = [
@@ -233,6 +233,14 @@ def test_a_parabola_of_twice_the_bend_decides(rng):
         if highest > max(start, end) + 1e-3:
             assert promising(start, end, before, highest - 1e-5)
         assert not promising(start, end, before, highest + 1e-5)
+
+
+@pytest.mark.parametrize("size", [1e-7, 1.0, 1e9])
+def test_a_value_is_worth_an_evaluation_by_its_share_above_the_extreme(size):
+    """In any unit, of either sign: the film is measured by −h."""
+    for extreme in (size, -size):
+        assert worthwhile(extreme + 2e-7 * size, extreme)
+        assert not worthwhile(extreme + 5e-8 * size, extreme)
 
 
 def test_a_rate_is_known_where_both_ends_are():

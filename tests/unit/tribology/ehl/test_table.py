@@ -95,6 +95,9 @@ def test_contacts_crowd_along_the_path():
     assert np.max(np.abs(ways - np.eye(3))) < 0.12
     many, along = tables.spread(duty, 512)
     assert np.all(np.diff(np.sort(many[along, 2])) < 0.1)
+    # a path of three places is covered to both ends, and 2 % beside them
+    coarse = tables.spread(duty._replace(places=tuple(places[::20])), 512)[0][along, 2]
+    assert np.ptp(coarse) == pytest.approx(2.02, abs=0.02)
     assert tables.spread(duty, 65)[0].shape == (65, 4)
     assert tables.spread(duty, 1)[0].shape == (1, 4)
     box, all_of_it = tables.spread(duty._replace(places=()), 64)
