@@ -7,15 +7,8 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
-from tribodyn.solve.branch.arclength import (
-    FOLD,
-    MERGING,
-    PERIOD_DOUBLING,
-    Arclength,
-    BranchPoint,
-    Seed,
-    follow_arc,
-)
+from tribodyn.solve.branch import arclength
+from tribodyn.solve.branch.arclength import FOLD, MERGING, PERIOD_DOUBLING, Arclength, BranchPoint, Seed
 from tribodyn.solve.branch.continuation import Leg, follow
 from tribodyn.solve.branch.unstable import unstable_branches
 
@@ -162,7 +155,8 @@ def test_the_parameter_turns_at_the_vertex_of_a_parabola():
 def test_a_fold_is_found_from_as_far_as_the_parameter_hardly_moves(before):
     """a = x³ − x, which turns back at x = −1/√3."""
     x = -1.0 / np.sqrt(3.0) - before
-    turn = follow_arc(Lines(cubic, 1), 0, Seed(x**3 - x, np.array([x]), 1, 1.0), 1.0, tolerance=1e-9)
+    seed = Seed(x**3 - x, np.array([x]), 1, 1.0)
+    turn = arclength.follow_arc(Lines(cubic, 1), 0, seed, 1.0, tolerance=1e-9)
     assert turn is not None
     assert turn.folded
     assert turn.value == pytest.approx(2.0 / np.sqrt(27.0), abs=2e-5)
