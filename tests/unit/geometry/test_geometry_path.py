@@ -92,6 +92,13 @@ class TestCRC:
             np.testing.assert_allclose(path.pressure_angle(r), solution.y[0], atol=1e-11)
             np.testing.assert_allclose(path.rotation(r), solution.y[1], atol=1e-11)
 
+    def test_is_known_a_tenth_beyond_where_the_racks_reach(self, drive):
+        """Their tips are above the pitch point by r sin α, here by the dedendum of either body."""
+        path = crc.FAMILY.working_path(drive)
+        ends = np.array([path.lower, path.upper]) / 1.1
+        height = ends * np.sin(path.pressure_angle(ends)) / drive.module
+        np.testing.assert_allclose(height, [-1.25, 1.25], rtol=0.01)
+
     def test_series_at_the_pitch_point(self, drive):
         path = crc.FAMILY.working_path(drive)
         w = path.pinion_pitch_radius / path.gear_pitch_radius

@@ -6,14 +6,15 @@ import pytest
 from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in
 
 
-def test_what_the_driving_gear_puts_in_less_the_loss():
-    assert power_put_in(100.0, 98.0) == 100.0
-    assert efficiency(100.0, 98.0, 2.0) == pytest.approx(0.98)
-    assert driving_gear(100.0, 98.0) == "pinion"
+@pytest.mark.parametrize("watt", [1.0, 1e-6])
+def test_what_the_driving_gear_puts_in_less_the_loss(watt):
+    assert power_put_in(100.0 * watt, 98.0 * watt) == 100.0 * watt
+    assert efficiency(100.0 * watt, 98.0 * watt, 2.0 * watt) == pytest.approx(0.98)
+    assert driving_gear(100.0 * watt, 98.0 * watt) == "pinion"
     # the gear gives 100 W, the pinion gets 97 W
-    assert power_put_in(-97.0, -100.0) == 100.0
-    assert efficiency(-97.0, -100.0, 3.0) == pytest.approx(0.97)
-    assert driving_gear(-97.0, -100.0) == "gear"
+    assert power_put_in(-97.0 * watt, -100.0 * watt) == 100.0 * watt
+    assert efficiency(-97.0 * watt, -100.0 * watt, 3.0 * watt) == pytest.approx(0.97)
+    assert driving_gear(-97.0 * watt, -100.0 * watt) == "gear"
 
 
 @pytest.mark.parametrize("powers", [(3.0, -2.0), (3.0, 0.0), (0.0, 0.0), (0.0, -2.0), (-1.0, 2.0)])

@@ -7,7 +7,7 @@ from tribodyn.dynamics.contact_forces import NORMAL_LOAD
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import STATES, TWIST, VELOCITIES, XI
 from tribodyn.errors import SimulationError
-from tribodyn.solve.initial import accelerations, static_equilibrium
+from tribodyn.solve.initial import accelerations, static_deflection, static_equilibrium
 from tribodyn.solve.march.step_control import unbounded
 
 STILL = {"operating.gear_torque_harmonics": []}
@@ -85,6 +85,14 @@ def test_without_back_flanks_nothing_holds_a_negative_load(prepared):
     with pytest.raises(SimulationError, match="turns the flanks apart"):
         static_equilibrium(model)
     assert len(static_equilibrium(prepared("crc-23-47").model)) == STATES
+
+
+def test_the_scale_of_deflections_is_that_of_a_single_pair_between_rigid_bearings(prepared):
+    rigid = {f"bearings.{gear}.stiffness_{axis}": "1e13 N/m" for gear in ("pinion", "gear") for axis in "xy"}
+    model = prepared("jump-involute-23-47", **rigid).model
+    state = static_equilibrium(model, float(model.table.boundary[1]), 1)
+    scale = static_deflection(model, float(model.mechanics.load_torque))
+    assert state[XI] * np.cos(np.radians(20.0)) == pytest.approx(scale, rel=1e-3)
 
 
 def moving(prepared, amplitude, damping):

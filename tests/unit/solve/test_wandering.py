@@ -206,13 +206,15 @@ def test_the_period_that_shows_is_that_of_the_smallest_change():
 
 
 def test_a_change_that_falls_no_further_is_marched_finely():
-    """Four blocks of a small change: the last two not below half of the two before."""
+    """The last four blocks of a small change: two not below half of the two before."""
     for history, fine in (
         ([4e-3, 4e-3, 3e-3, 2e-3], True),
         ([4e-3, 4e-3, 1.9e-3, 1e-3], False),
         ([4e-2, 4e-2, 3e-2, 2e-2], False),
         ([4e-3, 3e-3, 3e-3], False),
         ([1.0, 1e-4, 9e-3, 9e-3], False),
+        ([1e-3, 1e-3, 1.0, 1.0, 4e-3, 4e-3, 3e-3, 2e-3], True),
+        ([1e-3, 1e-3, 1.0, 1.0, 4e-3, 4e-3, 1e-3, 1e-3], False),
     ):
         so_far = progress()
         so_far.history[1] = list(history)
