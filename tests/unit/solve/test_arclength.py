@@ -52,8 +52,8 @@ def test_round_a_fold_to_the_other_fold(way, size):
     assert end.kind == FOLD
     assert branch.finish is not None
     assert branch.finish.kind == FOLD
-    assert branch.finish.value == pytest.approx(-way * fold, abs=1e-4)
-    assert branch.finish.within <= 1e-4
+    assert branch.finish.value == pytest.approx(-way * fold, abs=2e-6)
+    assert branch.finish.within <= 2e-6
     x = branch.states[:, 0]
     np.testing.assert_allclose(branch.values, x**3 - x, atol=1e-7)
     np.testing.assert_allclose(branch.multipliers[:, 0].real, 1.0 + 0.25 * (1.0 - 3.0 * x**2), atol=1e-4)
