@@ -114,7 +114,7 @@ def march_with_derivative(
     if count > DIRECTIONS:
         raise ValueError(f"{count} directions, at most {DIRECTIONS} fit")
     atol, stops = tolerances_of_many(models, states, rtol), stops_of_many(models)
-    march = March(0, cycles, cycles, 1, False, rtol, max_steps)
+    march = March(0, cycles, cycles, 0, False, rtol, max_steps)
     rows = len(models)
     numbers = _packed(models)
     result = Derived(
@@ -133,7 +133,13 @@ def march_with_derivative(
         control = Control(FIRST_STEP, MINIMUM_ERROR, *scales, stops[row], method.tolerance)
         model = numbers[row]
         status, reached, _, _, steps, _, _ = method.integrate(
-            march, control, model, y, _duals((cycles, STATES)), work, _duals(method.buffer().shape)
+            march,
+            control,
+            model,
+            y,
+            _duals((cycles * march.samples, STATES)),
+            work,
+            _duals(method.buffer().shape),
         )
         if status == Status.DONE:
             engage_with_derivative(y, model, work)
