@@ -179,8 +179,12 @@ class TestCRC:
         assert error.key == "drive.gear.profile_shift"
         assert error.remedy == "use 0"
 
-    def test_path_that_ends_before_the_teeth_do(self):
-        error = refusal(crc.FAMILY, drive(body(8.0, dedendum=1.6), body(200.0), 10.0))
+    # no solution; sin α above 1 on a series that converges; a series that does not; sin α below 0
+    @pytest.mark.parametrize(
+        ("teeth", "mate", "angle"), [(8.0, 200.0, 10.0), (6.0, 47.0, 5.0), (6.0, 8.0, 8.0), (6.0, 47.0, 14.0)]
+    )
+    def test_path_that_ends_before_the_teeth_do(self, teeth, mate, angle):
+        error = refusal(crc.FAMILY, drive(body(teeth, dedendum=1.6), body(mate), angle))
         assert error.key == "drive.pressure_angle"
         assert "does not reach" in error.rule
 

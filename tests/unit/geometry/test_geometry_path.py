@@ -98,6 +98,10 @@ class TestCRC:
         ends = np.array([path.lower, path.upper]) / 1.1
         height = ends * np.sin(path.pressure_angle(ends)) / drive.module
         np.testing.assert_allclose(height, [-1.25, 1.25], rtol=0.01)
+        held = path.pressure_angle(np.array([path.lower, 2.0 * path.lower, 2.0 * path.upper, path.upper]))
+        np.testing.assert_allclose(held[:2], held[0])
+        np.testing.assert_allclose(held[2:], held[3])
+        assert held[3] == pytest.approx(path.pressure_angle(0.999999 * path.upper), abs=1e-5)
 
     def test_series_at_the_pitch_point(self, drive):
         path = crc.FAMILY.working_path(drive)
