@@ -5,8 +5,10 @@ import pytest
 
 from tests.support.states import sampled
 from tribodyn.dynamics.parameters import XI
+from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.methods import METHODS, Runs
-from tribodyn.solve.transient import TransientSettings
+from tribodyn.solve.tolerances import tolerances_from
+from tribodyn.solve.transient import TransientSettings, make_integrator
 
 CYCLES, SAMPLES = 6, 100
 
@@ -44,3 +46,19 @@ def test_independent_codes_agree(method, prepared):
     model = prepared("crc-23-47", **{"operating.pinion_speed": "300 rad/s"}).model
     native, other = solve(model, "dopri5", 1e-9), solve(model, method, 1e-9)
     assert np.max(np.abs(native[:, XI] - other[:, XI])) / np.ptp(other[:, XI]) < 1e-6
+
+
+@pytest.mark.slow
+def test_what_a_run_costs_is_the_sum_of_its_parts(prepared):
+    """In one call or in two; every step of Tsitouras' method, refused ones too, has six evaluations."""
+    model = prepared("crc-23-47", **{"operating.pinion_speed": "300 rad/s"}).model
+    state = static_equilibrium(model)
+    tolerances = tolerances_from(model, state, 1e-9, 10**6)
+    whole, parts = (make_integrator("tsit5", model, SAMPLES, tolerances) for _ in range(2))
+    cost = whole.integrate(state, 0, 2)
+    first = parts.integrate(state, 0, 1)
+    second = parts.integrate(first.state, 1, 1)
+    assert cost.steps == first.steps + second.steps
+    assert cost.evaluations == first.evaluations + second.evaluations
+    assert cost.evaluations % 6 == 0
+    assert 1.0 <= cost.evaluations / (6 * cost.steps) < 1.2
