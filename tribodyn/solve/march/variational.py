@@ -132,15 +132,8 @@ def march_with_derivative(
         scales = atol[row], atol[row] / rtol
         control = Control(FIRST_STEP, MINIMUM_ERROR, *scales, stops[row], method.tolerance)
         model = numbers[row]
-        status, reached, _, _, steps, _, _ = method.integrate(
-            march,
-            control,
-            model,
-            y,
-            _duals((cycles * march.samples, STATES)),
-            work,
-            _duals(method.buffer().shape),
-        )
+        out, buffer = _duals((cycles * march.samples, STATES)), _duals(method.buffer().shape)
+        status, reached, _, _, steps, _, _ = method.integrate(march, control, model, y, out, work, buffer)
         if status == Status.DONE:
             engage_with_derivative(y, model, work)
         result.state[row], result.slopes[row] = y[:, VALUE], y[:, :count]
