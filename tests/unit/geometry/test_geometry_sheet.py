@@ -36,6 +36,54 @@ def test_specific_sliding_of_the_involute(drive):
         assert sliding == (pytest.approx(distance * (1 + 1 / ratio)), "mm/rad")
 
 
+@pytest.mark.parametrize("drive", [STANDARD, SHIFTED])
+def test_circles_and_thicknesses_of_the_involute(drive):
+    """Half the thickness angle at any diameter: (π/2 + 2 x tan α)/z + inv α − inv α_y (ISO 21771)."""
+    sheet = geometry_sheet(assemble(involute.FAMILY, drive))
+    alpha, module = drive.pressure_angle, 1e3 * drive.module
+    working = involute.working_pressure_angle(drive)
+    teeth = drive.pinion.teeth + drive.gear.teeth
+    distance = module * teeth / 2 * np.cos(alpha) / np.cos(working)
+    assert sheet["centre distance"][0] == pytest.approx(distance)
+    assert sheet["gear ratio"][0] == pytest.approx(drive.gear.teeth / drive.pinion.teeth)
+    assert sheet["operating pressure angle"] == (pytest.approx(np.degrees(working)), "°")
+    tips = [2e3 * tip_radius(drive, side) for side in SIDES]
+    pitch = np.pi * module * np.cos(alpha)
+    parts = (
+        (f"{way} contact ratio", f"{end} of contact")
+        for way, end in (("approach", "start"), ("recess", "end"))
+    )
+    for ratio, end in parts:
+        assert sheet[ratio][0] == pytest.approx(abs(sheet[f"{end} from pitch point"][0]) / pitch)
+    for side, tip, mate_tip in zip(SIDES, tips, tips[::-1], strict=True):
+        body, found = body_of(drive, side), {name: value for name, (value, _) in sheet[side].items()}
+        base = module * body.teeth * np.cos(alpha)
+        mate_base = 2 * distance * np.cos(working) - base
+        first = 2 * distance * np.sin(working) - np.sqrt(mate_tip**2 - mate_base**2)
+
+        def thickness(diameter, body=body, base=base):
+            at = np.arccos(base / diameter)
+            opened = np.tan(alpha) - alpha - np.tan(at) + at
+            return (np.pi / 2 + 2 * body.profile_shift * np.tan(alpha)) / body.teeth + opened
+
+        pitch = base / np.cos(working)
+        wanted = {
+            "teeth": body.teeth,
+            "profile shift": body.profile_shift,
+            "reference diameter": module * body.teeth,
+            "working pitch diameter": pitch,
+            "tip diameter": tip,
+            "lowest contact diameter": np.hypot(base, first),
+            "active flank above form circle": (np.hypot(base, first) - found["form diameter"]) / 2,
+            "root diameter": module * (body.teeth + 2 * body.profile_shift - 2 * body.dedendum),
+            "bore diameter": 2e3 * body.bore_radius,
+            "face width": 1e3 * body.face_width,
+            "tooth thickness on working pitch circle": pitch * thickness(pitch),
+            "tip thickness": tip * np.sin(thickness(tip)),
+        }
+        assert {name: found[name] for name in wanted} == pytest.approx(wanted)
+
+
 @pytest.mark.parametrize("side", SIDES)
 def test_undercut_margin_of_the_involute(side):
     """On the line of action, from the end of the rack's flank to the point of tangency of the base circle."""
