@@ -109,24 +109,17 @@ def test_integrals_are_those_of_scipys_splines(rng):
         else None
         for s in range(4)
     ]
+
+    def exact(upto):
+        ends = [min(upto, end) for end in b[1:]]
+        parts = zip(splines, b, ends, strict=False)
+        return sum(spline.integrate(start, end) for spline, start, end in parts if spline and end > start)
+
     for upto in (0.0, 0.07, 0.2, 0.31, 0.5499, 0.55, 0.93, 1.0):
-        exact = sum(
-            spline.integrate(b[s], min(upto, b[s + 1]))
-            for s, spline in enumerate(splines)
-            if spline and upto > b[s]
-        )
         found = cycle_integral(Bounds(), values, np.full((4, 2), upto))  # pyright: ignore[reportArgumentType]
-        np.testing.assert_allclose(found, exact * np.ones(2), atol=1e-13)
+        np.testing.assert_allclose(found, exact(upto) * np.ones(2), atol=1e-13)
     each = cycle_integral(Bounds(), values, np.array([[0.31, 0.93]] * 4))  # pyright: ignore[reportArgumentType]
-    wanted = [
-        sum(
-            spline.integrate(b[s], min(upto, b[s + 1]))[k]
-            for s, spline in enumerate(splines)
-            if spline and upto > b[s]
-        )
-        for k, upto in enumerate((0.31, 0.93))
-    ]
-    np.testing.assert_allclose(each, wanted, atol=1e-13)
-    whole = sum(spline.integrate(b[s], b[s + 1]) for s, spline in enumerate(splines) if spline)
+    np.testing.assert_allclose(each, [exact(0.31)[0], exact(0.93)[1]], atol=1e-13)
+    whole = exact(1.0)
     np.testing.assert_allclose(cycle_mean(Bounds(), values), whole, atol=1e-13)  # pyright: ignore
     assert float(cycle_mean(Bounds(), values[..., 1])) == pytest.approx(whole[1], abs=1e-13)  # pyright: ignore
