@@ -30,7 +30,13 @@ def test_specific_sliding_of_the_involute(drive):
     assert gear["minimum specific sliding"][0] == pytest.approx(1 - ratio * end_pinion / end_gear)
     assert gear["maximum specific sliding"][0] == pytest.approx(1 - ratio * start_pinion / start_gear)
     # sliding over the pinion's speed: distance from the pitch point times 1 + 1/u
+    curved = {"start": (start_pinion, start_gear), "end": (end_pinion, end_gear)}
     for name, place in (("approach", "start"), ("recess", "end")):
+        own, mate = curved[place]
+        assert sheet[f"equivalent radius at {place} of contact"][0] == pytest.approx(
+            1e3 * own * mate / length
+        )
+        assert sheet[f"pressure angle at {place} of contact"][0] == pytest.approx(np.degrees(working))
         distance = abs(sheet[f"{place} of contact from pitch point"][0])
         sliding = sheet[f"maximum sliding in {name}"]
         assert sliding == (pytest.approx(distance * (1 + 1 / ratio)), "mm/rad")
