@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.support.twelve_teeth import GEAR, few_cells
-from tribodyn.compliance.fem.cache import cached_gear_compliance
+from tribodyn.compliance.fem.cache import _digest, cached_gear_compliance
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.numerics.cache import cache_folder
 
@@ -33,6 +33,13 @@ def test_second_look_up_reads_the_file(folder, monkeypatch):
     assert len(list(folder.iterdir())) == 1
     monkeypatch.setattr("tribodyn.compliance.fem.gear.gear_compliance", None)  # must not be needed again
     assert same(first, solve())
+
+
+def test_every_number_of_a_gear_is_in_the_name_of_its_file():
+    others = [GEAR._replace(**{field: 2 * getattr(GEAR, field)}) for field in GEAR._fields[1:]]
+    others.append(GEAR._replace(tooth=GEAR.tooth._replace(tip_distance=0.9 * GEAR.tooth.tip_distance)))
+    names = [*map(_digest, others), *(_digest(GEAR, *more) for more in ([], [1.0], [2.0], [np.ones(2)]))]
+    assert len(set(names)) == len(others) + 4
 
 
 def test_other_material_or_body_is_another_file(folder):

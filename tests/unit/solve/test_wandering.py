@@ -244,8 +244,9 @@ def test_exponents_of_maps_that_stretch_and_shrink_uniformly():
     (told,) = wanderings(twice, np.array([[0.2371]]), np.array([0]))
     assert told.kind == "chaotic"
     assert told.exponent == pytest.approx(np.log(2.0), abs=0.3)
-    shrinks = ClosedForm(lambda x, _: np.exp(-0.3) * x, [0.0], 1)
-    (told,) = wanderings(shrinks, np.array([[0.3]]), np.array([0]))
+    shrinks = ClosedForm(lambda x, _: np.exp([-0.3, -0.5]) * x, [0.0], 2)
+    shrinks.scale = np.array([[1e-6, 50.0]])  # the units of the states
+    (told,) = wanderings(shrinks, np.array([[3e-7, 10.0]]), np.array([0]))
     assert told.exponent == pytest.approx(-0.3, rel=1e-6)
     assert told.kind == "not periodic"  # it has not settled: its extent falls
     assert told.error == pytest.approx(0.0, abs=1e-6)
