@@ -42,13 +42,6 @@ def test_every_number_of_a_gear_is_in_the_name_of_its_file():
     assert len(set(names)) == len(others) + 4
 
 
-def test_other_material_or_body_is_another_file(folder):
-    solve()
-    solve(poisson_ratio=0.25)
-    solve(bore=9e-3)
-    assert len(list(folder.iterdir())) == 3
-
-
 def test_a_file_of_another_gear_under_this_name_is_made_anew(folder):
     first = solve()
     (file,) = folder.iterdir()
