@@ -6,6 +6,7 @@ import pytest
 from tests.support.states import sampled
 from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.integrator import Status
 from tribodyn.solve.methods import METHODS, Runs
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import TransientSettings, make_integrator
@@ -62,3 +63,8 @@ def test_what_a_run_costs_is_the_sum_of_its_parts(prepared):
     assert cost.evaluations == first.evaluations + second.evaluations
     assert cost.evaluations % 6 == 0
     assert 1.0 <= cost.evaluations / (6 * cost.steps) < 1.2
+    # as many steps may be taken as the longer of the cycles takes, in all segments together
+    most = max(first.steps, second.steps)
+    for limit, status in ((most, Status.DONE), (most - 1, Status.TOO_MANY_STEPS)):
+        limited = make_integrator("tsit5", model, SAMPLES, tolerances._replace(max_steps=limit))
+        assert limited.integrate(state, 0, 2).status == status
