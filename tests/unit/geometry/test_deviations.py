@@ -43,6 +43,13 @@ def test_tolerances_are_three_standard_deviations():
         # four standard errors of 400 samples
         assert abs(values.mean()) < 4 * tolerance / 3 / 20
         assert values.std() == pytest.approx(tolerance / 3, rel=4 / np.sqrt(800))
+    # of a form deviation the magnitude; its one to three waves begin anywhere
+    form = np.array([sample.form for sample in SAMPLES])
+    assert form.mean() == pytest.approx(9e-6 / 3 * np.sqrt(2 / np.pi), rel=0.15)
+    for name, ends, bins in (("waves", (0.5, 3.5), 3), ("phase", (0.0, 2 * np.pi), 4)):
+        counts, _ = np.histogram([getattr(sample, name) for sample in SAMPLES], bins, ends)
+        assert sum(counts) == 400
+        assert counts.min() > 400 / bins - 4 * np.sqrt(400 / bins)
 
 
 def test_the_profile_is_the_sum_of_both_gears():
