@@ -171,6 +171,13 @@ def test_load_is_never_tensile_and_zero_when_apart(model, rng):
     assert loaded > 50
 
 
+def test_every_quantity_of_a_contact_has_a_row_of_its_own():
+    rows = [row for name, row in vars(contact).items() if name.isupper() and isinstance(row, int)]
+    # the couplings come last, a row for every slot
+    assert sorted(rows) == [*range(contact.COUPLING), contact.COUPLING, contact.QUANTITIES]
+    assert contact.COUPLING == contact.QUANTITIES
+
+
 @pytest.mark.parametrize("overrides", [{}, {"mesh.backlash": "12 um"}], ids=["front", "backlash"])
 def test_coupled_loads_solve_the_contact_problem(prepared, rng, overrides):
     """Against the search over all sets of loaded pairs, on the smooth contact law."""

@@ -30,8 +30,10 @@ def cases(prepared):
     return models, np.array([static_equilibrium(model) for model in models])
 
 
-def test_a_batch_agrees_with_single_runs(cases):
-    models, states = cases
+def test_a_batch_agrees_with_single_runs(cases, prepared):
+    high = prepared("high-contact-ratio").model
+    assert high.table.in_contact.shape == (2, 3)  # three pairs in two segments
+    models, states = [*cases[0], high], np.vstack([cases[1], static_equilibrium(high)])
     found = march(models, states, cycles=7, window=2, samples=SAMPLES, rtol=RTOL)
     assert np.all(found.status == Status.DONE)
     assert np.all(found.reached == 7)
