@@ -52,14 +52,6 @@ class TestLiuNi:
         assert np.degrees(path.pressure_angle(start)) == pytest.approx(25.395, abs=1e-3)
         assert np.degrees(path.pressure_angle(end)) == pytest.approx(21.424, abs=1e-3)
 
-    def test_equivalent_radius_is_constant(self):
-        path, start, end = limits(crc.FAMILY, LIU_NI)
-        equivalent = 1 / kinematics(path, np.linspace(start, end, 1001)).relative_curvature
-        assert equivalent[0] == pytest.approx(8.980e-3, abs=5e-7)
-        # ρ_0 = r_p r_g sin α_p/(r_p + r_g)
-        expected = 0.0345 * 0.0705 * np.sin(np.radians(22.81)) / 0.105
-        np.testing.assert_allclose(equivalent, expected, rtol=1e-9)
-
     def test_comparison_involute(self):
         path, start, end = limits(involute.FAMILY, COMPARISON)
         assert contact_ratio(path, start, end, 23.0) == pytest.approx(1.668, abs=5e-4)
@@ -111,9 +103,13 @@ class TestCRC:
         assert kappa == pytest.approx((w - 1) / 3, abs=1e-12)
 
     def test_equivalent_radius_is_constant(self, drive):
+        """ρ_0 = r_p r_g sin α_p/(r_p + r_g)."""
         path, start, end = limits(crc.FAMILY, drive)
-        curvature = kinematics(path, np.linspace(start, end, 501)).relative_curvature
-        np.testing.assert_allclose(curvature, curvature[250], rtol=1e-9)
+        equivalent = 1 / kinematics(path, np.linspace(start, end, 501)).relative_curvature
+        r_p, r_g = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
+        np.testing.assert_allclose(
+            equivalent, r_p * r_g * np.sin(drive.pressure_angle) / (r_p + r_g), rtol=1e-9
+        )
 
     def test_slope_is_the_derivative(self, drive):
         path, start, end = limits(crc.FAMILY, drive)

@@ -109,13 +109,9 @@ def test_undercut_is_a_negative_margin():
     assert pinion["undercut by the rack"][0] == 1
 
 
-def test_no_base_circle_where_the_path_is_curved():
-    assert "base diameter" not in geometry_sheet(assemble(crc.FAMILY, LIU_NI))["pinion"]
-
-
 def test_masses_stand_in_the_sheet_when_they_are_known():
     bare = geometry_sheet(assemble(crc.FAMILY, LIU_NI))
     full = geometry_sheet(assemble(crc.FAMILY, LIU_NI), [(1.5, 2e-3), (3.0, 4e-3)])
-    assert "mass" not in bare["pinion"]
+    assert not {"mass", "base diameter"} & set(bare["pinion"])  # its path is curved
     assert full["gear"]["mass"] == (3.0, "kg")
     assert full["gear"]["moment of inertia"] == (pytest.approx(4000.0), "kg mm²")

@@ -128,16 +128,8 @@ def test_a_failed_case_says_why_and_leaves_the_others_alone(cases, prepared):
 
 def test_progress_rises_to_one(cases):
     reported = []
-    march(
-        cases[0][:3],
-        cases[1][:3],
-        cycles=1,
-        window=0,
-        samples=4,
-        rtol=1e-4,
-        progress=reported.append,
-        workers=1,
-    )
+    settings = {"cycles": 1, "window": 0, "samples": 4, "rtol": 1e-4, "workers": 1}
+    march(cases[0][:3], cases[1][:3], progress=reported.append, **settings)
     assert reported == sorted(reported)
     assert reported[-1] == 1.0
 
