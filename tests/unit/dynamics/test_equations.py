@@ -109,7 +109,10 @@ def test_contacts_give_the_bodies_the_power_they_lose(model, rng):
 
 
 def test_friction_power_is_minus_mu_load_times_sliding(model, rng):
-    """F_f ω_p (−L_p + w L_g) = −μ F_n |v_s| outside the width of reversal, in rigid rotation."""
+    """F_f ω_p (−L_p + w L_g) = −μ F_n |v_s| outside the width of reversal, in rigid rotation.
+
+    The flanks' speeds differ by (1 + w) r ω_p; on Liu & Ni's path their product goes with sin α.
+    """
     t, m = model.table, model.mechanics
     ratio = t.pinion_pitch_radius / t.gear_pitch_radius
     checked = 0
@@ -125,10 +128,15 @@ def test_friction_power_is_minus_mu_load_times_sliding(model, rng):
             lever_p = r + t.pinion_pitch_radius * sine
             lever_g = t.gear_pitch_radius * sine - r
             force = t.side[i] * work[contact.FRICTION_FORCE, i]
-            power = force * (m.nominal_speed + y[SLIP]) * (-lever_p + ratio * lever_g)
+            speed = m.nominal_speed + y[SLIP]
+            power = force * speed * (-lever_p + ratio * lever_g)
             loss = work[contact.FRICTION_COEFFICIENT, i] * work[contact.NORMAL_LOAD, i]
-            sliding = abs((1 + ratio) * r) * (m.nominal_speed + y[SLIP])
-            assert power == pytest.approx(-loss * sliding, rel=1e-10)
+            sliding = (1 + ratio) * r * speed
+            assert power == pytest.approx(-loss * abs(sliding), rel=1e-10)
+            fast, slow = (t.side[i] * work[row, i] for row in (contact.PINION_SPEED, contact.GEAR_SPEED))
+            assert fast - slow == pytest.approx(sliding, rel=1e-10)
+            product = (speed * t.pinion_pitch_radius) ** 2 * np.sin(np.radians(22.81)) * sine
+            assert fast * slow == pytest.approx(product, rel=1e-4)
             checked += loss > 0
     assert checked > 20
 

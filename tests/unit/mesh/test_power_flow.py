@@ -25,7 +25,5 @@ def test_nothing_that_passes_through_has_no_efficiency(powers):
 
 
 def test_arrays_of_moments():
-    found = efficiency(
-        np.array([100.0, -97.0, 1.0]), np.array([98.0, -100.0, -1.0]), np.array([2.0, 3.0, 2.0])
-    )
+    found = efficiency(*np.array([[100.0, -97.0, 1.0], [98.0, -100.0, -1.0], [2.0, 3.0, 2.0]]))
     np.testing.assert_allclose(found, [0.98, 0.97, np.nan])
