@@ -5,7 +5,7 @@ import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
 from tribodyn.solve.branch.arclength import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING
-from tribodyn.solve.branch.continuation import Leg, between, follow
+from tribodyn.solve.branch.continuation import Leg, follow
 
 
 def swept(family, values, start, **options):
@@ -131,9 +131,11 @@ def test_expensive_steps_are_few():
     assert abs(arrival.ends[0].value - 3.0) <= 0.1
 
 
-def test_values_in_between_do_not_depend_on_the_ends():
-    whole = between(0.9, 2.3)
-    assert whole == sorted(whole)
-    assert between(0.9, 1.3) + [v for v in between(1.3, 2.3)] == [v for v in whole if v != 1.3]
-    assert between(2.3, 0.9) == whole[::-1]
-    assert between(-0.5, 0.5) == []
+def test_steps_are_in_the_parameters_own_unit():
+    asked = []
+    for unit in (1.0, 1e3, 1e-3):
+        family = Lines(lambda x, b, unit=unit: logistic(x, b / unit), 1)
+        leg = Leg(0, 2.6 * unit, 3.3 * unit, np.array([1.0 - 1.0 / 2.6]), 1)
+        follow(family, [leg], tolerance=1e-9)
+        asked.append(np.array(family.asked) / unit)
+    np.testing.assert_allclose(asked[1:], [asked[0]] * 2, rtol=1e-6)
