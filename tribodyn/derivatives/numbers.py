@@ -89,10 +89,11 @@ def _of_drive(case: Any) -> Iterator[tuple[str, Number]]:
     for name in ("module", *(name for name in there if there[name])):
         yield f"drive.{name}", Number(getattr(drive, name), "", _on("drive", name))
     for parameter in teeth.parameters:
-        name, unit = parameter.name, si_unit(parameter)
+        name = parameter.name
         value = getattr(drive.shape, name, None)
         if parameter.kind == "path" or parameter.fixed or value is None:
             continue
+        unit = si_unit(parameter)
         if parameter.listed:
             for place, item in enumerate(value):
                 put = _on("drive", "shape", name, place)

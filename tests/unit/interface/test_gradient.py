@@ -41,14 +41,15 @@ def quantity(case, of):
     return value_of(case, quantity_of(case, of), fixed_of(case))
 
 
+#: Families of which the slopes are asked for in every run.
+QUICK = (INVOLUTE, "cycloidal-23-47", "points-23-47", "spline-23-47")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "shape"),
     [
-        pytest.param(
-            *family,
-            marks=() if family[0] in (INVOLUTE, "cycloidal-23-47", "spline-23-47") else pytest.mark.soak,
-        )
+        pytest.param(*family, marks=() if family[0] in QUICK else pytest.mark.soak)
         for family in FAMILIES.items()
     ],
 )
