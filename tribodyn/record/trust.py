@@ -137,8 +137,7 @@ class Judge:
                 found = {place: float(where[at[0]]) for place, where in (places or {}).items()}
                 if pairs and len(at) > 1:
                     found["pair"] = int(pairs[int(at[1])])
-                if known is None or not math.isnan(value):
-                    self._worst[name] = value, found
+                self._worst[name] = value, found
 
     def summary(self) -> dict[str, Any]:
         """What a summary says: the verdict, and the reasons; nothing where nothing was judged.
