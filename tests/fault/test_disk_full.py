@@ -17,6 +17,7 @@ from tribodyn.numerics import cache
 from tribodyn.record import disk
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE
 from tribodyn.record.sweep_writer import SweepWriter
 
 SAMPLES = 30
@@ -151,7 +152,8 @@ def test_a_sweep_goes_on_when_there_is_room_again(
         if left:
             with SweepRecord(folder / left[0]) as found:
                 assert sum(found.count()[name] for name in ("done", "waiting")) == 3
-                assert set(found["message"]) <= {"", "ä"}
+                # of a case that still waits, half of it may be written
+                assert set(found["message"][found["status"] == DONE]) <= {"ä"}
         sweep_record(folder / "run.h5", resume=True)
         assert differences(folder / "run.h5", tmp_path / "whole" / "run.h5") == []
 

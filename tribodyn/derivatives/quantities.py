@@ -18,7 +18,7 @@ from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
 from tribodyn.mesh.quasi_static import QuasiStatic, cycle_mean, friction_loss, mean_efficiency, quasi_static
 from tribodyn.mesh.tabulate import tabulate
-from tribodyn.numerics.elementary import absolute, cos, minimum, namespace
+from tribodyn.numerics.elementary import absolute, cos, minimum, namespace, smallest
 from tribodyn.quantities.motion import LIMITS
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_pressure
@@ -108,13 +108,11 @@ def _hertz_pressure(at: PairEvaluation) -> Any:
 
 
 def _swing(values: Any) -> Any:
-    return _maximum(values) + _maximum(-values)
+    return _maximum(values) - smallest(values)
 
 
 def _maximum(values: Any) -> Any:
-    # by its place: where a program computes values twice, none may equal the maximum to the last digit
-    flat = values.ravel()
-    return flat[namespace(flat).argmax(flat)]
+    return -smallest(-values)
 
 
 def _loss_factor(at: PairEvaluation) -> Any:
