@@ -132,8 +132,10 @@ def working_path(drive: Drive) -> Path:
     sine = sin(drive.pressure_angle)
     arm = r_p * sine
     ratio = r_p / r_g
-    below = maximum(drive.module * drive.pinion.dedendum, tip_radius(drive, "gear") - r_g)
-    above = maximum(drive.module * drive.gear.dedendum, tip_radius(drive, "pinion") - r_p)
+    xp = namespace(drive)
+    # arrays: beyond what can be made there are square roots of negative numbers, NaN
+    below = maximum(xp.asarray(drive.module * drive.pinion.dedendum), tip_radius(drive, "gear") - r_g)
+    above = maximum(xp.asarray(drive.module * drive.gear.dedendum), tip_radius(drive, "pinion") - r_p)
     lower = _REACH_MARGIN * reach(ratio, -below * r_p / arm**2)
     upper = _REACH_MARGIN * reach(ratio, above * r_p / arm**2)
     return CRCPath(r_p, r_g, lower * arm, upper * arm, sine * solve(ratio, lower, upper))

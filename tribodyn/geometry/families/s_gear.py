@@ -70,11 +70,10 @@ class PowerRackPath(NamedTuple):
         xp = namespace(self, r)
         distance = absolute(xp.asarray(r, dtype=float))
         stretch = (1 + self._cotangent(self.module)[0] ** 2) ** 0.5
-        beyond = maximum(distance - self.module * stretch, 0.0)
         # From below, where the concave r(y) brings the steps up to the root one-sidedly.
         reached = minimum(distance, self.module * stretch)
         start = reached / (1 + (self.exponent * self.form) ** 2) ** 0.5
-        return newton(_step_to_height, start, _NEWTON_STEPS, self, reached) + beyond / stretch
+        return newton(_step_to_height, start, _NEWTON_STEPS, self, reached) + (distance - reached) / stretch
 
     def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle, rad."""
