@@ -18,8 +18,8 @@ from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementHexS2, ElementVector, MeshHex
 from skfem.helpers import ddot, div, sym_grad
 
+from tests.support.twelve_teeth import sector_mesh
 from tribodyn.compliance.fem.free_ends import openings
-from tribodyn.compliance.fem.ring_mesh import sector_mesh
 from tribodyn.compliance.fem.strips import curved_basis, strip_stiffness
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.geometry.path import kinematics

@@ -4,16 +4,22 @@ import numpy as np
 
 from tribodyn.compliance.fem import ring_mesh
 from tribodyn.compliance.fem.gear_compliance import ElasticGear
-from tribodyn.compliance.fem.ring_mesh import sector_mesh
+from tribodyn.compliance.fem.ring_mesh import SectorMesh, half_blocks, joined
 from tribodyn.compliance.fem.strips import curved_basis
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth import cut_tooth
+from tribodyn.geometry.tooth import Tooth, cut_tooth
 
 POISSON = 0.3
 BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
 TOOTH = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), BODY, BODY), "pinion")
 GEAR = ElasticGear(TOOTH, 12, BODY.bore_radius, POISSON, 0.75e-3, 1)
+
+
+def sector_mesh(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> SectorMesh:
+    """Mesh the whole sector of one tooth, the half that is computed with and its mirror image."""
+    blocks = half_blocks(tooth, teeth, bore_radius, level)
+    return joined([*blocks, *(block * np.array([1.0, -1.0]) for block in blocks)], level)
 
 
 def whole_ring(level: int, teeth: int = 12):

@@ -108,11 +108,7 @@ def _hertz_pressure(at: PairEvaluation) -> Any:
 
 
 def _swing(values: Any) -> Any:
-    return _maximum(values) - smallest(values)
-
-
-def _maximum(values: Any) -> Any:
-    return -smallest(-values)
+    return -smallest(-values) - smallest(values)
 
 
 def _loss_factor(at: PairEvaluation) -> Any:
@@ -138,7 +134,7 @@ def _largest(name: str, sign: float = 1.0) -> Callable[[PairEvaluation], Any]:
     def function(at: PairEvaluation) -> Any:
         load = at.rubbing.normal_load
         xp = namespace(load)
-        return sign * _maximum(xp.where(load > 0, sign * getattr(at.surface, name), -1e300))
+        return -sign * smallest(xp.where(load > 0, -sign * getattr(at.surface, name), 1e300))
 
     return function
 
@@ -199,7 +195,7 @@ QUANTITIES: dict[str, Differentiated] = {
     "efficiency": Differentiated("quasi-static efficiency, elastic load sharing", "1", _efficiency, _RUBBING),
     "friction_power": Differentiated("quasi-static friction loss", "W", _friction_power, _RUBBING),
     "normal_load_max": Differentiated(
-        "maximum normal load of a pair", "N", lambda at: _maximum(at.rubbing.normal_load), _RUBBING
+        "maximum normal load of a pair", "N", lambda at: -smallest(-at.rubbing.normal_load), _RUBBING
     ),
     "hertz_pressure_max": Differentiated(
         "maximum Hertz pressure over a mesh cycle", "Pa", _largest("hertz_pressure"), _RUBBING

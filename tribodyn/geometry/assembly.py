@@ -155,8 +155,7 @@ def tip_corner_gap(assembly: Assembly, side: Side) -> Any:
     leaving = xp.interp(tooth.form_radius, distance[::-1], corner_angle[::-1])
     first = (leaving - xp.interp(tooth.form_radius, fillet_radius, fillet_angle)) * tooth.form_radius
     inside = distance < tooth.form_radius
-    first = xp.where(inside[-1], first, np.inf)
-    return as_float(smallest(xp.append(xp.where(inside, gap, np.inf), first)))
+    return as_float(smallest(xp.where(xp.append(inside, inside[-1]), xp.append(gap, first), np.inf)))
 
 
 def _polar(x: Any, y: Any) -> tuple[Any, Any]:

@@ -129,12 +129,17 @@ def opposite(condition: Any) -> Any:
     return namespace(condition).logical_not(condition)
 
 
+# JAX's own minima, maxima and `clip` find by equality which argument their result follows. A large program
+# computes arguments more than once, maybe with other last digits, and then the result may follow neither.
+# Where arguments are equal the derivative is the mean of theirs, that of central differences.
+
+
 def minimum(a: Any, b: Any) -> Any:
     """The smaller of the two; NaN if either is."""
     if type(a) is float and type(b) is float:
         return b if b < a or b != b else a
     xp = namespace(a, b)
-    return xp.minimum(a, b) if xp is np else _first_that_holds(xp, a < b, a, b < a, b)
+    return xp.minimum(a, b) if xp is np else xp.where(a < b, a, xp.where(b < a, b, (a + b) / 2))
 
 
 def maximum(a: Any, b: Any) -> Any:
@@ -142,16 +147,7 @@ def maximum(a: Any, b: Any) -> Any:
     if type(a) is float and type(b) is float:
         return b if b > a or b != b else a
     xp = namespace(a, b)
-    return xp.maximum(a, b) if xp is np else _first_that_holds(xp, a > b, a, b > a, b)
-
-
-def _first_that_holds(xp: Any, one: Any, a: Any, other: Any, b: Any) -> Any:
-    """Return `a`, `b`, or where they are equal their mean, whose derivative is that of central differences.
-
-    JAX's own minima, maxima and `clip` find by equality which argument their result is. A large program
-    computes arguments more than once, maybe with other last digits, and then the result may be neither.
-    """
-    return xp.where(one, a, xp.where(other, b, (a + b) / 2))
+    return xp.maximum(a, b) if xp is np else xp.where(a > b, a, xp.where(b > a, b, (a + b) / 2))
 
 
 def smallest(values: Any) -> Any:

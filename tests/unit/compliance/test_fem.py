@@ -5,10 +5,10 @@ import pytest
 from scipy.sparse.linalg import spsolve
 from scipy.spatial import KDTree
 
-from tests.support.twelve_teeth import GEAR, POISSON, TOOTH, few_cells, whole_ring
+from tests.support.twelve_teeth import GEAR, POISSON, TOOTH, few_cells, sector_mesh, whole_ring
 from tribodyn.compliance.fem.gear import gear_compliance, gear_model
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, ElasticGear
-from tribodyn.compliance.fem.ring_mesh import graded, sector_mesh
+from tribodyn.compliance.fem.ring_mesh import graded
 from tribodyn.compliance.fem.strips import curved_basis, plane_stiffness
 from tribodyn.errors import InputError
 from tribodyn.geometry.body import section_area_and_inertia, tooth_outline

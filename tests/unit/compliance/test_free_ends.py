@@ -7,7 +7,7 @@ from scipy.sparse import csc_matrix, diags, kron
 from scipy.sparse.linalg import splu
 from scipy.spatial import KDTree
 
-from tests.support.twelve_teeth import BODY, GEAR, TOOTH, few_cells
+from tests.support.twelve_teeth import BODY, GEAR, TOOTH, few_cells, sector_mesh
 from tribodyn.compliance.fem.free_ends import (
     at_phase,
     face_of,
@@ -18,7 +18,6 @@ from tribodyn.compliance.fem.free_ends import (
 )
 from tribodyn.compliance.fem.gear import gear_model
 from tribodyn.compliance.fem.gear_compliance import without_neighbours
-from tribodyn.compliance.fem.ring_mesh import sector_mesh
 from tribodyn.compliance.fem.strips import (
     curved_basis,
     edge_parameters,

@@ -104,25 +104,6 @@ def test_efficiency_is_that_of_the_efficiency_study(name):
         assert quantity(case, "power_friction_mean") == pytest.approx(lost, rel=1e-5)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["efficiency-involute-18-36", "efficiency-crc-23-47", "cycloidal-23-47"])
-def test_losses_can_be_traced(name):
-    """With all numbers traced, mean and local laws: what the compiled programs are made of."""
-    case = td.scenario(name)
-    quantity, fixed = quantity_of(case, "efficiency"), fixed_of(case)
-    known = numbers_of(case)
-
-    def traced(values):
-        changed = case
-        for number, value in zip(known.values(), values, strict=True):
-            changed = number.put(changed, value)
-        return quantity.function(PairEvaluation(changed, fixed))
-
-    with jax.enable_x64(True):
-        found = jax.eval_shape(traced, [float(number.value) for number in known.values()])
-    assert (found.shape, found.dtype) == ((), np.float64)
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -223,10 +204,10 @@ def test_what_check_refuses_has_a_negative_distance(name):
     assert td.constraints(scenario, overrides)[distance] < 0.0
 
 
-def quantities_of(case, names=QUANTITIES):
-    """Those of the names that a case has."""
+def quantities_of(case):
+    """Names of those that a case has."""
     found = []
-    for name in names:
+    for name in QUANTITIES:
         with suppress(td.InputError):
             quantity_of(case, name)
             found.append(name)
@@ -261,15 +242,15 @@ def test_no_slope_depends_on_the_equality_of_numbers(name):
     """JAX's slope of a minimum is lost where a program computes its arguments once more and rounds apart."""
     case = td.scenario(name)
     known, fixed = numbers_of(case), fixed_of(case)
+    functions = [quantity_of(case, of).function for of in quantities_of(case)]
 
     def traced(values):
         changed = case
         for number, value in zip(known.values(), values, strict=True):
             changed = number.put(changed, value)
         at = PairEvaluation(changed, fixed)
-        return [quantity_of(case, of).function(at) for of in quantities_of(case, of_all)]
+        return [function(at) for function in functions]
 
-    of_all = QUANTITIES if name == INVOLUTE else ["contact_ratio", "mean_stiffness", *LIMITS]
     with jax.enable_x64(True):
         program = jax.make_jaxpr(traced)([float(number.value) for number in known.values()])
     used = set(primitives(program.jaxpr))

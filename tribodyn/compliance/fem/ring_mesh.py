@@ -55,16 +55,11 @@ def half_sector_cells(level: int) -> tuple[int, int, int, int]:
 
 def half_sector_mesh(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> SectorMesh:
     """Mesh the half y ≥ 0 of one tooth's sector; `level` multiplies the cells in both directions."""
-    return _joined(_half_blocks(tooth, teeth, bore_radius, level), level)
+    return joined(half_blocks(tooth, teeth, bore_radius, level), level)
 
 
-def sector_mesh(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> SectorMesh:
-    """Mesh the whole sector of one tooth, the half and its mirror image."""
-    blocks = _half_blocks(tooth, teeth, bore_radius, level)
-    return _joined([*blocks, *(block * np.array([1.0, -1.0]) for block in blocks)], level)
-
-
-def _joined(blocks: list[Float[Array, "_row _column 2"]], level: int) -> SectorMesh:
+def joined(blocks: list[Float[Array, "_row _column 2"]], level: int) -> SectorMesh:
+    """Join blocks of nodes, of which the first has the profile as its first row."""
     points, cells, numbers = [], [], []
     count = 0
     for block in blocks:
@@ -87,7 +82,7 @@ def _joined(blocks: list[Float[Array, "_row _column 2"]], level: int) -> SectorM
     )
 
 
-def _half_blocks(
+def half_blocks(
     tooth: Tooth, teeth: int, bore_radius: float, level: int
 ) -> list[Float[Array, "_row _column 2"]]:
     """Nodes (rows, columns, 2) of the layer, whose first row is the profile, and of the three blocks."""

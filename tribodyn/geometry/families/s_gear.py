@@ -22,17 +22,7 @@ from tribodyn.geometry.drive import SIDES, Drive, reference_radii, reference_rad
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact, inverted_rotation
-from tribodyn.numerics.elementary import (
-    absolute,
-    arctan2,
-    cos,
-    maximum,
-    minimum,
-    namespace,
-    sin,
-    where,
-    within,
-)
+from tribodyn.numerics.elementary import arctan2, cos, maximum, minimum, namespace, sin, where, within
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.parameter import Parameter
 
@@ -68,7 +58,7 @@ class PowerRackPath(NamedTuple):
     def _height(self, r: PerContact) -> PerContact:
         """Height |y| of the contact over the pitch line at the signed distance r: y √(1 + cot² α) = |r|."""
         xp = namespace(self, r)
-        distance = absolute(xp.asarray(r, dtype=float))
+        distance = abs(xp.asarray(r, dtype=float))
         stretch = (1 + self._cotangent(self.module)[0] ** 2) ** 0.5
         # From below, where the concave r(y) brings the steps up to the root one-sidedly.
         reached = minimum(distance, self.module * stretch)

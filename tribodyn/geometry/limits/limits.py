@@ -12,7 +12,7 @@ from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clea
 from tribodyn.geometry.drive import SIDES, Drive, Side
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point
-from tribodyn.numerics.elementary import maximum, namespace, smallest, where
+from tribodyn.numerics.elementary import maximum, minimum, namespace, smallest
 from tribodyn.numerics.shapes import Array, Float
 
 _SAMPLES = 129
@@ -65,11 +65,10 @@ def _of_body(assembly: Assembly, side: Side) -> dict[str, Any]:
     # at the pitch point of a cycloid the speed of a sound flank is zero
     beside = xp.abs(r) / (1e-2 * drive.module)
     sound = drive.module * maximum(1.0 - beside, 0.0)
-    gap = tip_corner_gap(assembly, side)
     return {
         "undercut": smooth_minimum(speed + sound, _BLENDED * drive.module),
         "interference": lowest_contact_radius(assembly, side) - tooth.form_radius,
-        "tip_corner": where(gap > drive.module, drive.module, gap),
+        "tip_corner": minimum(tip_corner_gap(assembly, side), drive.module),
         "tip_thickness": 2 * flank_point(tooth, tooth.tip_distance)[1],
         "clearance": tip_clearance(assembly, side),
         "rack_tip": tooth.corner_limit - tooth.corner_x,
