@@ -37,6 +37,7 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.right_hand_side import engage
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.law import ActiveLaw
 
@@ -317,6 +318,18 @@ def test_instantaneous_powers_balance(model, rng, formulation, drive):
         balance = powers[0] + powers[4] - powers[1] - powers[2] - powers[3]
         scale = abs(powers[0]) + abs(powers[1]) + abs(powers[3]) + abs(change)
         assert balance == pytest.approx(change, abs=3e-6 * scale + 1e-3)
+
+
+def test_a_state_jumps_where_a_pair_comes_or_goes_and_nowhere_else(prepared, rng):
+    """Of the cycloid's three segments one begins at the pitch point, where no pair does."""
+    model, jumps = prepared("cycloidal-23-47").model, []
+    for segment in range(3):
+        state = random_state(rng)
+        behind = state.copy()
+        engage(segment, True, behind, model, {}, behind)
+        jumps.append(np.abs(behind - state).max())
+    assert min(jumps[:2]) > 1e-3
+    assert jumps[2] < 1e-9
 
 
 @pytest.mark.parametrize("inertia", [0.02, 1e-9], ids=["heavy", "light"])
