@@ -61,8 +61,9 @@ quick: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --quick -m "not bench and not slow"
 
 soak: $(VENV)/.testing
-	@XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m soak; tests=$$?; \
-	  $(BIN)/python -m tools.soak --so-far --into docs/soak.md; cases=$$?; [ $$tests$$cases = 00 ]
+	@XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m "soak and not bench"; tests=$$?; \
+	  $(BIN)/python -m tools.soak --so-far --into docs/soak.md; cases=$$?; \
+	  $(BIN)/python -m pytest -m "soak and bench" tests/bench; ratios=$$?; [ $$tests$$cases$$ratios = 000 ]
 
 fuzz: $(VENV)/.testing
 	nice $(BIN)/python -m tools.fuzz --count 100000 --jobs 2 --into docs/fuzz.md
