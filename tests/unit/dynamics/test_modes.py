@@ -11,7 +11,7 @@ BEARINGS = {
     "bearings.pinion.stiffness_x": "3e8 N/m",
     "bearings.pinion.stiffness_y": "2e8 N/m",
     "bearings.gear.stiffness_x": "5e8 N/m",
-    "bearings.gear.stiffness_y": "4e8 N/m",
+    "bearings.gear.stiffness_y": "2e7 N/m",
     "mesh.points": 5,
 }
 TORQUE = {"operating.source": "torque"}

@@ -24,13 +24,12 @@ PAIR = {
 
 
 def drive(**changes):
-    return load_drive(PAIR, {f"drive.{key}": value for key, value in changes.items()})
+    return load_drive(PAIR, {f"drive.{key.replace('__', '.')}": value for key, value in changes.items()})
 
 
 def refused(**changes):
-    given = {key.replace("__", "."): value for key, value in changes.items()}
     with pytest.raises(InputError) as error:
-        load_drive(PAIR, {f"drive.{key}": value for key, value in given.items()})
+        drive(**changes)
     return str(error.value)
 
 
@@ -79,6 +78,18 @@ def test_a_rounded_tip_ends_the_contact_but_keeps_the_clearance():
     )
     assert sheet["pinion"]["tip clearance"] == sharp["pinion"]["tip clearance"]
     assert sheet["contact ratio"][0] < sharp["contact ratio"][0]
+
+
+def test_rounded_edges_that_meet_are_refused_with_the_largest_radius():
+    def refusing(radius):
+        check(family("involute"), drive(pinion__tip_rounding=radius).drive)
+
+    with pytest.raises(InputError, match=r"tip_rounding = 5 mm: .* use at most ([\d.]+) mm") as error:
+        refusing("5 mm")
+    largest = float(str(error.value).split("at most ")[1].split(" ")[0])
+    refusing(f"{largest * 0.999} mm")
+    with pytest.raises(InputError, match="the rounded edges of the tip meet"):
+        refusing(f"{largest * 1.01} mm")
 
 
 def test_contradictions_are_named():
