@@ -51,18 +51,6 @@ def test_tests_are_those_that_name_a_module_and_those_that_depend_on_it():
     assert "test_geometry_rack.py" not in far | far_rest
 
 
-def test_a_module_is_named_in_a_list_and_under_another_name(tmp_path):
-    file = tmp_path / "test_imports.py"
-    file.write_text(
-        "from tribodyn.solve.methods import dopri5 as pair\n"
-        "from tribodyn.geometry.families import crc, involute\n"
-        "from tribodyn.dynamics import (\n    equations as forces,\n    modes,\n)\n"
-    )
-    found = mutants._imported(file, tmp_path)
-    wanted = {"solve.methods.dopri5", "geometry.families.involute", "dynamics.equations"}
-    assert {f"tribodyn.{module}" for module in wanted} <= found
-
-
 SUITE = """
 from pathlib import Path
 from tribodyn.geometry.law import law
