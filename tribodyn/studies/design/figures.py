@@ -102,7 +102,7 @@ def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
     axes.set_xlabel("Evaluation (× not feasible)")
     axes.set_ylabel(shown.label)
     axes.set_title("History", loc="left")
-    axes.legend(loc="upper right")
+    axes.legend(loc="best")
 
 
 def _draw_duties(axes: Axes, record: Record) -> None:
