@@ -103,7 +103,8 @@ class Sweep:
 
     def _state(self) -> str:
         """How many cases there are, and what became of them."""
-        cases, failed = self.summary.get("cases"), self.summary.get("failed")
+        known = {name: value for name, value in self.summary.items() if np.ndim(value) == 0}
+        cases, failed = known.get("cases"), known.get("failed")
         counted = f", {cases} cases" if cases is not None else ""
         state = f"{self.status}{counted}" + (f", {failed} failed" if failed else "")
         verdicts = self.data[trust.TRUST].values if trust.TRUST in self.data else ()

@@ -129,36 +129,18 @@ def opposite(condition: Any) -> Any:
     return namespace(condition).logical_not(condition)
 
 
-# JAX's own minima, maxima and `clip` find by equality which argument their result follows. A large program
-# computes arguments more than once, maybe with other last digits, and then the result may follow neither.
-# Where arguments are equal the derivative is the mean of theirs, that of central differences.
-
-
 def minimum(a: Any, b: Any) -> Any:
     """The smaller of the two; NaN if either is."""
     if type(a) is float and type(b) is float:
         return b if b < a or b != b else a
-    xp = namespace(a, b)
-    return xp.minimum(a, b) if xp is np else xp.where(a < b, a, xp.where(b < a, b, (a + b) / 2))
+    return namespace(a, b).minimum(a, b)
 
 
 def maximum(a: Any, b: Any) -> Any:
     """The larger of the two; NaN if either is."""
     if type(a) is float and type(b) is float:
         return b if b > a or b != b else a
-    xp = namespace(a, b)
-    return xp.maximum(a, b) if xp is np else xp.where(a > b, a, xp.where(b > a, b, (a + b) / 2))
-
-
-def smallest(values: Any) -> Any:
-    """The smallest of all values of an array; derivatives are those of the first such value."""
-    flat = values.ravel()
-    return flat[namespace(flat).argmin(flat)]
-
-
-def within(x: Any, lower: Any, upper: Any) -> Any:
-    """Values x of an array, limited to lower … upper."""
-    return minimum(maximum(x, lower), upper)
+    return namespace(a, b).maximum(a, b)
 
 
 def absolute(x: Any) -> Any:
