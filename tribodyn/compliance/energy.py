@@ -18,7 +18,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import GearBody, MaterialData, Side, body_of
 from tribodyn.geometry.path import PerContact, distance_at_radius
 from tribodyn.geometry.tooth import Tooth, contact_in_tooth_frame, fillet_point, thickness_half_angle
-from tribodyn.numerics.elementary import cos, namespace, sin, tan
+from tribodyn.numerics.elementary import cos, maximum, namespace, sin, tan, within
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
 
@@ -134,9 +134,8 @@ def tooth_compliance(
     origin = contact_in_tooth_frame(path, loaded.pitch_half_angle, last).x
     integrals = section_integrals(*fillet, origin).sum(axis=0)
     # Two pieces of flank, for the paths of some families have a corner at the pitch point.
-    xp = namespace(own, first, last)
-    middle = xp.clip(0.0, first + 0.01 * (last - first), last - 0.01 * (last - first))
-    lower = first + unit * (middle - first), 2.0 * (xp.clip(own, first, middle) - first) / (middle - first)
+    middle = within(0.0, first + 0.01 * (last - first), last - 0.01 * (last - first))
+    lower = first + unit * (middle - first), 2.0 * (within(own, first, middle) - first) / (middle - first)
     for at, along in (lower, *_towards_tip(loaded, middle, last, own)):
         flank = contact_in_tooth_frame(path, loaded.pitch_half_angle, at)
         integrals = integrals + chebyshev_basis(along - 1.0, _DEGREE + 1) @ section_integrals(
@@ -169,15 +168,15 @@ def _towards_tip(
     step = 1e-3 * length
     near = contact_in_tooth_frame(loaded.path, loaded.pitch_half_angle, xp.stack([end - step, end])).y
     falling = (near[0] - near[1]) / step
-    beyond = near[1] / xp.maximum(falling, near[1] / (_FURTHEST_MEETING * length))
-    meeting = end + xp.maximum(beyond, 1e-9 * length)
+    beyond = near[1] / maximum(falling, near[1] / (_FURTHEST_MEETING * length))
+    meeting = end + maximum(beyond, 1e-9 * length)
     decay = 0.5 * xp.log((meeting - start) / (meeting - end))
     fall = xp.exp(-decay * (0.5 + 0.5 * _POINTS))
-    passed = 2.0 * xp.log((meeting - start) / (meeting - xp.clip(own, start, end))) / decay
+    passed = 2.0 * xp.log((meeting - start) / (meeting - within(own, start, end))) / decay
     furthest = meeting - start
     return [
-        (meeting - furthest * fall, xp.clip(passed, 0.0, 2.0)),
-        (meeting - furthest * fall[-1] * fall, xp.clip(passed - 2.0, 0.0, 2.0)),
+        (meeting - furthest * fall, within(passed, 0.0, 2.0)),
+        (meeting - furthest * fall[-1] * fall, within(passed - 2.0, 0.0, 2.0)),
     ]
 
 

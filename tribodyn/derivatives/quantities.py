@@ -18,7 +18,7 @@ from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
 from tribodyn.mesh.quasi_static import QuasiStatic, cycle_mean, friction_loss, mean_efficiency, quasi_static
 from tribodyn.mesh.tabulate import tabulate
-from tribodyn.numerics.elementary import absolute, cos, minimum, namespace
+from tribodyn.numerics.elementary import absolute, cos, minimum, namespace, smallest
 from tribodyn.quantities.motion import LIMITS
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_pressure
@@ -108,13 +108,7 @@ def _hertz_pressure(at: PairEvaluation) -> Any:
 
 
 def _swing(values: Any) -> Any:
-    return _maximum(values) + _maximum(-values)
-
-
-def _maximum(values: Any) -> Any:
-    # by its place: where a program computes values twice, none may equal the maximum to the last digit
-    flat = values.ravel()
-    return flat[namespace(flat).argmax(flat)]
+    return -smallest(-values) - smallest(values)
 
 
 def _loss_factor(at: PairEvaluation) -> Any:
@@ -140,7 +134,7 @@ def _largest(name: str, sign: float = 1.0) -> Callable[[PairEvaluation], Any]:
     def function(at: PairEvaluation) -> Any:
         load = at.rubbing.normal_load
         xp = namespace(load)
-        return sign * _maximum(xp.where(load > 0, sign * getattr(at.surface, name), -1e300))
+        return -sign * smallest(xp.where(load > 0, -sign * getattr(at.surface, name), 1e300))
 
     return function
 
@@ -201,7 +195,7 @@ QUANTITIES: dict[str, Differentiated] = {
     "efficiency": Differentiated("quasi-static efficiency, elastic load sharing", "1", _efficiency, _RUBBING),
     "friction_power": Differentiated("quasi-static friction loss", "W", _friction_power, _RUBBING),
     "normal_load_max": Differentiated(
-        "maximum normal load of a pair", "N", lambda at: _maximum(at.rubbing.normal_load), _RUBBING
+        "maximum normal load of a pair", "N", lambda at: -smallest(-at.rubbing.normal_load), _RUBBING
     ),
     "hertz_pressure_max": Differentiated(
         "maximum Hertz pressure over a mesh cycle", "Pa", _largest("hertz_pressure"), _RUBBING

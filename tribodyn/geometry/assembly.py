@@ -19,7 +19,7 @@ from tribodyn.geometry.path import (
     seen_from,
 )
 from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
-from tribodyn.numerics.elementary import as_float, cos, namespace, sqrt
+from tribodyn.numerics.elementary import arctan2, as_float, cos, minimum, namespace, smallest, sqrt
 
 _SAMPLES = 400
 
@@ -77,8 +77,7 @@ class Assembly:
     @property
     def common_width(self) -> Any:
         """Width over which both gears' teeth meet, m."""
-        widths = self.drive.pinion.face_width, self.drive.gear.face_width
-        return namespace(*widths).minimum(*widths)
+        return minimum(self.drive.pinion.face_width, self.drive.gear.face_width)
 
     @property
     def pitch_angle(self) -> Any:
@@ -155,12 +154,11 @@ def tip_corner_gap(assembly: Assembly, side: Side) -> Any:
     leaving = xp.interp(tooth.form_radius, distance[::-1], corner_angle[::-1])
     first = (leaving - xp.interp(tooth.form_radius, fillet_radius, fillet_angle)) * tooth.form_radius
     inside = distance < tooth.form_radius
-    return as_float(xp.minimum(xp.min(xp.where(inside, gap, np.inf)), xp.where(inside[-1], first, np.inf)))
+    return as_float(smallest(xp.where(xp.append(inside, inside[-1]), xp.append(gap, first), np.inf)))
 
 
 def _polar(x: Any, y: Any) -> tuple[Any, Any]:
-    xp = namespace(x, y)
-    return xp.hypot(x, y), xp.arctan2(y, x)
+    return sqrt(x * x + y * y), arctan2(y, x)
 
 
 def circumferential_backlash(assembly: Assembly) -> Any:

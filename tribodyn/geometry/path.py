@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from tribodyn.geometry.drive import Side
-from tribodyn.numerics.elementary import absolute, cos, namespace, sin, sqrt, where
+from tribodyn.numerics.elementary import absolute, cos, maximum, minimum, namespace, sin, sqrt, where, within
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.shapes import Array, Float
 
@@ -159,12 +159,12 @@ def distance_at_radius(path: Path, pinion_radius: PerContact) -> PerContact:
     square = xp.asarray(pinion_radius, dtype=float) ** 2 - r_p**2
     quadratic = 1 + 2 * r_p * xp.where(square < 0, -before, after)
     arm = r_p * sine
-    root = sqrt(xp.maximum(arm**2 + quadratic * square, (1e-3 * arm) ** 2 + (_BESIDE * r_p) ** 2))
+    root = sqrt(maximum(arm**2 + quadratic * square, (1e-3 * arm) ** 2 + (_BESIDE * r_p) ** 2))
     start = square / (arm + root)
     # Above the pitch circle r² ≤ R² − r_p²; below it the radius is smallest, the path at an end, before −r_p.
-    furthest = xp.where(square < 0, -r_p, sqrt(xp.maximum(square, 0.0)))
-    lower, upper = xp.minimum(furthest, 0.0), xp.maximum(furthest, 0.0)
-    state = xp.clip(start, lower, upper), lower, upper
+    furthest = xp.where(square < 0, -r_p, sqrt(maximum(square, 0.0)))
+    lower, upper = minimum(furthest, 0.0), maximum(furthest, 0.0)
+    state = within(start, lower, upper), lower, upper
     return newton(_step_to_radius, state, _BRACKETED_STEPS, path, pinion_radius)[0]
 
 

@@ -25,7 +25,7 @@ from tribodyn.geometry.path import (
     radius,
     sine_at_pitch_point,
 )
-from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt, tan
+from tribodyn.numerics.elementary import arctan2, cos, maximum, namespace, sin, sqrt, tan, within
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.shapes import Array, Float
 
@@ -112,11 +112,10 @@ def tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
     The centre of the rounding lies on the flank's normal and `rounding` above the tip line y = −depth, hence
     r sin α + ρ_f sin α = ρ_f − depth.
     """
-    xp = namespace(path, depth, rounding)
     sine, before, _ = sine_at_pitch_point(path)
     # Start on the path with sin α linear in the distance before P.
     half = (sine - before * rounding) / 2
-    root = sqrt(xp.maximum(half**2 + before * (depth - rounding + rounding * sine), (1e-3 * half) ** 2))
+    root = sqrt(maximum(half**2 + before * (depth - rounding + rounding * sine), (1e-3 * half) ** 2))
     start = -(depth - rounding + rounding * sine) / (half + root)
     return newton(_step_to_tangency, start, _NEWTON_STEPS, path, depth, rounding)
 
@@ -168,8 +167,8 @@ def _step_to_crossing(
     normal = normal + (gap_x * sin(flank_angle) + gap_y * cos(flank_angle)) / (crossing * fillet_rate)
     lowest = tooth.form_distance + overrun
     return (
-        xp.clip(r, lowest + 0.01 * overrun, lowest + overrun),
-        xp.clip(normal, tooth.form_angle, np.pi / 2),
+        within(r, lowest + 0.01 * overrun, lowest + overrun),
+        within(normal, tooth.form_angle, np.pi / 2),
     )
 
 

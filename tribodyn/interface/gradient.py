@@ -139,8 +139,6 @@ def differentiable(
     ----------
     source, overrides, of, wrt
         As `gradient` takes them; `of` may be several quantities, which one program then evaluates together.
-        Of many at once (some twenty) slopes may be wrong, by 0.2 % in what was compared, or 0 for a gap at
-        the tip corner: ask for a few at a time.
 
     Returns
     -------

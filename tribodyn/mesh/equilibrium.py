@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.numerics.elementary import cos, namespace, sin
+from tribodyn.numerics.elementary import cos, maximum, namespace, sin
 from tribodyn.numerics.iteration import iterate
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.law import Closure
@@ -89,7 +89,7 @@ def contacts(
         closure,
         cycle.face_width,
         # at the pitch point itself the laws are evaluated beside it: there the radius may be zero
-        xp.maximum(cycle.equivalent_radius, 1e-9),
+        maximum(cycle.equivalent_radius, 1e-9),
         speed * cycle.pinion_speed,
         speed * cycle.gear_speed,
         side,

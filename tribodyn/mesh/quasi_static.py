@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.mesh.cycle import MeshCycle, derivative_matrix
-from tribodyn.numerics.elementary import namespace
+from tribodyn.numerics.elementary import maximum, namespace, within
 from tribodyn.numerics.iteration import iterate
 from tribodyn.numerics.shapes import Array, Float
 
@@ -60,7 +60,7 @@ def quasi_static(
 
     def share(state: tuple[Any, Any, Any, Any]) -> tuple[Any, Any, Any, Any]:
         load, active, *_ = state
-        contact = cycle.hertz_coefficient * xp.maximum(load, 1e-9 * force) ** -0.1
+        contact = cycle.hertz_coefficient * maximum(load, 1e-9 * force) ** -0.1
         diagonal = identity * (cycle.compliance + contact)[..., None]
         loaded = active[..., None] * active[..., None, :]
         matrix = loaded * (cycle.coupling + diagonal) + identity * (1.0 - active)[..., None]
@@ -103,7 +103,7 @@ def cycle_integral(
 
     length = (cycle.boundary[1:] - cycle.boundary[:-1])[:, None]
     safe = xp.where(length > 0, length, 1.0)
-    place = xp.clip((upto - cycle.boundary[:-1, None]) / safe, 0.0, 1.0) * cells
+    place = within((upto - cycle.boundary[:-1, None]) / safe, 0.0, 1.0) * cells
     place = xp.broadcast_to(place, (values.shape[0], values.shape[2]))
     cell = xp.clip(xp.floor(place).astype(int), 0, cells - 1)
     u = place - cell
@@ -156,8 +156,7 @@ def single_pair(cycle: MeshCycle, gear_torque: float) -> SinglePair:
 
 def power_put_in(pinion: Any, gear: Any) -> Any:
     """What the mesh is given, ≥ 0: the pinion's power where that drives, the gear's where that does."""
-    xp = namespace(pinion, gear)
-    return xp.maximum(pinion, 0.0) + xp.maximum(-gear, 0.0)
+    return maximum(pinion, 0.0) + maximum(-gear, 0.0)
 
 
 def efficiency(pinion: Any, gear: Any, loss: Any) -> Any:

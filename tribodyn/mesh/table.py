@@ -14,7 +14,7 @@ from tribodyn.geometry.path import Kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import Table, check_cover, interpolate
-from tribodyn.numerics.elementary import cos, is_jax, namespace
+from tribodyn.numerics.elementary import cos, is_jax, maximum, minimum, namespace, within
 from tribodyn.numerics.shapes import Array, Float
 
 
@@ -104,7 +104,7 @@ def slots(
     centre = (position[:, 0] + position[:, -1]) / 2
     in_contact = xp.where(centre < (end - start) / pitch, 1.0, 0.0)
     side = np.where(np.arange(position.shape[-1]) < pairs, 1.0, -1.0)
-    return Slots(boundary, phase, in_contact, side, xp.clip(start + pitch * position, start, end), limits)
+    return Slots(boundary, phase, in_contact, side, within(start + pitch * position, start, end), limits)
 
 
 def unloaded_gap(
@@ -127,8 +127,7 @@ def unloaded_gap(
     if mesh.error_table is not None:
         at, error = mesh.error_table
         check_cover(at, start, end, "mesh.transmission_error.table")
-        xp = namespace(roll, start, end)
-        gap = gap + interpolate(at, error, xp.clip(roll, xp.maximum(at[0], start), xp.minimum(at[-1], end)))
+        gap = gap + interpolate(at, error, within(roll, maximum(at[0], start), minimum(at[-1], end)))
     if np.all(slots.side > 0):
         return gap
     backlash = (mesh.backlash or 0.0) * cos(pressure_angle) / cos(assembly.path.pressure_angle(0.0))

@@ -25,7 +25,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import check_cover, interpolate
-from tribodyn.numerics.elementary import cos, is_jax, namespace
+from tribodyn.numerics.elementary import cos, is_jax, maximum, minimum, namespace, within
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
 
@@ -114,10 +114,10 @@ def _apart(boundary: Float[Array, " boundary"]) -> Float[Array, " boundary"]:
     xp = namespace(boundary)
     phases = [boundary[0]]
     for value in boundary[1:-1]:
-        phases.append(xp.maximum(value, phases[-1] + _MINIMUM_SEGMENT))
+        phases.append(maximum(value, phases[-1] + _MINIMUM_SEGMENT))
     phases.append(boundary[-1])
     for i in range(len(phases) - 2, 0, -1):
-        phases[i] = xp.minimum(phases[i], phases[i + 1] - _MINIMUM_SEGMENT)
+        phases[i] = minimum(phases[i], phases[i + 1] - _MINIMUM_SEGMENT)
     return xp.stack(phases)
 
 
@@ -164,7 +164,7 @@ def _compliance(
     if mesh.compliance == "table" and mesh.table is not None:
         angle, stiffness = mesh.table
         check_cover(angle, curve.start, curve.end, "mesh.table")
-        return 1.0 / interpolate(angle, stiffness, xp.clip(roll, angle[0], angle[-1])), uncoupled
+        return 1.0 / interpolate(angle, stiffness, within(roll, angle[0], angle[-1])), uncoupled
 
     width = assembly.common_width
     teeth = [loaded_tooth(assembly, side) for side in SIDES]

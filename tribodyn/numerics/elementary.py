@@ -18,6 +18,7 @@ import numpy as np
 F = TypeVar("F", bound=Callable[..., Any])
 
 LAWS: list[Callable[..., Any]] = []
+_ROUNDING = 1e-13  # relative; more than two computations of a number differ by
 _PLAIN = frozenset({float, int, bool, np.ndarray, np.float64, np.bool_})
 
 
@@ -130,17 +131,36 @@ def opposite(condition: Any) -> Any:
 
 
 def minimum(a: Any, b: Any) -> Any:
-    """The smaller of the two; NaN if either is."""
+    """The smaller of the two; NaN if either is. With JAX the mean of two that are equal to rounding.
+
+    JAX's own minima, maxima and `clip` find by equality which argument their derivative follows. A large
+    program may compute an argument twice, with other last digits, and the result is then neither of them.
+    """
     if type(a) is float and type(b) is float:
         return b if b < a or b != b else a
-    return namespace(a, b).minimum(a, b)
+    xp = namespace(a, b)
+    if xp is np:
+        return np.minimum(a, b)
+    smaller = xp.where(a < b, a, xp.where(b <= a, b, a + b))
+    return xp.where(xp.abs(a - b) < _ROUNDING * xp.abs(b), (a + b) / 2, smaller)
 
 
 def maximum(a: Any, b: Any) -> Any:
-    """The larger of the two; NaN if either is."""
+    """The larger of the two; NaN if either is. With JAX the mean of two that are equal to rounding."""
     if type(a) is float and type(b) is float:
         return b if b > a or b != b else a
-    return namespace(a, b).maximum(a, b)
+    return np.maximum(a, b) if namespace(a, b) is np else -minimum(-a, -b)
+
+
+def smallest(values: Any) -> Any:
+    """The smallest of all values of an array; derivatives are those of the first such value."""
+    flat = values.ravel()
+    return flat[namespace(flat).argmin(flat)]
+
+
+def within(x: Any, lower: Any, upper: Any) -> Any:
+    """Values x of an array, limited to lower … upper."""
+    return minimum(maximum(x, lower), upper)
 
 
 def absolute(x: Any) -> Any:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.elementary import exp, is_jax, law, namespace
+from tribodyn.numerics.elementary import exp, is_jax, law, minimum, namespace, where
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.contact import (
     MAXIMUM_OVER_MEAN,
@@ -141,10 +141,8 @@ def limits_last(shares: Any) -> Any:
 
 def _inside(shares: Any) -> Any:
     """1.0 where every share is at least 1, 0.0 elsewhere, NaN where none is stated."""
-    several = _several(shares)
-    xp = namespace(several)
-    least = reduce(xp.minimum, several)
-    return xp.where(xp.isnan(least), np.nan, least >= 1.0)
+    least = reduce(minimum, _several(shares))
+    return where(least != least, np.nan, least >= 1.0)
 
 
 def exceeded(shares: np.ndarray, limits: Sequence[str]) -> dict[str, dict[str, Any]]:

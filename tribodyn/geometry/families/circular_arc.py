@@ -16,7 +16,7 @@ from tribodyn.geometry.drive import Drive, reference_radii
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact
-from tribodyn.numerics.elementary import cos, log, namespace, sin, sqrt, where
+from tribodyn.numerics.elementary import cos, log, minimum, namespace, sin, sqrt, where
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.parameter import Parameter
 
@@ -67,7 +67,7 @@ class ArcPath(NamedTuple):
         xp = namespace(self, rotation)
         diameter = self._diameter(xp.asarray(rotation))
         target = rotation * self.pinion_pitch_radius / diameter
-        start = xp.minimum(target * cos(self.angle), 0.98 * (np.pi / 2 - self.angle))
+        start = minimum(target * cos(self.angle), 0.98 * (np.pi / 2 - self.angle))
         return diameter * sin(newton(_step_to_rotation, start, _NEWTON_STEPS, self, target))
 
 

@@ -20,7 +20,7 @@ from tribodyn.geometry.drive import Drive, reference_radii, tip_radius
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift
 from tribodyn.geometry.path import Path, PerContact, integrated_rotation, inverted_rotation
-from tribodyn.numerics.elementary import namespace, sin, sqrt
+from tribodyn.numerics.elementary import maximum, namespace, sin, sqrt, within
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float
@@ -40,8 +40,8 @@ _SLOPE = _VALUE[:, :DEGREE] @ _DERIVATIVE
 def chebyshev_basis(x: PerContact) -> Float[Array, "*contact degree"]:
     """Evaluate T_0(x) … T_DEGREE(x) along a new last axis, as cos(k arccos x); constant beyond −1 … 1."""
     xp = namespace(x)
-    # One rounding error inside, so that the derivative of arccos stays finite.
-    angle = xp.arccos(xp.clip(xp.asarray(x), -1 + 1e-15, 1 - 1e-15))
+    # Beside ±1 the derivative of arccos is finite.
+    angle = xp.arccos(within(xp.asarray(x), -1 + 1e-12, 1 - 1e-12))
     return xp.cos(angle[..., None] * np.arange(DEGREE + 1))
 
 
@@ -128,13 +128,14 @@ def reach(ratio: Any, height: Any) -> Any:
 @remembered(16)
 def working_path(drive: Drive) -> Path:
     """Path of contact from the depth of the pinion's rack to the depth of the gear's."""
-    xp = namespace(drive)
     r_p, r_g = reference_radii(drive)
     sine = sin(drive.pressure_angle)
     arm = r_p * sine
     ratio = r_p / r_g
-    below = xp.maximum(drive.module * drive.pinion.dedendum, tip_radius(drive, "gear") - r_g)
-    above = xp.maximum(drive.module * drive.gear.dedendum, tip_radius(drive, "pinion") - r_p)
+    xp = namespace(drive)
+    # arrays: beyond what can be made there are square roots of negative numbers, NaN
+    below = maximum(xp.asarray(drive.module * drive.pinion.dedendum), tip_radius(drive, "gear") - r_g)
+    above = maximum(xp.asarray(drive.module * drive.gear.dedendum), tip_radius(drive, "pinion") - r_p)
     lower = _REACH_MARGIN * reach(ratio, -below * r_p / arm**2)
     upper = _REACH_MARGIN * reach(ratio, above * r_p / arm**2)
     return CRCPath(r_p, r_g, lower * arm, upper * arm, sine * solve(ratio, lower, upper))

@@ -15,7 +15,7 @@ from tribodyn.geometry.drive import Drive, reference_radii
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact, inverted_rotation
-from tribodyn.numerics.elementary import cos, namespace
+from tribodyn.numerics.elementary import cos, namespace, within
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.numerics.shapes import Array, Float, Int
 
@@ -69,10 +69,9 @@ class PointsPath(NamedTuple):
 
     def _cubic(self, r: PerContact, interval: Int[Array, "..."]) -> tuple[PerContact, PerContact]:
         """Angle and slope; held at the ends."""
-        xp = namespace(self, r)
         at = self._at(interval)
         start, length, a, rise = at[..., 0], at[..., 1], at[..., 2], at[..., 3]
-        u = xp.clip((r - start) / length, 0.0, 1.0)
+        u = within((r - start) / length, 0.0, 1.0)
         m, n = length * at[..., 4], length * at[..., 5]
         square, cube = 3 * rise - 2 * m - n, m + n - 2 * rise
         inside = 1.0 * ((r >= self.knots[0]) & (r <= self.knots[-1]))

@@ -22,7 +22,7 @@ from tribodyn.geometry.drive import SIDES, Drive, reference_radii, reference_rad
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import PerContact, inverted_rotation
-from tribodyn.numerics.elementary import absolute, arctan2, cos, namespace, sin, where
+from tribodyn.numerics.elementary import arctan2, cos, maximum, minimum, namespace, sin, where, within
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.parameter import Parameter
 
@@ -53,18 +53,16 @@ class PowerRackPath(NamedTuple):
 
     def _left(self, y: PerContact) -> PerContact:
         """Share 1 − h/a_P of the power law's height that is left above y."""
-        return 1 - namespace(self, y).clip(y, 0.0, self.module) / (self.form * self.module)
+        return 1 - within(y, 0.0, self.module) / (self.form * self.module)
 
     def _height(self, r: PerContact) -> PerContact:
         """Height |y| of the contact over the pitch line at the signed distance r: y √(1 + cot² α) = |r|."""
-        xp = namespace(self, r)
-        distance = absolute(xp.asarray(r, dtype=float))
+        distance = abs(namespace(self, r).asarray(r, dtype=float))
         stretch = (1 + self._cotangent(self.module)[0] ** 2) ** 0.5
-        beyond = xp.maximum(distance - self.module * stretch, 0.0)
         # From below, where the concave r(y) brings the steps up to the root one-sidedly.
-        reached = xp.minimum(distance, self.module * stretch)
+        reached = minimum(distance, self.module * stretch)
         start = reached / (1 + (self.exponent * self.form) ** 2) ** 0.5
-        return newton(_step_to_height, start, _NEWTON_STEPS, self, reached) + beyond / stretch
+        return newton(_step_to_height, start, _NEWTON_STEPS, self, reached) + (distance - reached) / stretch
 
     def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle, rad."""
@@ -86,7 +84,7 @@ class PowerRackPath(NamedTuple):
         y = self._height(r)
         cotangent, _ = self._cotangent(y)
         flank = self.module * (1 - self._left(y) ** (1 / self.exponent))
-        flank = flank + namespace(self, y).maximum(y - self.module, 0.0) / cotangent
+        flank = flank + maximum(y - self.module, 0.0) / cotangent
         turned = (y * cotangent + flank) / self.pinion_pitch_radius
         return where(namespace(r).asarray(r) < 0, -turned, turned)
 
@@ -96,7 +94,7 @@ class PowerRackPath(NamedTuple):
 def _step_to_height(y: PerContact, path: PowerRackPath, distance: PerContact) -> PerContact:
     """Euler's step, to the parabola's root: Newton's would only halve the way close to the maximum of r."""
     xp = namespace(y, path, distance)
-    y = xp.minimum(y, path.module * (1 - 1e-15))
+    y = where(y < path.module, y, path.module * (1 - 1e-15))
     left = path.form * path.module - y
     cotangent, rate = path._cotangent(y)
     stretch = (1 + cotangent**2) ** 0.5
@@ -105,7 +103,7 @@ def _step_to_height(y: PerContact, path: PowerRackPath, distance: PerContact) ->
     second = product * (1 - 2 * path._power) / (left * stretch) - first**2 / stretch
     residual = y * stretch - distance
     slope, bend = stretch + y * first, 2 * first + y * second
-    return y - 2 * residual / (slope + xp.sqrt(xp.maximum(slope**2 - 2 * residual * bend, 0.0)))
+    return y - 2 * residual / (slope + xp.sqrt(maximum(slope**2 - 2 * residual * bend, 0.0)))
 
 
 class SGearShape(NamedTuple):

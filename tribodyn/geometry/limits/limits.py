@@ -12,7 +12,7 @@ from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clea
 from tribodyn.geometry.drive import SIDES, Drive, Side
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point
-from tribodyn.numerics.elementary import namespace
+from tribodyn.numerics.elementary import maximum, minimum, namespace, smallest
 from tribodyn.numerics.shapes import Array, Float
 
 _SAMPLES = 129
@@ -64,11 +64,11 @@ def _of_body(assembly: Assembly, side: Side) -> dict[str, Any]:
     speed = motion.pinion_speed if side == "pinion" else motion.gear_speed
     # at the pitch point of a cycloid the speed of a sound flank is zero
     beside = xp.abs(r) / (1e-2 * drive.module)
-    sound = drive.module * xp.maximum(1.0 - beside, 0.0)
+    sound = drive.module * maximum(1.0 - beside, 0.0)
     return {
         "undercut": smooth_minimum(speed + sound, _BLENDED * drive.module),
         "interference": lowest_contact_radius(assembly, side) - tooth.form_radius,
-        "tip_corner": xp.minimum(tip_corner_gap(assembly, side), drive.module),
+        "tip_corner": minimum(tip_corner_gap(assembly, side), drive.module),
         "tip_thickness": 2 * flank_point(tooth, tooth.tip_distance)[1],
         "clearance": tip_clearance(assembly, side),
         "rack_tip": tooth.corner_limit - tooth.corner_x,
@@ -78,5 +78,5 @@ def _of_body(assembly: Assembly, side: Side) -> dict[str, Any]:
 def smooth_minimum(values: Float[Array, " sample"], width: Any) -> Any:
     """−width ln Σ exp(−values/width): at most width ln n below the minimum, and differentiable."""
     xp = namespace(values, width)
-    lowest = xp.min(values)
+    lowest = smallest(values)
     return lowest - width * xp.log(xp.sum(xp.exp((lowest - values) / width)))
