@@ -141,6 +141,8 @@ def minimum(a: Any, b: Any) -> Any:
     xp = namespace(a, b)
     if xp is np:
         return np.minimum(a, b)
+    if type(b) is float:  # a constant is equal to nothing else by more than chance
+        return xp.where(b < a, b, a)
     smaller = xp.where(a < b, a, xp.where(b <= a, b, a + b))
     return xp.where(xp.abs(a - b) < _ROUNDING * xp.abs(b), (a + b) / 2, smaller)
 
