@@ -211,10 +211,11 @@ def test_every_quantity_and_key_of_every_family(name):
     expected = differences(case, of, list(known))
     allowed = 2e-5 * np.abs(expected) + 1e-6 * np.abs(values)[:, None] / [abs(x) or 1.0 for x in at]
     wrong = [(of[i], list(known)[j]) for i, j in np.argwhere(~(np.abs(slopes - expected) <= allowed))]
-    for one in BACKWARDS:
-        i = of.index(one)
-        slope = td.differentiable(name, one, list(known)).jacobian(at)[1][0]
-        wrong += [(one, list(known)[j]) for j in np.flatnonzero(~(np.abs(slope - expected[i]) <= allowed[i]))]
+    for i, alone in [(of.index(alone), alone) for alone in BACKWARDS]:
+        slope = td.differentiable(name, alone, list(known)).jacobian(at)[1][0]
+        wrong += [
+            (alone, list(known)[j]) for j in np.flatnonzero(~(np.abs(slope - expected[i]) <= allowed[i]))
+        ]
     assert wrong == []
 
 
