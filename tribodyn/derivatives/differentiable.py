@@ -182,7 +182,7 @@ def _put(case: Any, numbers: Mapping[str, Number], values: Any) -> Any:
     return case
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=8)  # 0.1 to 2 GB each
 def _program(structure: _Structure, of: tuple[str, ...], fixed: Fixed) -> dict[str, Callable[..., Any]]:
     """Compiled functions of all numbers of a case, by name."""
     import jax
