@@ -194,7 +194,7 @@ def quantities_of(case):
     return found
 
 
-#: Differentiated backwards as well: one of every kind of program, each alone.
+#: Differentiated backwards as well, each alone; but for the S-gear, whose programs XLA compiles for minutes.
 BACKWARDS = ("efficiency", "film_min", "stiffness_swing", "interference_gear", "tip_corner_pinion")
 
 
@@ -209,7 +209,7 @@ def test_every_quantity_and_key_of_every_family(name):
     expected = differences(case, of, list(known))
     allowed = 2e-5 * np.abs(expected) + 1e-6 * np.abs(values)[:, None] / [abs(x) or 1.0 for x in at]
     wrong = [(of[i], list(known)[j]) for i, j in np.argwhere(~(np.abs(slopes - expected) <= allowed))]
-    for i, alone in [(of.index(alone), alone) for alone in BACKWARDS]:
+    for i, alone in [(of.index(alone), alone) for alone in BACKWARDS if name != "s-gear-23-47"]:
         slope = td.differentiable(name, alone, list(known)).jacobian(at)[1][0]
         wrong += [
             (alone, list(known)[j]) for j in np.flatnonzero(~(np.abs(slope - expected[i]) <= allowed[i]))
