@@ -49,6 +49,7 @@ class Sweep:
         self.path = Path(path)
         with SweepRecord(self.path) as record:
             self.status, self.message = record.status, record.message
+            self._counts = record.count()
             self.summary: dict[str, Any] = record.summary
             self.scenario: dict[str, Any] = record.scenario
             self.data: xarray.Dataset = shown.of_sweep(record)
@@ -103,10 +104,8 @@ class Sweep:
 
     def _state(self) -> str:
         """How many cases there are, and what became of them."""
-        known = {name: value for name, value in self.summary.items() if np.ndim(value) == 0}
-        cases, failed = known.get("cases"), known.get("failed")
-        counted = f", {cases} cases" if cases is not None else ""
-        state = f"{self.status}{counted}" + (f", {failed} failed" if failed else "")
+        cases, failed = self._counts["cases"], self._counts["failed"]
+        state = f"{self.status}, {cases} cases" + (f", {failed} failed" if failed else "")
         verdicts = self.data[trust.TRUST].values if trust.TRUST in self.data else ()
         for verdict in (trust.OUTSIDE, trust.EXTRAPOLATED):
             if count := int(np.sum(np.asarray(verdicts) == trust.VERDICTS[verdict])):

@@ -131,7 +131,7 @@ def opposite(condition: Any) -> Any:
 
 
 def minimum(a: Any, b: Any) -> Any:
-    """The smaller of the two; NaN if either is. With JAX the mean of two that are equal to rounding.
+    """The smaller of the two; NaN if either is. With JAX the mean of two variables equal to rounding.
 
     JAX's own minima, maxima and `clip` find by equality which argument their derivative follows. A large
     program may compute an argument twice, with other last digits, and the result is then neither of them.
@@ -148,7 +148,7 @@ def minimum(a: Any, b: Any) -> Any:
 
 
 def maximum(a: Any, b: Any) -> Any:
-    """The larger of the two; NaN if either is. With JAX the mean of two that are equal to rounding."""
+    """The larger of the two; NaN if either is. With JAX the mean of two variables equal to rounding."""
     if type(a) is float and type(b) is float:
         return b if b > a or b != b else a
     return np.maximum(a, b) if namespace(a, b) is np else -minimum(-a, -b)

@@ -10,7 +10,7 @@ from jax.extend.core import jaxprs_in_params
 
 import tribodyn as td
 from tribodyn.derivatives import numbers
-from tribodyn.derivatives.differentiable import fixed_of
+from tribodyn.derivatives.differentiable import FORWARDS, fixed_of
 from tribodyn.derivatives.quantities import QUANTITIES, PairEvaluation, quantity_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.limits.limits import LIMITS
@@ -121,16 +121,18 @@ def differences(case, of, keys):
     return found
 
 
-def test_distances_and_their_slopes_of_a_free_form_path():
-    of = ["undercut_pinion", "tip_thickness_gear"]
-    function = td.differentiable("spline-23-47", of, [f"drive.shape.angles.{i}" for i in range(3)])
+@pytest.mark.parametrize("keys", [3, pytest.param(FORWARDS + 1, marks=pytest.mark.soak)])
+def test_distances_and_their_slopes_of_a_free_form_path(keys):
+    """Forwards and backwards, of one program for all keys."""
+    of = ["interference_gear"] if keys > FORWARDS else ["undercut_pinion", "tip_thickness_gear"]
+    function = td.differentiable("spline-23-47", of, [f"drive.shape.angles.{i}" for i in range(keys)])
     values, slopes = function.jacobian(function.at)
     case = td.scenario("spline-23-47")
     assert values == pytest.approx([td.constraints("spline-23-47")[name] for name in of], rel=1e-12)
     expected = differences(case, of, function.wrt)
     np.testing.assert_allclose(slopes, expected, rtol=1e-5, atol=1e-7 * np.abs(expected).max())
     # values of no tooth: distances all the same
-    beyond = function.at + np.radians([60.0, -50.0, 0.0])
+    beyond = function.at + np.radians([60.0, -50.0] + [0.0] * (keys - 2))
     values, slopes = function.jacobian(beyond)
     assert np.all(np.isfinite(values))
     assert np.all(np.isfinite(slopes))
@@ -205,16 +207,15 @@ def test_every_quantity_and_key_of_every_family(name):
     case = td.scenario(name)
     known, of = numbers_of(case), list(quantities_of(case))
     at = [number.value for number in known.values()]
-    values, slopes = td.differentiable(name, of, list(known)).jacobian(at)
+    backwards = () if name == "s-gear-23-47" else BACKWARDS
+    found = [td.differentiable(name, asked, list(known)).jacobian(at) for asked in (of, *backwards)]
+    slopes = np.vstack([slope for _, slope in found])
+    of += backwards
     expected = differences(case, of, list(known))
-    allowed = 2e-5 * np.abs(expected) + 1e-6 * np.abs(values)[:, None] / [abs(x) or 1.0 for x in at]
-    wrong = [(of[i], list(known)[j]) for i, j in np.argwhere(~(np.abs(slopes - expected) <= allowed))]
-    for i, alone in [(of.index(alone), alone) for alone in BACKWARDS if name != "s-gear-23-47"]:
-        slope = td.differentiable(name, alone, list(known)).jacobian(at)[1][0]
-        wrong += [
-            (alone, list(known)[j]) for j in np.flatnonzero(~(np.abs(slope - expected[i]) <= allowed[i]))
-        ]
-    assert wrong == []
+    scale = np.array([abs(x) or 1.0 for x in at])
+    allowed = 2e-5 * np.abs(expected) + 1e-6 * np.abs(np.hstack([v for v, _ in found]))[:, None] / scale
+    wrong = np.argwhere(~(np.abs(slopes - expected) <= allowed))
+    assert [(of[i], list(known)[j], slopes[i, j], expected[i, j]) for i, j in wrong] == []
 
 
 def primitives(jaxpr):

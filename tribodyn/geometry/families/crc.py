@@ -40,7 +40,7 @@ _SLOPE = _VALUE[:, :DEGREE] @ _DERIVATIVE
 def chebyshev_basis(x: PerContact) -> Float[Array, "*contact degree"]:
     """Evaluate T_0(x) … T_DEGREE(x) along a new last axis, as cos(k arccos x); constant beyond −1 … 1."""
     xp = namespace(x)
-    # Beside ±1 the derivative of arccos is finite.
+    # Beside ±1, by more than `within` rounds, the derivative of arccos is finite.
     angle = xp.arccos(within(xp.asarray(x), -1 + 1e-12, 1 - 1e-12))
     return xp.cos(angle[..., None] * np.arange(DEGREE + 1))
 

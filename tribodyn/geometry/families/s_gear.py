@@ -94,7 +94,7 @@ class PowerRackPath(NamedTuple):
 def _step_to_height(y: PerContact, path: PowerRackPath, distance: PerContact) -> PerContact:
     """Euler's step, to the parabola's root: Newton's would only halve the way close to the maximum of r."""
     xp = namespace(y, path, distance)
-    y = where(y < path.module, y, path.module * (1 - 1e-15))
+    y = where(y < path.module, y, path.module * (1 - 1e-15))  # the mean of `minimum` may lie beyond
     left = path.form * path.module - y
     cotangent, rate = path._cotangent(y)
     stretch = (1 + cotangent**2) ** 0.5
