@@ -89,9 +89,9 @@ def _is_ours(path: Path) -> bool:
 class RecordWriter:
     """Streams samples into `<name>.partial.h5`, which becomes `<name>.h5` when the run is complete.
 
-    A context manager: leaving it without `finish` marks the record failed and keeps what was written. A
-    complete run has so many `samples`; with `force` an existing record, and the remains of an unfinished run,
-    are replaced.
+    A context manager, which begins the file: leaving it without `finish` marks the record failed and keeps
+    what was written. A complete run has so many `samples`; with `force` an existing record, and the remains
+    of an unfinished run, are replaced.
 
     Raises InputError as `check_target`, and where the file system refuses the file or has no room for it.
     """
@@ -105,25 +105,37 @@ class RecordWriter:
         self._axis = head.layout.axis_name
         self._variables = {**head.layout.along, **head.layout.others}
         self._head = head
+        self._force = force
         check_target(self.path, force)
-        with locked(self.path) as self._lock:
-            refuse_existing(self.path, force)  # another may just have ended
-            blank = create(head, samples)
-            self._place = blank.places
-            with replacing(self.partial, scratch_path(self.path)) as scratch:
-                disk.write_new(scratch, blank.content, blank.blanks)
-            self._file = disk.open_existing(self.partial)
-        self._open = True
 
     def __enter__(self) -> Self:
-        return self
+        made = False
+        try:
+            with locked(self.path) as self._lock:
+                refuse_existing(self.path, self._force)  # another may just have ended
+                blank = create(self._head, self.samples)
+                self._place = blank.places
+                with replacing(self.partial, scratch_path(self.path)) as scratch:
+                    disk.write_new(scratch, blank.content, blank.blanks)
+                    made = True
+                self._file, self._open = disk.open_existing(self.partial), True
+            return self
+        except KeyboardInterrupt:
+            if self._open:
+                self._close()
+            if made:  # there is nothing in it
+                self.partial.unlink(missing_ok=True)
+                self._lock.release()
+            raise
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         try:
+            if isinstance(error, KeyboardInterrupt) and (self._open or not getattr(error, "__notes__", ())):
+                complete = not self.partial.exists()
+                error.add_note(f"the record is complete: {self.path}" if complete else self._so_far())
             if self._open and isinstance(error, KeyboardInterrupt):
-                error.add_note(self._so_far())
                 self.fail(str(error) or "interrupted by the user")
             elif self._open and isinstance(error, OutputError):
                 with suppress(OutputError):  # there is no room for saying it in the file either
@@ -222,8 +234,8 @@ class RecordWriter:
     def _close(self) -> None:
         if not self._open:
             raise ValueError("the record is closed")
-        self._open = False
         self._file.close()
+        self._open = False
 
 
 def conclude(status: str, message: str, summary: Mapping[str, Any], file: h5py.File) -> None:

@@ -1,7 +1,10 @@
 """Writing a record: what comes back, names and states, refusals."""
 
 import shutil
+import sys
+from itertools import count
 from pathlib import Path
+from types import FrameType
 
 import numpy as np
 import pytest
@@ -119,6 +122,48 @@ def test_an_exception_marks_the_record_failed(tmp_path: Path):
         assert "ZeroDivisionError" in failed.message
 
 
+def interrupted(at: int, path: Path) -> KeyboardInterrupt | None:
+    """Write a record, and interrupt that where the file begins or ends to be, at one line after another."""
+    lines = count()
+
+    def trace(frame: FrameType, event: str, _: object) -> object:
+        if frame.f_code not in (RecordWriter.__enter__.__code__, RecordWriter.finish.__code__):
+            return None if frame.f_code.co_name != "replacing" else trace
+        if event == "line" and next(lines) == at:
+            raise KeyboardInterrupt
+        return trace
+
+    sys.settrace(trace)
+    try:
+        with writer(path) as record:
+            record.write(0, block(0, 30))
+            record.finish(SUMMARY)
+    except KeyboardInterrupt as error:
+        return error
+    finally:
+        sys.settrace(None)
+    return None
+
+
+def test_an_interruption_says_what_there_is(tmp_path: Path):
+    """Nothing is there and nothing is said, or the file that is said is there, and no lock."""
+    path, found = tmp_path / "run.h5", set()
+    for at in count():
+        error = interrupted(at, path)
+        if error is None:
+            break
+        said = " ".join(getattr(error, "__notes__", ())).replace(str(tmp_path / "run"), "")
+        found.add((said, *sorted(file.name for file in tmp_path.iterdir())))
+        for file in tmp_path.iterdir():
+            file.unlink()
+    assert found == {
+        ("",),
+        ("the first 30 of 30 samples: .partial.h5", "run.partial.h5"),
+        ("the first 30 of 30 samples: .partial.h5", "run.h5", "run.partial.h5"),  # renamed this moment
+        ("the record is complete: .h5", "run.h5"),
+    }
+
+
 def test_out_of_contact_is_marked_in_the_range_flag(tmp_path: Path):
     samples = block(0, 2) | {"closure_in_range": np.array([[1.0, 0.0], [np.nan, 1.0]])}
     with writer(tmp_path / "run.h5", samples=2) as record:
@@ -139,8 +184,8 @@ def test_force_replaces_a_record_only_when_the_new_one_is_complete(record_path: 
 
 
 def test_a_refusal_of_the_file_system_is_bad_input(tmp_path: Path):
-    with pytest.raises(InputError, match="cannot be written"):
-        writer(tmp_path / ("n" * 300 + ".h5"))
+    with pytest.raises(InputError, match="cannot be written"), writer(tmp_path / ("n" * 300 + ".h5")):
+        pass
     assert list(tmp_path.iterdir()) == []
 
 

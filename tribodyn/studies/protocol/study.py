@@ -173,8 +173,10 @@ class Study:
         try:
             result = self._part("run", "run")(case, output, force=force, progress=progress, **how)
         except KeyboardInterrupt as error:
-            if not getattr(error, "__notes__", ()):  # nobody below has anything to keep
-                error.add_note("nothing is recorded yet, the same call begins anew")
+            if not getattr(error, "__notes__", ()):  # nobody below has anything to keep, or said so before
+                nothing = ["nothing is recorded yet, the same call begins anew"]
+                for note in getattr(error.__context__, "__notes__", nothing):
+                    error.add_note(note)
             raise
         from tribodyn.record.withheld import withheld
 
