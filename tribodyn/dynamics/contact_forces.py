@@ -186,7 +186,7 @@ def elastic_loads(segment, cell, u, model, work):
                         free = free - work[COUPLING + j, i] * work[ELASTIC_LOAD, j]
             if model.options.hertz == HERTZ_POWER_LAW:
                 compliance = work[COMPLIANCE, i]
-                load = power_law_force(maximum(free, width), compliance, coefficient)
+                load = power_law_force(where(free >= width, free, width), compliance, coefficient)
                 stiffness = power_law_stiffness(load, compliance, coefficient)
                 if not skippable(free >= width):
                     load = where(free >= width, load, onset(free, width, load, stiffness))

@@ -11,7 +11,7 @@ def positive_part(x, width):
     """max(x, 0) made C1 without offset: x²(2w − x)/w² for 0 < x < w, exact outside."""
     if skippable(x >= width):
         return x
-    share = minimum(maximum(x, 0.0), width) / width
+    share = maximum(x, 0.0) / width
     return where(x >= width, x, width * share * share * (2.0 - share))
 
 
@@ -21,7 +21,7 @@ def positive_part_integral(x, width):
     whole = 0.5 * x * x - width * width * (1.0 / 12.0)
     if skippable(x >= width):
         return whole
-    inner = minimum(maximum(x, 0.0), width)
+    inner = maximum(x, 0.0)
     ramp = inner * inner * inner * (2.0 * width / 3.0 - inner / 4.0) / (width * width)
     return where(x >= width, whole, ramp)
 
@@ -33,8 +33,9 @@ def load_with_damping(elastic, damping, width):
     C1, by `positive_part` over the width E W/(E + W) of the elastic load E and the given width W: without
     damping exactly E, and never above the sum, so that damping takes energy under any load.
     """
-    own = maximum(elastic * width / (elastic + width), SMALLEST_SHARE * width)
-    return positive_part(elastic + damping, own)
+    own = elastic * width / (elastic + width)
+    smallest = SMALLEST_SHARE * width
+    return positive_part(elastic + damping, where(own > smallest, own, smallest))
 
 
 @law
@@ -55,16 +56,16 @@ def sign(x):
 
 @law
 def onset(x, width, load, stiffness):
-    """Load of an approach 0 ≤ x ≤ w, the cubic from zero with zero slope to a load and stiffness at w; C1."""
-    share = minimum(maximum(x, 0.0), width) / width
+    """Load of an approach x ≤ w, the cubic from zero with zero slope to a load and stiffness at w; C1."""
+    share = maximum(x, 0.0) / width
     rise = stiffness * width
     return share * share * (3.0 * load - rise + share * (rise - 2.0 * load))
 
 
 @law
 def onset_integral(x, width, load, stiffness):
-    """The integral of `onset` from 0 to x; linear in load and stiffness, as `onset` is."""
-    share = minimum(maximum(x, 0.0), width) / width
+    """The integral of `onset` from −∞ to x, or to w; linear in load and stiffness, as `onset` is."""
+    share = minimum(maximum(x / width, 0.0), 1.0)
     rise = stiffness * width
     return width * share * share * share * (load - rise / 3.0 + 0.25 * share * (rise - 2.0 * load))
 
