@@ -96,16 +96,11 @@ def test_the_root_holds_the_interface_and_the_errors_alone():
     assert {path.name for path in ROOT.iterdir() if path.is_file()} <= ROOT_FILES
 
 
+@pytest.mark.parametrize("typing_only", [False, True])
 @pytest.mark.parametrize("source", MAY_IMPORT)
-def test_a_folder_imports_what_stands_before_it(source):
-    """Imports within functions included."""
-    found = wrong_arrows(source, typing_only=False)
-    assert not found, "\n".join(found)
-
-
-@pytest.mark.parametrize("source", MAY_IMPORT)
-def test_imports_for_type_checkers_point_the_same_way(source):
-    found = wrong_arrows(source, typing_only=True)
+def test_a_folder_imports_what_stands_before_it(source, typing_only: bool):
+    """Imports within functions included, and those for type checkers."""
+    found = wrong_arrows(source, typing_only=typing_only)
     assert not found, "\n".join(found)
 
 

@@ -1,8 +1,7 @@
 """State of every tooth contact: approach, elastic and normal load, film, friction.
 
 Written once for all compilers: `work` is whatever takes `work[quantity, slot] = value`: a 2-D array in the
-native kernel, a dict everywhere else, so that the same lines run on floats, on arrays over time and under
-JAX tracing.
+native kernel, a dict everywhere else, so that the same lines run on floats, arrays and under JAX tracing.
 """
 
 from tribodyn.dynamics.parameters import (

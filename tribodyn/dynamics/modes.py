@@ -17,8 +17,7 @@ def natural_frequencies(model: Model, cycle: MeshCycle) -> Float[Array, " mode"]
     The coordinates are x_p, y_p, x_g, y_g, ξ and, with a compliant shaft, its twist; the rigid rotation is
     not among them. Stiffness is the tangent at the static load, the mean over the mesh cycle that the model
     was made from: at every phase of those driving pairs that carry when the load is shared by compliances,
-    gaps and the bearings' give, each at its own load where the Hertz contact stiffens with it. Friction is
-    left out.
+    gaps and the bearings' give, each at its own load where the Hertz contact stiffens with it. No friction.
     """
     m, t = model.mechanics, model.table
     rp, rg = float(t.pinion_pitch_radius), float(t.gear_pitch_radius)

@@ -7,8 +7,7 @@ of its own, so that signals of a terminal are for its parent alone.
 It ends with its parent, even with one that is killed: its standard input stays open as long as the parent has
 use for it, and a thread of the child waits for the end of it, whatever else the child is at. What the child
 has started itself ends with it. (Linux's own signal at a parent's death comes when the *thread* ends that
-started the child, and other systems have none.) A call into native code that holds Python's lock is finished
-first.
+started the child, and other systems have none.) A native call that holds Python's lock is finished first.
 """
 
 import os

@@ -232,8 +232,7 @@ class FrictionLaw(_Law):
     """A law of friction: a plain object, chosen by ``[friction] law`` or handed over from Python.
 
     `function` is (contact: LocalContact, film: ActiveLaw, surfaces: Surfaces, parameters) -> friction
-    coefficient ≥ 0; it evaluates the film, where it needs one, with `film_at`. `in_range` takes the same
-    arguments.
+    coefficient ≥ 0; it evaluates the film, where it needs one, with `film_at`. `in_range` takes the same.
     """
 
     table: ClassVar[str] = "friction"

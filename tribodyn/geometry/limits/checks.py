@@ -33,8 +33,7 @@ def check(family: Family, drive: Drive) -> Assembly:
     Sizes; the family's own rules; for each body root and bore, corners of the rack, undercut, pointed tip;
     for the pair tip clearance, contact ratio, interference. Plain numbers only; messages give lengths in mm.
 
-    Raises InputError, which names the key (``drive.pinion.profile_shift``), the rule and, known, a value that
-    obeys it.
+    Raises InputError, which names the key, the rule and, where known, a value that obeys it.
     """
     check_sizes(drive, family.pressure_angle)
     with np.errstate(all="ignore"):

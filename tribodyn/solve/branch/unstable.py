@@ -78,7 +78,7 @@ def _followed(way: arclength.Arclength, span: tuple[float, float]) -> UnstableBr
         if merged or (beyond.stable and places):
             finish = _finish(way, here, beyond, merged)
             break
-        if not _inside(way, beyond, span):
+        if not span[0] <= beyond.point[-1] * way.units[-1] <= span[1]:
             last = _at_border(way, here, beyond, span)
             places += [last] if last is not None and last.unstable else []
             break
@@ -111,10 +111,6 @@ def _at_border(
     along = np.zeros(len(way.units))
     along[-1] = 1.0
     return way.met(here.point + share * (beyond.point - here.point), along, here.tangent)
-
-
-def _inside(way: arclength.Arclength, place: arclength.BranchPoint, span: tuple[float, float]) -> bool:
-    return span[0] <= place.point[-1] * way.units[-1] <= span[1]
 
 
 def _finish(

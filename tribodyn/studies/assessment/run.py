@@ -53,8 +53,7 @@ def run(
 ) -> RunResult:
     """Run a case and write its record; see `study.Study.run`.
 
-    The parts lie in a folder beside the record and are not run again where their scenarios and the code are
-    the same.
+    The parts lie in a folder beside the record and are run again only if their scenarios or the code changed.
     """
     path = target(case, output, force)
     try:

@@ -109,8 +109,7 @@ def run(
 ) -> RunResult:
     """Run a search and write its record; see `study.Study.run`.
 
-    It fails where no candidate satisfies all constraints. Interrupted, it keeps the evaluations and the best
-    so far.
+    It fails where no candidate satisfies all constraints. Interrupted, it keeps what it has found so far.
     """
     name, reason = method_of(case)
     path = Path(output) if output is not None else Path(f"{case.name}.h5")

@@ -76,8 +76,7 @@ class PreparedEfficiency(PreparedGears[EfficiencyCase]):
 def prepare(case: EfficiencyCase) -> PreparedEfficiency:
     """Check the geometry and tabulate the mesh.
 
-    Raises InputError where the teeth cannot be made or cannot run together, or the load sharing does not fit
-    them.
+    Raises InputError where the teeth cannot be made or cannot run together, or the load sharing does not fit.
     """
     assembly, mesh = assembled(case), case.mesh
     if case.operating.gear_torque < 0.0:  # the gear drives: the back flanks carry

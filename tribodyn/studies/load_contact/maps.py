@@ -43,8 +43,7 @@ def pair_over_phase(
 ) -> tuple[Float[Array, " position"], Float[Array, " position"]]:
     """Give a pair's quantity over the phase as `over_phase` does, broken where the number passes on.
 
-    At the end of a cycle the teeth that were pair 1 become pair 0: the last point of a piece is taken from
-    there.
+    At the end of a cycle the teeth that were pair 1 become pair 0: a piece's last point is taken there.
     """
     x, _ = over_phase(record, "phase")
     _, values = over_phase(record, name)

@@ -17,8 +17,7 @@ contact and follow the end of the film. Between a face i and the end of the film
     d/dt ∫ ρ h dx + (q − ρ h v)_end − (q − ρ h v)_i = 0
 
 v = dx/dt of a face: mass is conserved to rounding. The end meets a full gap where it moves outwards. Time
-derivatives of masses and of places are the same differences, so that nodes that move through a uniform film
-make no flow.
+derivatives of masses and places are the same differences: nodes moving through a uniform film make no flow.
 """
 
 from typing import Any, NamedTuple

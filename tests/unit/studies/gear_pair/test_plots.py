@@ -203,16 +203,13 @@ def test_a_run_that_failed_early_is_drawn(tmp_path: Path, name: str):
         figure(name, [record]).draw_without_rendering()
 
 
-def test_a_spectrum_needs_a_whole_cycle(tmp_path: Path):
-    path = failed_record(tmp_path / "run.h5", 60)
-    with Record(path) as record, pytest.raises(InputError, match="no whole mesh cycle"):
-        figure("spectrum", [record])
-
-
-def test_a_record_without_samples_is_refused(tmp_path: Path):
-    path = failed_record(tmp_path / "run.h5", 0)
-    with Record(path) as record, pytest.raises(InputError, match="no samples"):
-        figure("film", [record])
+@pytest.mark.parametrize(
+    ("samples", "name", "message"), [(60, "spectrum", "no whole mesh cycle"), (0, "film", "no samples")]
+)
+def test_a_record_with_too_few_samples_is_refused(tmp_path: Path, samples: int, name: str, message: str):
+    path = failed_record(tmp_path / "run.h5", samples)
+    with Record(path) as record, pytest.raises(InputError, match=message):
+        figure(name, [record])
 
 
 def test_a_record_without_outlines_has_no_path_figure(tmp_path: Path):
