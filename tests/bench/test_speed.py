@@ -128,10 +128,7 @@ def test_native_run_is_faster_than_lsoda_on_the_compiled_right_hand_side(case, c
 
 
 def test_a_steady_sweep_is_20_times_faster_than_marching_with_lsoda(capsys):
-    """All of the sweep but the compilation, against LSODA at a speed.
-
-    LSODA is given the number of cycles after which the motion repeats.
-    """
+    """But for the compilation, against LSODA, given the cycles after which the motion repeats."""
     speeds = steady.grid(0.05, 32)
     steady.sweep(speeds)  # compiles
     ours = steady.sweep(speeds)

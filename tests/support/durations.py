@@ -30,13 +30,7 @@ def add_options(parser: pytest.Parser) -> None:
 
 
 class Durations:
-    """A plugin: sorts and selects what was collected, and measures what runs.
-
-    Parameters
-    ----------
-    config : pytest.Config
-        With the options of `add_options`.
-    """
+    """A plugin with the options of `add_options`: sorts and selects what was collected, and measures."""
 
     def __init__(self, config: pytest.Config) -> None:
         self.config = config

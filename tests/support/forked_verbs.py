@@ -40,15 +40,7 @@ for line in sys.stdin:
 
 
 class ForkedVerbs:
-    """Runs verbs as `python -W error -m tribodyn` would, in no terminal.
-
-    Parameters
-    ----------
-    scratch : Path
-        A folder for what they print.
-    python : Path or str, optional
-        The interpreter, else the running one. It sees this checkout, whatever is installed for it.
-    """
+    """Runs verbs as `python -W error -m tribodyn` would, in no terminal; `scratch` is for what they print."""
 
     def __init__(self, scratch: Path, python: Path | str = sys.executable, **environment: str):
         self.out, self.err = scratch / "out", scratch / "err"

@@ -64,13 +64,7 @@ def short_case(kind: str, folder: Path, **more: Any) -> Any:
 
 
 class ShortRuns:
-    """Short runs of the templates: (kind) -> result; each is run once for all processes of the tests.
-
-    Parameters
-    ----------
-    folder : Path
-        Where the processes share them.
-    """
+    """Short runs of the templates: (kind) -> result; each is run once, for all processes share the folder."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

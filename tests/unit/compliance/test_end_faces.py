@@ -44,10 +44,7 @@ class Prism:
         return np.linalg.solve(even, -self.reached[0])
 
     def held_and_free(self, width, place, load):
-        """Deflection at the places under an even line load's values at `place`; with symmetric and free ends.
-
-        Load and places are at the middles of equal slices.
-        """
+        """At slices' middles under an even line load's values at `place`; with symmetric and free ends."""
         number = np.arange(int(self.solved[-1] * width / np.pi) + 1)
         count = np.where(number > 0, 2.0, 1.0) / width
         slices = len(place)

@@ -101,14 +101,6 @@ def test_a_failed_run_is_trimmed_and_says_why(tmp_path: Path):
             np.testing.assert_array_equal(failed[name], expected[name], err_msg=name)
 
 
-def test_a_run_that_fails_at_once_leaves_a_readable_record(tmp_path: Path):
-    with writer(tmp_path / "run.h5") as record:
-        path = record.fail("no static equilibrium")
-    with Record(path) as failed:
-        assert failed.samples == 0
-        assert failed["normal_load"].shape == (0, 2)
-
-
 def test_an_exception_marks_the_record_failed(tmp_path: Path):
     def run() -> None:
         with writer(tmp_path / "run.h5") as record:
