@@ -2,8 +2,6 @@
 
 import time
 import tomllib
-import warnings
-from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -28,6 +26,8 @@ from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
 from tribodyn.studies import pages as of
 from tribodyn.studies.pages import report, sweep_report
+
+pytestmark = pytest.mark.filterwarnings("ignore")  # numbers beyond all bounds may be warned of
 
 OLD = Path(__file__).parents[1] / "fixtures" / "records-0.1.0"
 SAMPLES = ["gear-pair", "efficiency", "load-contact", "backlash-oscillator", "sweep"]
@@ -76,14 +76,6 @@ def compared(path: Path, good: Path) -> None:
     with open_any(path) as changed, open_any(good) as other:
         if not isinstance(changed, SweepRecord) and not isinstance(other, SweepRecord):
             assert of.compare([other, changed])
-
-
-@pytest.fixture(autouse=True)
-def unheard() -> Iterator[None]:
-    """Numbers beyond all bounds may be warned of."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        yield
 
 
 #: Ways to use a record, and of how many changed records in a row the soak tries it on one.

@@ -40,7 +40,10 @@ for line in sys.stdin:
 
 
 class ForkedVerbs:
-    """Runs verbs as `python -W error -m tribodyn` would, in no terminal; `scratch` is for what they print."""
+    """Runs verbs as `python -W error -m tribodyn` would, in no terminal; `scratch` is for what they print.
+
+    The interpreter, else the running one, sees this checkout, whatever is installed for it.
+    """
 
     def __init__(self, scratch: Path, python: Path | str = sys.executable, **environment: str):
         self.out, self.err = scratch / "out", scratch / "err"

@@ -34,7 +34,7 @@ def load_with_damping(elastic, damping, width):
     damping exactly E, and never above the sum, so that damping takes energy under any load.
     """
     own = elastic * width / (elastic + width)
-    smallest = SMALLEST_SHARE * width
+    smallest = SMALLEST_SHARE * width  # `maximum` of two variables is six operations with JAX, `where` two
     return positive_part(elastic + damping, where(own > smallest, own, smallest))
 
 

@@ -155,7 +155,7 @@ def _version(library: str) -> str:
 def reserve(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...]) -> h5py.Dataset:
     """Create a dataset for which there is nothing to write yet.
 
-    It is contiguous, and its bytes have an address in the file from the start. Who writes them: `blank_of`.
+    It is contiguous, with an address in the file from the start; its bytes are not written here: `blank_of`.
     """
     plan = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
     plan.set_alloc_time(h5py.h5d.ALLOC_TIME_EARLY)

@@ -132,11 +132,12 @@ class RecordWriter:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         try:
-            if isinstance(error, KeyboardInterrupt) and (self._open or not getattr(error, "__notes__", ())):
-                complete = not self.partial.exists()
-                error.add_note(f"the record is complete: {self.path}" if complete else self._so_far())
-            if self._open and isinstance(error, KeyboardInterrupt):
-                self.fail(str(error) or "interrupted by the user")
+            if isinstance(error, KeyboardInterrupt):
+                if self._open or not getattr(error, "__notes__", ()):
+                    complete = not self.partial.exists()
+                    error.add_note(f"the record is complete: {self.path}" if complete else self._so_far())
+                if self._open:
+                    self.fail(str(error) or "interrupted by the user")
             elif self._open and isinstance(error, OutputError):
                 with suppress(OutputError):  # there is no room for saying it in the file either
                     self.fail(str(error))

@@ -111,6 +111,7 @@ def test_contacts_give_the_bodies_the_power_they_lose(model, rng):
 
 def test_friction_power_is_minus_mu_load_times_sliding(model, rng):
     """F_f ω_p (−L_p + w L_g) = −μ F_n |v_s| outside the width of reversal, in rigid rotation.
+
     The flanks' speeds differ by (1 + w) r ω_p; on Liu & Ni's path their product goes with sin α.
     """
     t, m = model.table, model.mechanics

@@ -87,17 +87,18 @@ def test_the_name_appears_only_when_complete(tmp_path: Path):
     assert [file.name for file in tmp_path.iterdir()] == ["run.h5"]
 
 
-def test_a_failed_run_is_trimmed_and_says_why(tmp_path: Path):
+@pytest.mark.parametrize("samples", [7, 0])
+def test_a_failed_run_is_trimmed_and_says_why(tmp_path: Path, samples: int):
     with writer(tmp_path / "run.h5") as record:
-        record.write(0, block(0, 7))
+        record.write(0, block(0, samples))
         path = record.fail("stopped at t = 7 s: step too small", {"steps": 12})
     assert [file.name for file in tmp_path.iterdir()] == ["run.partial.h5"]
     with Record(path) as failed:
         assert (failed.status, failed.message) == ("failed", "stopped at t = 7 s: step too small")
         assert failed.summary == {"steps": 12}
-        expected = block(0, 7)
+        expected = block(0, samples)
         for name in failed:
-            assert failed._file[name].shape[0] == 7
+            assert failed._file[name].shape[0] == failed.samples == samples
             np.testing.assert_array_equal(failed[name], expected[name], err_msg=name)
 
 

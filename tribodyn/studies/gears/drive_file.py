@@ -82,7 +82,7 @@ def load_drive(model: str | Mapping[str, Any], overrides: Mapping[str, Any] | No
 
     `model` is the name of a shipped drive or scenario, the path of a file of either sort, or what a drive
     file holds; `overrides` are dotted keys, as in a scenario, to values: ``{"drive.pinion.profile_shift":
-    "0.3"}``. Raises InputError if there is no such file, it describes no pair of gears, or it is wrong.
+    "0.3"}``. Raises InputError if there is no such file, or it describes no pair of gears or is wrong.
     """
     if isinstance(model, Mapping):
         return _of_table(dict(model), Path("drive"), overrides or {})

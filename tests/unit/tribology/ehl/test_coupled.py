@@ -42,7 +42,10 @@ def test_eyring_at_small_sliding_is_newtonian():
 
 @pytest.mark.parametrize(("sliding", "within"), [(0.1, 4e-3), (0.5, 2e-3), (1.5, 2e-3)])
 def test_eyring_at_large_sliding(sliding, within):
-    """τ_0 arsinh(η Δu/(τ_0 h)), by its logarithm if large; less where the pressure rises steeply."""
+    """τ_0 arsinh(η Δu/(τ_0 h)), and by its logarithm where that is large.
+
+    Less where the pressure's gradient shears the oil at the spike, the more the slower it slides.
+    """
     found = slid(sliding, step=0.05)
     stress = newtonian(found.solution)
     expected = np.trapezoid(5e6 * np.arcsinh(stress / 5e6), found.solution.place)
