@@ -5,7 +5,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from tests.support.closed_form_maps import ClosedForm, logistic
+from tests.support.closed_form_maps import ClosedForm, Lines, logistic
 from tribodyn.solve.branch.arclength import (
     CORNER,
     FOLD,
@@ -14,7 +14,7 @@ from tribodyn.solve.branch.arclength import (
     PERIOD_DOUBLING,
     kind_of_end,
 )
-from tribodyn.solve.branch.continuation import VALUES, between
+from tribodyn.solve.branch.continuation import PERIODS, VALUES, Leg, between, follow
 from tribodyn.solve.orbit.motions import Recurrence, recognised, recurrences, wanderings
 from tribodyn.solve.orbit.search import BLOCK, LOOK, NOISE, Progress
 from tribodyn.solve.orbit.shooting import closed_orbit, critical_direction, eigenvalues, shoot, way_out
@@ -252,6 +252,15 @@ def test_exponents_of_maps_that_stretch_and_shrink_uniformly():
     assert told.error == pytest.approx(0.0, abs=1e-6)
 
 
+def test_what_stops_a_motion_while_its_exponent_is_measured_is_said():
+    """Rows that go on are measured as if alone."""
+    maps = ClosedForm(lambda x, rate: rate[:, None] * x, [-2.0, -1.0], 1)
+    lost, kept = wanderings(maps, np.ones((2, 1)), np.array([0, 1]))
+    assert (lost.kind, np.isnan(lost.exponent)) == ("not periodic", True)
+    assert lost.describe().endswith("could not be measured: it runs away")
+    assert kept == wanderings(maps, np.ones((1, 1)), np.array([1]))[0]
+
+
 def test_values_of_a_motion_without_period_do_not_depend_on_those_asked_for():
     for start, target in ((0.9, 2.3), (-3.0, -0.7), (2.3, 0.9)):
         found = np.array(between(start, target))
@@ -265,3 +274,11 @@ def test_values_of_a_motion_without_period_do_not_depend_on_those_asked_for():
         whole = size[(size >= 1.0) & (size < 2.0)]
         assert len(whole) == (VALUES if (low < 1.0 < 2.0 < high or -high < 1.0 < 2.0 < -low) else VALUES - 1)
     assert between(1.0, 1.0) == between(-0.5, 0.5) == between(0.0, 2.0) == []
+
+
+@pytest.mark.parametrize(("most", "each"), [(2000, PERIODS), (120, 6), (4, 1)])
+def test_what_a_search_may_march_limits_what_is_marched_between_values(most, each):
+    """The state counts its periods."""
+    drift = Lines(lambda x, _: x + 1.0, 1)
+    (arrival,) = follow(drift, [Leg(0, 1.0, 2.0, np.zeros(1), 0)], max_periods=most)
+    assert arrival.next_state == each * (VALUES - 1)

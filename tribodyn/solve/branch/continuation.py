@@ -46,8 +46,9 @@ MATTERS, MEETING = 0.8, 0.2
 SHARES = (0.5, 0.35, 0.65, 0.2, 0.8)
 #: Ends in one leg after which it is marched.
 MOST_ENDS = 8
-#: Values in every factor of two at which a motion without period is marched, and periods at each.
-VALUES, PERIODS = 256, 96
+#: Values in every factor of two at which a motion without period is marched, and periods at each: at most
+#: that part of those that a search may march.
+VALUES, PERIODS, PART = 256, 96, 20
 
 
 class Leg(NamedTuple):
@@ -87,7 +88,7 @@ def follow(
 ) -> list[Arrival]:
     """Go all legs, side by side; `tolerance` and `max_periods` are those of `search.find`."""
     arrivals: dict[int, Arrival] = {}
-    going: dict[int, _Requests] = {number: _go(leg) for number, leg in enumerate(legs)}
+    going: dict[int, _Requests] = {number: _go(leg, max_periods) for number, leg in enumerate(legs)}
     requests = {number: next(steps) for number, steps in going.items()}
     while going:
         lines = {number: legs[number].line for number in going}
@@ -122,7 +123,7 @@ class _Exit(NamedTuple):
     state: Float[Array, " state"]
 
 
-def _go(leg: Leg) -> _Requests:
+def _go(leg: Leg, max_periods: int) -> _Requests:
     """One leg."""
     here = _Motion(leg.start, leg.state, leg.period)
     ends: list[BranchEnd] = []
@@ -151,7 +152,7 @@ def _go(leg: Leg) -> _Requests:
     state = here.state
     if not here.period and not leg.finest:
         for value in between(here.value, leg.target):
-            orbit, *_ = yield Continue(value, state, PERIODS)
+            orbit, *_ = yield Continue(value, state, min(PERIODS, max(1, max_periods // PART)))
             if orbit.kind == FAILED:
                 break
             state = orbit.last

@@ -205,9 +205,12 @@ class Wandering(NamedTuple):
     #: exponent, error: largest Lyapunov exponent, per period of the excitation, and its standard error
     exponent: float
     error: float
+    reason: str = ""  # what stopped it while the exponent was measured, which is NaN then
 
     def describe(self) -> str:
         """How that was decided."""
+        if self.reason:
+            return f"its largest Lyapunov exponent could not be measured: {self.reason}"
         return f"largest Lyapunov exponent {self.exponent:+.3f} ± {self.error:.3f} per period"
 
 
@@ -225,8 +228,13 @@ def wanderings(
     growth = np.zeros((TURNING + MEASURED, rows))
     track = np.zeros((MEASURED * STRIDE, rows, size))
     twice = np.concatenate([cases, cases])
+    why = [""] * rows
     for stride in range(TURNING + MEASURED):
-        marched = period_map.march(np.concatenate([here, beside]), twice, STRIDE, True).states
+        marched, reasons = period_map.march(np.concatenate([here, beside]), twice, STRIDE, True)
+        pairs = zip(why, reasons[:rows], reasons[rows:], strict=True)
+        why = [before or own or other for before, own, other in pairs]
+        if all(why):
+            break
         here = marched[:rows, -1]
         away = (marched[rows:, -1] - here) / scale
         distance = np.maximum(np.linalg.norm(away, axis=1), TINY)
@@ -239,14 +247,17 @@ def wanderings(
     parts = measured.reshape(PARTS, -1, rows).mean(axis=1)
     errors = parts.std(axis=0, ddof=1) / np.sqrt(PARTS)
     return [
-        _wandering(float(measured[:, row].mean()), float(errors[row]), track[:, row]) for row in range(rows)
+        Wandering(NOT_PERIODIC, np.nan, np.nan, why[row])
+        if why[row]
+        else _wandering(float(measured[:, row].mean()), float(errors[row]), track[:, row])
+        for row in range(rows)
     ]
 
 
 def _wandering(exponent: float, error: float, track: Float[Array, "period state"]) -> Wandering:
     extent = np.ptp(track, axis=0)
     halves = [float(np.max(np.ptp(half, axis=0))) for half in np.split(track, 2)]
-    if not np.isfinite(exponent) or max(halves) > SETTLED * min(halves):
+    if max(halves) > SETTLED * min(halves):
         return Wandering(NOT_PERIODIC, exponent, error)
     if abs(exponent) > max(NEUTRAL_EXPONENT, 3.0 * error):
         return Wandering(CHAOTIC if exponent > 0.0 else LONGER_PERIOD, exponent, error)
