@@ -24,7 +24,7 @@ from tribodyn.solve.tolerances import tolerances_of_many
 
 #: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
 #: with copies of its last case, so that fewer cases compile nothing again. On a CPU one thread per part.
-WIDTH, WIDTH_ON_CPU = 1024, 64
+WIDTH, WIDTH_ON_CPU = 4096, 64
 
 
 def width_here() -> int:
