@@ -297,14 +297,19 @@ def quantiles(ratio: Array) -> tuple[float, float, float]:
 def tables(found: dict[tuple[str, str], Ratios]) -> str:
     """Return both tables as Markdown."""
     head = ["law", "stands for", "right", "limits by the solved contact", "contacts inside: all, those right"]
-    head += ["ratio there: 5, 50, 95 %", "right with constants of the judge, drawn", "right anywhere"]
+    head += [
+        "ratio there: 5, 50, 95 %",
+        "outside: 5, 50, 95 %",
+        "right with constants of the judge, drawn",
+        "right anywhere",
+    ]
     head += ["anywhere: 5, 50, 95 %"]
     rows, by_oil = [], []
     for (what, name), ratios in found.items():
         law = FILM_LAWS[name] if what == "film" else FRICTION_LAWS[name]
         assert law.judged is not None
         limits = law.limits[len(law.limits) - law.judged.limits :]
-        inside = ratios.ratio[ratios.judged]
+        inside, outside = ratios.ratio[ratios.judged], ratios.ratio[~ratios.judged]
         low, high = law.judged.right
         stands = STANDS_FOR[name] if what == "film" else "mean of the mesh" if name in MEANS else "friction"
         cells = (
@@ -314,6 +319,7 @@ def tables(found: dict[tuple[str, str], Ratios]) -> str:
             ", ".join(limits) or "none found",
             f"{len(inside)} of {len(ratios.ratio)}, {_share(right(law, inside))}",
             ", ".join(f"{value:.3g}" for value in quantiles(inside)),
+            ", ".join(f"{value:.3g}" for value in quantiles(outside)) if outside.size else "–",
             ", ".join(_share(right(law, ratios.ratio[ratios.judged & (ratios.drawn == d)])) for d in (0, 1)),
             _share(right(law, ratios.ratio)),
             ", ".join(f"{value:.3g}" for value in quantiles(ratios.ratio)),
@@ -325,7 +331,7 @@ def tables(found: dict[tuple[str, str], Ratios]) -> str:
             low, median, high = quantiles(ratio) if len(ratio) else (math.nan,) * 3
             spread.append(f"{median:.2f} ({low:.2f} … {high:.2f})" if len(ratio) > 1 else "–")
         by_oil.append([f"{what} `{name}`", *spread])
-    parts = table(head, rows, "llllrllr"), "By oil, inside the same limits (median, 5 and 95 %):"
+    parts = table(head, rows, "llllrlllr"), "By oil, inside the same limits (median, 5 and 95 %):"
     return "\n\n".join([*parts, table(["law", *OILS], by_oil)])
 
 

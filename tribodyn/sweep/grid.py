@@ -36,6 +36,7 @@ class Grid:
         self._texts = [i for i, axis in enumerate(self.axes) if not axis.numeric]
         self._resolved = lru_cache(maxsize=16)(self._resolve)
         self.batch: Batch = self.study.batch() or OneByOne(self.study)
+        self.base: Any = None
         self._check()
         self.base = self.case((0,) * len(self.axes))
 
@@ -58,9 +59,10 @@ class Grid:
             if axis.numeric:
                 _put(data, axis.key, axis.written[index])
         try:
-            return loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
+            case = loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
         except InputError as error:
             raise self._as_varied(error) from None
+        return case.beside(self.base) if self.base else case
 
     def changes_what_is_shared(self, axis: int) -> bool:
         """Whether cases at the ends of an axis share less than cases elsewhere on it."""

@@ -26,6 +26,8 @@ MINIMUM_ANGLE = math.radians(1.0)
 _LOADS, _SPEEDS = (0.25, 1.5), (0.8, 1.2)
 #: Least entrainment and radius over the largest along the path, and least slide-to-roll ratio, of a table.
 _LEAST_SHARE, LEAST_SLIDING = 0.1, 0.02
+#: Names in a summary of the ratios to the solved contact outside the range of a law.
+_OUTSIDE = ("low_outside", "median_outside", "high_outside")
 
 
 class NominalDuty(Protocol):
@@ -78,9 +80,13 @@ def closure_of(case: Lubricated) -> Closure:
 def untried_closure_of(case: Lubricated) -> Closure:
     """As `closure_of`, of a case whose numbers may be traced, and whose laws have been tried."""
     film, friction = laws_of(case)
+    return closure(law_input(case), film, friction, dict(case.film.values), dict(case.friction.values))
+
+
+def law_input(case: Lubricated) -> LawInput:
+    """Return what the laws of a case may make their parameters of."""
     nominal, duty = partial(nominal_conditions, case), partial(duty_range, case)
-    given = LawInput(surfaces_of(case), case.lubricant, case.materials, nominal, duty)
-    return closure(given, film, friction, dict(case.film.values), dict(case.friction.values))
+    return LawInput(surfaces_of(case), case.lubricant, case.materials, nominal, duty)
 
 
 def closure(
@@ -119,7 +125,7 @@ def with_laws(
     if film is not None:
         changed["film"] = FilmData(film)
     if friction is not None:
-        changed["friction"] = replace(case.friction, law=friction, values={})
+        changed["friction"] = replace(case.friction, law=friction, values={}, chosen="")
     return replace(case, **changed)  # pyright: ignore[reportArgumentType]  (cases are dataclasses)
 
 
@@ -129,11 +135,13 @@ def law_quantities(case: Lubricated) -> dict[str, Any]:
     `film_judged` and `friction_judged`: their ratios to the solved contact, where they were compared.
     """
     film, friction = laws_of(case)
-    judged, errors = {}, {}
+    chosen = {"film_chosen": case.film.chosen, "friction_chosen": case.friction.chosen}
+    judged, errors = {name: why for name, why in chosen.items() if why}, {}
     for law in (film, friction):
         if law.judged is not None:
             ratios = dict(zip(("low", "median", "high"), law.judged.ratio, strict=True))
-            judged[f"{law.table}_judged"] = {**ratios, "limits": law.judged.limits}
+            outside = dict(zip(_OUTSIDE, law.judged.outside or (), strict=False))
+            judged[f"{law.table}_judged"] = {**ratios, **outside, "limits": law.judged.limits}
         if law.table_error is not None:
             active: Any = getattr(untried_closure_of(case), law.table)
             errors[f"{law.table}_table_error"] = law.table_error(active.parameters)

@@ -25,6 +25,9 @@ from tribodyn.tribology.contact import (
 )
 from tribodyn.tribology.oil import LubricantData
 
+#: Stands for the law nearest to the solved contact whose range holds at the duty, see `choice`.
+AUTO = "auto"
+
 
 class JudgedRange(NamedTuple):
     """What the solved contact says of a law, over oils, surfaces, duties of gears (docs/ehl.md, Ranges)."""
@@ -37,6 +40,8 @@ class JudgedRange(NamedTuple):
     #: how many of the law's limits follow from the comparison, the last ones: where these hold, nine of ten
     #: contacts are right; 0: no such limits were found
     limits: int = 0
+    #: that ratio of the contacts outside; None: no sampled contact was
+    outside: tuple[float, float, float] | None = None
 
     def in_words(self, limits: tuple[str, ...]) -> str:
         """The range of a law with these limits."""
@@ -240,6 +245,7 @@ class FrictionLaw(_Law):
     #: the coefficient makes
     flash_temperature: Callable[..., Any] = heat_of_friction
     film: str = "masjedi-khonsari"  # name of the film law that goes with it where the scenario names none
+    reads_film: bool = True  # whether the coefficient depends on the film
 
     @property
     def functions(self) -> FrictionFunctions:
@@ -256,6 +262,7 @@ class FilmData:
     law: str | FilmLaw | None = None
     #: values of the law's own keys, by name, in SI units
     values: Mapping[str, Any] = field(default_factory=dict)
+    chosen: str = ""  # why, where the scenario says "auto"
 
 
 @dataclass(frozen=True)
@@ -265,6 +272,7 @@ class FrictionData:
     law: str | FrictionLaw  # its name in `tribodyn.tribology.friction.FRICTION_LAWS`, or the law itself
     #: values of the law's own keys, by name, in SI units
     values: Mapping[str, Any] = field(default_factory=dict)
+    chosen: str = ""  # why, where the scenario says "auto"
     #: sliding speed from the nominal rotation, or from the bodies as they move, vibration included
     sliding: Literal["kinematic", "dynamic"] = "dynamic"
     #: distance along the path of contact over which friction changes sign at the pitch point, m

@@ -171,16 +171,17 @@ def test_laws_without_a_range_say_nothing():
 def test_ratios_to_the_solved_contact_are_those_of_the_page():
     """Of the table that `tools/law_ranges.py` writes: what is right, and the ratio at 5, 50 and 95 %."""
     rows = re.findall(
-        r"^\| (film|friction) `([\w-]+)` \| [^|]+ \| ([\d.]+) … ([\d.]+) \| ([^|]+) \| [^|]+ \| ([^|]+) \|",
+        r"^\| (film|friction) `([\w-]+)` \| [^|]+ \| ([\d.]+) … ([\d.]+) \| ([^|]+) \| [^|]+ \| ([^|]+) \| ([^|]+) \|",
         PAGE.read_text(encoding="utf-8"),
         re.MULTILINE,
     )
     assert len(rows) == 14
-    for table, name, low, high, limits, ratio in rows:
+    for table, name, low, high, limits, ratio, outside in rows:
         law = (FILM_LAWS if table == "film" else FRICTION_LAWS)[name]
         assert law.judged is not None
         assert law.judged.right == (float(low), float(high))
         assert list(law.judged.ratio) == [float(part) for part in ratio.split(",")], name
+        assert ", ".join(f"{value:.3g}" for value in law.judged.outside or ()) == outside.strip("– "), name
         named = [] if limits == "none found" else limits.split(", ")
         assert list(law.limits[len(law.limits) - law.judged.limits :]) == named
         own = law.limits[: len(law.limits) - law.judged.limits]

@@ -11,7 +11,7 @@ from tribodyn.scenario.own_keys import Owner, key_schema, own_key_errors, own_va
 from tribodyn.scenario.quantity import Table, Text, broken
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import FilmData
+from tribodyn.tribology.law import AUTO, FilmData
 
 
 class LawTable(Table, extra="allow"):
@@ -32,7 +32,7 @@ class LawTable(Table, extra="allow"):
         part = handler.resolve_ref_schema(handler(schema))
         names = part["properties"]["law"]
         choice = names["anyOf"][0] if "anyOf" in names else names
-        choice["enum"] = list(cls.laws)
+        choice["enum"] = [AUTO, *cls.laws]
         for name, law in cls.laws.items():
             for key in law.keys:
                 own = key_schema(key)
@@ -81,6 +81,11 @@ def law_errors(table: LawTable) -> list[InputError]:
         remedy = f"name it, such as law = {quoted(next(iter(table.laws)))}"
         given = table.own.items()
         return [InputError(f"{table.name}.{key}", quoted(value), rule, remedy) for key, value in given]
+    if table.law == AUTO:
+        rule, remedy = f'contradicts law = "{AUTO}", which takes none', "name the law whose key it is"
+        return [
+            InputError(f"{table.name}.{key}", quoted(value), rule, remedy) for key, value in table.own.items()
+        ]
     try:
         law = table.laws[table.law]
     except InputError as error:
@@ -109,11 +114,11 @@ def _explained(error: InputError, table: LawTable, law: Any) -> InputError:
 
 def film_of(film: FilmTable | None) -> FilmData:
     """Return the choice of film law of a table [film], its values in SI units."""
-    if film is None or film.law is None:
-        return FilmData()
+    if film is None or film.law in (None, AUTO):
+        return FilmData(film and film.law)
     return FilmData(film.law, own_values(_owner(film, FILM_LAWS[film.law]), film.own))
 
 
 def friction_values(table: FrictionTable) -> dict[str, float]:
     """Return the values of the friction law's own keys, in SI units."""
-    return own_values(_owner(table, FRICTION_LAWS[table.law]), table.own)
+    return {} if table.law == AUTO else own_values(_owner(table, FRICTION_LAWS[table.law]), table.own)

@@ -184,7 +184,9 @@ def _varied(study: Study, task: Task) -> dict[str, Any]:
     """Quantities over the cases of a task, None where one fails, and why those failed."""
     rows: dict[str, list[float | None]] = {name: [] for name in study.swept()}
     failures = []
-    for found in evaluated(study, [case_of(task, {task.key: value}) for value in task.values]):
+    base = case_of(task)
+    cases = [case_of(task, {task.key: value}).beside(base) for value in task.values]
+    for found in evaluated(study, cases):
         if isinstance(found, str):
             failures.append(found)
         for name, row in rows.items():

@@ -1,7 +1,7 @@
 """The scenario of ``kind = "efficiency"``, loads, friction and losses without dynamics, and its case."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
@@ -13,6 +13,7 @@ from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_duty_rules
 from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
+from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FilmKeys,
@@ -113,13 +114,15 @@ Scenario = EfficiencyScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
     """Return the case of a scenario that has passed schema and rules."""
     duties = spectrum_of(scenario) if scenario.operating.duty is None else ()
-    return EfficiencyCase(
+    case = EfficiencyCase(
         **gear_fields(scenario, toml, sha256),
         **oil_fields(scenario),
         load_sharing=scenario.mesh.load_sharing,
         samples_per_cycle=scenario.output.samples_per_cycle,
-        spectrum=tuple((share, case_of(duty, toml, sha256)) for share, duty in duties),
     )
+    case = with_chosen_laws(case)
+    spectrum = tuple((share, case_of(duty, toml, sha256).beside(case)) for share, duty in duties)
+    return replace(case, spectrum=spectrum)
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:

@@ -12,6 +12,7 @@ from tribodyn.scenario.fields import LoadCurve
 from tribodyn.scenario.quantity import Switch, Table, csv_file, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.studies.ehl.case import EhlCase
+from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import GearScenario, Oil, broken_gear_rules, gear_fields, oil_fields
 from tribodyn.tribology.ehl.grid import STEP
 
@@ -102,7 +103,7 @@ Scenario = EhlScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
     """Return the case of a scenario that has passed schema and rules."""
     contact = scenario.contact
-    return EhlCase(
+    case = EhlCase(
         **gear_fields(scenario, toml, sha256),
         **oil_fields(scenario),
         positions=scenario.output.positions,
@@ -110,6 +111,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
         loads=contact.loads.in_si() if contact.loads else None,
         step=contact.step,
     )
+    return with_chosen_laws(case)
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:

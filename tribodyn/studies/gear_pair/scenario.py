@@ -21,6 +21,7 @@ from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gear_pair.case import Case, OutputData
+from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FilmKeys,
@@ -182,13 +183,14 @@ Scenario = GearPairScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
     """Return the case of a scenario that has passed schema and rules."""
     own: dict[str, Any] = {"operating": _operating(scenario), "mesh": _mesh(scenario)}
-    return Case(
+    case = Case(
         **gear_fields(scenario, toml, sha256) | own,
         **oil_fields(scenario),
         bearings=bearings_of(scenario.bearings),
         solver=SolverData(**scenario.solver.model_dump()),
         output=OutputData(**scenario.output.model_dump()),
     )
+    return with_chosen_laws(case)
 
 
 def _operating(scenario: Scenario) -> OperatingData:

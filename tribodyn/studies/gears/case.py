@@ -3,7 +3,8 @@
 Plain frozen dataclasses, so that the physics never meets pydantic or pint. Pairs are ordered (pinion, gear).
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Self
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.dynamics.recorded import DOF_SCALE, PAIR, SAMPLES
@@ -69,3 +70,9 @@ class LubricatedCase(GearCase):
     #: how the bulk temperature of the teeth follows from the losses; None: it is that of the oil
     temperature: TemperatureData | None = None
     losses: LossData | None = None  # load-independent losses, where they are to be added
+
+    def beside(self, other: Self) -> Self:
+        """Return the case with the laws of the other where "auto" chose them in both."""
+        film = other.film if self.film.chosen and other.film.chosen else self.film
+        friction = other.friction if self.friction.chosen and other.friction.chosen else self.friction
+        return replace(self, film=film, friction=friction)

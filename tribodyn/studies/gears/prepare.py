@@ -24,6 +24,7 @@ from tribodyn.tribology.bulk_temperature import (
     heat_given_off,
     network_temperatures,
 )
+from tribodyn.tribology.law import AUTO
 from tribodyn.tribology.losses import Loss, LossData, Wheel, losses_of_pair
 from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, LubricantData, lubricant_at, specific_heat
 
@@ -31,6 +32,18 @@ from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, LubricantDat
 CLOSE, MOST_MOTIONS = 0.1, 5
 #: Share of the heat of tooth friction that either gear takes.
 SHARE = 0.5
+
+LawfulCase = TypeVar("LawfulCase", bound=LubricatedCase)
+
+
+def with_chosen_laws(case: LawfulCase) -> LawfulCase:
+    """Return the case with laws in the place of "auto"; raises as `assembled` and `choice.settled`."""
+    if AUTO not in (case.friction.law, case.film.law):
+        return case
+    from tribodyn.tribology.choice import settled  # the registries of all laws
+
+    assembled(case)
+    return settled(case)
 
 
 class Thermal(NamedTuple):

@@ -12,6 +12,7 @@ from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, writte
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FilmKeys,
@@ -73,14 +74,16 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
     gears: dict[str, Any] = gear_fields(scenario, toml, sha256) | {
         "mesh": mesh_of(scenario, every_tooth=True)
     }
-    oiled = scenario.lubricant is not None
+    oiled = None
+    if scenario.lubricant is not None:
+        oiled = with_chosen_laws(LubricatedCase(**gears, **oil_fields(scenario)))
     return LoadContactCase(
         **gears,
         gear_torques=scenario.operating.gear_torques,
         friction_coefficient=scenario.mesh.friction_coefficient,
         positions_per_cycle=scenario.output.positions_per_cycle,
         cycles=scenario.output.cycles,
-        lubricated=LubricatedCase(**gears, **oil_fields(scenario)) if oiled else None,
+        lubricated=oiled,
     )
 
 

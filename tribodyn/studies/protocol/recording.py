@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 if TYPE_CHECKING:  # `tribodyn --help` imports this file
     from tribodyn.record.schema import Layout
@@ -21,6 +21,10 @@ class CaseHead:
     #: overrides applied); loading it gives this case again
     toml: str
     sha256: str  # digest of `toml`
+
+    def beside(self, other: Self) -> Self:
+        """Return the case as one of several: what it left open is as it is in the other."""
+        return self
 
 
 class RunResult(NamedTuple):

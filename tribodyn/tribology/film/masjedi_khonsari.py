@@ -151,7 +151,7 @@ LAW = FilmLaw(
     range=RANGE,
     limits=(*LIMITS, *JUDGED_LIMITS),
     # of the film, which is the same with the misprint
-    judged=JudgedRange((0.75, 1.25), (0.942, 1.0, 1.15), len(JUDGED_LIMITS)),
+    judged=JudgedRange((0.75, 1.25), (0.942, 1.0, 1.15), len(JUDGED_LIMITS), (1.03, 1.41, 3.48)),
 )
 AS_PRINTED = replace(
     LAW,

@@ -80,5 +80,5 @@ LAW = FilmLaw(
     smooth_film_of,
     in_range=in_judged_range,
     limits=("M ≥ 2", "L ≥ 1", "M ≤ 1000", "L ≤ 15", "p_H ≤ 0.75 GPa", "η0 u² ≤ 1 W/m"),
-    judged=JudgedRange((0.75, 1.25), (1.11, 1.17, 1.23), 6),
+    judged=JudgedRange((0.75, 1.25), (1.11, 1.17, 1.23), 6, (1.2, 1.28, 1.63)),
 )

@@ -77,5 +77,6 @@ LAW = FrictionLaw(
         "Ra ≤ 0.75 µm",
         "29700 w/(η |v_s| V_Σ²) ≥ 1 (coefficient above zero)",
     ),
-    judged=JudgedRange((0.5, 2.0), (1.02, 3.87, 25.0)),
+    judged=JudgedRange((0.5, 2.0), (1.02, 3.87, 25.0), outside=(2.43, 7.0, 20.8)),
+    reads_film=False,
 )

@@ -46,8 +46,9 @@ def mean_law(
     range: str,
     limit: str,
     ratio: tuple[float, float, float],
+    outside: tuple[float, float, float] | None = None,
 ) -> FrictionLaw:
-    """Law of a mean coefficient over the mesh; `ratio` to the solved contact as in `JudgedRange`."""
+    """Law of a mean coefficient over the mesh; `ratio` and `outside` as in `JudgedRange`."""
     return FrictionLaw(
         name,
         about,
@@ -56,7 +57,8 @@ def mean_law(
         in_range=range_of_constant,
         range=range,
         limits=(limit,),
-        judged=JudgedRange((0.5, 2.0), ratio),
+        judged=JudgedRange((0.5, 2.0), ratio, outside=outside),
+        reads_film=False,
     )
 
 
@@ -72,4 +74,5 @@ LAW = FrictionLaw(
     keys=(
         Parameter("coefficient", "number", "friction coefficient μ", allowed="not negative", example="0.05"),
     ),
+    reads_film=False,
 )

@@ -39,4 +39,5 @@ LAW = mean_law(
     "2 < V ≤ 25 m/s, 1.4 < K ≤ 14 N/mm² (the standard)",
     "2 m/s ≤ V ≤ 25 m/s and 1.4 N/mm² ≤ K ≤ 14 N/mm²",
     (0.276, 0.79, 3.35),
+    (0.365, 2.84, 14.2),
 )

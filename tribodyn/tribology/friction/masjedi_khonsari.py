@@ -177,11 +177,12 @@ def _law(
     name: str,
     about: str,
     ratio: tuple[float, float, float],
+    outside: tuple[float, float, float],
     film: str = "masjedi-khonsari",
     ranged: bool = True,
     **settings: Any,
 ) -> FrictionLaw:
-    """Return a variant with its ratio to the solved contact; `ranged`: it is right in `JUDGED_RANGE`."""
+    """Return a variant with its ratios to the solved contact; `ranged`: it is right in `JUDGED_RANGE`."""
     judged = JUDGED_LIMITS if ranged else ()
     return FrictionLaw(
         name,
@@ -191,7 +192,7 @@ def _law(
         in_range=in_ranges if ranged else in_range_of_film,
         range=f"that of its film: {RANGE}",
         limits=(*LIMITS, *judged),
-        judged=JudgedRange((0.5, 2.0), ratio, len(judged)),
+        judged=JudgedRange((0.5, 2.0), ratio, len(judged), outside),
         flash_temperature=heat_of_mixed_friction,
         film=film,
     )
@@ -201,17 +202,20 @@ LAW = _law(
     "masjedi-khonsari",
     "mixed elastohydrodynamic line contact, Masjedi & Khonsari (2012, 2015)",
     (0.755, 1.02, 1.46),
+    (0.871, 2.08, 9.07),
 )
 MEAN_PRESSURE = _law(
     "masjedi-khonsari-mean-pressure",
     "the same, limiting shear stress from the whole mean pressure instead of the fluid's share",
     (0.755, 1.03, 1.52),
+    (0.872, 2.08, 9.07),
     limiting_share=0.0,
 )
 AS_PRINTED = _law(
     "masjedi-khonsari-as-printed",
     "the same with Liu & Ni's misprints: 447 for 4470, Péclet numbers without ρ c_p",
     (0.125, 1.01, 3.01),
+    (0.0287, 1.28, 4.94),
     ranged=False,
     film="masjedi-khonsari-as-printed",
     heat_capacity=False,
@@ -220,6 +224,7 @@ VECIANA = _law(
     "masjedi-khonsari-veciana",
     "the same as Veciana et al. print it: Péclet numbers of sliding speed and lubricant density",
     (0.445, 1.02, 3.79),
+    (0.157, 1.5, 8.1),
     ranged=False,
     lubricant_heat=True,
     peclet_sliding=1.0,
@@ -229,6 +234,7 @@ VECIANA_PEAK = _law(
     "the reading that meets Veciana's crossover: Roelands' law at the maximum pressure, "
     "each surface's own speed and the lubricant's density in the Péclet numbers",
     (0.906, 1.15, 4.0),
+    (0.85, 1.9, 9.16),
     ranged=False,
     lubricant_heat=True,
     viscosity_pressure_factor=4.0 / math.pi,
