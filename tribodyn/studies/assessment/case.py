@@ -1,7 +1,7 @@
 """A case of an assessment: everything that it needs to know, in SI units, and what it records."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
@@ -11,8 +11,10 @@ from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.scenario.quantity import NotNegative, Positive, Switch, Table, Text
 from tribodyn.studies.gears.by_standard import Quality
-from tribodyn.studies.gears.case import GearCase
+from tribodyn.studies.gears.case import GearCase, LubricatedCase
+from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.protocol import cost
+from tribodyn.tribology.law import AUTO, FrictionData
 from tribodyn.tribology.oil import LubricantData
 
 _ALONG = ("roll_angle",)
@@ -66,7 +68,7 @@ class AssessmentTable(Table):
         16, description="of the deviations that the tolerance class allows, for their scatter; 0: none"
     )
     friction_laws: tuple[Text, ...] = Field(
-        ("masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),
+        (AUTO, "masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),
         min_length=1,
         max_length=10,
         description="the first for everything, the others for the spread of the losses",
@@ -83,6 +85,12 @@ class AssessmentCase(GearCase):
     quality: Quality  # deviations of the gears by ISO 1328-1
     settings: AssessmentTable
     limits: Mapping[str, Any]  # name of a limit -> its value, SI units
+
+    def with_laws(self) -> LubricatedCase:
+        """The gears at their duty with the first friction law, and the film law that goes with it."""
+        gears = {field.name: getattr(self, field.name) for field in fields(GearCase)}
+        first = FrictionData(self.settings.friction_laws[0])
+        return with_chosen_laws(LubricatedCase(**gears, lubricant=self.lubricant, friction=first))
 
 
 #: Positions of the slow rotation, and places of one pair's path among them.

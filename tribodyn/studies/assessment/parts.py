@@ -33,6 +33,7 @@ from tribodyn.studies.protocol.evaluated import evaluated
 from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult
 from tribodyn.studies.protocol.study import Progress, Study
+from tribodyn.tribology.law import AUTO
 
 
 class Part(NamedTuple):
@@ -55,6 +56,10 @@ def request_of(case: AssessmentCase) -> Request:
         "temperature": data.get("temperature", {"model": "iso", "lubrication": settings.lubrication}),
         "damping_ratio": settings.damping_ratio,
     }
+    found = case.with_laws()
+    first = str(found.friction.law)
+    if found.film.law is not None:
+        tables["film"] = {"law": found.film.law}
     assembly = Assembly(family(case.family), case.drive)
     _, pitch_deviation = base_pitch_deviation(assembly, case.quality)
     return Request(
@@ -64,7 +69,7 @@ def request_of(case: AssessmentCase) -> Request:
         case.operating.gear_torque,
         tuple(case.operating.gear_torque * share for share in settings.torque_shares),
         tuple(sorted({*map(float, speeds), case.operating.pinion_speed})),
-        settings.friction_laws,
+        tuple(dict.fromkeys((first, *(name for name in settings.friction_laws[1:] if name != AUTO)))),
         pitch_deviation,
         settings.samples,
     )

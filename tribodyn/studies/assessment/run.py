@@ -26,6 +26,7 @@ from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
+from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.oil import oil_values
 
 #: What is no number, or has the unit of what is compared; what ends the name of a scatter.
@@ -191,7 +192,13 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     """What is chosen here, or stands in for what the scenario does not say."""
     settings, stages = case.settings, case.lubricant.fzg
     tables = {name: table for name, table in tomllib.loads(case.toml).items() if isinstance(table, Mapping)}
+    laws = case.with_laws()
     sentences = [
+        f"{law.table.capitalize()} law {law.name}: {data.chosen}."
+        for law, data in zip(laws_of(laws), (laws.film, laws.friction), strict=True)
+        if data.chosen
+    ]
+    sentences += [
         f"{name.capitalize()}: {text}" for name, table in tables.items() for text in _of_models(table)
     ]
     for name, value in oil_values(case.lubricant).items():

@@ -19,6 +19,7 @@ from tribodyn.scenario.tables.quality import tolerances_of
 from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
 from tribodyn.studies.gears.scenario import FaceSlices, GearScenario, Oil, broken_gear_rules, gear_fields
 from tribodyn.tribology.friction import FRICTION_LAWS
+from tribodyn.tribology.law import AUTO
 
 Pressure = Annotated[float, InUnit(units.positive(units.PRESSURE), "1.5 GPa")]
 Length = Annotated[float, InUnit(units.positive(units.LENGTH), "5 um")]
@@ -120,6 +121,8 @@ def _broken_settings(scenario: Scenario) -> Iterator[InputError]:
         rule = "the last speed must be above the first"
         yield InputError("assessment.speed_range", f"[{first:g}, {last:g}]", rule, "write [0.2, 2.5]")
     for name in settings.friction_laws:
+        if name == AUTO:
+            continue
         if name not in FRICTION_LAWS:
             yield unknown_name("assessment.friction_laws", name, FRICTION_LAWS, FRICTION_LAWS.what)
             continue

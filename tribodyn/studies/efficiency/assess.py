@@ -27,11 +27,12 @@ def tasks(request: Request) -> tuple[Task, ...]:
         "mesh": {"compliance": "fem", **tables.get("mesh", {})},
         **{name: tables[name] for name in ("temperature", "losses") if name in tables},
     }
+    film = {name: tables[name] for name in ("film",) if name in tables}
     return tuple(
         Task(
             f"{_TASK}{law}",
             f"film and losses, {law}",
-            {**shared, "friction": {"law": law}},
+            {**shared, "friction": {"law": law}, **(film if law == request.laws[0] else {})},
             needed=law == request.laws[0],
         )
         for law in request.laws
