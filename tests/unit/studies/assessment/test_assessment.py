@@ -56,7 +56,7 @@ def test_the_simulation_stands_beside_it(assessed: dict):
     for name in ("h_Y", "lambda_GF", "mu_m", "theta_M"):
         assert 0.5 < own[name]["C"] / iso[name]["C"] < 2.0, name
     assert own["loss"] == pytest.approx(
-        (1.0 - assessed["efficiency"]) / assessed["efficiency"] * 20e3, rel=1e-6
+        (1.0 - assessed["efficiency"]) / assessed["efficiency"] * 60e3, rel=1e-6
     )
     assert set(assessed["loss_by_law"]) == {"masjedi-khonsari", "niemann"}
     assert assessed["margins"]["iso"]["S_lambda"] == pytest.approx(
@@ -66,7 +66,7 @@ def test_the_simulation_stands_beside_it(assessed: dict):
 
 def test_a_deviating_tooth_and_samples_stand_beside_accurate_teeth(assessed: dict):
     own = assessed["simulated"]
-    whole = 20e3 / (1800.0 * math.pi / 30.0) / (27e-3 * math.cos(math.radians(20.0)))
+    whole = 60e3 / (1800.0 * math.pi / 30.0) / (27e-3 * math.cos(math.radians(20.0)))
     with Record(Path(assessed["record"]).with_name("assessment-parts") / "loaded-contact.h5") as record:
         accurate = record.summary["shared_load_max"]
     assert 1.0 < own["K_Halpha"] <= whole / accurate * (1.0 + 1e-9)

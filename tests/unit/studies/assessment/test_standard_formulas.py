@@ -70,7 +70,9 @@ def deviations() -> tuple[float, float]:
 
 @pytest.fixture(scope="module")
 def case(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    return load_scenario(written_template("assessment", tmp_path_factory.mktemp("hand")))
+    duty = {"operating.power": "20 kW", "operating.oil_temperature": "80 degC"}
+    scenario = written_template("assessment", tmp_path_factory.mktemp("hand"))
+    return load_scenario(scenario, {**duty, "drive.mean_roughness": "0.8 um"})
 
 
 @pytest.fixture(scope="module")
