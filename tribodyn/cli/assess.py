@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from tribodyn.cli.options import LargeOption, ScenarioArgument, SetOption, overrides
+from tribodyn.cli.options import FullOption, LargeOption, ScenarioArgument, SetOption, overrides
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -32,6 +32,7 @@ def assess(
         ),
     ] = False,
     allow_large: LargeOption = False,
+    full: FullOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
 ) -> None:
     """Assess a drive: loads, vibration, film, temperatures, losses, margins; one folder, one report."""
@@ -40,10 +41,9 @@ def assess(
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
     from tribodyn.numerics.output_files import check_output, make_folder
-    from tribodyn.post.report import as_json
     from tribodyn.record.reader import Record
     from tribodyn.studies import STUDIES
-    from tribodyn.studies.pages import summary_table, write_report
+    from tribodyn.studies.pages import summary_json, summary_table, write_report
     from tribodyn.studies.protocol.load import load
 
     loaded = load(scenario, overrides(settings))
@@ -64,13 +64,13 @@ def assess(
         end(SIMULATION_FAILED, f"{loaded.path}: {reason}")
     with Record(result.path) as record:
         page = write_report([record], folder / PAGE, force=force)
-        head = as_json(record)
+        head = summary_json(record)
         data: dict[str, Any] = {**head.pop("summary"), **head, "report": str(page)}
         write_json(folder / DATA, data, force)
         if json:
             print_json(data)
             return
-        print_rich(summary_table(record))
+        print_rich(summary_table(record, full))
     for what, file in (("record", result.path), ("data", folder / DATA), ("report", page)):
         print_files(what, [file])
     limits = data.get("limits", {}).items()

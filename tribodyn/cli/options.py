@@ -111,6 +111,10 @@ ReplaceOption = Annotated[
     bool, typer.Option("--force", help="Replace also files that tribodyn did not make, and links.")
 ]
 
+FullOption = Annotated[
+    bool, typer.Option("--full", help="Print also the solver's numbers, and how far to trust the result.")
+]
+
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 #: Characters of a key; above that it is none of a scenario's.
 LONGEST_KEY = 200

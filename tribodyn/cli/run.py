@@ -8,6 +8,7 @@ import typer
 
 from tribodyn.cli.options import (
     ForceOption,
+    FullOption,
     LargeOption,
     ScenarioArgument,
     SetOption,
@@ -46,6 +47,7 @@ def run(
     report: Annotated[
         bool, typer.Option("--report", help="Also write a page for the browser, beside the record.")
     ] = False,
+    full: FullOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
     """Run a scenario: record, summary, picture."""
@@ -56,6 +58,7 @@ def run(
         output=output,
         plot=plot,
         report=report,
+        full=full,
         json=json,
         force=force,
         resume=resume,
@@ -69,6 +72,7 @@ def run_loaded(
     output: Path | None,
     plot: bool | None,
     report: bool,
+    full: bool,
     json: bool,
     force: bool,
     resume: bool,
@@ -102,7 +106,7 @@ def run_loaded(
             from tribodyn.studies.pages import summary_table
 
             with Record(result.path) as opened:
-                print_rich(summary_table(opened))
+                print_rich(summary_table(opened, full))
         drawn = ahead.pictures() if ahead and not failed else None
     page = None
     try:
@@ -117,10 +121,10 @@ def run_loaded(
     except OutputError as error:
         raise OutputError(error.file, error.reason, f"the record is complete: {result.path}") from None
     if json:
-        from tribodyn.post.report import as_json
+        from tribodyn.studies.pages import summary_json
 
         with Record(result.path) as opened:
-            data = as_json(opened)
+            data = summary_json(opened)
         data |= {name: data["summary"].get(name) for name in loaded.study.top()}
         files = {"pictures": [str(path) for path in drawn], **({"report": str(page)} if page else {})}
         print_json(data | files)

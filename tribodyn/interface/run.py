@@ -212,8 +212,8 @@ class Run:
         return f"<tribodyn run: {title} [{', '.join(filter(None, (state, judged)))}], {self.path}>"
 
     def _repr_html_(self) -> str:
-        """Title, warnings, a small picture, the summary and how far to trust it, for notebooks."""
-        from tribodyn.post.page.page import summary_tables, warnings_of
+        """Title, verdict, a small picture, the summary and how far to trust it, for notebooks."""
+        from tribodyn.post.page.page import summary_tables, verdict_list, warnings_of
         from tribodyn.studies.pages import study_of_record
 
         with Record(self.path) as record:
@@ -221,9 +221,10 @@ class Run:
             return shown.block(
                 shown.heading(str(self.scenario.get("title", self.path.stem)), self.status, self.trust),
                 warnings_of(record, named=False),
+                verdict_list(study.verdict(record)),
                 shown.picture_of_run(record, study),
                 summary_tables([record], [study.reported()]),
-                shown.listed("How far to trust it", [*self.reasons, *study.sentences(record)]),
+                shown.folded("How far to trust it", [*self.reasons, *study.sentences(record)]),
             )
 
 

@@ -76,10 +76,10 @@ def heading(title: str, *remarks: str) -> str:
     return f"<p><b>{escape(title)}</b>{''.join(f'<br>{escape(remark)}' for remark in remarks if remark)}</p>"
 
 
-def listed(title: str, sentences: Sequence[str]) -> str:
-    """Write sentences below a title; nothing, where there are none."""
+def folded(title: str, sentences: Sequence[str]) -> str:
+    """Write sentences that unfold below a title; nothing, where there are none."""
     items = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences)
-    return f"<h3>{escape(title)}</h3><ul>{items}</ul>" if items else ""
+    return f"<details><summary>{escape(title)}</summary><ul>{items}</ul></details>" if items else ""
 
 
 def tables(some: Iterable[TextTable]) -> str:

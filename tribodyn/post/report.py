@@ -9,6 +9,7 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
+from tribodyn.post.verdict import meaning
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
@@ -16,26 +17,29 @@ from tribodyn.record.withheld import reasons, warnings
 
 #: How a sentence on exceeded limits of a law begins: it is shown in another colour.
 EXCEEDED = "Limits of the"
+#: Heading of what only those ask for who look into how it was computed.
+SOLVER = "Solver"
 
 
-def summary_table(record: Record, reported: Reported, sentences: Sequence[str]) -> Group:
+def summary_table(
+    record: Record, reported: Reported, verdict: Sequence[str], sentences: Sequence[str] | None
+) -> Group:
     """Lay out the summary of a record for the terminal (a rich renderable), in engineers' units.
 
-    `reported` is what the study of the record has in its summary, `sentences` say how far to trust it.
+    `reported` is what the study of the record has in its summary, `verdict` what it says first, `sentences`
+    how far to trust it; None leaves these details out, and those of the solver.
     """
     parts: list[Any] = [Text(str(record.scenario.get("title", record.path.stem)), style="bold")]
-    if record.status != "complete":
-        parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
-    if record.trust == trust.OUTSIDE:
-        parts.append(Text(f"{trust.OUTSIDE}: not to be trusted, see below", style="bold red"))
-    elif record.trust == trust.EXTRAPOLATED:
-        parts.append(Text(f"{record.trust}: {'; '.join(trust.reasons(record.summary))}", style="yellow"))
+    urgent = "bold red" if record.status != "complete" or record.trust == trust.OUTSIDE else ""
+    parts += [Text(line, style=urgent if place == 0 else "") for place, line in enumerate(verdict)]
     table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column(no_wrap=True)
     table.add_column(justify="right")
     table.add_column(no_wrap=True)
     withheld = reasons(record.summary)
     for group, quantities in reported.items():
+        if sentences is None and group == SOLVER:
+            continue
         rows = []
         for quantity in quantities:
             label, value = quantity.in_table, record.summary.get(quantity.name)
@@ -49,7 +53,10 @@ def summary_table(record: Record, reported: Reported, sentences: Sequence[str]) 
             table.add_row(Text(group, style="bold cyan"), "", "")
         for row in rows:
             table.add_row(*row)
-    parts += [table, Text("How far to trust it", style="bold cyan")]
+    parts.append(table)
+    if sentences is None:
+        return Group(*parts)
+    parts.append(Text("How far to trust it", style="bold cyan"))
     parts += [Text(f"  Warning: {warning}.", style="bold red") for warning in warnings(record.summary)]
     lines = [*sentences]
     if record.status != "complete":
@@ -79,7 +86,7 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
     sentences = []
     fraction = summary.get("closure_in_range_fraction")
     if fraction is not None:
-        outside = "" if fraction >= 1 else "; the rest is extrapolated, see closure_in_range"
+        outside = "" if fraction >= 1 else "; the rest is extrapolated"
         sentences.append(f"The film law is inside its range in {_percent(fraction)} of the contact{outside}.")
         sentences += exceeded(summary, "closure_exceeded", "film law")
     if summary.get("film_thickness") == "minimum":
@@ -90,11 +97,16 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
     if friction is not None and not (friction >= 1):
         sentences.append(
             f"The friction law {name} is inside its range in {_percent(friction)} of the contact; "
-            "the rest is extrapolated, see friction_in_range."
+            "the rest is extrapolated."
         )
         sentences += exceeded(summary, "friction_exceeded", "friction law")
     elif friction is None and name not in (None, "none"):
         sentences.append(f"The friction law {name} states no range of validity.")
+    sentences += [
+        f"The {what} law is {summary[f'{what}_law']}, {summary[f'{what}_chosen']}."
+        for what in ("film", "friction")
+        if f"{what}_chosen" in summary
+    ]
     sentences += _without_judged_range(summary)
     errors = [
         f"{what} within {100 * float(summary[key]):.2g} %"
@@ -127,14 +139,15 @@ def _without_judged_range(summary: Mapping[str, Any]) -> list[str]:
 
 
 def exceeded(summary: Mapping[str, Any], name: str, law: str) -> list[str]:
-    """Say which limits of a law are exceeded, by how much and in which share of the contact."""
+    """Say what exceeds the limits of a law, and in which share of the contact."""
     found = summary.get(name)
     if not isinstance(found, Mapping) or not found:
         return []
-    parts = []
+    shares: dict[str, float] = {}
     for excess in found.values():
-        factor = f" by up to {float(excess['factor']):.3g} times" if "factor" in excess else ""
-        parts.append(f"{excess['limit']}{factor} in {_percent(float(excess['share']), up=True)}")
+        what = meaning(str(excess["limit"]))
+        shares[what] = max(float(excess["share"]), shares.get(what, 0.0))
+    parts = [f"{what} in {_percent(share, up=True)}" for what, share in shares.items()]
     return [f"{EXCEEDED} {law} exceeded: {'; '.join(parts)} of the contact."]
 
 
@@ -152,14 +165,15 @@ def _percent(fraction: float, up: bool = False) -> str:
     return f"{min(tenths, 999) / 10:.1f} %" if fraction < 1 else "100 %"
 
 
-def as_json(record: Record) -> dict[str, Any]:
-    """A record's head and summary, SI units, as `cli.printing.plain` turns them into JSON."""
+def as_json(record: Record, verdict: Sequence[str]) -> dict[str, Any]:
+    """A record's head, verdict and summary, SI units, as `cli.printing.plain` turns them into JSON."""
     head = ("created", "tribodyn_version", "scenario_sha256")
     return {
         "record": str(record.path),
         "title": record.scenario.get("title", ""),
         "status": record.status,
         "message": record.message,
+        "verdict": [*verdict],
         "trust": record.trust,
         "trust_reasons": trust.reasons(record.summary),
         **{name: record.attrs[name] for name in head},

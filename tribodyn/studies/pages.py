@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from tribodyn.errors import InputError, SimulationError, near_name
 from tribodyn.numerics.output_files import check_output, write_output
@@ -101,12 +101,20 @@ def overview(record: Record) -> "Figure":
     return figure(OVERVIEW, [record])
 
 
-def summary_table(record: Record) -> "Group":
-    """Lay out the summary of a record for the terminal."""
+def summary_table(record: Record, full: bool = False) -> "Group":
+    """Lay out the summary of a record for the terminal; the `full` one says how far to trust it in detail."""
     from tribodyn.post import report
 
     study = study_of_record(record)
-    return report.summary_table(record, study.reported(), study.sentences(record))
+    details = study.sentences(record) if full else None
+    return report.summary_table(record, study.reported(), study.verdict(record), details)
+
+
+def summary_json(record: Record) -> "dict[str, Any]":
+    """The same for programs, SI units, as `cli.printing.plain` turns it into JSON."""
+    from tribodyn.post import report
+
+    return report.as_json(record, study_of_record(record).verdict(record))
 
 
 def compare(records: Sequence[Record]) -> "Comparison":
@@ -204,6 +212,7 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
             study.maps(record),
             sheet(record) if figures else (),
             study.profiles(record),
+            verdict=study.verdict(record),
         )
         for study, record in zip(studies, records, strict=True)
     ]

@@ -156,17 +156,26 @@ def law_quantities(case: Lubricated) -> dict[str, Any]:
     }
 
 
-def exceeded_limits(case: Lubricated, closure_shares: Any, friction_shares: Any) -> dict[str, Any]:
+def exceeded_limits(
+    case: Lubricated, closure_shares: Any, friction_shares: Any, loss: Any = None
+) -> dict[str, Any]:
     """Which limits of the laws in use are exceeded, for a summary: `closure_exceeded`, `friction_exceeded`.
 
-    The shares are (contacts, limits), see `surface_state.range_shares`, of loaded contacts.
+    The shares are (contacts, limits), see `surface_state.range_shares`, of loaded contacts, `loss` (contact,)
+    the power that friction takes there. `film_outside` is the share of the contacts, `friction_outside` that
+    of the loss, outside the limits by the solved contact, or its authors' of a law without such.
     """
-    film, friction = laws_of(case)
-    found = {
-        "closure_exceeded": exceeded(closure_shares, film.named_limits),
-        "friction_exceeded": exceeded(friction_shares, friction.named_limits),
-    }
-    return {name: limits for name, limits in found.items() if limits}
+    found: dict[str, Any] = {}
+    parts = (("closure", closure_shares, None), ("friction", friction_shares, loss))
+    for law, (name, shares, weight) in zip(laws_of(case), parts, strict=True):
+        if limits := exceeded(shares, law.named_limits):
+            found[f"{name}_exceeded"] = limits
+        if law.limits and shares.shape[-1] == len(law.limits) and len(shares):
+            judged = law.judged.limits if law.judged else 0
+            outside = np.any(shares[:, -judged:] < 1.0, axis=1)
+            weighed = weight if weight is not None and np.any(weight > 0.0) else None
+            found[f"{law.table}_outside"] = float(np.average(outside, weights=weighed))
+    return found
 
 
 def surfaces_of(case: Lubricated) -> Surfaces:

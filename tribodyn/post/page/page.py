@@ -49,6 +49,7 @@ class PageContent(NamedTuple):
     profiles: Profiles | None = None  # what is shown at the cursor
     heading: str = "Geometry"
     pictures: Sequence[tuple[str, str, Figure]] = ()  # sequence of (name, about, figure)
+    verdict: Sequence[str] = ()  # what it says first
 
 
 def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bool = True) -> str:
@@ -77,7 +78,10 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
     axis = f"{records[0].axis.replace('_', ' ')} ({units[0]})"
     several = len(records) > 1
     sections = {
-        "WARNINGS": "".join(warnings_of(record, several) for record in records),
+        "WARNINGS": "".join(
+            warnings_of(record, several) + _verdict(record, content, several)
+            for record, content in zip(records, contents, strict=True)
+        ),
         "SUMMARY": summary_tables(records, [content.reported for content in contents]) if figures else "",
         "TRUST": "".join(
             _on_trust(record, content.sentences, several)
@@ -204,11 +208,24 @@ def _cell(record: Record, quantity: Quantity) -> str:
     return "" if value is None else quantity.written(value)
 
 
+def _verdict(record: Record, content: PageContent, named: bool) -> str:
+    return verdict_list([f"{record.label}: {line}" if named else line for line in content.verdict])
+
+
+def verdict_list(lines: Sequence[str]) -> str:
+    """What a record's study says first, above all numbers."""
+    return (
+        f'<ul class="verdict-lines">{"".join(f"<li>{escape(line)}</li>" for line in lines)}</ul>'
+        if lines
+        else ""
+    )
+
+
 def _on_trust(record: Record, sentences: Sequence[str], named: bool) -> str:
     heading = f"<h3>{escape(record.label)}</h3>" if named else ""
     marks = [' class="note"' if sentence.startswith(EXCEEDED) else "" for sentence in sentences]
     items = (f"<li{mark}>{escape(sentence)}</li>" for mark, sentence in zip(marks, sentences, strict=True))
-    return f"{heading}<ul>{''.join(items)}</ul>"
+    return f"{heading}<details><summary>Details</summary><ul>{''.join(items)}</ul></details>"
 
 
 def _sheets(records: Sequence[Record], contents: Sequence[PageContent]) -> str:

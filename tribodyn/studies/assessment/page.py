@@ -7,7 +7,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from tribodyn.post.page.page import document, summary_tables, table, warnings_of
+from tribodyn.post.page.page import document, summary_tables, table, verdict_list, warnings_of
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
@@ -17,6 +17,7 @@ from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.figures import pictures
 from tribodyn.studies.assessment.margins import LIMITS
+from tribodyn.studies.assessment.report import on_limits, verdict
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.pages import loaded_again, overview
 from tribodyn.studies.protocol.study import Study
@@ -75,26 +76,11 @@ def page(record: Record) -> str:
 
 
 def _verdict(record: Record, summary: Mapping[str, Any]) -> str:
-    limits = summary.get("limits", {})
-    exceeded = [LIMITS[name].label for name, found in limits.items() if not found["kept"]]
-    within = [
-        f"{LIMITS[name].label} ({LIMITS[name].quantity.in_unit(found['p95']):.3g} at 95 %)"
-        for name, found in limits.items()
-        if found["kept"] and not found.get("kept_p95", True)
-    ]
-    verdicts = []
-    if exceeded:
-        verdicts.append(("bad", f"Limits exceeded: {'; '.join(exceeded)}."))
-    elif limits and not within:
-        verdicts.append(("good", f"All {len(limits)} limits hold."))
-    if within:
-        accurate = "" if exceeded else f"All {len(limits)} limits hold with accurate teeth. "
-        verdicts.append(
-            ("bad", f"{accurate}Exceeded within the scatter of the deviations: {'; '.join(within)}.")
-        )
-    paragraphs = [f'<p class="verdict {kind}">{escape(text)}</p>' for kind, text in verdicts]
+    marked = [("good" if good else "bad", text) for good, text in on_limits(summary)]
+    paragraphs = [f'<p class="verdict {kind}">{escape(text)}</p>' for kind, text in marked]
     warnings = warnings_of(record, named=False).replace('class="warning"', 'class="verdict bad"')
-    return "".join(paragraphs) + warnings
+    lines = [line for line in verdict(record) if line not in [text for _, text in marked]]
+    return "".join(paragraphs) + warnings + verdict_list(lines)
 
 
 def _asked(case: AssessmentCase) -> str:

@@ -1,8 +1,13 @@
 """Reported quantities of an assessment, and how far to trust them."""
 
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from tribodyn.post.verdict import outside, with_unit
 from tribodyn.quantities.catalogue import quantities, scatter_of
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
+from tribodyn.studies.assessment.margins import LIMITS
 
 REPORTED: Reported = {
     "Geometry": quantities("contact_ratio", "contact_ratio_effective"),
@@ -34,6 +39,54 @@ SWEPT = quantities(
 )
 
 PANELS = ("hertz_pressure", "contact_temperature", "specific_film")
+
+
+def on_limits(summary: Mapping[str, Any]) -> list[tuple[bool, str]]:
+    """Whether the limits hold: good or bad, and the sentence."""
+    limits = summary.get("limits", {})
+    exceeded = [LIMITS[name].label for name, found in limits.items() if not found["kept"]]
+    within = [
+        f"{LIMITS[name].label} ({LIMITS[name].quantity.in_unit(found['p95']):.3g} at 95 %)"
+        for name, found in limits.items()
+        if found["kept"] and not found.get("kept_p95", True)
+    ]
+    found = []
+    if exceeded:
+        found.append((False, f"Limits exceeded: {'; '.join(exceeded)}."))
+    elif limits and not within:
+        found.append((True, f"All {len(limits)} limits hold."))
+    if within:
+        accurate = "" if exceeded else f"All {len(limits)} limits hold with accurate teeth. "
+        found.append(
+            (False, f"{accurate}Exceeded within the scatter of the deviations: {'; '.join(within)}.")
+        )
+    return found
+
+
+def verdict(record: Record) -> list[str]:
+    """Say whether the limits hold, what moves and presses, what is lost, and how far to trust it."""
+    found = [sentence for _, sentence in on_limits(record.summary)]
+    return [*found, *shown(record.summary), *outside(record.summary)]
+
+
+def shown(summary: Mapping[str, Any]) -> Iterator[str]:
+    """What moves, presses and is lost."""
+    if "dynamic_factor" in summary:
+        parts = [f"Vibration raises the tooth forces to {summary['dynamic_factor']:.2f} times their mean"]
+        if (highest := summary.get("dynamic_factor_max")) is not None:
+            speed = with_unit("dynamic_factor_max_speed", summary["dynamic_factor_max_speed"])
+            parts[0] += f", at {speed} to {highest:.2f} times"
+        if (lost := summary.get("contact_loss_speed_from")) is not None:
+            parts.append(f"the teeth separate from {with_unit('contact_loss_speed_from', lost)}")
+        yield f"{'; '.join(parts)}."
+    if "specific_film_min" in summary:
+        pressure = with_unit("hertz_pressure_max", summary["hertz_pressure_max"])
+        hot = with_unit("contact_temperature_max", summary["contact_temperature_max"])
+        film = f"the film is at least {summary['specific_film_min']:.2g} times their Ra"
+        yield f"The flanks press with up to {pressure} and reach {hot}; {film}."
+    if "efficiency" in summary:
+        ends = " to ".join(f"{100.0 * summary[f'efficiency_{end}']:.2f}" for end in ("lowest", "highest"))
+        yield f"The mesh is {100.0 * summary['efficiency']:.2f} % efficient; by other friction laws {ends} %."
 
 
 def sentences(record: Record) -> list[str]:

@@ -1,5 +1,6 @@
 """Reported quantities of a frequency sweep, and how far to trust them."""
 
+from tribodyn.post.verdict import share
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
@@ -17,6 +18,34 @@ REPORTED: Reported = {
     "Solver": quantities("wall_time"),
 }
 SWEPT = quantities(*_OF_THE_WAYS, "points_not_periodic", "points_of_longer_period")
+
+
+def verdict(record: Record) -> list[str]:
+    """Say where the response is largest, where contact is lost, where it jumps, and what does not repeat."""
+    summary = record.summary
+    found = []
+    if "rms_max" in summary:
+        largest, place = summary["rms_max"], summary["rms_max_frequency"]
+        found.append(
+            f"The response is largest at Ω = {place:.4g}: {largest:.3g} half backlashes RMS about the mean."
+        )
+    if "contact_loss_from" in summary:
+        ends = " to ".join(f"{summary[f'contact_loss_{end}']:.4g}" for end in ("from", "to"))
+        longest = share(summary["contact_loss_fraction_max"])
+        found.append(f"The teeth separate from Ω = {ends}, for {longest} of the time at most.")
+    elif "rms_max" in summary:
+        found.append("The teeth stay in contact at all frequencies.")
+    if "bistable_from" in summary:
+        ends = " to ".join(f"{summary[f'bistable_{end}']:.4g}" for end in ("from", "to"))
+        found.append(f"Two motions exist from Ω = {ends}: which one is met depends on the way there.")
+    if wandering := summary.get("points_not_periodic"):
+        chaotic = summary.get("points_chaotic", 0)
+        found.append(f"{wandering} of {summary['points']} points do not repeat, {chaotic} of them chaotic.")
+    if failed := summary.get("points_failed"):
+        found.append(
+            f"{failed} of {summary['points']} points grow without bound: there is no steady motion there."
+        )
+    return found
 
 
 def sentences(record: Record) -> list[str]:

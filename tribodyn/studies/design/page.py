@@ -9,7 +9,7 @@ from tribodyn.post.page.page import PageContent
 from tribodyn.post.page.page import page as write
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.figures import DRAWINGS
-from tribodyn.studies.design.report import PANELS, REPORTED, quantity_of, sentences
+from tribodyn.studies.design.report import PANELS, REPORTED, quantity_of, sentences, verdict
 from tribodyn.studies.pages import figure, sheet
 from tribodyn.studies.protocol.study import TextTable
 
@@ -31,6 +31,7 @@ def page(record: Record) -> str:
         tables=(*before_and_after(record), *sheet(record)),
         heading="Design",
         pictures=pictures,
+        verdict=verdict(record),
     )
     return write([record], [content])
 

@@ -27,6 +27,35 @@ PANELS = ("objective",)
 TOP = ("objective_start", "objective", "best", "evaluations")  # of what `run --json` prints
 
 
+def verdict(record: Record) -> list[str]:
+    """Say what was won, by which values, whether the constraints hold, and what could not be made."""
+    summary = record.summary
+    if "objective" not in summary:
+        return []
+    names = str(summary["objective_name"]).split(" and ")
+    start, best = (np.atleast_1d(summary.get(f"objective{end}", np.nan)) for end in ("_start", ""))
+    won = []
+    for place, name in enumerate(names):
+        before = start[place] if place < len(start) and start[place] is not None else np.nan
+        quantity = _quantity_or_name(record.scenario, name)
+        changed = (
+            f" ({100.0 * (best[place] / before - 1.0):+.2g} %)" if before and np.isfinite(before) else ""
+        )
+        won.append(f"{quantity.title}: {_change(record.scenario, name, before, best[place])}{changed}")
+    found = [f"{'; '.join(won)}."]
+    values = [f"{key} = {value}" for key, value in summary.get("best", {}).items()]
+    if values:
+        more = f" and {len(values) - 4} more" if len(values) > 4 else ""
+        found.append(f"By {', '.join(values[:4])}{more}.")
+    feasible, evaluations = summary.get("evaluations_feasible"), summary.get("evaluations")
+    if feasible is not None and evaluations:
+        holds = "The best keeps every constraint" if feasible else "No candidate keeps every constraint"
+        found.append(f"{holds}; {feasible} of {evaluations} candidates do.")
+    if feasible:
+        found.append("To do: run the best, which lies beside the record as a scenario of its own.")
+    return found
+
+
 def sentences(record: Record) -> list[str]:
     """Say what changed from the start to the best, and how the best was confirmed."""
     summary = record.summary

@@ -13,6 +13,10 @@ _QUANTITIES = (
     *("film_min", "film_parameter_min", "flash_temperature_max"),
     *("bulk_temperature", "power_load_independent", "efficiency_with_losses"),
 )
+#: What the verdict says of the laws.
+_LAWS = tuple(
+    f"{law}_{what}" for law in ("film", "friction") for what in ("law", "judged", "outside", "chosen")
+)
 
 
 def tasks(request: Request) -> tuple[Task, ...]:
@@ -46,7 +50,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     losses = {law: float(found["power_friction_mean"]) for law, found in summaries.items() if found}
     values = np.array(list(losses.values()))
     power = float(first["power_in_mean"])
-    quantities = {name: first[name] for name in _QUANTITIES if first.get(name) is not None}
+    quantities = {name: first[name] for name in (*_QUANTITIES, *_LAWS) if first.get(name) is not None}
     quantities |= {
         "loss_by_law": losses,
         "loss_lowest": float(values.min()),

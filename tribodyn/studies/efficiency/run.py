@@ -257,7 +257,12 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
         "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
         **law_quantities(study.case),
         "lubricant": oil_data(study.case.lubricant),
-        **exceeded_limits(study.case, state.closure_shares[loaded], state.friction_shares[loaded]),
+        **exceeded_limits(
+            study.case,
+            state.closure_shares[loaded],
+            state.friction_shares[loaded],
+            np.abs(state.friction_force * state.sliding)[loaded],
+        ),
         "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
         "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),
         "driving_gear": driving_gear(means.power_in, means.power_out),

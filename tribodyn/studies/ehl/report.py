@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.post.page.data import Profile, Profiles
+from tribodyn.post.verdict import share, with_unit
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
@@ -49,6 +50,32 @@ def profiles(record: Record) -> Profiles:
         rows = (Profile("transient_pressure"), Profile("transient_film_thickness", top), *rows)
     label = "Place in the direction of entrainment over the Hertz half width"
     return Profiles("The contact through the mesh", "place", label, rows)
+
+
+def verdict(record: Record) -> list[str]:
+    """Say what keeps the flanks apart, what friction and heat there are, and what squeeze changes."""
+    summary = record.summary
+    found = []
+    if "minimum_film_min" in summary:
+        film = with_unit("minimum_film_min", summary["minimum_film_min"])
+        ratio, carried = summary["film_parameter_min"], summary["asperity_load_ratio_max"]
+        asperities = (
+            f"asperities carry up to {share(carried)} of the load" if carried > 0.0 else "a full film"
+        )
+        pressure = with_unit("hertz_pressure_max", summary["hertz_pressure_max"])
+        found.append(f"The flanks press with up to {pressure}; {asperities}.")
+        found.append(f"The oil film is at least {film}; the central film is {ratio:.2g} times the roughness.")
+    if "friction_coefficient_mean" in summary:
+        rise = with_unit("temperature_rise_max", summary["temperature_rise_max"])
+        mean = summary["friction_coefficient_mean"]
+        found.append(
+            f"The friction coefficient is {mean:.3f} on the mean; the oil film heats by up to {rise}."
+        )
+    if (departure := summary.get("central_film_departure_max")) is not None:
+        found.append(f"Squeeze moves the central film by up to {share(departure)}.")
+    if (solved := summary.get("positions_solved", 0)) < (positions := summary.get("positions", 0)):
+        found.append(f"{positions - solved} of {positions} positions carry nothing, or have no solution.")
+    return found
 
 
 def sentences(record: Record) -> list[str]:

@@ -138,7 +138,8 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
             return RunResult(record.fail(message, summary), "failed", message, summary)
         last, work, speed = statistics.window(), statistics.window_work(), case.operating.pinion_speed
         touching = last["normal_load"] > 0.0
-        summary |= exceeded_limits(case, *(last[name][touching] for name in UNRECORDED))
+        loss = np.abs(last["friction_force"] * last["sliding_speed"])[touching]
+        summary |= exceeded_limits(case, *(last[name][touching] for name in UNRECORDED), loss)
         summary |= steady_quantities(last, work, cycle, samples, speed, statistics.in_window)
         summary |= thermal_quantities(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
         summary |= contact_quantities(case.lubricant, summary)

@@ -65,7 +65,8 @@ class Study:
                   ``quantities_of(case) -> dict``, those of a case without a record (optional: to be
                   swept)
     report        ``REPORTED``, heading -> quantities of the summary; ``sentences(record)``, how far it is
-                  to be trusted; ``SWEPT``, quantities that a sweep keeps, and ``SWEEP_TABLE``, those that
+                  to be trusted; ``verdict(record)``, what a reader asks first (optional: that of gears);
+                  ``SWEPT``, quantities that a sweep keeps, and ``SWEEP_TABLE``, those that
                   it prints (both optional); ``SHORT``, short names of quantities (optional); ``PANELS``,
                   datasets that a page shows at first (optional); ``TOP``, quantities at the top of what
                   is printed as JSON (optional);
@@ -202,6 +203,13 @@ class Study:
     def sentences(self, record: "Record") -> list[str]:
         """Say how far a record is to be trusted, and what its numbers are not."""
         return self._part("report", "sentences")(record)
+
+    def verdict(self, record: "Record") -> list[str]:
+        """Say in at most `verdict.LINES` sentences what a record shows, whether it holds, and what to do."""
+        from tribodyn.post import verdict
+
+        own = self._part("report", "verdict", optional=True)
+        return [*verdict.stopped(record), *(own or verdict.of_gears)(record)][: verdict.LINES]
 
     def swept(self) -> "Mapping[str, Quantity]":
         """Quantities that a sweep keeps of every case, by name; none: such a study cannot be swept."""

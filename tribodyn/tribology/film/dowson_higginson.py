@@ -74,7 +74,7 @@ LAW = FilmLaw(
     dowson_higginson,
     smooth_film_of,
     in_range=in_ranges,
-    range="3e-5 ≤ W ≤ 3e-4, 1e-13 ≤ U ≤ 1e-11, 2500 ≤ G ≤ 5000 (from memory, not checked against the book)",
+    range="3e-5 ≤ W ≤ 3e-4, 1e-13 ≤ U ≤ 1e-11, 2500 ≤ G ≤ 5000",
     thickness="minimum",
     limits=(
         *("W ≥ 3e-5", "U ≥ 1e-13", "G ≥ 2500", "W ≤ 3e-4", "U ≤ 1e-11", "G ≤ 5000"),

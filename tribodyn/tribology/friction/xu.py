@@ -80,8 +80,7 @@ LAW = FrictionLaw(
     "regression over thermal EHL solutions for oil 75W90, Xu (2005)",
     xu_at,
     in_range=in_fitted_range,
-    range="Hertz pressure 0.5 … 2.5 GPa, slide-to-roll ratio ≤ 1, roughness ≤ 1 µm "
-    "(from memory of the dissertation)",
+    range="Hertz pressure 0.5 … 2.5 GPa, slide-to-roll ratio ≤ 1, roughness ≤ 1 µm",
     limits=("p_H ≥ 0.5 GPa", "p_H ≤ 2.5 GPa", "slide-to-roll ratio ≤ 1", "roughness ≤ 1 µm"),
     judged=JudgedRange((0.5, 2.0), (0.656, 1.94, 14.3), outside=(0.599, 6.51, 50.7)),
     reads_film=False,

@@ -1,0 +1,181 @@
+"""The verdict on a record: what moves, what presses, what is lost, what lies outside the model, what to do.
+
+Each line is a sentence for a reader who has never seen the program; the numbers behind it stand in the
+details of the summary. A line is left out where a record lacks what it is about.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.record import trust
+from tribodyn.record.reader import Record
+
+#: Lines of a verdict, at most.
+LINES = 5
+#: Share of the contact, or of the loss, outside the limits of a law from which its values are in doubt.
+IN_DOUBT = 0.1
+#: Film over roughness below which asperities carry much of the load, and above which they carry none.
+ROUGH, SMOOTH = 1.0, 3.0
+#: Share of the time without contact that counts; factor on the mean mesh force that is a resonance.
+APART, RESONANT = 1e-4, 1.5
+#: What it means that a limit of a law is exceeded, by how the limit begins.
+_MEANS = {
+    "σ/ρ ≤": "the flanks are rougher than it was fitted for",
+    "roughness factor": "roughness raises the film more than twofold",
+    "roughness ≤": "the flanks are too rough for it",
+    "Ra ≤": "the flanks are too rough for it",
+    "M ≥": "the contact is lightly loaded",
+    "M ≤": "the contact is heavily loaded",
+    "L ≥": "the oil hardly thickens under pressure",
+    "L ≤": "the oil is thick or fast",
+    "η0 u² ≤": "the oil heats before it enters the contact",
+    "p_H ≤": "the pressure is high",
+    "p_H ≥": "the pressure is low",
+    "W ≥": "the load is low",
+    "W ≤": "the load is high",
+    "U ≥": "speed or viscosity is low",
+    "U ≤": "speed or viscosity is high",
+    "Newtonian stress": "the oil is sheared less than it takes to reach its limit",
+    "slide-to-roll": "the flanks slide fast",
+    "sliding ≥": "the flanks hardly slide",
+    "2 m/s": "speed or load is outside the standard",
+}
+
+
+def moved(summary: Mapping[str, Any]) -> Iterable[str]:
+    """What moves."""
+    if (error := summary.get("transmission_error_peak_to_peak")) is not None:
+        parts = [f"The transmission error swings by {with_unit('transmission_error_peak_to_peak', error)}"]
+        factor = summary.get("dynamic_factor")
+        if factor is not None and np.isfinite(factor):
+            parts.append(f"vibration raises the tooth forces to {factor:.2f} times their mean")
+        apart = summary.get("contact_loss_fraction") or 0.0
+        parts.append(
+            f"the teeth are apart for {share(apart)} of the time" if apart > APART else "no tooth lifts off"
+        )
+        yield f"{'; '.join(parts)}."
+    if (loaded := summary.get("loaded_transmission_error_peak_to_peak")) is not None:
+        text = with_unit("loaded_transmission_error_peak_to_peak", loaded)
+        yield f"In slow rotation under load the transmission error swings by {text}."
+
+
+def pressed(summary: Mapping[str, Any]) -> Iterable[str]:
+    """What presses, and what keeps the flanks apart."""
+    parts = []
+    if (pressure := summary.get("hertz_pressure_max")) is not None:
+        parts.append(f"The flanks press with up to {with_unit('hertz_pressure_max', pressure)}")
+    ratio, film = summary.get("film_parameter_min"), summary.get("film_min")
+    if ratio is not None and np.isfinite(ratio):
+        thick = f"at least {with_unit('film_min', film)}, " if film is not None else "at least "
+        state = (
+            "a full film"
+            if ratio >= SMOOTH
+            else f"asperities carry {'part' if ratio >= ROUGH else 'much'} of the load"
+        )
+        parts.append(f"the oil film is {thick}{ratio:.2g} times the roughness: {state}")
+    roots = [
+        summary[name] for name in ("pinion_root_tension_max", "gear_root_tension_max") if name in summary
+    ]
+    if roots:
+        parts.append(f"the tooth root is pulled with {with_unit('pinion_root_tension_max', max(roots))}")
+    if parts:
+        yield f"{'; '.join(parts)}."
+
+
+def lost(summary: Mapping[str, Any]) -> Iterable[str]:
+    """What is lost."""
+    power, friction = summary.get("power_in_mean"), summary.get("power_friction_mean")
+    if power and friction is not None and friction > 0.0:
+        mean = summary.get("friction_coefficient_mean")
+        coefficient = f", at a mean coefficient of {mean:.3f}" if mean is not None else ""
+        through = share(friction / abs(power))
+        yield f"Friction takes {watts(friction)} of {watts(abs(power))}, {through}{coefficient}."
+
+
+def outside(summary: Mapping[str, Any]) -> Iterable[str]:
+    """What lies outside the model, and how far film and friction are from the solved contact."""
+    if brief := trust.brief(summary):
+        yield f"{brief[0].upper()}{brief[1:]}: these numbers are not to be trusted."
+    holding = []
+    for what, where in (("film", "contact"), ("friction", "loss")):
+        law, judged = summary.get(f"{what}_law"), summary.get(f"{what}_judged")
+        if not isinstance(judged, Mapping):
+            continue
+        beyond = summary.get(f"{what}_outside") or 0.0
+        in_doubt = beyond >= IN_DOUBT
+        low, middle, high = (
+            1.0 / judged.get(f"{end}_outside" if in_doubt else end, judged[end])
+            for end in ("high", "median", "low")
+        )
+        if not in_doubt:
+            holding.append(f"{low:.2g} to {high:.2g} times the printed {what} ({law})")
+            continue
+        why = _why(summary.get("closure_exceeded" if what == "film" else "friction_exceeded"))
+        times = f"probably {middle:.1g} times what is printed ({low:.1g} to {high:.1g})"
+        beyond_in = f"{law} is beyond its range in {share(beyond)} of the {where}{why}"
+        yield f"{what.capitalize()} in doubt, {times}: {beyond_in}."
+    if holding:
+        yield f"By solved contacts, expect {' and '.join(holding)}."
+
+
+def advised(summary: Mapping[str, Any]) -> Iterable[str]:
+    """What to do, the most urgent first."""
+    for what in ("film", "friction"):
+        if (
+            isinstance(summary.get(f"{what}_judged"), Mapping)
+            and (summary.get(f"{what}_outside") or 0.0) >= IN_DOUBT
+        ):
+            nearest = "" if summary.get(f"{what}_chosen") else f'{what}.law = "auto" takes the nearest law; '
+            yield f'To do: {nearest}{what}.law = "solved" solves the contact itself, a minute the first time.'
+            return
+    if (summary.get("contact_loss_fraction") or 0.0) > APART:
+        yield "To do: more load, more damping, tip relief or another speed keeps the teeth together."
+    elif (summary.get("dynamic_factor") or 0.0) > RESONANT:
+        yield "To do: find the resonance with tribodyn sweep, and move speed or stiffness away from it."
+    elif (summary.get("film_parameter_min") or SMOOTH) < ROUGH:
+        yield "To do: smoother flanks, thicker or cooler oil, or more speed raise the film."
+
+
+def stopped(record: Record) -> Iterable[str]:
+    """Why a record is not complete."""
+    if record.status != "complete":
+        yield f"The run is {record.status}{': ' if record.message else ''}{record.message}."
+
+
+def of_gears(record: Record) -> list[str]:
+    """Lines of a record of gears; of any record those for which it has the quantities."""
+    found = record.summary
+    parts = (moved(found), pressed(found), lost(found), outside(found), advised(found))
+    return [line for part in parts for line in part]
+
+
+def share(part: float) -> str:
+    """A share in words or per cent."""
+    return "all" if part > 0.995 else f"{100.0 * part:.2g} %"
+
+
+def watts(power: float) -> str:
+    """A power to three digits."""
+    return f"{power * 1e-3:.3g} kW" if power >= 1000.0 else f"{power:.3g} W"
+
+
+def with_unit(name: str, value: float) -> str:
+    """A value with the unit and the digits of its quantity."""
+    return QUANTITIES[name].with_unit(float(value))
+
+
+def meaning(limit: str) -> str:
+    """What it means that a limit of a law is exceeded; the limit itself where it is not known."""
+    return next((text for begins, text in _MEANS.items() if limit.startswith(begins)), limit)
+
+
+def _why(exceeded: Any) -> str:
+    """The limit that is exceeded in the largest share, one by the solved contact first; "" without any."""
+    if not isinstance(exceeded, Mapping) or not exceeded:
+        return ""
+    limits = [(str(found["limit"]), found["share"]) for found in exceeded.values()]
+    worst, _ = max(limits, key=lambda limit: (limit[0].endswith("(judged)"), limit[1]))
+    return f" ({meaning(worst)})"
