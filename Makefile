@@ -1,4 +1,4 @@
-# make demo   run an involute pair: record, summary, picture and a page for the browser in ./demo
+# make demo   run a spur pair: record, summary, picture and a page for the browser in ./demo
 # make test   lint, types and all tests, the slow ones and the speed ratios included
 # make quick  the shortest tests, under a minute (docs/development.md)
 # make soak   480 random drives, duties and options, and other long checks: an hour (docs/soak.md)
@@ -25,11 +25,11 @@ INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install
 
 demo: $(VENV)/.installed
 	@mkdir -p demo
-	$(BIN)/tribodyn run involute-18-36 --force --report --output demo/involute-18-36.h5
+	$(BIN)/tribodyn run spur-25-51 --force --report --output demo/spur-25-51.h5
 	@echo
 	@echo "Next, type one of:"
 	@echo "  $(BIN)/tribodyn list                                       what there is to run"
-	@echo "  $(BIN)/tribodyn plot demo/involute-18-36.h5 all -o demo    all figures of this run"
+	@echo "  $(BIN)/tribodyn plot demo/spur-25-51.h5 all -o demo    all figures of this run"
 	@echo "  $(BIN)/tribodyn init my-drive                              a gear pair of your own, to edit"
 	@echo "  source $(BIN)/activate                                    then tribodyn needs no path"
 
