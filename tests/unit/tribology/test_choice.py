@@ -63,7 +63,7 @@ def test_a_law_named_later_was_not_chosen(scenario):
 @pytest.mark.parametrize(
     ("overrides", "message"),
     [
-        ({"operating.gear_torque": "0 N*m", "mesh.backlash": "0.05 mm"}, r'friction\.law = "auto".* no torque'),
+        ({"operating.gear_torque": "0 N*m", "mesh.backlash": "0.05 mm"}, r'law = "auto".* no torque'),
         ({"friction.coefficient": 0.05}, r'friction\.coefficient = 0\.05: contradicts law = "auto"'),
         ({"drive.pinion.addendum": 0.1, "drive.gear.addendum": 0.1}, "drive"),  # the teeth do not meet
     ],
