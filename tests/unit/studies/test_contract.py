@@ -21,6 +21,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.post.figures.drawing import Drawing, SweepDrawing
 from tribodyn.post.style import save
+from tribodyn.post.verdict import LINES
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.scenario.quantity import Table
@@ -152,7 +153,13 @@ def test_a_quantity_has_one_value(kind: str, short_runs):
             for other in (record.summary[name], shown[name], opened.summary[name]):
                 assert np.array_equal(value, other), name
         assert study.sentences(record)
-        assert summary_table(record).renderables
+        lines = study.verdict(record)
+        assert 1 <= len(lines) <= LINES
+        for line in lines:  # for a reader who has never seen the program
+            assert line[0].isupper() and line.endswith((".", "!")), line
+            assert not re.search(r"\bnan\b|\binf\b|judged|e[+-]\d\d", line), line
+        brief, full = (len(summary_table(record, full).renderables) for full in (False, True))
+        assert brief < full
 
 
 @pytest.mark.parametrize("kind", [kind for kind in RUNS if kind != "gear-pair"])
