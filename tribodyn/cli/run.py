@@ -35,6 +35,7 @@ def run(
         typer.Option("--output", "-o", help="The record; default: named after the scenario, in this folder."),
     ] = None,
     settings: SetOption = None,
+    *,
     force: ForceOption = False,
     resume: Annotated[
         bool, typer.Option("--resume", help="Continue a stopped run of that name, where its kind can.")

@@ -8,6 +8,7 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
+from tribodyn.post import verdict
 from tribodyn.quantities.catalogue import SPREAD, scatter
 from tribodyn.quantities.quantity import Quantity, shown, shown_unit
 from tribodyn.record.sweep_reader import SweepRecord
@@ -30,6 +31,7 @@ def sweep_table(record: SweepRecord, quantities: Sequence[Quantity]) -> Group:
     parts: list[Any] = [Text(str(record.scenario.get("title", record.label)), style="bold")]
     if record.status != "complete":
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
+    parts += map(Text, sweep_verdict(record))
     parts += map(Text, _head(record))
     titles = ("", "minimum", "at", "maximum", "at", "")
     parts.append(_table(titles, (1, 3), sweep_rows(record, shown_ones)))
@@ -37,6 +39,11 @@ def sweep_table(record: SweepRecord, quantities: Sequence[Quantity]) -> Group:
     parts += map(Text, _tail(record))
     parts += [Text(f"Warning: {warning}", style="bold red") for warning in sweep_warnings(record)]
     return Group(*parts)
+
+
+def sweep_verdict(record: SweepRecord) -> list[str]:
+    """Say what a reader asks of a sweep first, see `tribodyn.post.verdict`."""
+    return verdict.of_sweep(record, lambda at: _place(record, record.at(at)))
 
 
 def _table(titles: Sequence[str], numbers: Sequence[int], rows: Sequence[Sequence[str]]) -> Table:

@@ -4,7 +4,7 @@ Each line is a sentence for a reader who has never seen the program; the numbers
 details of the summary. A line is left out where a record lacks what it is about.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,8 @@ import numpy as np
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE
 
 #: Lines of a verdict, at most.
 LINES = 5
@@ -154,6 +156,36 @@ def of_gears(record: Record) -> list[str]:
     found = record.summary
     parts = (moved(found), pressed(found), lost(found), outside(found), advised(found))
     return [line for part in parts for line in part]
+
+
+def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> list[str]:
+    """Lines of a sweep of gears; `place` writes the values of the parameters of a case."""
+    found = []
+
+    def extreme(name: str, find: Callable[[Any], Any]) -> tuple[float, str] | None:
+        values = (
+            np.where(record["status"] == DONE, record[name], np.nan) if name in record else np.array(np.nan)
+        )
+        if not np.any(np.isfinite(values)):
+            return None
+        at = tuple(map(int, np.unravel_index(int(find(values)), values.shape)))
+        return float(values[at]), place(at)
+
+    if loud := extreme("dynamic_factor", np.nanargmax):
+        found.append(f"Vibration is largest at {loud[1]}: tooth forces of {loud[0]:.2f} times their mean.")
+    if apart := extreme("contact_loss_fraction", np.nanargmax):
+        many = int(np.sum(np.nan_to_num(record["contact_loss_fraction"]) > APART))
+        longest = f"for {share(apart[0])} of the time at {apart[1]}"
+        found.append(f"The teeth separate in {many} cases, {longest}." if many else "No tooth lifts off.")
+    if thin := extreme("film_parameter_min", np.nanargmin):
+        found.append(f"The film is thinnest at {thin[1]}: {thin[0]:.2g} times the roughness.")
+    low, high = (extreme("efficiency", find) for find in (np.nanargmin, np.nanargmax))
+    if low and high and low[0] < high[0]:
+        ends = [f"{with_unit('efficiency', end[0])} at {end[1]}" for end in (low, high)]
+        found.append(f"The efficiency lies between {' and '.join(ends)}.")
+    if failed := record.count()["failed"]:
+        found.append(f"{failed} of {record.count()['cases']} cases failed.")
+    return found[:LINES]
 
 
 def share(part: float) -> str:

@@ -36,7 +36,7 @@ class Grid:
         self._texts = [i for i, axis in enumerate(self.axes) if not axis.numeric]
         self._resolved = lru_cache(maxsize=16)(self._resolve)
         self.batch: Batch = self.study.batch() or OneByOne(self.study)
-        self.base: Any = None
+        self._written = self._case_as_written()
         self._check()
         self.base = self.case((0,) * len(self.axes))
 
@@ -62,7 +62,14 @@ class Grid:
             case = loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
         except InputError as error:
             raise self._as_varied(error) from None
-        return case.beside(self.base) if self.base else case
+        return case.beside(self._written or case)
+
+    def _case_as_written(self) -> Any:
+        """The scenario without its axes; None where it is no case without them."""
+        try:
+            return loaded_from(resolve(self.path, self.overrides, table_of), self.path).case
+        except InputError:
+            return None
 
     def changes_what_is_shared(self, axis: int) -> bool:
         """Whether cases at the ends of an axis share less than cases elsewhere on it."""

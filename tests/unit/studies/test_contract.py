@@ -156,7 +156,7 @@ def test_a_quantity_has_one_value(kind: str, short_runs):
         lines = study.verdict(record)
         assert 1 <= len(lines) <= LINES
         for line in lines:  # for a reader who has never seen the program
-            assert line[0].isupper() and line.endswith((".", "!")), line
+            assert re.fullmatch(r"[A-Z].*\.", line), line
             assert not re.search(r"\bnan\b|\binf\b|judged|e[+-]\d\d", line), line
         brief, full = (len(summary_table(record, full).renderables) for full in (False, True))
         assert brief < full

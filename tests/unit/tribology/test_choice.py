@@ -44,7 +44,7 @@ def test_different_duties_have_different_laws(scenario):
         assert ("at which no range holds" in case.film.chosen) == (name == "rough and light")
 
 
-def test_cases_of_a_sweep_have_the_laws_of_the_first(scenario):
+def test_cases_of_a_sweep_have_the_laws_of_the_scenario_as_written(scenario):
     roughness = ["drive.roughness=0.2,2um"]
     grid = Grid(str(scenario), roughness, {"drive.mean_roughness": "0.8 um"})
     assert [grid.case((i,)).friction.law for i in range(2)] == ["masjedi-khonsari"] * 2

@@ -73,6 +73,8 @@ class LubricatedCase(GearCase):
 
     def beside(self, other: Self) -> Self:
         """Return the case with the laws of the other where "auto" chose them in both."""
+        if not (self.film.chosen or self.friction.chosen):
+            return self
         film = other.film if self.film.chosen and other.film.chosen else self.film
         friction = other.friction if self.friction.chosen and other.friction.chosen else self.friction
         return replace(self, film=film, friction=friction)
