@@ -14,6 +14,7 @@ from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
+from tribodyn.record.withheld import warnings
 
 #: Lines of a verdict, at most.
 LINES = 5
@@ -103,9 +104,7 @@ def lost(summary: Mapping[str, Any]) -> Iterable[str]:
 
 
 def outside(summary: Mapping[str, Any]) -> Iterable[str]:
-    """What lies outside the model, and how far film and friction are from the solved contact."""
-    if brief := trust.brief(summary):
-        yield f"{brief[0].upper()}{brief[1:]}: these numbers are not to be trusted."
+    """How far film and friction are from the solved contact, and where they are in doubt."""
     holding = []
     for what, where in (("film", "contact"), ("friction", "loss")):
         law, judged = summary.get(f"{what}_law"), summary.get(f"{what}_judged")
@@ -146,10 +145,15 @@ def advised(summary: Mapping[str, Any]) -> Iterable[str]:
         yield "To do: smoother flanks, thicker or cooler oil, or more speed raise the film."
 
 
-def stopped(record: Record) -> Iterable[str]:
-    """Why a record is not complete."""
+def first(record: Record) -> Iterable[str]:
+    """What stands before all else: why a record is not complete, or not to be trusted."""
     if record.status != "complete":
         yield f"The run is {record.status}{': ' if record.message else ''}{record.message}."
+    if brief := trust.brief(record.summary):
+        yield f"{_upper(brief)}: these numbers are not to be trusted."
+    for warning in warnings(record.summary):
+        if not warning.startswith(trust.OUTSIDE):
+            yield f"{_upper(warning)}."
 
 
 def of_gears(record: Record) -> list[str]:
@@ -202,6 +206,10 @@ def watts(power: float) -> str:
 def with_unit(name: str, value: float) -> str:
     """A value with the unit and the digits of its quantity."""
     return QUANTITIES[name].with_unit(float(value))
+
+
+def _upper(text: str) -> str:
+    return text[0].upper() + text[1:]
 
 
 def meaning(limit: str) -> str:

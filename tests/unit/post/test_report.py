@@ -9,9 +9,8 @@ from rich.console import Console
 from tests.support import synthetic_record
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.cli.printing import plain
-from tribodyn.post.report import as_json
 from tribodyn.record.reader import Record
-from tribodyn.studies.pages import summary_table
+from tribodyn.studies.pages import summary_json, summary_table
 
 
 @pytest.fixture
@@ -22,7 +21,7 @@ def record(tmp_path: Path) -> Record:
 def printed(record: Record) -> str:
     console = Console(width=100, no_color=True)
     with console.capture() as capture:
-        console.print(summary_table(record))
+        console.print(summary_table(record, full=True))
     return capture.get()
 
 
@@ -70,12 +69,12 @@ def test_a_failed_run_says_so(tmp_path: Path):
 
 
 def test_json_holds_si_units_and_no_nan(record: Record, tmp_path: Path):
-    found = json.loads(json.dumps(plain(as_json(record)), allow_nan=False))
+    found = json.loads(json.dumps(plain(summary_json(record)), allow_nan=False))
     assert found["status"] == "complete"
     assert found["summary"]["efficiency"] == 0.9868
     assert found["summary"]["friction_force_mean"] == [150.0, 310.0]
     assert found["pairs"] == [0, 1]
     undefined = failed(tmp_path / "other.h5", {"efficiency": float("nan"), "film": {"min": float("inf")}})
-    found = json.loads(json.dumps(plain(as_json(undefined)), allow_nan=False))
+    found = json.loads(json.dumps(plain(summary_json(undefined)), allow_nan=False))
     assert found["summary"].pop("efficiency_withheld")
     assert found["summary"] == {"efficiency": None, "film": {"min": None}}

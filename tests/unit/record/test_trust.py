@@ -15,7 +15,6 @@ from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.cli.app import app
 from tribodyn.cli.printing import plain
 from tribodyn.errors import SimulationError
-from tribodyn.post.report import as_json
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
@@ -36,7 +35,7 @@ from tribodyn.record.trust import (
     verdict,
 )
 from tribodyn.record.withheld import remarked, remarks, warned, warnings
-from tribodyn.studies.pages import summary_table, sweep_table
+from tribodyn.studies.pages import summary_json, summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
@@ -143,9 +142,9 @@ def test_the_record_says_so(tmp_path, outside):
         assert file["summary"].attrs["trust_reasons/deflection/share"] == 1.0
     with Record(tmp_path / "run.h5") as record:
         assert record.trust == OUTSIDE
-        text = printed(summary_table(record))
-        found = json.loads(json.dumps(plain(as_json(record)), allow_nan=False))
-    assert text.splitlines()[1].startswith(f"{OUTSIDE}: not to be trusted")
+        text = printed(summary_table(record, full=True))
+        found = json.loads(json.dumps(plain(summary_json(record)), allow_nan=False))
+    assert text.splitlines()[1].startswith(OUTSIDE.capitalize())
     assert (
         "Warning: outside the model: deflection of a pair of teeth over the module 30 %, at most 10 %" in text
     )
@@ -193,7 +192,7 @@ def test_an_absurd_load_is_loud(tmp_path):
         extrapolated = reason.startswith("share of the contact")
         assert (f"warning: {OUTSIDE}: {reason}" in done.stderr) is not extrapolated
     shown = CliRunner().invoke(app, ["show", str(output)])
-    assert shown.stdout.splitlines()[1].startswith(OUTSIDE)
+    assert shown.stdout.splitlines()[1].startswith(OUTSIDE.capitalize())
     usual = run(load_scenario("involute-23-47", {"solver.cycles": 2}), tmp_path / "usual.h5")
     assert (usual.trust, usual.reasons) == (INSIDE, [])
 

@@ -10,14 +10,13 @@ from rich.console import Console
 from tests.support import synthetic_record
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.cli.printing import plain
-from tribodyn.post.report import as_json
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.withheld import is_efficiency, reason_to_withhold, samples_withheld, warnings, withheld
-from tribodyn.studies.pages import summary_table, sweep_table
+from tribodyn.studies.pages import summary_json, summary_table, sweep_table
 
 
 def printed(table) -> str:
@@ -97,8 +96,8 @@ def test_a_figure_that_an_older_version_wrote_is_not_shown(wrong):
     text = printed(summary_table(wrong))
     assert "120" not in text
     assert any("Efficiency" in line and "withheld" in line for line in text.splitlines())
-    assert "Warning: withheld: efficiency, above 1" in text
-    found = json.loads(json.dumps(plain(as_json(wrong)), allow_nan=False))
+    assert "Withheld: efficiency, above 1" in text
+    found = json.loads(json.dumps(plain(summary_json(wrong)), allow_nan=False))
     assert found["summary"]["efficiency"] is None
     assert "above 1" in found["summary"]["efficiency_withheld"]
 

@@ -206,7 +206,7 @@ def test_a_study_of_another_package_is_listed_checked_and_run(pendulum: Path, tm
     path = tmp_path / "metre.h5"
     shown = said("run", pendulum, "-o", path)
     assert "Period" in shown
-    assert "The swing is small." in said("show", path)
+    assert "The swing is small." in said("show", path, "--full")
     with Record(path) as record:
         assert (record.kind, record.axis, list(record)) == ("pendulum", "time", ["time", "angle"])
         assert names([record]) == ("angle",)

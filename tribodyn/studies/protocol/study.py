@@ -209,7 +209,7 @@ class Study:
         from tribodyn.post import verdict
 
         own = self._part("report", "verdict", optional=True)
-        return [*verdict.stopped(record), *(own or verdict.of_gears)(record)][: verdict.LINES]
+        return [*verdict.first(record), *(own or verdict.of_gears)(record)][: verdict.LINES]
 
     def swept(self) -> "Mapping[str, Quantity]":
         """Quantities that a sweep keeps of every case, by name; none: such a study cannot be swept."""

@@ -69,11 +69,11 @@ def test_a_pair_goes_on_in_the_number_before(record: Record):
 
 
 def test_a_pair_is_followed_over_its_roll_angle(record: Record):
-    """It carries all of the load about the pitch point, and nothing at the ends."""
+    """It carries most about the pitch point, where the next pair touches early under load; nothing at the ends."""
     roll, load = over_roll(record, record["normal_load"])
     assert np.all(np.diff(roll) > 0)
     assert load[0] == load[-1] == 0.0
-    assert np.interp(0.0, roll, load) == pytest.approx(load.max(), rel=0.02)
+    assert 0.9 * load.max() < np.interp(0.0, roll, load) <= load.max()
 
 
 @pytest.mark.parametrize("cycles", [3, 5])
@@ -99,6 +99,6 @@ def test_a_map_covers_the_contact_and_the_face(record: Record):
     width, edges = record.mesh_cycle["face_width"], face_edges(record)
     np.testing.assert_allclose((edges[1:] + edges[:-1]) / 2.0, found.face, atol=1e-12)
     assert edges[-1] - edges[0] == pytest.approx(width)
-    assert np.mean(at_pitch_point(record, "line_load")) * width == pytest.approx(
-        record["normal_load"].max(), rel=0.02
-    )
+    nearest = np.unravel_index(np.argmin(np.abs(record["roll_angle"])), record["roll_angle"].shape)
+    load = np.mean(at_pitch_point(record, "line_load")) * width
+    assert load == pytest.approx(record["normal_load"][nearest], rel=1e-6)
