@@ -150,6 +150,7 @@ def _head(record: SweepRecord) -> list[str]:
             f"{number} {name}" for name, number in zip(*np.unique(found, return_counts=True), strict=True)
         )
         lines += [f"motion: {motions}"] if motions else []
+    lines += [f"{key} = {taken}" for key, taken in record.settings.get("chosen", {}).items()]
     return lines
 
 

@@ -120,6 +120,7 @@ def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:
         "weights": {axis.name: _weights(grid, axis) for axis in grid.axes if axis.weighed},
         "drawn": [axis.name for axis in grid.axes if axis.drawn],
         "directions": [direction for direction in DIRECTIONS if direction in directions],
+        "chosen": grid.base.chosen(),
         **settings._asdict(),
     }
     return SweepHead(

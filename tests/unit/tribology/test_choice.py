@@ -48,6 +48,7 @@ def test_cases_of_a_sweep_have_the_laws_of_the_scenario_as_written(scenario):
     roughness = ["drive.roughness=0.2,2um"]
     grid = Grid(str(scenario), roughness, {"drive.mean_roughness": "0.8 um"})
     assert [grid.case((i,)).friction.law for i in range(2)] == ["masjedi-khonsari"] * 2
+    assert grid.base.chosen()["friction.law"].startswith("masjedi-khonsari, nearest")
     assert (
         load_scenario(scenario, DUTIES["rough, in the range of the standard"]).friction.law
         != "masjedi-khonsari"

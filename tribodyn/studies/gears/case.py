@@ -71,6 +71,11 @@ class LubricatedCase(GearCase):
     temperature: TemperatureData | None = None
     losses: LossData | None = None  # load-independent losses, where they are to be added
 
+    def chosen(self) -> dict[str, str]:
+        """Give the laws that "auto" took."""
+        laws = {"film.law": self.film, "friction.law": self.friction}
+        return {key: f"{law.law}, {law.chosen}" for key, law in laws.items() if law.chosen}
+
     def beside(self, other: Self) -> Self:
         """Return the case with the laws of the other where "auto" chose them in both."""
         if not (self.film.chosen or self.friction.chosen):

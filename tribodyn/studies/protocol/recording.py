@@ -22,6 +22,10 @@ class CaseHead:
     toml: str
     sha256: str  # digest of `toml`
 
+    def chosen(self) -> dict[str, str]:
+        """What the scenario left open: key -> what was taken, and why."""
+        return {}
+
     def beside(self, other: Self) -> Self:
         """Return the case as one of several: what it left open is as it is in the other."""
         return self

@@ -46,7 +46,7 @@ def test_a_warning_reaches_the_terminal(forked, tmp_path):
     assert done.returncode == 0
     assert "warning: friction feeds the vibration with more than 1 %" in done.stderr
     assert "warning: withheld: efficiency" in done.stderr
-    assert "friction feeds the vibration" in done.stdout
+    assert "Friction feeds the vibration" in done.stdout
 
 
 @pytest.mark.parametrize(
