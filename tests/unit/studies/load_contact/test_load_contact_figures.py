@@ -69,7 +69,7 @@ def test_a_pair_goes_on_in_the_number_before(record: Record):
 
 
 def test_a_pair_is_followed_over_its_roll_angle(record: Record):
-    """It carries most about the pitch point, where under load the next pair may touch; nothing at the ends."""
+    """It carries most about the pitch point, where the next pair may touch under load; none at the ends."""
     roll, load = over_roll(record, record["normal_load"])
     assert np.all(np.diff(roll) > 0)
     assert load[0] == load[-1] == 0.0
