@@ -16,11 +16,10 @@ from tribodyn.errors import InputError, InputErrors, SimulationError
 from tribodyn.kernels.native.arguments import Compiled
 from tribodyn.kernels.native.store import compiled_in, content_of
 from tribodyn.numerics.cache import arrays_kept_or_made, kept_or_made, trusted_folder
-from tribodyn.post.report import as_json
 from tribodyn.post.sweep_report import sweep_as_json
 from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
-from tribodyn.studies.pages import summary_table, sweep_table
+from tribodyn.studies.pages import summary_json, summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.sweep.grid import Grid
 from tribodyn.tribology.ehl.table import ContactTable
@@ -102,8 +101,8 @@ def _record(given: Input, folder: Path) -> None:
             sweep_table(record)
             sweep_as_json(record)
         else:
-            summary_table(record)
-            as_json(record)
+            summary_table(record, full=True)
+            summary_json(record)
             for name in record:
                 _ = record[name]
 

@@ -99,7 +99,7 @@ def _run(made: SoakCase, folder: Path) -> tuple[str, str, list[str], float]:
     result = run(load_scenario(path), record, force=True)
     with Record(result.path) as written_record:
         faults = list(_faults(made, written_record))
-        faults += _printed(summary_table(written_record))
+        faults += _printed(summary_table(written_record, full=True))
     if result.status == "complete":
         residual = result.summary.get("energy_residual", float("nan"))
         return COMPLETE, "", faults, abs(residual) / _rtol(made)

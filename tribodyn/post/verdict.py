@@ -4,7 +4,9 @@ Each line is a sentence for a reader who has never seen the program; the numbers
 details of the summary. A line is left out where a record lacks what it is about.
 """
 
+import math
 from collections.abc import Callable, Iterable, Mapping
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -55,10 +57,10 @@ _MEANS = {
 
 def moved(summary: Mapping[str, Any]) -> Iterable[str]:
     """What moves."""
+    summary = numbers(summary)
     if (error := summary.get("transmission_error_peak_to_peak")) is not None:
         parts = [f"The transmission error swings by {with_unit('transmission_error_peak_to_peak', error)}"]
-        factor = summary.get("dynamic_factor")
-        if factor is not None and np.isfinite(factor):
+        if (factor := summary.get("dynamic_factor")) is not None:
             parts.append(f"vibration raises the tooth forces to {factor:.2f} times their mean")
         apart = summary.get("contact_loss_fraction") or 0.0
         parts.append(
@@ -72,11 +74,11 @@ def moved(summary: Mapping[str, Any]) -> Iterable[str]:
 
 def pressed(summary: Mapping[str, Any]) -> Iterable[str]:
     """What presses, and what keeps the flanks apart."""
-    parts = []
+    summary, parts = numbers(summary), []
     if (pressure := summary.get("hertz_pressure_max")) is not None:
         parts.append(f"The flanks press with up to {with_unit('hertz_pressure_max', pressure)}")
     ratio, film = summary.get("film_parameter_min"), summary.get("film_min")
-    if ratio is not None and np.isfinite(ratio):
+    if ratio is not None:
         thick = f"at least {with_unit('film_min', film)}, " if film is not None else "at least "
         state = (
             "a full film"
@@ -95,6 +97,7 @@ def pressed(summary: Mapping[str, Any]) -> Iterable[str]:
 
 def lost(summary: Mapping[str, Any]) -> Iterable[str]:
     """What is lost."""
+    summary = numbers(summary)
     power, friction = summary.get("power_in_mean"), summary.get("power_friction_mean")
     if power and friction is not None and friction > 0.0:
         mean = summary.get("friction_coefficient_mean")
@@ -107,10 +110,10 @@ def outside(summary: Mapping[str, Any]) -> Iterable[str]:
     """How far film and friction are from the solved contact, and where they are in doubt."""
     holding = []
     for what, where in (("film", "contact"), ("friction", "loss")):
-        law, judged = summary.get(f"{what}_law"), summary.get(f"{what}_judged")
-        if not isinstance(judged, Mapping):
+        law, judged = summary.get(f"{what}_law"), numbers(summary.get(f"{what}_judged"))
+        if not {"low", "median", "high"} <= set(judged):
             continue
-        beyond = summary.get(f"{what}_outside") or 0.0
+        beyond = numbers(summary).get(f"{what}_outside", 0.0)
         in_doubt = beyond >= IN_DOUBT
         low, middle, high = (
             1.0 / judged.get(f"{end}_outside" if in_doubt else end, judged[end])
@@ -129,19 +132,20 @@ def outside(summary: Mapping[str, Any]) -> Iterable[str]:
 
 def advised(summary: Mapping[str, Any]) -> Iterable[str]:
     """What to do, the most urgent first."""
+    found = numbers(summary)
     for what in ("film", "friction"):
         if (
             isinstance(summary.get(f"{what}_judged"), Mapping)
-            and (summary.get(f"{what}_outside") or 0.0) >= IN_DOUBT
+            and found.get(f"{what}_outside", 0.0) >= IN_DOUBT
         ):
             nearest = "" if summary.get(f"{what}_chosen") else f'{what}.law = "auto" takes the nearest law; '
             yield f'To do: {nearest}{what}.law = "solved" solves the contact itself, a minute the first time.'
             return
-    if (summary.get("contact_loss_fraction") or 0.0) > APART:
+    if found.get("contact_loss_fraction", 0.0) > APART:
         yield "To do: more load, more damping, tip relief or another speed keeps the teeth together."
-    elif (summary.get("dynamic_factor") or 0.0) > RESONANT:
+    elif found.get("dynamic_factor", 0.0) > RESONANT:
         yield "To do: find the resonance with tribodyn sweep, and move speed or stiffness away from it."
-    elif (summary.get("film_parameter_min") or SMOOTH) < ROUGH:
+    elif found.get("film_parameter_min", SMOOTH) < ROUGH:
         yield "To do: smoother flanks, thicker or cooler oil, or more speed raise the film."
 
 
@@ -193,6 +197,17 @@ def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> li
     return found[:LINES]
 
 
+def numbers(summary: Any) -> dict[str, float]:
+    """The finite numbers of a summary: a record that somebody changed may hold anything."""
+    if not isinstance(summary, Mapping):
+        return {}
+    return {
+        str(name): float(value)
+        for name, value in summary.items()
+        if isinstance(value, Real) and math.isfinite(value)
+    }
+
+
 def share(part: float) -> str:
     """A share in words or per cent."""
     return "all" if part > 0.995 else f"{100.0 * part:.2g} %"
@@ -219,8 +234,13 @@ def meaning(limit: str) -> str:
 
 def _why(exceeded: Any) -> str:
     """The limit that is exceeded in the largest share, one by the solved contact first; "" without any."""
-    if not isinstance(exceeded, Mapping) or not exceeded:
+    each = exceeded.values() if isinstance(exceeded, Mapping) else ()
+    limits = [
+        (str(found.get("limit")), numbers(found).get("share", 0.0))
+        for found in each
+        if isinstance(found, Mapping)
+    ]
+    if not limits:
         return ""
-    limits = [(str(found["limit"]), found["share"]) for found in exceeded.values()]
     worst, _ = max(limits, key=lambda limit: (limit[0].endswith("(judged)"), limit[1]))
     return f" ({meaning(worst)})"

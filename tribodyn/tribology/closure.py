@@ -136,7 +136,7 @@ def law_quantities(case: Lubricated) -> dict[str, Any]:
     """
     film, friction = laws_of(case)
     chosen = {"film_chosen": case.film.chosen, "friction_chosen": case.friction.chosen}
-    judged, errors = {name: why for name, why in chosen.items() if why}, {}
+    judged, errors = {}, {}
     for law in (film, friction):
         if law.judged is not None:
             ratios = dict(zip(("low", "median", "high"), law.judged.ratio, strict=True))
@@ -151,6 +151,7 @@ def law_quantities(case: Lubricated) -> dict[str, Any]:
         "film_range": film.stated or "none stated",
         "friction_law": friction.name,
         "friction_range": friction.stated or "none stated",
+        **{name: why for name, why in chosen.items() if why},
         **judged,
         **errors,
     }

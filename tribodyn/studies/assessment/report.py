@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from tribodyn.post.verdict import outside, with_unit
+from tribodyn.post.verdict import numbers, outside, with_unit
 from tribodyn.quantities.catalogue import quantities, scatter_of
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
@@ -71,20 +71,22 @@ def verdict(record: Record) -> list[str]:
 
 def shown(summary: Mapping[str, Any]) -> Iterator[str]:
     """What moves, presses and is lost."""
+    summary = numbers(summary)
     if "dynamic_factor" in summary:
         parts = [f"Vibration raises the tooth forces to {summary['dynamic_factor']:.2f} times their mean"]
-        if (highest := summary.get("dynamic_factor_max")) is not None:
-            speed = with_unit("dynamic_factor_max_speed", summary["dynamic_factor_max_speed"])
+        highest, where = (summary.get(f"dynamic_factor_max{end}") for end in ("", "_speed"))
+        if highest is not None and where is not None:
+            speed = with_unit("dynamic_factor_max_speed", where)
             parts[0] += f", at {speed} to {highest:.2f} times"
         if (lost := summary.get("contact_loss_speed_from")) is not None:
             parts.append(f"the teeth separate from {with_unit('contact_loss_speed_from', lost)}")
         yield f"{'; '.join(parts)}."
-    if "specific_film_min" in summary:
+    if {"specific_film_min", "hertz_pressure_max", "contact_temperature_max"} <= set(summary):
         pressure = with_unit("hertz_pressure_max", summary["hertz_pressure_max"])
         hot = with_unit("contact_temperature_max", summary["contact_temperature_max"])
         film = f"the film is at least {summary['specific_film_min']:.2g} times their Ra"
         yield f"The flanks press with up to {pressure} and reach {hot}; {film}."
-    if "efficiency" in summary:
+    if {"efficiency", "efficiency_lowest", "efficiency_highest"} <= set(summary):
         ends = " to ".join(f"{100.0 * summary[f'efficiency_{end}']:.2f}" for end in ("lowest", "highest"))
         yield f"The mesh is {100.0 * summary['efficiency']:.2f} % efficient; by other friction laws {ends} %."
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.post.page.data import Profile, Profiles
-from tribodyn.post.verdict import share, with_unit
+from tribodyn.post.verdict import numbers, share, with_unit
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
@@ -54,9 +54,10 @@ def profiles(record: Record) -> Profiles:
 
 def verdict(record: Record) -> list[str]:
     """Say what keeps the flanks apart, what friction and heat there are, and what squeeze changes."""
-    summary = record.summary
-    found = []
-    if "minimum_film_min" in summary:
+    summary, found = numbers(record.summary), []
+    if {"minimum_film_min", "film_parameter_min", "asperity_load_ratio_max", "hertz_pressure_max"} <= set(
+        summary
+    ):
         film = with_unit("minimum_film_min", summary["minimum_film_min"])
         ratio, carried = summary["film_parameter_min"], summary["asperity_load_ratio_max"]
         asperities = (
@@ -65,7 +66,7 @@ def verdict(record: Record) -> list[str]:
         pressure = with_unit("hertz_pressure_max", summary["hertz_pressure_max"])
         found.append(f"The flanks press with up to {pressure}; {asperities}.")
         found.append(f"The oil film is at least {film}; the central film is {ratio:.2g} times the roughness.")
-    if "friction_coefficient_mean" in summary:
+    if {"friction_coefficient_mean", "temperature_rise_max"} <= set(summary):
         rise = with_unit("temperature_rise_max", summary["temperature_rise_max"])
         mean = summary["friction_coefficient_mean"]
         found.append(
@@ -74,7 +75,9 @@ def verdict(record: Record) -> list[str]:
     if (departure := summary.get("central_film_departure_max")) is not None:
         found.append(f"Squeeze moves the central film by up to {share(departure)}.")
     if (solved := summary.get("positions_solved", 0)) < (positions := summary.get("positions", 0)):
-        found.append(f"{positions - solved} of {positions} positions carry nothing, or have no solution.")
+        found.append(
+            f"{positions - solved:.0f} of {positions:.0f} positions carry nothing, or have no solution."
+        )
     return found
 
 

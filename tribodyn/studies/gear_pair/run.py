@@ -139,7 +139,8 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         last, work, speed = statistics.window(), statistics.window_work(), case.operating.pinion_speed
         touching = last["normal_load"] > 0.0
         loss = np.abs(last["friction_force"] * last["sliding_speed"])[touching]
-        summary |= exceeded_limits(case, *(last[name][touching] for name in UNRECORDED), loss)
+        film_shares, friction_shares = (last[name][touching] for name in UNRECORDED)
+        summary |= exceeded_limits(case, film_shares, friction_shares, loss)
         summary |= steady_quantities(last, work, cycle, samples, speed, statistics.in_window)
         summary |= thermal_quantities(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
         summary |= contact_quantities(case.lubricant, summary)

@@ -76,9 +76,9 @@ class LubricatedCase(GearCase):
         laws = {"film.law": self.film, "friction.law": self.friction}
         return {key: f"{law.law}, {law.chosen}" for key, law in laws.items() if law.chosen}
 
-    def beside(self, other: Self) -> Self:
+    def beside(self, other: CaseHead) -> Self:
         """Return the case with the laws of the other where "auto" chose them in both."""
-        if not (self.film.chosen or self.friction.chosen):
+        if not isinstance(other, LubricatedCase) or not (self.film.chosen or self.friction.chosen):
             return self
         film = other.film if self.film.chosen and other.film.chosen else self.film
         friction = other.friction if self.friction.chosen and other.friction.chosen else self.friction

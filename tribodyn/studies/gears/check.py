@@ -11,11 +11,12 @@ from tribodyn.geometry.drive import MaterialData
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.post.report import exceeded
+from tribodyn.post.verdict import IN_DOUBT
 from tribodyn.scenario.tables.drive_data import RoundedDistance, rounded_distance_of
+from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.prepare import PreparedGears
 from tribodyn.studies.protocol.recording import CheckResult, TextTable
 from tribodyn.tribology.closure import (
-    Lubricated,
     duty_range,
     exceeded_limits,
     law_quantities,
@@ -23,7 +24,7 @@ from tribodyn.tribology.closure import (
     nominal_line_load,
 )
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.law import Closure
+from tribodyn.tribology.law import Closure, FilmLaw, FrictionLaw
 from tribodyn.tribology.oil import (
     GIVEN,
     T_40,
@@ -146,19 +147,34 @@ def with_oil(checked: CheckResult, lubricant: LubricantData) -> CheckResult:
     )
 
 
-def _with_laws(checked: CheckResult, case: Lubricated, closure: Closure) -> CheckResult:
-    """Add the laws in use, their ranges, and where the nominal duty leaves them."""
+def _with_laws(checked: CheckResult, case: LubricatedCase, closure: Closure) -> CheckResult:
+    """Add the laws in use, why they were taken, and where the nominal duty leaves their ranges."""
     outside = _exceeded(case, closure)
-    rows = [(law.table, law.name, law.stated or "none stated") for law in laws_of(case)]
+    rows = [(law.table, law.name, *_at_duty(law, outside)) for law in laws_of(case)]
     remarks = [remark for name, law in _NAMES.items() for remark in exceeded(outside, name, law)]
+    chosen = [f"{key} = {taken}." for key, taken in case.chosen().items()]
+    columns = ("", "law", "at this duty", "over the solved contact, nine of ten")
     return checked._replace(
         data={**checked.data, "laws": {**law_quantities(case), **outside}},
-        tables=(*checked.tables, TextTable("Laws and their ranges", ("", "law", "range"), rows)),
-        remarks=(*checked.remarks, *remarks),
+        tables=(*checked.tables, TextTable("Laws", columns, rows)),
+        remarks=(*checked.remarks, *chosen, *remarks),
     )
 
 
-def _exceeded(case: Lubricated, closure: Closure) -> dict[str, Any]:
+def _at_duty(law: FilmLaw | FrictionLaw, outside: dict[str, Any]) -> tuple[str, str]:
+    """Whether the duty is inside the range of a law, and how far it is from the solved contact."""
+    beyond = outside.get(f"{law.table}_outside", 0.0)
+    range = "inside its range" if law.limits else "no range stated"
+    if outside.get("closure_exceeded" if law.table == "film" else "friction_exceeded"):
+        range = "partly outside its range" if beyond < IN_DOUBT else "outside its range"
+    if law.judged is None:
+        return range, "not compared"
+    ratio = law.judged.outside if beyond >= IN_DOUBT else None
+    low, _, high = ratio or law.judged.ratio
+    return range, f"{low:.2g} to {high:.2g}"
+
+
+def _exceeded(case: LubricatedCase, closure: Closure) -> dict[str, Any]:
     """Limits exceeded along the path by a pair that carries the whole torque alone, without vibration."""
     if not case.operating.gear_torque or not case.operating.pinion_speed:
         return {}

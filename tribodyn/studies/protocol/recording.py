@@ -26,7 +26,7 @@ class CaseHead:
         """What the scenario left open: key -> what was taken, and why."""
         return {}
 
-    def beside(self, other: Self) -> Self:
+    def beside(self, other: "CaseHead") -> Self:
         """Return the case as one of several: what it left open is as it is in the other."""
         return self
 

@@ -1,7 +1,7 @@
 """Reported quantities of a gear with rolling elements, and how far to trust them."""
 
 from tribodyn.post.report import on_energy
-from tribodyn.post.verdict import lost, share, with_unit
+from tribodyn.post.verdict import lost, numbers, share, with_unit
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
@@ -39,22 +39,23 @@ PANELS = ("normal_load", "slip_speed", "power_friction", "efficiency")
 
 def verdict(record: Record) -> list[str]:
     """Say what the elements carry, how even the output is, what is lost, and whether it is a prediction."""
-    summary = record.summary
-    found = []
-    if "normal_load_max" in summary:
+    summary, found = numbers(record.summary), []
+    if {"normal_load_max", "elements_loaded_min"} <= set(summary):
         load, fewest = (
             with_unit("normal_load_max", summary["normal_load_max"]),
             summary["elements_loaded_min"],
         )
-        found.append(f"At least {fewest} elements carry; the one that carries most is pressed with {load}.")
-    if "output_torque_mean" in summary:
+        found.append(
+            f"At least {fewest:.0f} elements carry; the one that carries most is pressed with {load}."
+        )
+    if {"output_torque_mean", "output_torque_peak_to_peak"} <= set(summary):
         mean, swing = summary["output_torque_mean"], summary["output_torque_peak_to_peak"]
         even = f", {share(swing / abs(mean))} of it" if mean else ""
         torque = with_unit("output_torque_mean", mean)
         swings = with_unit("output_torque_peak_to_peak", swing)
         found.append(f"The output gives {torque} on the mean and swings by {swings}{even}.")
     found += lost(summary)
-    if summary.get("mode") == "as_published":
+    if record.summary.get("mode") == "as_published":
         found.append("These are a paper's printed formulas, a reference and no prediction.")
         found.append('To do: mode = "corrected" gives the motion with the right speeds and its efficiency.')
     return found
