@@ -18,7 +18,6 @@ from tests.support.short_studies import ShortRuns
 from tests.support.verbs import ended
 from tests.support.wrong_records import changed, changes, drawn
 from tribodyn.errors import InputError
-from tribodyn.post.report import as_json
 from tribodyn.post.style import house_style
 from tribodyn.post.sweep_report import sweep_as_json
 from tribodyn.record import soundness
@@ -47,8 +46,8 @@ def shown(path: Path, _: Path) -> None:
             assert of.sweep_table(record).renderables
             assert sweep_as_json(record)
         else:
-            assert of.summary_table(record).renderables
-            assert as_json(record)
+            assert of.summary_table(record, full=True).renderables
+            assert of.summary_json(record)
         _ = record.scenario
 
 
