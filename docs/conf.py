@@ -5,6 +5,9 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parent))
+
+import mathml
 
 import tribodyn
 
@@ -64,10 +67,11 @@ CONTENTS = {
 
 project, author = "tribodyn", "the authors of tribodyn"
 version = release = tribodyn.__version__
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml"]
+html_math_renderer = "mathml"  # docs/mathml.py: no script, and nothing from another host
 html_theme = "furo"
 html_title = "tribodyn"
-html_static_path = ["_static"]
+html_static_path = ["_static", mathml.FONTS]
 html_css_files = ["site.css"]
 add_module_names = False  # what is public is called tribodyn.NAME
 exclude_patterns = ["_build"]
