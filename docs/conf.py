@@ -43,6 +43,7 @@ CONTENTS = {
         "glossary",
     ],
     "Explanation": [
+        "theory",
         "laws",
         "physics",
         "standards",
@@ -73,7 +74,8 @@ html_theme = "furo"
 html_title = "tribodyn"
 html_static_path = ["_static", mathml.FONTS]
 html_css_files = ["site.css"]
-add_module_names = False  # what is public is called tribodyn.NAME
+# the reference calls public names as users do, td.NAME
+sys.modules["td"] = tribodyn
 exclude_patterns = ["_build"]
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
