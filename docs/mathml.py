@@ -19,6 +19,7 @@ AS_CORE = (
         r'<mo lspace="0.167em" rspace="0.167em">\2</mo>',
     ),
     (r"<m([io])>([A-Za-z]{2,})</m\1>", r'<mo lspace="0.167em" rspace="0">\2</mo>'),
+    (r'(&#x00028;</mo>)<mo lspace="0.167em"', r'\1<mo lspace="0"'),
     (r"<mo>(&#x0007C;|&#x0002F;)</mo>", r'<mo stretchy="false" lspace="0" rspace="0">\1</mo>'),
     (
         r"((?:&#x00028;|&#x0003D;|&#x0002C;|&#x0005B;)</mo>)<mo>&#x02212;</mo>",
