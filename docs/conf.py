@@ -107,7 +107,7 @@ def with_contents(_app: object, name: str, source: list[str]) -> None:
 
 def as_sphinx_reads(_app: object, _name: str, source: list[str]) -> None:
     """Take off what is for tests and for GitHub: words after a fence's language, links to pages elsewhere."""
-    source[0] = re.sub(r"^```(toml|csv) \S+$", r"```\1", source[0], flags=re.MULTILINE)
+    source[0] = re.sub(r"^```(toml|csv|python) \S+$", r"```\1", source[0], flags=re.MULTILINE)
     source[0] = re.sub(r"\[([^\]]*)\]\((?:\.\./)+(?:README|examples/\S*|CHANGELOG)\.md\)", r"\1", source[0])
 
 
