@@ -2,7 +2,7 @@
 
 Blocks differ by the words after the fence: ``toml scenario`` is a whole scenario, ``toml fragment``
 is put over the shipped CRC scenario, ``csv NAME``, ``python NAME`` and ``toml NAME`` are files that others
-on the page refer to, ``console`` holds shell commands, of which those of tribodyn are run, on shorter studies.
+on the page refer to, ``console`` holds shell commands, of which those of tribodyn run on shorter studies.
 """
 
 import os

@@ -1,6 +1,7 @@
 """The documentation site: its contents, generated pages, and places in the source that pages name."""
 
 import ast
+import math
 import re
 import shlex
 import subprocess
@@ -63,6 +64,21 @@ def test_the_counts_of_what_is_shipped_are_current():
         assert counts() in page_.read_text(encoding="utf-8"), "python -m tools.shipped_table --write"
     files = len(list((ROOT / "scenarios").glob("*.toml")))
     assert f"| scenarios | {files} |" in counts()
+
+
+def test_the_readme_describes_the_drive_of_the_demo():
+    name = re.search(r"tribodyn run (\S+) .*--output demo/", (ROOT / "Makefile").read_text(encoding="utf-8"))
+    assert name is not None
+    case = tribodyn.scenario(name[1])
+    teeth = f"{case.drive.pinion.teeth:.0f} and {case.drive.gear.teeth:.0f} teeth"
+    power = (
+        case.operating.gear_torque
+        * case.operating.pinion_speed
+        * case.drive.pinion.teeth
+        / case.drive.gear.teeth
+    )
+    duty = f"{power * 1e-3:.0f} kW at {case.operating.pinion_speed * 30 / math.pi:.0f} rpm"
+    assert f"pair, {teeth}, {duty}:" in (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def test_the_page_of_laws_names_every_law_and_what_it_names_exists():
