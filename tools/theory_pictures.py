@@ -143,12 +143,13 @@ def stiffness(figure: Any) -> None:
     case, assembly = CASES[INVOLUTE], made(INVOLUTE)
     r = np.linspace(assembly.r_start, assembly.r_end, 201)
     width = assembly.common_width
+    first_material, second_material = case.materials
     teeth = [
         tooth_compliance(loaded_tooth(assembly, side), material, width, r)
         for side, material in zip(SIDES, case.materials, strict=True)
     ]
     stacked = {
-        "contact": np.full_like(r, hertz_linear(*case.materials, width)),
+        "contact": np.full_like(r, hertz_linear(first_material, second_material, width)),
         "bodies": sum(tooth.foundation for tooth in teeth),
         "shear, axial": sum(tooth.shear + tooth.axial for tooth in teeth),
         "bending": sum(tooth.bending for tooth in teeth),
