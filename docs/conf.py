@@ -5,6 +5,9 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parent))
+
+import mathml
 
 import tribodyn
 
@@ -40,6 +43,7 @@ CONTENTS = {
         "glossary",
     ],
     "Explanation": [
+        "theory",
         "laws",
         "physics",
         "standards",
@@ -64,12 +68,14 @@ CONTENTS = {
 
 project, author = "tribodyn", "the authors of tribodyn"
 version = release = tribodyn.__version__
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml"]
+html_math_renderer = "mathml"  # docs/mathml.py: no script, and nothing from another host
 html_theme = "furo"
 html_title = "tribodyn"
-html_static_path = ["_static"]
+html_static_path = ["_static", mathml.FONTS]
 html_css_files = ["site.css"]
-add_module_names = False  # what is public is called tribodyn.NAME
+# the reference calls public names as users do, td.NAME
+sys.modules["td"] = tribodyn
 exclude_patterns = ["_build"]
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
@@ -101,7 +107,7 @@ def with_contents(_app: object, name: str, source: list[str]) -> None:
 
 def as_sphinx_reads(_app: object, _name: str, source: list[str]) -> None:
     """Take off what is for tests and for GitHub: words after a fence's language, links to pages elsewhere."""
-    source[0] = re.sub(r"^```(toml|csv) \S+$", r"```\1", source[0], flags=re.MULTILINE)
+    source[0] = re.sub(r"^```(toml|csv|python) \S+$", r"```\1", source[0], flags=re.MULTILINE)
     source[0] = re.sub(r"\[([^\]]*)\]\((?:\.\./)+(?:README|examples/\S*|CHANGELOG)\.md\)", r"\1", source[0])
 
 

@@ -43,6 +43,7 @@ READ_BY_HAND = {
     "nest-asyncio2": "BSD-2-Clause",
     "ptyprocess": "ISC",
     "traitlets": "BSD-3-Clause",
+    "ziamath": "MIT; its font, STIX Two Math, OFL-1.1",
 }
 #: Families of licences, by what a licence's name holds.
 COPYLEFT = re.compile(r"GPL|SSPL|EUPL|CC-BY-SA|AGPL", re.IGNORECASE)

@@ -1,12 +1,15 @@
 """Every page of the documentation: commands run, scenarios load, Python runs, links lead somewhere.
 
 Blocks differ by the words after the fence: ``toml scenario`` is a whole scenario, ``toml fragment``
-is put over the shipped CRC scenario, ``csv NAME`` is a file that others on the page refer to, ``console``
-holds shell commands, of which those of tribodyn are run, on shorter studies.
+is put over the shipped CRC scenario, ``csv NAME``, ``python NAME`` and ``toml NAME`` are files that others
+on the page refer to, ``console`` holds shell commands, of which those of tribodyn run on shorter studies.
 """
 
+import os
 import re
 import shlex
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -38,6 +41,20 @@ SHORTER = {
     "irefc": ("output.samples_per_cycle=8",),
     "backlash-oscillator": ("frequency.step=0.1",),
 }
+
+
+#: A run with the page's family; its limit, the involute; a path that ends before the teeth.
+LINEAR = """
+import tribodyn as td
+print(1 - td.run("linear-23-47.toml").summary["efficiency"])
+drive = "drive.shape.length"
+print(td.drive("linear-23-47.toml", {drive: "1e8 mm"}).contact_ratio)
+print(td.drive("liu-ni-involute-23-47").contact_ratio)
+try:
+    td.drive("linear-23-47.toml", {drive: "10 mm"})
+except td.InputError as mistake:
+    print(mistake)
+"""
 
 
 class Block(NamedTuple):
@@ -154,11 +171,13 @@ def flat(table: dict[str, Any], above: str = "") -> dict[str, Any]:
 
 
 def test_every_toml_block_is_one_or_the_other():
-    assert not [str(block) for block in blocks("toml") if block.info not in ("scenario", "fragment")]
+    known = ("scenario", "fragment")
+    others = [block for block in blocks("toml") if block.info not in known]
+    assert not [str(block) for block in others if not block.info.endswith(".toml")]
 
 
 @pytest.mark.parametrize(
-    "block", [block for block in blocks("python") if block.page.name != "README.md"], ids=str
+    "block", [block for block in blocks("python", "") if block.page.name != "README.md"], ids=str
 )
 def test_python_runs(block: Block, folder: Path):
     matplotlib.use("agg")
@@ -166,6 +185,35 @@ def test_python_runs(block: Block, folder: Path):
         exec(compile(block.text, str(block), "exec"), {"__name__": "__main__"})
     finally:
         pyplot.close("all")
+
+
+def test_the_family_of_the_page_on_extending_works_as_a_package(tmp_path: Path):
+    """What pip writes of the package's pyproject.toml stands beside its module: nothing is installed."""
+    for block in [*blocks("python"), *blocks("toml")]:
+        if block.page.name == "extending.md" and "." in block.info:
+            (tmp_path / block.info).write_text(block.text, encoding="utf-8")
+    project = tomllib.loads((tmp_path / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    written = tmp_path / f"{project['name'].replace('-', '_')}-{project['version']}.dist-info"
+    written.mkdir()
+    (written / "METADATA").write_text(f"Name: {project['name']}\nVersion: {project['version']}\n")
+    groups = project["entry-points"].items()
+    lines = [line for group, names in groups for line in (f"[{group}]", *map(" = ".join, names.items()))]
+    (written / "entry_points.txt").write_text("\n".join(lines))
+
+    def python(program: str) -> str:
+        words = [sys.executable, "-c", program]
+        paths = os.pathsep.join((str(tmp_path), str(ROOT)))
+        ran = subprocess.run(
+            words, cwd=tmp_path, env=os.environ | {"PYTHONPATH": paths}, capture_output=True, text=True
+        )
+        assert ran.returncode == 0, ran.stderr
+        return ran.stdout
+
+    loss, almost, involute, refusal = python(LINEAR).splitlines()
+    assert 0.005 < float(loss) < 0.05
+    assert float(almost) == pytest.approx(float(involute), rel=1e-6)  # its limit, by another file's formulas
+    assert "drive.shape.length = 10 mm" in refusal
+    assert "use a longer one" in refusal
 
 
 def anchors(page: Path) -> set[str]:

@@ -1,6 +1,7 @@
 """`tribodyn gear`: the sheet of a drive by name, of a file or of a scenario; drawings; refusals."""
 
 import json
+import math
 import tomllib
 from pathlib import Path
 
@@ -27,7 +28,7 @@ def test_sheet_of_a_shipped_drive():
     assert printed["geometry"]["contact ratio"][0] == pytest.approx(1.52, abs=5e-3)
     pinion = printed["geometry"]["pinion"]
     assert pinion["teeth"] == [23.0, ""]
-    assert pinion["tip diameter"] == [pytest.approx(75.0), "mm"]
+    assert pinion["tip diameter"] == [pytest.approx(0.075), "m"]
     assert pinion["mass"][1] == "kg"
     assert 0 < pinion["mass"][0] < 7850 * 3.1416 * 0.0375**2 * 0.025
 
@@ -119,7 +120,7 @@ def test_a_pair_as_a_free_form_one(tmp_path):
     assert pair.toml == file.read_text(encoding="utf-8")
     # an entry of the list, as --set and --vary name it
     changed = sheet(file, "--set", 'drive.shape.angles.4="23 deg"')
-    assert changed["geometry"]["pressure angle at pitch point"][0] == pytest.approx(23.0)
+    assert changed["geometry"]["pressure angle at pitch point"][0] == pytest.approx(math.radians(23.0))
 
 
 def test_too_few_values_for_a_free_form_path():

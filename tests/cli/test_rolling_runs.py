@@ -31,7 +31,7 @@ def test_every_output_says_the_mode(folder, name):
     checked = json.loads(invoke("check", name, "--json"))
     assert checked["mode"] == mode
     assert checked["geometry"]["teeth of the cam"] == [25, ""]
-    assert checked["geometry"]["eccentricity"] == [pytest.approx(40 / 26), "mm"]
+    assert checked["geometry"]["eccentricity"] == [pytest.approx(0.040 / 26), "m"]
 
 
 def test_figures_that_a_record_does_not_hold_are_refused(folder):

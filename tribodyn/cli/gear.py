@@ -49,6 +49,7 @@ def gear(
     from tribodyn.cli.printing import print_files, print_findings, print_json, print_prose
     from tribodyn.geometry.families import family
     from tribodyn.geometry.limits.checks import check
+    from tribodyn.quantities.quantity import in_si
     from tribodyn.studies.gears.check import sheet_tables
     from tribodyn.studies.gears.drive_file import load_drive
 
@@ -63,7 +64,7 @@ def gear(
     files = written + (_draw(loaded, assembly, output, points, force) if output is not None else [])
     if json:
         head = {"model": str(loaded.path), "title": loaded.title, "family": loaded.family}
-        print_json({**head, "geometry": sheet, "files": [str(file) for file in files]})
+        print_json({**head, "geometry": in_si(sheet), "files": [str(file) for file in files]})
         return
     print_prose(f"{loaded.path}: {loaded.title}: {loaded.family}")
     print_findings(sheet_tables(sheet))

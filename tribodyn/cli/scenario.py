@@ -51,13 +51,14 @@ def check(
 ) -> None:
     """Check a scenario; print geometry and stiffness."""
     from tribodyn.cli.printing import print_findings, print_json, print_prose
+    from tribodyn.quantities.quantity import in_si
     from tribodyn.studies.protocol.load import load
 
     loaded = load(scenario, overrides(settings))
     with loaded.naming():
         checked = loaded.study.check(loaded.case, allow_large=allow_large)
     if json:
-        print_json({"scenario": str(loaded.path), "title": loaded.case.title, **checked.data})
+        print_json({"scenario": str(loaded.path), "title": loaded.case.title, **in_si(checked.data)})
         return
     print_prose(f"{loaded.path}: {loaded.case.title}: sound")
     print_findings(checked.tables, checked.remarks)

@@ -20,6 +20,7 @@ from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh
+from tribodyn.quantities.quantity import in_si
 from tribodyn.studies.gears.check import sheet_tables
 from tribodyn.studies.gears.drive_file import DriveModel, as_spline, load_drive
 
@@ -63,8 +64,8 @@ class GearPair:
 
     @cached_property
     def sheet(self) -> dict[str, Any]:
-        """The geometry sheet: name to (value, unit), of pinion and gear in dictionaries of their own."""
-        return self._model.sheet(self._assembly)
+        """The geometry sheet: name to (value, SI unit), of pinion and gear in dictionaries of their own."""
+        return in_si(self._model.sheet(self._assembly))
 
     @cached_property
     def _mesh(self) -> GearsInMesh:
@@ -74,7 +75,7 @@ class GearPair:
     def outlines(self) -> dict[str, np.ndarray]:
         """Closed outlines of pinion and gear, (points, 2), m, as they stand when a pair begins contact.
 
-        The origin is the pitch point; y points along the line of centres towards the pinion's.
+        The origin is the pitch point; y points along the line of centres from pinion to gear.
         """
         return {"pinion": np.asarray(self._mesh.pinion), "gear": np.asarray(self._mesh.gear)}
 
@@ -179,7 +180,7 @@ class GearPair:
         return shown.block(
             shown.heading(self.title, self.family),
             shown.picture_of_gears(self._mesh),
-            shown.tables(sheet_tables(self.sheet)),
+            shown.tables(sheet_tables(self._model.sheet(self._assembly))),
         )
 
 

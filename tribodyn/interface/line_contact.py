@@ -36,25 +36,25 @@ class SolvedContact:
     #: along the direction of entrainment, m; 0 on the line of centres. The film ends at the last, between
     #: rough surfaces before it
     x: Array
-    pressure: Array  # of fluid and asperities together, Pa
-    asperity_pressure: Array  # mean pressure of the asperities, Pa; 0 between smooth surfaces
-    film_thickness: Array  # distance of the mean planes of the surfaces, m
-    temperature: Array  # mean over the film, K above the inlet's
-    surface_temperatures: Array  # of surfaces 1 and 2, K above the inlet's; (2, nodes)
-    shear_stress: Array  # τ_m, mean over the film, Pa
-    central_film_thickness: float  # at x = 0, m
-    minimum_film_thickness: float  # m
-    asperity_load_ratio: float  # share of the load that the asperities carry
+    pressure: Array  #: of fluid and asperities together, Pa
+    asperity_pressure: Array  #: mean pressure of the asperities, Pa; 0 between smooth surfaces
+    film_thickness: Array  #: distance of the mean planes of the surfaces, m
+    temperature: Array  #: mean over the film, K above the inlet's
+    surface_temperatures: Array  #: of surfaces 1 and 2, K above the inlet's; (2, nodes)
+    shear_stress: Array  #: τ_m, mean over the film, Pa
+    central_film_thickness: float  #: at x = 0, m
+    minimum_film_thickness: float  #: m
+    asperity_load_ratio: float  #: share of the load that the asperities carry
     #: ∫ τ_m + f_c p_a dx over the load, τ_m the mean shear stress over the film; of the sign of
     #: `sliding_speed`: where surface 1 is the faster one, the film holds it back and draws on surface 2.
     friction_coefficient: float
-    rolling_coefficient: float  # drag of the pressure flow on each surface over the load, ½ ∫ h dp/dx dx/w
-    hertz_pressure: float  # of the dry contact, Pa
-    half_width: float  # of the dry contact, m
-    moes_load: float  # Moes' M, with the sum of the speeds
-    moes_material: float  # Moes' L, with the sum of the speeds
-    limits: tuple[str, ...]  # what the result is not credible for; empty within the laws' usual range
-    solution: Solution  # the solution in Hertz's units, from which a similar contact can start
+    rolling_coefficient: float  #: drag of the pressure flow on each surface over the load, ½ ∫ h dp/dx dx/w
+    hertz_pressure: float  #: of the dry contact, Pa
+    half_width: float  #: of the dry contact, m
+    moes_load: float  #: Moes' M, with the sum of the speeds
+    moes_material: float  #: Moes' L, with the sum of the speeds
+    limits: tuple[str, ...]  #: what the result is not credible for; empty within the laws' usual range
+    solution: Solution  #: the solution in Hertz's units, from which a similar contact can start
 
     def plot(self, ax: "Axes | None" = None) -> "Figure":
         """Draw pressure and film over the contact.

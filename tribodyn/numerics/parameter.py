@@ -18,7 +18,8 @@ class Parameter(NamedTuple):
         Value where the scenario gives none, in SI units; None: the scenario must give it.
     source : where the default comes from: no number stands without a source
     allowed : {"", "any", "not negative", "positive"}
-        Signs that are allowed; "": any for a plain number, positive for a quantity with a unit.
+        Signs that are allowed; "": any for a plain number, positive for a quantity with a unit. There is no
+        upper limit: what depends on other keys, the family's `check` or the law's `parameters` refuses.
     example : A good value as TOML writes it, for messages; "": one that fits the kind
     listed : whether the key takes a list of such values; the family or law receives an array
     optional : whether the scenario may leave out a key without a default; the family or law then receives

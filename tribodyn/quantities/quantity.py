@@ -14,7 +14,10 @@ SHOWN: dict[str, tuple[str, float, float]] = {
     "%": ("1", 100.0, 0.0),
     "mm": ("m", 1e3, 0.0),
     "µm": ("m", 1e6, 0.0),
+    "um": ("m", 1e6, 0.0),
     "mm/s": ("m/s", 1e3, 0.0),
+    "mm/rad": ("m/rad", 1e3, 0.0),
+    "kg mm²": ("kg*m2", 1e6, 0.0),
     "N m": ("N*m", 1.0, 0.0),
     "N/mm": ("N/m", 1e-3, 0.0),
     "N/µm": ("N/m", 1e-6, 0.0),
@@ -25,6 +28,25 @@ SHOWN: dict[str, tuple[str, float, float]] = {
     "°": ("rad", 180.0 / math.pi, 0.0),
     "rpm": ("rad/s", 30.0 / math.pi, 0.0),
 }
+
+
+def in_si(sheet: Mapping[str, Any]) -> dict[str, Any]:
+    """A sheet of (value, unit) by name with SI values and units; what is no such pair stays as it is.
+
+    Sheets in sheets are converted too. Plain numbers keep the unit "".
+    """
+    return {name: _line_in_si(line) for name, line in sheet.items()}
+
+
+def _line_in_si(line: Any) -> Any:
+    match line:
+        case Mapping():
+            return in_si(line)
+        case (int() | float() as value, str(unit)) if unit and unit in SHOWN:
+            si, factor, offset = SHOWN[unit]
+            return value / factor - offset, si
+        case _:
+            return line
 
 
 class Quantity(NamedTuple):

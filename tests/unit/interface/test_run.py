@@ -126,6 +126,16 @@ def test_a_grid_that_is_none(vary, said):
 def test_a_gear_pair_has_teeth_sheet_and_stiffness():
     pair = td.drive("liu-ni-involute-23-47", {"drive.pinion.profile_shift": 0.1})
     assert pair.sheet["contact ratio"][0] == pytest.approx(pair.contact_ratio)
+    pinion = pair.sheet["pinion"]
+    units = {
+        unit
+        for part in (pair.sheet, pinion)
+        for _, unit in filter(lambda line: len(line) == 2, part.values())
+    }
+    assert units == {"", "m", "rad", "m/rad", "kg", "kg*m2"}
+    x, y = pair.outlines["pinion"].T
+    tip = 2 * np.hypot(x, y + pinion["working pitch diameter"][0] / 2).max()
+    assert tip == pytest.approx(pinion["tip diameter"][0])
     (start, end), outline = pair.path[[0, -1]], pair.outlines["pinion"]
     # a straight path: every point of contact lies on the line through its ends, and teeth reach it
     along = (end - start) / np.linalg.norm(end - start)

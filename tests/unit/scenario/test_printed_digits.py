@@ -66,11 +66,11 @@ def test_a_published_distance_is_that_without_backlash(gears: Any, distance: str
     module, teeth, shifts = gears
     found = tribodyn.drive(pair(module, teeth, shifts, distance))
     tight = without_backlash(module, teeth, sum(shifts))
-    assert found.sheet["centre distance"][0] == pytest.approx(1e3 * tight, rel=1e-12)
+    assert found.sheet["centre distance"][0] == pytest.approx(tight, rel=1e-12)
     assert found.sheet["normal backlash"][0] == 0.0
     printed = float(distance.split()[0])
     assert 0.0 < 1e3 * tight - printed < 1e-3
-    assert found.sheet["centre distance as printed"][0] == pytest.approx(printed, rel=1e-12)
+    assert found.sheet["centre distance as printed"][0] == pytest.approx(1e-3 * printed, rel=1e-12)
     assert found.contact_ratio == pytest.approx(
         tribodyn.drive(pair(module, teeth, shifts, None)).contact_ratio, rel=1e-12
     )
@@ -94,7 +94,7 @@ def test_the_rounding_is_that_of_the_distance_and_of_the_shifts():
     ]
     assert float(shift_sensitivity(thicker)) == pytest.approx((moved[0] - moved[1]) / (2 * step), rel=1e-6)
     sheet = tribodyn.drive(pair(module, teeth, shifts, "91.500 mm")).sheet
-    expected = 0.0005 + 1e3 * slope * 2 * 0.00005
+    expected = 0.5e-6 + slope * 2 * 0.00005
     assert sheet["rounding of the printed digits"][0] == pytest.approx(expected, rel=1e-6)
 
 
@@ -122,7 +122,7 @@ def test_coarse_digits_excuse_no_more_than_a_twentieth_of_the_module(coarse: str
     module, teeth, shifts = FZG
     table = pair(module, teeth, shifts, coarse)
     if coarse == "3.6 in":
-        assert tribodyn.drive(table).sheet["rounding of the printed digits"][0] == pytest.approx(0.225)
+        assert tribodyn.drive(table).sheet["rounding of the printed digits"][0] == pytest.approx(0.225e-3)
         return
     with pytest.raises(InputError, match="the teeth overlap"):
         tribodyn.drive(table)
@@ -131,14 +131,14 @@ def test_coarse_digits_excuse_no_more_than_a_twentieth_of_the_module(coarse: str
 @pytest.mark.parametrize("distance", ["91.6 mm", "91.5002 mm", "92 mm"])
 def test_a_larger_distance_is_taken_as_it_is_written(distance: str):
     sheet = tribodyn.drive(pair(*FZG, distance)).sheet
-    assert sheet["centre distance"][0] == pytest.approx(float(distance.split()[0]), rel=1e-14)
+    assert sheet["centre distance"][0] == pytest.approx(1e-3 * float(distance.split()[0]), rel=1e-14)
     assert sheet["normal backlash"][0] > 0.0
     assert "centre distance as printed" not in sheet
 
 
 def test_teeth_without_shift_at_their_own_distance_need_no_rounding():
     sheet = tribodyn.drive(pair(3.0, (18, 36), (0.0, 0.0), "81 mm")).sheet
-    assert sheet["centre distance"][0] == pytest.approx(81.0, rel=1e-14)
+    assert sheet["centre distance"][0] == pytest.approx(0.081, rel=1e-14)
     assert "centre distance as printed" not in sheet
     with pytest.raises(InputError, match="the teeth overlap"):
         tribodyn.drive(pair(3.0, (18, 36), (0, 0), "80.99 mm"))

@@ -41,6 +41,11 @@ def judge(
     progress : callable, optional
         Called with the share done, 0 … 1.
 
+    Returns
+    -------
+    LawsJudged
+        Ratios to the solved contact, without unit, by law and position.
+
     Raises
     ------
     InputError
