@@ -5,9 +5,11 @@ simulation needs is refused before anything is made of it.
 """
 
 import csv
+import os
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -141,6 +143,16 @@ def find_scenario(name: str) -> Path:
     if path.suffix == ".toml":
         _missing("scenario", name, path, "no such file")
     return _named("scenario", name, "scenario", [shipped(SCENARIOS)])
+
+
+def file_name(path: Path, folder: Path) -> str:
+    """How a record in a folder names the scenario's file: relative to it, a shipped one by its name."""
+    path, folder = path.resolve(), folder.resolve()
+    if path.parent == shipped(SCENARIOS).resolve():
+        return f"shipped: {path.stem}"
+    with suppress(ValueError):  # on another drive of Windows
+        return Path(os.path.relpath(path, folder)).as_posix()
+    return path.as_posix()
 
 
 def _missing(key: str, name: str, path: Path, rule: str) -> NoReturn:
