@@ -18,6 +18,7 @@ from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.own_keys import example_of
 from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
+from tribodyn.scenario.scope import outside
 from tribodyn.scenario.sources import file_name, find_scenario
 from tribodyn.scenario.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
 from tribodyn.studies import STUDIES, study_of
@@ -122,7 +123,8 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     model = study.table(data)
     try:
         if isinstance(kind, str) and kind not in STUDIES:
-            raise unknown_name("kind", kind, STUDIES, STUDIES.what)
+            unknown = unknown_name("kind", kind, STUDIES, STUDIES.what)
+            raise outside(unknown, kind, remedy=unknown.remedy) or unknown
         scenario = model.model_validate(data)
     except InputError as error:
         raise origins.locate(error) from None
