@@ -70,6 +70,7 @@ class CheckResult(NamedTuple):
     data: dict[str, Any]
     tables: Sequence[TextTable]
     remarks: Sequence[str] = ()
+    warnings: Sequence[str] = ()  # values that are more often a slip than meant, a sentence each
 
 
 def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
