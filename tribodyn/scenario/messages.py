@@ -9,6 +9,7 @@ from pydantic import BaseModel, ValidationError
 from tribodyn.errors import InputError, InputErrors, near_name, printable, quoted
 from tribodyn.scenario import scope
 from tribodyn.scenario.quantity import Reference
+from tribodyn.scenario.unit_grammar import range_for_one
 
 Key = tuple[str | int, ...]
 
@@ -93,6 +94,8 @@ def _explain_one(found: dict[str, Any], model: type[BaseModel]) -> InputError:
             near = near_name(str(found["input"]), expected.replace('"', "").replace(" or ", ", ").split(", "))
             mean = f'did you mean "{near}"? ' if near else ""
             return InputError(dotted, given, "not one of the choices", f"{mean}write {expected}")
+        case "float_type" | "int_type" if isinstance(found["input"], str) and range_for_one(found["input"]):
+            return InputError(dotted, given, *(range_for_one(found["input"]) or ()))
         case "finite_number":
             return InputError(dotted, given, "not a finite number", "write a plain number, such as 1.0")
     rule, remedy = _PLAIN.get(found["type"], (found["msg"].lower(), ""))
