@@ -59,7 +59,7 @@ def test_an_unknown_quantity_names_those_near_it(crc):
     for name, near in (("eff", "efficiency"), ("efficency", "efficiency"), ("film min", "film_min")):
         with pytest.raises(KeyError, match=rf"did you mean [^?]*\b{near}\b"):
             crc.summary[name]
-    with pytest.raises(KeyError, match="there is: .*contact_ratio"):
+    with pytest.raises(KeyError, match=r"there is: .*contact_ratio"):
         crc.summary["zzz"]
     assert crc.summary.get("eff") is None
 
