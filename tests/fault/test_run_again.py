@@ -11,9 +11,12 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.cheap_searches import SEARCH
 from tests.support.verbs import ROOT, complaint, invoke
 from tribodyn.record.reader import Record
 from tribodyn.record.writing_lock import WritingLock
+from tribodyn.studies.protocol.load import load
+from tribodyn.studies.protocol.run import run
 
 OSCILLATOR = """title = "mine"
 kind = "backlash-oscillator"
@@ -61,6 +64,26 @@ def test_a_sweep_and_an_edited_grid(edit: Callable[..., Path], tmp_path: Path):
         invoke("sweep", "mine.toml", "--vary", f"damping={values}", folder=tmp_path)
     names = {"mine-damping.h5", "mine-damping.previous.h5", "mine.toml"}
     assert {path.name for path in tmp_path.iterdir()} == names
+
+
+def test_a_search_that_was_edited_stopped_and_resumed(tmp_path: Path):
+    file = tmp_path / "mine.toml"
+    file.write_text(SEARCH.replace("= 48", "= 6"))
+    invoke(*RUN, folder=tmp_path)
+    first = (tmp_path / "mine.h5").read_bytes()
+    file.write_text(SEARCH.replace("= 48", "= 8"))
+
+    def stop(share: float) -> None:
+        if share > 0.3:
+            raise KeyboardInterrupt
+
+    loaded = load(file).recorded_in(tmp_path)
+    with pytest.raises(KeyboardInterrupt):
+        run(loaded.case, tmp_path / "mine.h5", progress=stop)
+    assert "mine.partial.h5 holds what an unfinished run left" in complaint(*RUN, folder=tmp_path)
+    assert (tmp_path / "mine.h5").read_bytes() == first
+    assert "mine.previous.h5" in invoke(*RUN, "--resume", folder=tmp_path)
+    assert (tmp_path / "mine.previous.h5").read_bytes() == first
 
 
 def other_scenario(folder: Path, edit: Callable[..., Path]) -> str:

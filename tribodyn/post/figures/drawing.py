@@ -66,7 +66,9 @@ def with_whole_markers(figure: Figure) -> Figure:
                 continue
             places = np.asarray(line.get_xydata(), float)
             places = places[np.isfinite(places).all(axis=1)]
-            line.set_clip_on(not np.all((places >= low) & (places <= high)))
+            if len(places) and np.all((places >= low) & (places <= high)):
+                line.set_clip_on(False)
+                line.set_in_layout(False)  # it is inside the axes, which have their room
     return figure
 
 

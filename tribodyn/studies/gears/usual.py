@@ -14,7 +14,7 @@ from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.studies.gears.case import GearCase
 from tribodyn.studies.gears.duty import HERTZ, duty_lines, nominal_duty
-from tribodyn.studies.protocol.recording import CheckResult, TextTable
+from tribodyn.studies.protocol.recording import CaseHead, CheckResult, TextTable
 from tribodyn.tribology.oil import T_40, T_100, ZERO_CELSIUS, LubricantData
 
 
@@ -184,8 +184,10 @@ USUAL = {
 }
 
 
-def with_duty(checked: CheckResult, case: GearCase) -> CheckResult:
-    """What `check` says, with the duty first and what is unusual."""
+def with_duty(checked: CheckResult, case: CaseHead) -> CheckResult:
+    """What `check` says, with the duty first and what is unusual; of a `GearCase`, others as they are."""
+    if not isinstance(case, GearCase):  # of another package's study
+        return checked
     duty = nominal_duty(case, assemble(family(case.family), case.drive))
     lines = duty_lines(duty)
     rows = [(name, f"{_four_digits(value)} {unit}".strip()) for name, (value, unit) in lines.items()]
