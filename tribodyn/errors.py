@@ -86,8 +86,22 @@ def near_name(name: str, known: Iterable[str]) -> str:
 
     known = list(known)
     close = get_close_matches(name, known, n=1, cutoff=0.6)
-    close = close or [other for other in known if name and (name in other or other in name)]
+    close = close or names_with(name, known)
+    close = close or [other for other in known if name and other in name]
     return close[0] if close else ""
+
+
+def names_with(part: str, known: Iterable[str]) -> list[str]:
+    """Return the known names that contain a part, whatever its case, blanks and hyphens.
+
+    "ISO VG 320" is part of "iso-vg-320-mineral" and "iso-vg-320-pao".
+    """
+
+    def plain(name: str) -> str:
+        return "".join(filter(str.isalnum, name.lower()))
+
+    wanted = plain(part)
+    return [name for name in known if wanted and wanted in plain(name)]
 
 
 def quoted(value: Any) -> str:

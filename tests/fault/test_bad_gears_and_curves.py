@@ -37,6 +37,48 @@ def test_gears_that_cannot_be(
     assert remedy in rest
 
 
+#: As users ask for gears that are not modelled: setting, what is said of it.
+OTHER_GEARS = {
+    'drive.helix_angle="15 deg"': "helical gears",
+    "drive.pinion.helix=15": "helical gears",
+    'drive.beta="15 deg"': "helical gears",
+    "drive.family=helical": "helical gears",
+    "drive.gear.teeth=-60": "internal gears",
+    "drive.gear.type=internal": "internal gears",
+    "drive.ring.teeth=80": "internal gears",
+    "kind=planetary": "planetary gears",
+    "drive.planets=3": "planetary gears",
+    "drive.carrier.speed=1": "planetary gears",
+    "stages=2": "several stages",
+    "shafts.input=1": "several stages",
+    "drive.gear2.teeth=40": "several stages",
+}
+
+
+@pytest.mark.parametrize(("setting", "what"), OTHER_GEARS.items())
+def test_gears_that_are_not_modelled(refused: Refused, scenario: Path, setting: str, what: str):
+    code, (line,) = refused("check", str(scenario), "--set", setting)
+    key = setting.partition("=")[0]
+    assert code == 2
+    assert f": {key}" in line or f": {key.rpartition('.')[0]} = " in line
+    assert f"{what} are not modelled: this version computes one pair of external spur gears" in line
+
+
+def test_a_planetary_gearbox_is_refused_once(refused: Refused, scenario: Path):
+    stage = '[[stage]]\ntype = "planetary"\nplanets = 3\n[stage.ring]\nteeth = -80\n'
+    scenario.write_text(f'title = "a wheel hub"\nkind = "gear-pair"\n{stage}', encoding="utf-8")
+    code, (line,) = refused("run", str(scenario))
+    assert code == 2
+    assert line.startswith(f"{scenario}: stage = ")
+    assert "describe one stage" in line
+
+
+@pytest.mark.parametrize("setting", ["operating.shaft_stifness=1", "drive.ringg=1", "drive.gear.teeth=-1"])
+def test_other_mistakes_are_none_of_them(refused: Refused, scenario: Path, setting: str):
+    _, (line,) = refused("check", str(scenario), "--set", setting)
+    assert "not modelled" not in line
+
+
 CURVES = {
     "empty": ("# nothing\n", "line 1", "the file is empty"),
     "no units": ("time,torque\n0,1\n1,2\n", "line 1", 'no column "time [unit]"'),

@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+import h5py
 import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
@@ -30,6 +31,12 @@ COMMANDS = {
     "no such folder": (("run", "crc-23-47", "-o", "no/such.h5", *SHORT), ("output = no/such.h5:", "create")),
     "show nothing": (("show", "nothing.h5"), ("record = nothing.h5: no such file",)),
     "show text": (("show", "text.h5"), ("record = text.h5: not an HDF5 file",)),
+    "run a record": (("run", "record.h5"), ('scenario = "record.h5": a record', "tribodyn show record.h5")),
+    "sweep a record": (("sweep", "record.h5", "--vary", "solver.rtol=1,2"), ("tribodyn show record.h5",)),
+    "a range to vary": (
+        ("sweep", "crc-23-47", "--vary", "operating.pinion_speed=500-6000rpm"),
+        ("a range without a number of values or a step", "write 500:6000/20rpm"),
+    ),
     "plot nothing": (("plot", "nothing.h5"), ("record = nothing.h5: no such file",)),
     "init over a file": (("init", "mine"), ("mine.toml: the file exists", "--force")),
     "init into nowhere": (("init", "no/where"), ('name = "no/where.toml": the folder does not exist',)),
@@ -44,6 +51,8 @@ def test_one_line_and_nothing_touched(
     (tmp_path / "folder").mkdir()
     for name in ("there.h5", "dead.partial.h5", "text.h5", "mine.toml"):
         (tmp_path / name).write_text("precious", encoding="utf-8")
+    with h5py.File(tmp_path / "record.h5", "w") as record:
+        record.attrs["format"] = "tribodyn-record"
     before = contents(tmp_path)
     ended = forked(*arguments, folder=tmp_path)
     assert ended.returncode == 2, ended.stderr

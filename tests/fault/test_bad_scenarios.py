@@ -111,6 +111,21 @@ WITH_SET = {
         "contradicts damping_ratio_x and damping_ratio_y",
     ),
     "through a number": ("solver.cycles.more=1", "solver.cycles.more", "is not a table"),
+    "an oil's grade": (
+        'lubricant="ISO VG 320"',
+        'lubricant = "ISO VG 320"',
+        'did you mean "iso-vg-320-mineral" or "iso-vg-320-pao"?',
+    ),
+    "a range": (
+        "operating.pinion_speed=500-6000rpm",
+        'operating.pinion_speed = "500-6000rpm"',
+        'a range, where one value is expected; write "500 rpm"',
+    ),
+    "a range of a plain number": (
+        "mesh.damping_ratio=0.01-0.1",
+        'mesh.damping_ratio = "0.01-0.1"',
+        "a range, where one value is expected; write 0.01",
+    ),
     "no value": ("solver.cycles", '--set = "solver.cycles"', "not KEY=VALUE"),
     "no key": ("=3", '--set = "=3"', "not KEY=VALUE"),
 }

@@ -41,6 +41,7 @@ def assess(
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
     from tribodyn.numerics.output_files import check_output, make_folder
+    from tribodyn.record.previous import watched
     from tribodyn.record.reader import Record
     from tribodyn.studies import STUDIES
     from tribodyn.studies.pages import summary_json, summary_table, write_report
@@ -53,6 +54,9 @@ def assess(
         raise InputError("kind", f'"{loaded.study.kind}"', "is run, not assessed", remedy)
     folder = output or Path(loaded.case.name)
     make_folder(folder)
+    kept = watched(folder / RECORD)
+    if output is None:
+        loaded = loaded.recorded_in(folder)
     for name in (PAGE, DATA):
         check_output(folder / name, force)
     with loaded.naming(), progress_bar(loaded.case.name) as progress:
@@ -71,6 +75,7 @@ def assess(
             print_json(data)
             return
         print_rich(summary_table(record, full))
+    print_files("previous", kept())
     for what, file in (("record", result.path), ("data", folder / DATA), ("report", page)):
         print_files(what, [file])
     limits = data.get("limits", {}).items()

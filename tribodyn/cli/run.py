@@ -86,6 +86,7 @@ def run_loaded(
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import OutputError
     from tribodyn.numerics.output_files import check_output
+    from tribodyn.record.previous import watched
     from tribodyn.record.reader import Record
     from tribodyn.record.withheld import warnings
     from tribodyn.studies.protocol.run import run as run_case
@@ -94,6 +95,9 @@ def run_loaded(
     with drawer(wanted=plot is None) as ahead:
         loaded = made()
         record = output or Path(f"{loaded.case.name}.h5")
+        if output is None:
+            loaded = loaded.recorded_in(record.parent)
+        kept = watched(record)
         if plot is not False:
             check_output(overview_path(record), force)
         if report:
@@ -128,9 +132,11 @@ def run_loaded(
             data = summary_json(opened)
         data |= {name: data["summary"].get(name) for name in loaded.study.top()}
         files = {"pictures": [str(path) for path in drawn], **({"report": str(page)} if page else {})}
+        files |= {"previous": str(kept()[0])} if kept() else {}
         print_json(data | files)
     else:
         print_files("record", [result.path])
+        print_files("previous", kept())
         print_files("", map(Path, result.summary.get("files", {}).values()))
         print_files("picture", drawn)
         print_files("report", [page] if page else [])

@@ -49,7 +49,8 @@ def check(
     allow_large: LargeOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Check a scenario; print geometry and stiffness."""
+    """Check a scenario; print duty, geometry and stiffness."""
+    from tribodyn.cli.outcome import complain
     from tribodyn.cli.printing import print_findings, print_json, print_prose
     from tribodyn.quantities.quantity import in_si
     from tribodyn.studies.protocol.load import load
@@ -60,8 +61,12 @@ def check(
     if json:
         print_json({"scenario": str(loaded.path), "title": loaded.case.title, **in_si(checked.data)})
         return
-    print_prose(f"{loaded.path}: {loaded.case.title}: sound")
+    number = len(checked.warnings)
+    unusual = f"can be computed, but has {number} unusual value{'s' * (number > 1)}, see the end"
+    print_prose(f"{loaded.path}: {loaded.case.title}: {unusual if number else 'sound'}")
     print_findings(checked.tables, checked.remarks)
+    for warning in checked.warnings:
+        complain(f"{loaded.path}: warning: {warning}")
 
 
 def schema() -> None:

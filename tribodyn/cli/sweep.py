@@ -112,8 +112,10 @@ def sweep(
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
     from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
+    from tribodyn.record.previous import watched
     from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.record.sweep_schema import DIRECTIONS
+    from tribodyn.scenario.sources import file_name
     from tribodyn.studies.pages import sweep_table
     from tribodyn.sweep.engines import engine_of
     from tribodyn.sweep.grid import Grid, default_output
@@ -124,6 +126,7 @@ def sweep(
     require_one_way(resume=resume, force=force)
     grid = Grid(scenario, vary or [], overrides(settings))
     record = output or default_output(grid)
+    kept = watched(record)
     chosen = DIRECTIONS if direction is Direction.both else (direction.value,) if direction else ()
     with (
         engine_of(engine.value, workers, scheduler) as evaluator,
@@ -140,6 +143,7 @@ def sweep(
             resume=resume,
             follow=lambda done, total: progress(done / total),
             allow_large=allow_large,
+            scenario_file="" if output else file_name(grid.path, record.parent),
         )
     with SweepRecord(result.path) as written:
         if json:
@@ -150,6 +154,7 @@ def sweep(
             complain(f"{result.path}: warning: {warning}")
     if not json:
         print_files("record", [result.path])
+        print_files("previous", kept())
     if result.status != "complete":
         reason = f"all {result.cases} cases failed; their reasons: {result.path}"
         end(SIMULATION_FAILED, f"{grid.path}: {reason}")

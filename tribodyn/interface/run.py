@@ -54,7 +54,7 @@ class Run:
             weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         with Record(path) as record:
             self.kind, self.status, self.message = record.kind, record.status, record.message
-            self.summary, self.scenario = record.summary, record.scenario
+            self.summary, self.scenario = shown.Summary(record.summary), record.scenario
             self.trust, self.reasons = record.trust, trust.reasons(record.summary)
 
     @cached_property

@@ -1,12 +1,13 @@
-"""What results are in a notebook: xarray datasets, and tables and small pictures as HTML in one piece."""
+"""What results are in a notebook: summaries, xarray datasets, tables and small pictures as HTML."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from difflib import get_close_matches
 from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, names_with, quoted
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.protocol.study import Study, TextTable
@@ -17,6 +18,19 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from tribodyn.post.figures.gears_in_mesh import GearsInMesh
+
+
+class Summary(dict[str, Any]):
+    """Quantities by name; a name that is not there is answered with those that are near."""
+
+    def __missing__(self, name: object) -> Any:
+        near = [*names_with(str(name), self), *get_close_matches(str(name), self)]
+        hint = (
+            f"did you mean {', '.join(list(dict.fromkeys(near))[:5])}?"
+            if near
+            else f"there is: {', '.join(self)}"
+        )
+        raise KeyError(f"no quantity {quoted(name)} in the summary; {hint}")
 
 
 def of_run(record: Record) -> "Dataset":

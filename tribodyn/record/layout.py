@@ -15,6 +15,7 @@ from tribodyn import __version__
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record import disk, schema
 from tribodyn.record.disk import LIBVER, Blank, Layered
+from tribodyn.record.previous import SCENARIO_FILE, Origin
 from tribodyn.record.schema import Layout
 from tribodyn.record.withheld import withheld
 
@@ -35,6 +36,12 @@ class Head(NamedTuple):
     groups: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
     scales: Mapping[str, Any] = MappingProxyType({})  # values along the axes other than the run's own
     code: str = ""  # see `schema.CODE`; empty: nothing goes on with such a record
+    scenario_file: str = ""  # see `previous.Origin`
+
+    @property
+    def origin(self) -> Origin:
+        """What the record is made from."""
+        return Origin(self.kind, self.scenario_file)
 
 
 class DataPlace(NamedTuple):
@@ -58,7 +65,7 @@ def create(head: Head, samples: int) -> LaidOut:
     layout, axis = head.layout, head.layout.axis_name
     content = Layered()
     with h5py.File(content, "w", libver=LIBVER) as file:
-        write_head(file, head.kind, head.scenario, head.sha256, head.created, head.code)
+        write_head(file, head.origin, head.scenario, head.sha256, head.created, head.code)
         size = {axis: samples, **{name: len(values) for name, values in head.scales.items()}}
         datasets = {axis: reserve(file, axis, layout.axis, (samples,))}
         datasets[axis].make_scale(axis)
@@ -128,13 +135,15 @@ def _cut(text: str, room: int) -> bytes:
 
 
 def write_head(
-    file: h5py.File, kind: str, scenario: str, sha256: str, created: datetime, code: str = ""
+    file: h5py.File, origin: Origin, scenario: str, sha256: str, created: datetime, code: str = ""
 ) -> None:
     """Write the root's attributes, status `partial`."""
     file.attrs["Conventions"] = "CF-1.10"
     file.attrs["format"] = schema.FORMAT
     file.attrs["format_version"] = schema.FORMAT_VERSION
-    file.attrs["kind"] = kind
+    file.attrs["kind"] = origin.kind
+    if origin.file:
+        file.attrs[SCENARIO_FILE] = origin.file
     file.attrs["tribodyn_version"] = __version__
     file.attrs["created"] = created.isoformat(timespec="seconds")
     file.attrs["scenario"] = scenario

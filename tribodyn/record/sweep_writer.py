@@ -18,6 +18,7 @@ from tribodyn.numerics.output_files import replacing, unwritable
 from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.sources import computing_digest
 from tribodyn.record import disk, layout, sweep_schema
+from tribodyn.record.previous import Origin, keep_previous, refuse_existing
 from tribodyn.record.schema import (
     COMPLETE,
     FAILED,
@@ -30,7 +31,7 @@ from tribodyn.record.schema import (
 from tribodyn.record.soundness import UNREADABLE, check_sound, remember_own
 from tribodyn.record.sweep_schema import SWEEP, SweepLayout, VariedKey
 from tribodyn.record.withheld import cases_withheld
-from tribodyn.record.writer import check_target, conclude, refuse_existing
+from tribodyn.record.writer import check_target, conclude
 from tribodyn.record.writing_lock import locked, scratch_path
 
 #: What the root says of a sweep that is not complete.
@@ -48,6 +49,12 @@ class SweepHead(NamedTuple):
     settings: str
     directions: tuple[str, ...]  # "up", "down"; none where every case is on its own
     layout: SweepLayout  # what is recorded of every case
+    scenario_file: str = ""  # see `previous.Origin`
+
+    @property
+    def origin(self) -> Origin:
+        """What the record is made from."""
+        return Origin(SWEEP, self.scenario_file)
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -73,8 +80,9 @@ class SweepWriter:
         self.path = Path(path)
         self.partial = partial_path(self.path)
         self._variables = head.layout.variables
+        self._kept = Origin() if force else head.origin
         if not (resume and not force and self.partial.exists()):
-            check_target(self.path, force)
+            check_target(self.path, force, head.origin)
         try:
             with locked(self.path) as self._lock:
                 self._places = self._datasets(head, force, resume)
@@ -89,7 +97,7 @@ class SweepWriter:
         """Places of all datasets in what is left, or in a file made anew."""
         if resume and not force and self.partial.exists():
             return _places_of(self.partial, head)
-        refuse_existing(self.path, force)  # another may just have ended
+        refuse_existing(self.path, force, head.origin)  # another may just have ended
         blank = _lay_out(head)
         with replacing(self.partial, scratch_path(self.path)) as scratch:
             disk.write_new(scratch, blank.content, blank.blanks)
@@ -152,6 +160,8 @@ class SweepWriter:
             with replacing(target, scratch_path(self.path)) as scratch:
                 change = partial(conclude, FAILED if none else COMPLETE, message, summary)
                 disk.write_amended(self.partial, scratch, change)
+                if not none:
+                    keep_previous(self.path, self._kept)
             if not none:
                 self.partial.unlink()
             remember_own(target)
@@ -164,7 +174,9 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
     """Lay out the whole file, every case waiting."""
     content = disk.Layered()
     with h5py.File(content, "w", libver=disk.LIBVER) as file:
-        layout.write_head(file, SWEEP, head.scenario, head.sha256, datetime.now(UTC), computing_digest())
+        layout.write_head(
+            file, head.origin, head.scenario, head.sha256, datetime.now(UTC), computing_digest()
+        )
         file.attrs["message"] = NOTE
         file.attrs["sweep"] = head.settings
         for name, value in head.layout.attributes.items():

@@ -21,17 +21,18 @@ from tribodyn.errors import InputError, OutputError
 from tribodyn.numerics.output_files import replacing, unwritable
 from tribodyn.record import disk, trust
 from tribodyn.record.layout import Head, create, encode, write_summary, write_trimmed
-from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, partial_path
+from tribodyn.record.previous import Origin, keep_previous, refuse_existing
+from tribodyn.record.schema import COMPLETE, FAILED, STATUS_NOTES, partial_path
 from tribodyn.record.soundness import remember_own
 from tribodyn.record.withheld import samples_withheld
 from tribodyn.record.writing_lock import locked, refuse_if_written, scratch_path
 
 
-def check_target(path: Path, force: bool = False) -> None:
+def check_target(path: Path, force: bool = False, origin: Origin = Origin()) -> None:
     """Whether a record may be written to `path`; touches nothing, so it can be called before any work.
 
-    Raises InputError if the folder is missing or unwritable, if another process is writing that record, or if
-    the record or the remains of an earlier run are there and `force` is not given.
+    Raises InputError if the folder is missing or unwritable, if another process is writing that record, or as
+    `previous.refuse_existing`.
     """
     path = Path(path)
     folder = path.parent
@@ -44,46 +45,7 @@ def check_target(path: Path, force: bool = False) -> None:
             "output", str(path), "the folder cannot be written to", "choose another with --output"
         )
     refuse_if_written(path)
-    refuse_existing(path, force)
-
-
-def refuse_existing(path: Path, force: bool) -> None:
-    """Raise InputError if the record or what an unfinished run left is there, and `force` is not given.
-
-    With `force` only what tribodyn wrote is replaced.
-    """
-    if force:
-        for file in (path, partial_path(path)):
-            if os.path.lexists(file) and not _is_ours(file):
-                raise InputError(
-                    "output",
-                    str(file),
-                    "is not a record of tribodyn, or damaged: --force does not replace it",
-                    "remove it, or choose another name",
-                )
-        return
-    if os.path.exists(path):
-        raise InputError(
-            "output", str(path), "the file exists", "choose another name, or --force to replace it"
-        )
-    if os.path.exists(partial_path(path)):
-        raise InputError(
-            "output",
-            str(path),
-            f"{partial_path(path).name} holds what an unfinished run left",
-            "move it away, or --force to replace it",
-        )
-
-
-def _is_ours(path: Path) -> bool:
-    """Whether a file is a record; a link counts as what it leads to, one that leads nowhere as none."""
-    try:
-        if not path.is_file():  # h5py would wait for a pipe
-            return False
-        with h5py.File(path, "r") as file:  # one attribute: the file is to be replaced, not read
-            return file.attrs.get("format") == FORMAT
-    except (OSError, RuntimeError, ValueError, KeyError, InputError):
-        return False
+    refuse_existing(path, force, origin)
 
 
 class RecordWriter:
@@ -91,7 +53,7 @@ class RecordWriter:
 
     A context manager, which begins the file: leaving it without `finish` marks the record failed and keeps
     what was written. A complete run has so many `samples`; with `force` an existing record, and the remains
-    of an unfinished run, are replaced.
+    of an unfinished run, are replaced; without it those from the same scenario file, see `previous`.
 
     Raises InputError as `check_target`, and where the file system refuses the file or has no room for it.
     """
@@ -106,13 +68,13 @@ class RecordWriter:
         self._variables = {**head.layout.along, **head.layout.others}
         self._head = head
         self._force = force
-        check_target(self.path, force)
+        check_target(self.path, force, head.origin)
 
     def __enter__(self) -> Self:
         made = False
         try:
             with locked(self.path) as self._lock:
-                refuse_existing(self.path, self._force)  # another may just have ended
+                refuse_existing(self.path, self._force, self._head.origin)  # another may just have ended
                 blank = create(self._head, self.samples)
                 self._place = blank.places
                 with replacing(self.partial, scratch_path(self.path)) as scratch:
@@ -195,6 +157,8 @@ class RecordWriter:
                     disk.write_amended(self.partial, scratch, change)
                 else:
                     self._write_trimmed(scratch, change)
+                if not self._force:
+                    keep_previous(self.path, self._head.origin)
             self.partial.unlink()
             remember_own(self.path)
         except OSError as error:

@@ -7,7 +7,9 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from tribodyn.errors import InputError, InputErrors, near_name, printable, quoted
+from tribodyn.scenario import scope
 from tribodyn.scenario.quantity import Reference
+from tribodyn.scenario.unit_grammar import range_for_one
 
 Key = tuple[str | int, ...]
 
@@ -50,8 +52,27 @@ class Origins:
 
 
 def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
-    """Return what pydantic found as our errors, in the order of the file."""
-    return [_explain_one(dict(found), model) for found in error.errors(include_url=False)]
+    """Return what pydantic found as our errors, in the order of the file.
+
+    Of a file that describes gears which are not modelled only that is said, once.
+    """
+    found = [dict(one) for one in error.errors(include_url=False)]
+    errors = [_explain_one(one, model) for one in found]
+    refused = (_outside(one, error) for one, error in zip(found, errors, strict=True))
+    first = next(filter(None, refused), None)
+    return errors if first is None else [first]
+
+
+def _outside(found: dict[str, Any], error: InputError) -> InputError | None:
+    """What to say of a key that describes gears which are not modelled; None where it does not."""
+    name, given = str(found["loc"][-1]), found["input"]
+    if found["type"] == "extra_forbidden":
+        named = given if isinstance(given, str) and len(given.split()) < 3 else ""  # type = "planetary"
+        return scope.outside(error, name, named)
+    fewest = found.get("ctx", {}).get("ge")  # a number of teeth that only the sign of internal gears excludes
+    if name == "teeth" and fewest is not None and given <= -fewest:
+        return scope.refusal(error, scope.INTERNAL)
+    return None
 
 
 def _explain_one(found: dict[str, Any], model: type[BaseModel]) -> InputError:
@@ -73,6 +94,8 @@ def _explain_one(found: dict[str, Any], model: type[BaseModel]) -> InputError:
             near = near_name(str(found["input"]), expected.replace('"', "").replace(" or ", ", ").split(", "))
             mean = f'did you mean "{near}"? ' if near else ""
             return InputError(dotted, given, "not one of the choices", f"{mean}write {expected}")
+        case "float_type" | "int_type" if isinstance(found["input"], str) and range_for_one(found["input"]):
+            return InputError(dotted, given, *(range_for_one(found["input"]) or ()))
         case "finite_number":
             return InputError(dotted, given, "not a finite number", "write a plain number, such as 1.0")
     rule, remedy = _PLAIN.get(found["type"], (found["msg"].lower(), ""))

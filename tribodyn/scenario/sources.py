@@ -5,13 +5,23 @@ simulation needs is refused before anything is made of it.
 """
 
 import csv
+import os
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NoReturn
 
-from tribodyn.errors import InputError, harmless, near_name, printable, printable_path, quoted
+from tribodyn.errors import (
+    InputError,
+    harmless,
+    names_with,
+    near_name,
+    printable,
+    printable_path,
+    quoted,
+)
 from tribodyn.scenario.messages import Key
 from tribodyn.scenario.units import EXTREME, is_extreme
 
@@ -21,6 +31,10 @@ MOST_TOML, MOST_CSV = 16 * 2**20, 4 * 2**20
 MOST_POINTS = 100_000
 #: Tables and lists inside each other, keys of a table, characters of a key and of a text.
 DEEPEST, MOST_KEYS, LONGEST_KEY, LONGEST_TEXT = 32, 1000, 200, 20_000
+#: Names that a message offers in place of an unknown one.
+_MOST_NEAR = 3
+#: What an HDF5 file begins with.
+_HDF5 = b"\x89HDF\r\n\x1a\n"
 #: Whole numbers that every part of a computation can hold.
 LEAST_WHOLE, GREATEST_WHOLE = -(2**63), 2**63 - 1
 
@@ -137,10 +151,29 @@ def find_scenario(name: str) -> Path:
     """Return the file of a scenario that is given by path or by the name of a shipped one."""
     path = Path(name)
     if is_file(path):
+        _refuse_record(path)
         return path
     if path.suffix == ".toml":
         _missing("scenario", name, path, "no such file")
     return _named("scenario", name, "scenario", [shipped(SCENARIOS)])
+
+
+def _refuse_record(path: Path) -> None:
+    """Refuse a record where a scenario is due."""
+    with suppress(OSError), path.open("rb") as file:
+        if file.read(len(_HDF5)) == _HDF5:
+            shown = f"tribodyn show {path}, or plot or report"
+            raise InputError("scenario", quoted(str(path)), "a record, not a scenario", f"use {shown}")
+
+
+def file_name(path: Path, folder: Path) -> str:
+    """How a record in a folder names the scenario's file: relative to it, a shipped one by its name."""
+    path, folder = path.resolve(), folder.resolve()
+    if path.parent == shipped(SCENARIOS).resolve():
+        return f"shipped: {path.stem}"
+    with suppress(ValueError):  # on another drive of Windows
+        return Path(os.path.relpath(path, folder)).as_posix()
+    return path.as_posix()
 
 
 def _missing(key: str, name: str, path: Path, rule: str) -> NoReturn:
@@ -180,8 +213,8 @@ def _named(key: str, name: str, what: str, folders: Iterable[Path]) -> Path:
             return folder / f"{name}.toml"
     looked = list(dict.fromkeys(folder.resolve() for folder in folders))
     known = sorted({known for folder in looked for known in names(folder)})
-    near = near_name(name, known)
-    remedy = f'did you mean "{near}"? ' if near else ""
+    near = names_with(name, known)[:_MOST_NEAR] or list(filter(None, [near_name(name, known)]))
+    remedy = f"did you mean {' or '.join(map(quoted, near))}? " if near else ""
     there = ", ".join(known) or "nothing"
     places = " and ".join(map(str, looked))
     raise InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")

@@ -109,6 +109,32 @@ _JOINED = {
 _KINEMATIC = re.compile(r"([cm]?m\s*(²|\^2|\*\*2|2)\s*/\s*s|c?St)")
 
 
+_END = r"\d+(?:\.\d+)?+(?:[eE][+-]?\d+)?+"
+_UNIT = r"[^\d\s.:,/-][^\d.:,-]*?"
+_RANGE = re.compile(
+    rf"\s*(?P<first>[+-]?{_END})\s*(?P<unit>{_UNIT})?\s*(?:-|–|—|:|\.{{2,3}}|…|\bto\b)\s*"
+    rf"(?P<last>{_END})\s*(?:/\s*\d+\s*)?(?(unit)(?P=unit)|(?P<own>{_UNIT})?)\s*",
+    re.ASCII,
+)
+
+
+def two_ends(value: str) -> tuple[str, str, str] | None:
+    """First, last and unit of a range that is written as in a sentence, "500-6000 rpm"; None: it is none."""
+    found = _RANGE.fullmatch(value)
+    return found and (found["first"], found["last"], found["own"] or found["unit"] or "")
+
+
+def range_for_one(value: str) -> tuple[str, str] | None:
+    """Rule and remedy for a range where one number is due; None where it is none."""
+    ends = two_ends(value)
+    if ends is None:
+        return None
+    first, last, unit = ends
+    one = f'"{first} {unit}"' if unit else first
+    vary = f"tribodyn sweep SCENARIO --vary KEY={first}:{last}/20{unit}"
+    return "a range, where one value is expected", f"write {one}, or vary it: {vary}"
+
+
 def decimal_comma(value: str) -> tuple[str, str] | None:
     """Rule and remedy for a number with a comma in it; None where there is none."""
     found = _COMMA.fullmatch(value)

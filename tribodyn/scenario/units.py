@@ -10,7 +10,15 @@ from functools import cache
 from math import isfinite, pi
 from typing import Any, NamedTuple
 
-from tribodyn.scenario.unit_grammar import COMMON_UNITS, LONGEST, RULE, decimal_comma, is_unit, spelling
+from tribodyn.scenario.unit_grammar import (
+    COMMON_UNITS,
+    LONGEST,
+    RULE,
+    decimal_comma,
+    is_unit,
+    range_for_one,
+    spelling,
+)
 
 
 class Kind(NamedTuple):
@@ -73,7 +81,7 @@ def to_si(value: Any, kind: Kind) -> float:
     if len(value) > LONGEST:
         raise NotAQuantity(f"longer than {LONGEST} characters", write)
     number = _NUMBER.match(value)
-    if hint := decimal_comma(value):
+    if hint := decimal_comma(value) or range_for_one(value):
         raise NotAQuantity(*hint)
     if number is None:
         raise NotAQuantity("not a number and a unit", write)

@@ -15,7 +15,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.quantity import Draws, InUnit, Reference, Weighed, parts_of
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.sources import LONGEST_KEY, broken_bounds
-from tribodyn.scenario.unit_grammar import is_unit
+from tribodyn.scenario.unit_grammar import is_unit, two_ends
 from tribodyn.scenario.units import Kind, NotAQuantity, registry, scaled, to_si
 
 VARY = "--vary"
@@ -107,6 +107,10 @@ def _values(option: str, text: str, leaf: Any) -> list[str]:
         if match := len(text) <= _LONGEST_RANGE and pattern.fullmatch(text):
             start, stop, count, unit = (match[i] for i in order)
             return _with_unit(_by_count(option, Fraction(start), Fraction(stop), int(count)), unit)
+    if (ends := two_ends(text)) and not isinstance(leaf, Reference):
+        first, last, unit = ends
+        remedy = f"write {first}:{last}/20{unit} for 20 values, or start:stop:step"
+        raise _refusal(option, "a range without a number of values or a step", remedy)
     if re.match(rf"\s*{_NUMBER}[^,]*:", text) and not isinstance(leaf, Reference):
         raise _refusal(option, "neither a range nor a list", GRAMMAR)
     values = [value.strip() for value in text.split(",")]

@@ -77,6 +77,7 @@ def figure(
     without samples.
     """
     from tribodyn.post.cycles import transient
+    from tribodyn.post.figures.drawing import with_whole_markers
     from tribodyn.post.figures.panel import View
     from tribodyn.post.style import house_style
 
@@ -93,7 +94,7 @@ def figure(
     number = (None if whole else 2) if cycles == "auto" else cycles
     with house_style():
         over = against or ("time" if whole else "phase")
-        return known[name].draw(records, View(number, over, against is not None))
+        return with_whole_markers(known[name].draw(records, View(number, over, against is not None)))
 
 
 def overview(record: Record) -> "Figure":
@@ -167,6 +168,7 @@ def sweep_figure(
     parameters by name, SI, for a figure of one case. Raises InputError for an unknown name, or a sweep that
     the figure cannot show.
     """
+    from tribodyn.post.figures.drawing import with_whole_markers
     from tribodyn.post.style import house_style
 
     known = drawable_of_sweep(records)
@@ -174,7 +176,7 @@ def sweep_figure(
     if name not in known:
         raise _unknown(name, "no such figure of a sweep", known)
     with house_style():
-        return known[name].draw(records, at or {})
+        return with_whole_markers(known[name].draw(records, at or {}))
 
 
 def _unknown(name: str, rule: str, known: Mapping[str, object]) -> InputError:

@@ -49,20 +49,22 @@ def run(
     resume: bool = False,
     follow: Follow | None = None,
     allow_large: bool = False,
+    scenario_file: str = "",
 ) -> SweepResult:
     """Evaluate every case of a grid and write the record; InputError before anything is computed.
 
     The `settings` are from `settings_of`. `directions` are senses to follow the first parameter in, none:
     every case begins by itself; `unstable` continues branches beyond the ends of their stable parts. `force`
-    replaces a record, `resume` goes on with what an unfinished sweep left; `allow_large`: see `sweep.plan`.
+    replaces a record, `resume` goes on with what an unfinished sweep left; `allow_large`: see `sweep.plan`;
+    `scenario_file`: see `record.previous.Origin`.
     """
     if directions or unstable:
         _can_be_followed(grid, directions, unstable)
         settings = grid.batch.following(settings, unstable)
     refuse_large(estimate_of(grid, settings, len(directions), engine.width), allow_large)
-    head = _head(grid, settings, directions)
+    head = _head(grid, settings, directions)._replace(scenario_file=scenario_file)
     if not resume:
-        check_target(Path(output), force)
+        check_target(Path(output), force, head.origin)
     _sound_somewhere(grid, settings)
     begun = perf_counter()
     with SweepWriter(output, head, force=force, resume=resume) as record:

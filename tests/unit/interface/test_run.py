@@ -55,6 +55,15 @@ def test_a_run_has_data_with_units_and_a_summary(crc):
     assert 'src="data:image/png;base64,' in shown
 
 
+def test_an_unknown_quantity_names_those_near_it(crc):
+    for name, near in (("eff", "efficiency"), ("efficency", "efficiency"), ("film min", "film_min")):
+        with pytest.raises(KeyError, match=rf"did you mean [^?]*\b{near}\b"):
+            crc.summary[name]
+    with pytest.raises(KeyError, match=r"there is: .*contact_ratio"):
+        crc.summary["zzz"]
+    assert crc.summary.get("eff") is None
+
+
 def test_its_record_goes_with_it_unless_it_is_kept(tmp_path: Path):
     result = td.run("backlash-oscillator", {"frequency": [0.5]})
     path = result.path

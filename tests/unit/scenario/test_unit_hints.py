@@ -7,6 +7,7 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.sources import read_toml
+from tribodyn.scenario.unit_grammar import range_for_one
 from tribodyn.scenario.units import NotAQuantity, factor_to_si, to_si
 from tribodyn.studies.protocol.load import json_schema
 
@@ -22,6 +23,7 @@ from tribodyn.studies.protocol.load import json_schema
         ("350 mPas", units.VISCOSITY, 'write "350 mPa*s"', 0.35),
         ("0.35 Pas", units.VISCOSITY, 'write "0.35 Pa*s"', 0.35),
         ("0.5 kNm", units.TORQUE, 'write "0.5 kN*m"', 500.0),
+        ("1500 min-1", units.ANGULAR_SPEED, 'write "1500 rpm"', 157.07963267948966),
         ("4e-4 kgm2", units.INERTIA, 'write "4e-4 kg*m^2"', 4e-4),
     ],
 )
@@ -31,6 +33,23 @@ def test_what_is_advised_is_taken(value, kind, remedy, meant):
     assert refused.value.remedy == remedy
     for advised in re.findall(r'"([^"]*)"', remedy):
         assert meant is None or to_si(advised, kind) == pytest.approx(meant, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "value",
+    ["500-6000rpm", "500 – 6000 rpm", "500rpm-6000 rpm", "500 to 6000 rpm", "500..6000rpm", "500:6000/20rpm"],
+)
+def test_a_range_is_not_one_value(value):
+    with pytest.raises(NotAQuantity, match="a range") as refused:
+        to_si(value, units.ANGULAR_SPEED)
+    one, ends = re.findall(r'write "([^"]*)", or vary it: .*KEY=([^/]*)', refused.value.remedy)[0]
+    assert to_si(one, units.ANGULAR_SPEED) == pytest.approx(500 * 0.10471975511965977)
+    assert ends == "500:6000"
+
+
+@pytest.mark.parametrize("value", ["5e-3 rad/s", "-5 rad/s", "1e-6-"])
+def test_these_are_no_ranges(value):
+    assert range_for_one(value) is None
 
 
 @pytest.mark.parametrize("unit", ["mm²/s", "mm^2/s", "mm**2/s", "cSt", "m²/s"])

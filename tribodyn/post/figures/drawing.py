@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
@@ -54,6 +55,21 @@ def drawing(
         return draw(records, view)
 
     return Drawing(about, checked, fits)
+
+
+def with_whole_markers(figure: Figure) -> Figure:
+    """Show markers whole that stand on an edge of their axes; lines that leave their axes stay cut there."""
+    for axes in figure.axes:
+        low, high = axes.viewLim.min, axes.viewLim.max
+        for line in axes.lines:
+            if line.get_marker() in ("None", "", " ", None) or line.get_transform() != axes.transData:
+                continue
+            places = np.asarray(line.get_xydata(), float)
+            places = places[np.isfinite(places).all(axis=1)]
+            if len(places) and np.all((places >= low) & (places <= high)):
+                line.set_clip_on(False)
+                line.set_in_layout(False)  # it is inside the axes, which have their room
+    return figure
 
 
 class SweepDrawing(NamedTuple):

@@ -16,6 +16,7 @@ from tribodyn.geometry.flanks.modification import (
     uneven_teeth,
     vary_along_lead,
 )
+from tribodyn.scenario.scope import outside
 from tribodyn.scenario.tables.model_files import DriveTable, MisalignmentTable, flank_of
 from tribodyn.scenario.tables.quality import broken_quality_rules, helix_allowance
 from tribodyn.scenario.tables.tooth_data import broken_tooth_rules, shape_errors
@@ -122,7 +123,8 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
     if drive.family in FAMILIES:
         yield from shape_errors(drive, FAMILIES[drive.family])
     else:
-        yield unknown_name(FAMILIES.key, drive.family, FAMILIES, FAMILIES.what)
+        unknown = unknown_name(FAMILIES.key, drive.family, FAMILIES, FAMILIES.what)
+        yield outside(unknown, drive.family, remedy=unknown.remedy) or unknown
 
 
 def broken_part_rules(hertz: str, foundation: str, compliance: str) -> Iterator[InputError]:

@@ -11,6 +11,7 @@ import numpy as np
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.work import usable_cores
+from tribodyn.record.previous import Origin, keep_previous
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import RecordWriter, check_target
@@ -118,6 +119,8 @@ def run(
     replace = force or before is not None
     before = before or Unfinished()
     path = target(case, path, replace)
+    if replace and not force:  # a complete one beside what is gone on with
+        keep_previous(path, Origin(case.kind, case.scenario_file))
     begun = perf_counter()
     with ExitStack() as stack:
         pool = stack.enter_context(_pool(case, client))

@@ -10,7 +10,17 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import View, record_title
-from tribodyn.post.style import GRID, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
+from tribodyn.post.style import (
+    GRID,
+    PALETTE,
+    PANEL_HEIGHT,
+    QUIET,
+    WIDTH,
+    house_style,
+    literal,
+    mark_panel,
+    new_figure,
+)
 from tribodyn.record.reader import Record
 from tribodyn.tribology.ehl.steady import survey_film
 
@@ -47,6 +57,9 @@ def _overview(record: Record, drawn: Figure) -> None:
     friction.set_ylabel("Friction coefficient")
     load.plot(roll, 1e-9 * record["hertz_pressure"], color=PALETTE[0])
     load.set(ylabel="Hertz pressure (GPa)", xlabel=ROLL)
+    mark_panel(film, "a", "Film thickness, solved and by every film law")
+    mark_panel(friction, "b", "Friction coefficient, solved and by every friction law")
+    mark_panel(load, "c", "Maximum Hertz pressure")
     for axes in (film, friction):
         axes.set_ylim(bottom=0)
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="x-small")
@@ -64,21 +77,23 @@ def _chosen(record: Record) -> np.ndarray:
     return solved[np.unique(np.linspace(0, len(solved) - 1, _SHOWN).astype(int))]
 
 
-_PROFILES = (
-    ("pressure", 1e-9, "Pressure (GPa)"),
-    ("film_thickness", 1e6, "Film thickness (µm)"),
-    ("temperature_rise", 1.0, "Temperature rise (K)"),
-    ("shear_stress", 1e-6, "Shear stress (MPa)"),
-)
+#: By the letters of their panels: dataset, factor to the unit, what it is, the unit.
+_PROFILES = {
+    "a": ("pressure", 1e-9, "Pressure", "GPa"),
+    "b": ("film_thickness", 1e6, "Film thickness", "µm"),
+    "c": ("temperature_rise", 1.0, "Temperature rise", "K"),
+    "d": ("shear_stress", 1e-6, "Shear stress", "MPa"),
+}
 
 
 def _profiles(record: Record, drawn: Figure) -> None:
     rows = drawn.subplots(2, 2, sharex=True)
-    for axes, (name, scale, label) in zip(rows.ravel(), _PROFILES, strict=True):
+    for axes, (letter, (name, scale, label, unit)) in zip(rows.ravel(), _PROFILES.items(), strict=True):
+        mark_panel(axes, letter, label)
         for number, at in enumerate(_chosen(record)):
             text = f"{np.degrees(record['roll_angle'][at]):.1f}°"
             axes.plot(record["place"], scale * record[name][at], color=PALETTE[number], label=text)
-        axes.set_ylabel(label)
+        axes.set_ylabel(unit)
     rows[0, 1].set_ylim(0, 3e6 * np.nanmax(record["central_film_thickness"]))
     rows[0, 0].legend(title="roll angle", fontsize="x-small")
     for axes in rows[1]:
@@ -88,11 +103,12 @@ def _profiles(record: Record, drawn: Figure) -> None:
 def _maps(record: Record, drawn: Figure) -> None:
     rows = drawn.subplots(2, 2, sharex=True, sharey=True)
     roll, top = np.degrees(record["roll_angle"]), 3e6 * np.nanmax(record["central_film_thickness"])
-    for axes, (name, scale, label) in zip(rows.ravel(), _PROFILES, strict=True):
+    for axes, (letter, (name, scale, label, unit)) in zip(rows.ravel(), _PROFILES.items(), strict=True):
+        mark_panel(axes, letter, label)
         limit = {"vmax": top} if name == "film_thickness" else {}
         values = np.ma.masked_invalid(scale * record[name])
         mesh = axes.pcolormesh(roll, record["place"], values.T, shading="nearest", rasterized=True, **limit)
-        drawn.colorbar(mesh, ax=axes, label=label)
+        drawn.colorbar(mesh, ax=axes, label=unit)
     for axes in rows[1]:
         axes.set_xlabel(ROLL)
     for axes in rows[:, 0]:
@@ -135,6 +151,9 @@ def _transient(record: Record, drawn: Figure) -> None:
     film.set(ylabel="Film thickness (µm)", ylim=(0.0, None))
     departure.set_ylabel("Departure (%)")
     friction.set(ylabel="Friction coefficient", ylim=(0.0, None), xlabel=ROLL)
+    mark_panel(film, "a", "Film thickness")
+    mark_panel(departure, "b", "Departure of the film with squeeze from the steady one")
+    mark_panel(friction, "c", "Friction coefficient")
     for axes in (film, departure, friction):
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="x-small")
 

@@ -5,6 +5,7 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple, Union
@@ -17,7 +18,8 @@ from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.own_keys import example_of
 from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
-from tribodyn.scenario.sources import find_scenario
+from tribodyn.scenario.scope import outside
+from tribodyn.scenario.sources import file_name, find_scenario
 from tribodyn.scenario.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
 from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.protocol.study import CaseHead, Study
@@ -71,6 +73,10 @@ class Loaded(NamedTuple):
     path: Path
     origins: Origins
 
+    def recorded_in(self, folder: Path) -> "Loaded":
+        """The same, for a record in a folder that is named after it; see `record.previous`."""
+        return self._replace(case=replace(self.case, scenario_file=file_name(self.path, folder)))
+
     @contextmanager
     def naming(self) -> Iterator[None]:
         """Put the file into the errors that the physics raises inside the block."""
@@ -117,7 +123,8 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     model = study.table(data)
     try:
         if isinstance(kind, str) and kind not in STUDIES:
-            raise unknown_name("kind", kind, STUDIES, STUDIES.what)
+            unknown = unknown_name("kind", kind, STUDIES, STUDIES.what)
+            raise outside(unknown, kind, remedy=unknown.remedy) or unknown
         scenario = model.model_validate(data)
     except InputError as error:
         raise origins.locate(error) from None

@@ -1,7 +1,7 @@
 """A case's head, its record, and what its run and its check end in."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
@@ -21,6 +21,8 @@ class CaseHead:
     #: overrides applied); loading it gives this case again
     toml: str
     sha256: str  # digest of `toml`
+    #: of a record that is named after its scenario: the scenario's file, see `record.previous.Origin`
+    scenario_file: str = field(default="", kw_only=True, compare=False)
 
     def chosen(self) -> dict[str, str]:
         """What the scenario left open: key -> what was taken, and why."""
@@ -68,14 +70,16 @@ class CheckResult(NamedTuple):
     data: dict[str, Any]
     tables: Sequence[TextTable]
     remarks: Sequence[str] = ()
+    warnings: Sequence[str] = ()  # values that are more often a slip than meant, a sentence each
 
 
 def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
     """Where a case's record goes; InputError, before any work, where it cannot be written there."""
+    from tribodyn.record.previous import Origin
     from tribodyn.record.writer import check_target
 
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    check_target(path, force)
+    check_target(path, force, Origin(case.kind, case.scenario_file))
     return path
 
 
@@ -88,5 +92,6 @@ def writer(
     from tribodyn.record.layout import Head
     from tribodyn.record.writer import RecordWriter
 
+    more["scenario_file"] = case.scenario_file
     head = Head(case.kind, layout, case.toml, case.sha256, datetime.now(UTC), **more)
     return RecordWriter(path, head, samples, force=force)

@@ -145,8 +145,9 @@ class Study:
         checked = self._part("check", "check")(case)
         if self.has_gears:
             from tribodyn.studies.gears.check import with_rounding
+            from tribodyn.studies.gears.usual import with_duty
 
-            checked = with_rounding(checked, case.toml)
+            checked = with_duty(with_rounding(checked, case.toml), case)
         data, remarks = checked.data | {"estimate": as_data(estimate)}, checked.remarks
         if share_of_limits(estimate) >= WORTH_SAYING:
             remarks = (*remarks, f"A run takes about {described(estimate)}.")

@@ -1,0 +1,43 @@
+"""Gears that this version does not model, by the keys and names under which scenarios ask for them."""
+
+import re
+
+from tribodyn.errors import InputError
+
+INTERNAL = "internal gears"
+#: What is asked for -> the keys and names that ask for it, and what to do about it.
+_OUTSIDE = {
+    "helical gears": (r"helix|helical|herringbone|^beta(_|$)", "omit it"),
+    INTERNAL: (r"^internal(_(gears?|teeth|mesh))?$|annulus|^ring(_|$)", "describe an external gear"),
+    "planetary gears": (
+        r"planet|epicyclic|^(sun|carrier)s?(_|$)",
+        "describe an external mesh of it, sun and planet, as [drive.pinion] and [drive.gear]",
+    ),
+    "several stages": (
+        r"multi_?stage|^((n|number_of)_)?(stage|shaft|gearbox|gear_?train|train|idler|gears|mesh(es)?|"
+        r"((pinion|gear|wheel)_?\d+))(e?s)?(_?\d+)?$",
+        "describe one stage as [drive.pinion] and [drive.gear]",
+    ),
+    "bevel, worm and hypoid gears": (r"bevel|worm|hypoid|(cone|shaft|spiral)_angle", "omit it"),
+}
+
+
+def outside(error: InputError, *names: str, remedy: str = "") -> InputError | None:
+    """What to say in place of an unknown key or name that asks for other gears; None where it does not.
+
+    `names` are the key's last part, or the name, and others that may ask for them.
+    """
+    plain = [re.sub(r"[\s-]+", "_", name.strip().lower()) for name in names]
+    for what, (pattern, _) in _OUTSIDE.items():
+        if any(re.search(pattern, name) for name in plain):
+            return refusal(error, what, remedy)
+    return None
+
+
+def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
+    """What to say, in place of an error, of a value that asks for gears which are not modelled."""
+    rule = (
+        f"{what} are not modelled: this version computes one pair of external spur gears, "
+        "not helical, internal or planetary gears"
+    )
+    return InputError(error.key, error.value, rule, remedy or _OUTSIDE[what][1], error.file)
