@@ -27,6 +27,7 @@ EXAMPLES = (
     "--vary operating.gear_torque=100,300N*m -o map.h5\n"
     "  tribodyn sweep jump-involute-23-47 --vary operating.pinion_speed=380:620:10rad/s --direction both\n"
     "  tribodyn sweep crc-23-47 --vary drive.pinion.profile_shift=0:0.4:0.1 --transient 40 --resume\n"
+    "  tribodyn sweep crc-23-47-300 --vary operating.pinion_speed=500:6000:250rpm --refine 60\n"
     "then: tribodyn plot map.h5 response waterfall"
 )
 
@@ -84,6 +85,22 @@ def sweep(
             "--unstable", help="With --direction: continue branches beyond their ends, unstable, round folds."
         ),
     ] = False,
+    refine: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=1,
+            max=10**5,
+            help="At most N further values of the first key, where the response bends: shows peaks.",
+        ),
+    ] = None,
+    refine_by: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="QUANTITY",
+            help="What --refine watches; several may be given. Default: the first quantity that is printed.",
+        ),
+    ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped sweep of that name.")] = False,
     engine: Annotated[
         EngineName,
@@ -117,12 +134,14 @@ def sweep(
     from tribodyn.studies.pages import sweep_table
     from tribodyn.sweep.engines import engine_of
     from tribodyn.sweep.grid import Grid, default_output
+    from tribodyn.sweep.refinement import refinement_of
     from tribodyn.sweep.run import run, settings_of
 
     if steady and transient is not None:
         raise InputError("--steady", None, "contradicts --transient", "give one of them")
     require_one_way(resume=resume, force=force)
     grid = Grid(scenario, vary or [], overrides(settings))
+    refinement = refinement_of(grid, refine, refine_by or ())
     record = output or default_output(grid)
     chosen = DIRECTIONS if direction is Direction.both else (direction.value,) if direction else ()
     with (
@@ -136,6 +155,7 @@ def sweep(
             record,
             directions=chosen,
             unstable=unstable,
+            refinement=refinement,
             force=force,
             resume=resume,
             follow=lambda done, total: progress(done / total),

@@ -18,6 +18,7 @@ from tribodyn.record.sweep_schema import DIRECTIONS
 from tribodyn.studies import study_of
 from tribodyn.sweep.engines import engine_of
 from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.refinement import refinement_of
 from tribodyn.sweep.run import run, settings_of
 
 if TYPE_CHECKING:
@@ -121,6 +122,8 @@ def sweep(
     *,
     transient: int | None = None,
     direction: Literal["up", "down", "both"] | None = None,
+    refine: int | None = None,
+    refine_by: str | Sequence[str] = (),
     engine: Literal["native", "jax", "dask"] = "native",
     workers: int | None = None,
     scheduler: str | None = None,
@@ -142,6 +145,10 @@ def sweep(
         March so many mesh cycles; default: seek the periodic steady state of each case.
     direction : {"up", "down", "both"}, optional
         Follow the first key, each case from its neighbour's state: shows jumps.
+    refine : int, optional
+        Add at most so many further values of the first key where the response bends: shows peaks.
+    refine_by : str or list of str, optional
+        Quantities of the sweep that `refine` watches; default: the first that the command line prints.
     engine, workers, scheduler
         Where the cases are evaluated: compiled on all cores, by JAX on its device, by Dask.
     output, force, resume
@@ -166,6 +173,8 @@ def sweep(
     chosen = DIRECTIONS if direction == "both" else (direction,) if direction else ()
     with tempfile.TemporaryDirectory(prefix="tribodyn-") as folder:
         grid = _grid(source, vary, overrides, Path(folder))
+        watched = [refine_by] if isinstance(refine_by, str) else refine_by
+        refinement = refinement_of(grid, refine, watched)
         record = Path(output) if output is not None else Path(folder) / "sweep.h5"
         with engine_of(engine, workers, scheduler) as evaluator:
             done = run(
@@ -174,6 +183,7 @@ def sweep(
                 evaluator,
                 record,
                 directions=chosen,
+                refinement=refinement,
                 force=force,
                 resume=resume,
                 follow=(lambda count, total: progress(count / total)) if progress else None,
