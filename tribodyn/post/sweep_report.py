@@ -149,10 +149,8 @@ def _head(record: SweepRecord) -> list[str]:
     if refined := record.settings.get("refine"):
         first = record.parameters[0]
         begun, by = len(record.settings["vary"][first.key]), " or ".join(refined["by"])
-        more = len(first.values) - begun
-        lines.append(
-            f"{first.key}: {begun} values, {more} more (of at most {refined['most']}) where {by} bends"
-        )
+        more, most = len(first.values) - begun, refined["most"]
+        lines.append(f"{first.key}: {begun} values and {more} more, of at most {most}, where {by} bends")
     if "solution" in record:
         solutions = record["solution"]
         found = solutions[(solutions != "") & (solutions != "failed")]
