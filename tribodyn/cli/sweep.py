@@ -126,8 +126,8 @@ def sweep(
     """Vary keys of a scenario, one record of all cases."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
     from tribodyn.cli.printing import print_files, print_json, print_rich
-    from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
+    from tribodyn.post.progress import progress_bar
     from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
     from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.record.sweep_schema import DIRECTIONS
@@ -135,7 +135,7 @@ def sweep(
     from tribodyn.sweep.engines import engine_of
     from tribodyn.sweep.grid import Grid, default_output
     from tribodyn.sweep.refinement import refinement_of
-    from tribodyn.sweep.run import run, settings_of
+    from tribodyn.sweep.run import cases_at_most, run, settings_of
 
     if steady and transient is not None:
         raise InputError("--steady", None, "contradicts --transient", "give one of them")
@@ -144,9 +144,10 @@ def sweep(
     refinement = refinement_of(grid, refine, refine_by or ())
     record = output or default_output(grid)
     chosen = DIRECTIONS if direction is Direction.both else (direction.value,) if direction else ()
+    most = cases_at_most(grid, refinement, len(chosen))
     with (
         engine_of(engine.value, workers, scheduler) as evaluator,
-        progress_bar(f"{grid.name}: {' × '.join(map(str, grid.shape))} cases") as progress,
+        progress_bar(grid.name, most, "cases") as progress,
     ):
         result = run(
             grid,
@@ -158,7 +159,7 @@ def sweep(
             refinement=refinement,
             force=force,
             resume=resume,
-            follow=lambda done, total: progress(done / total),
+            follow=lambda done, total: progress(1.0 - (total - done) / most),
             allow_large=allow_large,
         )
     with SweepRecord(result.path) as written:

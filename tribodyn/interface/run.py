@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from tribodyn.interface import shown
 from tribodyn.interface.scenario import Source, in_python, scenario
+from tribodyn.post.progress import progress_of
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
@@ -237,7 +238,7 @@ def run(
     force: bool = False,
     film: "FilmLaw | None" = None,
     friction: "FrictionLaw | None" = None,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     allow_large: bool = False,
 ) -> Run:
     """Run a scenario.
@@ -252,8 +253,8 @@ def run(
         Replace a record of that name.
     film, friction : FilmLaw, FrictionLaw, optional
         Take the place of the scenario's laws.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
+    progress : callable or bool, optional
+        Called with the share done, 0 … 1; default: a bar on a terminal or in a notebook; False: none.
     allow_large : bool
         Allow runs above the resource limits (memory, disk, time).
 
@@ -274,16 +275,20 @@ def run(
     return recorded(scenario(source, overrides), output, allow_large=allow_large, **how)
 
 
-def recorded(case: CaseHead, output: str | Path | None, **how: Any) -> Run:
+def recorded(
+    case: CaseHead, output: str | Path | None, progress: Progress | bool | None = None, **how: Any
+) -> Run:
     """Run a case into a file, or into a temporary folder that is removed with the result."""
-    if output is not None:
-        return open_run(run_case(case, output, **how).path)
-    folder = tempfile.mkdtemp(prefix="tribodyn-")
-    try:
-        return open_run(run_case(case, Path(folder) / f"{case.name}.h5", **how).path, folder)
-    except BaseException:
-        shutil.rmtree(folder, ignore_errors=True)
-        raise
+    with progress_of(progress, case.name) as report:
+        how["progress"] = report
+        if output is not None:
+            return open_run(run_case(case, output, **how).path)
+        folder = tempfile.mkdtemp(prefix="tribodyn-")
+        try:
+            return open_run(run_case(case, Path(folder) / f"{case.name}.h5", **how).path, folder)
+        except BaseException:
+            shutil.rmtree(folder, ignore_errors=True)
+            raise
 
 
 def open_run(path: Path, folder: str | None = None) -> Run:

@@ -12,6 +12,7 @@ from tribodyn.interface import shown
 from tribodyn.interface.run import Run, open_run
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.numerics.output_files import write_output
+from tribodyn.post.progress import Report, progress_of
 from tribodyn.record import trust
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
@@ -19,7 +20,7 @@ from tribodyn.studies import study_of
 from tribodyn.sweep.engines import engine_of
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.refinement import refinement_of
-from tribodyn.sweep.run import run, settings_of
+from tribodyn.sweep.run import cases_at_most, run, settings_of
 
 if TYPE_CHECKING:
     import xarray
@@ -130,7 +131,7 @@ def sweep(
     output: str | Path | None = None,
     force: bool = False,
     resume: bool = False,
-    progress: Any = None,
+    progress: Report | bool | None = None,
     allow_large: bool = False,
 ) -> "xarray.Dataset":
     """Evaluate a scenario over a grid of its keys.
@@ -153,8 +154,8 @@ def sweep(
         Where the cases are evaluated: compiled on all cores, by JAX on its device, by Dask.
     output, force, resume
         Keep the record in a file, replace one, go on with an unfinished one; default: nothing is kept.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
+    progress : callable or bool, optional
+        Called with the share done, 0 … 1; default: a bar on a terminal or in a notebook; False: none.
     allow_large : bool
         Allow grids above the resource limits.
 
@@ -176,7 +177,11 @@ def sweep(
         watched = [refine_by] if isinstance(refine_by, str) else refine_by
         refinement = refinement_of(grid, refine, watched)
         record = Path(output) if output is not None else Path(folder) / "sweep.h5"
-        with engine_of(engine, workers, scheduler) as evaluator:
+        most = cases_at_most(grid, refinement, len(chosen))
+        with (
+            engine_of(engine, workers, scheduler) as evaluator,
+            progress_of(progress, grid.name, most, "cases") as report,
+        ):
             done = run(
                 grid,
                 settings_of(grid, transient, engine),
@@ -186,7 +191,7 @@ def sweep(
                 refinement=refinement,
                 force=force,
                 resume=resume,
-                follow=(lambda count, total: progress(count / total)) if progress else None,
+                follow=lambda count, total: report(1.0 - (total - count) / most),
                 allow_large=allow_large,
             )
         with SweepRecord(done.path) as written:

@@ -1,5 +1,6 @@
 """A sweep from its grid to its record."""
 
+import math
 import tomllib
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -39,6 +40,12 @@ def settings_of(grid: Grid, transient: int | None = None, engine: str = "native"
     return grid.batch.settings(grid.ends(), transient, engine)
 
 
+def cases_at_most(grid: Grid, refinement: Refinement | None, directions: int) -> int:
+    """How many cases a sweep has, with all further values that it may get."""
+    further = refinement.most if refinement else 0
+    return (grid.shape[0] + further) * math.prod(grid.shape[1:]) * max(1, directions)
+
+
 def run(
     grid: Grid,
     settings: Any,
@@ -74,10 +81,8 @@ def run(
     _sound_somewhere(grid, settings)
     begun, done = perf_counter(), 0
     with SweepWriter(output, head, force=force, resume=resume) as record:
-        # with a refinement the most that there may be
-        per_value = record.status.size // grid.shape[0]
-        expected = int(np.sum(record.status == WAITING))
-        expected += per_value * (len(first.axes[0].values) + most - grid.shape[0])
+        done_before = int(np.sum(record.status != WAITING))
+        expected = cases_at_most(first, refinement, len(directions)) - done_before
         while True:
             for chunk, block in _blocks(grid, settings, engine, directions, record):
                 record.write(chunk.numbers, block)
