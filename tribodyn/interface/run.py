@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from tribodyn.studies.measured import Source as Measured
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
 
 
@@ -119,7 +120,44 @@ class Run:
             return figure(name, records, cycles=cycles, against=against)
 
     @in_python()
-    def report(self, path: str | Path | None = None, *others: "Run", force: bool = False) -> Path:
+    def plot_measured(
+        self, measured: "Measured", *others: "Run", align: str = "given", ax: "Axes | None" = None
+    ) -> "Figure":
+        """Draw measured curves beside those of this run.
+
+        Parameters
+        ----------
+        measured : path or mapping
+            A CSV file whose first line is ``mesh_phase [1], transmission_error_rotational [um]``, or its
+            columns by such names: `time`, `mesh_phase` or `pinion_angle`, then quantities of `data`.
+        *others : Run
+            Runs of the same kind, beside it too.
+        align : {"given", "mean", "fit"}
+            As given; the run moved to the measured mean; also along the abscissa, to where the first quantity
+            correlates best, by at most half a mesh cycle.
+        ax : matplotlib axes, optional
+            As of `plot`.
+
+        Raises
+        ------
+        InputError
+            For a bad file, unknown names or units, and curves that share no part of the abscissa.
+        """
+        from tribodyn.post.style import in_place_of
+        from tribodyn.studies.measured import measured_figure
+
+        with self._records(others) as records, in_place_of(ax):
+            return measured_figure(records, measured, align)
+
+    @in_python()
+    def report(
+        self,
+        path: str | Path | None = None,
+        *others: "Run",
+        force: bool = False,
+        measured: "Measured | None" = None,
+        align: str = "given",
+    ) -> Path:
         """Write a page for the browser: summary, figures, the teeth rolling through mesh.
 
         Parameters
@@ -130,6 +168,8 @@ class Run:
             Runs of the same kind, side by side with this one.
         force : bool
             Replace also what is no page of ours.
+        measured, align
+            As of `plot_measured`: a figure on the page.
 
         Returns
         -------
@@ -146,7 +186,8 @@ class Run:
         from tribodyn.studies.pages import write_report
 
         with self._records(others) as records:
-            return write_report(records, path or f"{self.path.stem}.html", force=force)
+            target = path or f"{self.path.stem}.html"
+            return write_report(records, target, force=force, measured=measured, align=align)
 
     @in_python()
     def animate(self, *others: "Run") -> shown.Animation:
