@@ -3,7 +3,7 @@
 import shutil
 import tempfile
 import weakref
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from functools import cache, cached_property
 from pathlib import Path
@@ -87,6 +87,8 @@ class Run:
         ax: "Axes | None" = None,
         cycles: int | Literal["auto"] | None = "auto",
         against: str = "phase",
+        measured: "Measured | None" = None,
+        align: str = "given",
     ) -> "Figure":
         """Draw one figure.
 
@@ -102,6 +104,11 @@ class Run:
             How many of the last mesh cycles to show; None: all; "auto": 2, of a transient all.
         against : {"phase", "time"}
             Mesh cycles, or milliseconds.
+        measured : path or mapping, optional
+            Draw these curves beside the runs' instead: a CSV file that begins with
+            ``mesh_phase [1],transmission_error_rotational [um]``, or its columns by such names.
+        align : {"given", "mean", "fit"}
+            Runs as they are; moved to the measured mean; also along the abscissa, to the best correlation.
 
         Returns
         -------
@@ -111,43 +118,17 @@ class Run:
         Raises
         ------
         InputError
-            For an unknown name, and runs that cannot be compared.
+            For an unknown name, runs that cannot be compared, and measured curves that cannot be used.
         """
         from tribodyn.post.style import in_place_of
         from tribodyn.studies.pages import figure
 
         with self._records(others) as records, in_place_of(ax):
+            if measured is not None:
+                from tribodyn.studies.measured import measured_figure
+
+                return measured_figure(records, measured, align)
             return figure(name, records, cycles=cycles, against=against)
-
-    @in_python()
-    def plot_measured(
-        self, measured: "Measured", *others: "Run", align: str = "given", ax: "Axes | None" = None
-    ) -> "Figure":
-        """Draw measured curves beside those of this run.
-
-        Parameters
-        ----------
-        measured : path or mapping
-            A CSV file whose first line is ``mesh_phase [1], transmission_error_rotational [um]``, or its
-            columns by such names: `time`, `mesh_phase` or `pinion_angle`, then quantities of `data`.
-        *others : Run
-            Runs of the same kind, beside it too.
-        align : {"given", "mean", "fit"}
-            As given; the run moved to the measured mean; also along the abscissa, to where the first quantity
-            correlates best, by at most half a mesh cycle.
-        ax : matplotlib axes, optional
-            As of `plot`.
-
-        Raises
-        ------
-        InputError
-            For a bad file, unknown names or units, and curves that share no part of the abscissa.
-        """
-        from tribodyn.post.style import in_place_of
-        from tribodyn.studies.measured import measured_figure
-
-        with self._records(others) as records, in_place_of(ax):
-            return measured_figure(records, measured, align)
 
     @in_python()
     def report(
@@ -169,7 +150,7 @@ class Run:
         force : bool
             Replace also what is no page of ours.
         measured, align
-            As of `plot_measured`: a figure on the page.
+            As of `plot`: a figure on the page.
 
         Returns
         -------
@@ -277,8 +258,8 @@ def run(
     *,
     output: str | Path | None = None,
     force: bool = False,
-    film: "FilmLaw | None" = None,
-    friction: "FrictionLaw | None" = None,
+    film: "FilmLaw | Callable[..., Any] | None" = None,
+    friction: "FrictionLaw | Callable[..., Any] | None" = None,
     progress: Progress | bool | None = None,
     allow_large: bool = False,
 ) -> Run:
@@ -292,7 +273,7 @@ def run(
         Keep the record in this file; default: in a temporary folder, as long as the result is in use.
     force : bool
         Replace a record of that name.
-    film, friction : FilmLaw, FrictionLaw, optional
+    film, friction : FilmLaw, FrictionLaw or function, optional
         Take the place of the scenario's laws.
     progress : callable or bool, optional
         Called with the share done, 0 … 1; default: a bar on a terminal or in a notebook; False: none.

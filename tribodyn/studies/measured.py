@@ -107,7 +107,9 @@ def beside(record: Record, measured: Measured, name: str, align: str = "given") 
     )
     whole = 0.0
     if measured.abscissa in (PHASE, ANGLE) and not periodic:
-        whole = cycle * np.floor((x[-1] - at[-1]) / cycle + 1e-9)
+        # a fit leaves half a cycle at both ends where the record is that long
+        room = cycle / 2.0 if align == "fit" and np.ptp(x) >= np.ptp(at) + 2.0 * cycle else 0.0
+        whole = cycle * np.floor((x[-1] - at[-1] - room) / cycle + 1e-9)
     shift = 0.0
     if align == "fit":
         first = next(column for column in measured.values if column != measured.abscissa)
@@ -161,7 +163,7 @@ def _abscissa(record: Record, measured: Measured) -> tuple[np.ndarray, float, bo
         raise unknown_name("measured", name, known, "abscissa of this record: the first column")
     if len(x) < 2:
         raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
-    if own == "phase":
+    if own == record.axis == "phase":
         return x, 1.0, True
     if name == PHASE or not teeth:
         return x, 1.0 if name == PHASE else 0.1 * float(np.ptp(x)), False
