@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 import tribodyn as td
 from tests.support.verbs import complaint, invoke, sets
+from tribodyn.interface.run import open_run
 from tribodyn.record.reader import Record
 from tribodyn.studies.measured import Beside, beside, read_measured
 
@@ -96,12 +97,12 @@ def test_the_figure_and_the_page_show_it(run: Path, tmp_path: Path):
     invoke("report", run, "--measured", file, "-o", tmp_path / "run.html")
     page = (tmp_path / "run.html").read_text(encoding="utf-8")
     assert "Measured: the simulation beside it" in page
-    result = td.open(run)
+    result = open_run(run)
     figure = result.plot(measured=file)
     assert isinstance(figure, Figure)
     assert [axes.get_ylabel() for axes in figure.axes] == ["µm", "N m"]
     shown = {line.get_label(): line.get_xydata() for line in figure.axes[0].lines}
-    np.testing.assert_allclose(shown["measured: rig"], np.column_stack(columns[:2]), rtol=1e-8)
+    np.testing.assert_allclose(np.asarray(shown["measured: rig"]), np.column_stack(columns[:2]), rtol=1e-8)
     assert "correlation 1.000" in figure.axes[0].get_title(loc="left")
     # the same columns from Python, beside two runs
     given = {"mesh_phase [1]": phase, f"{ERROR} [m]": columns[1] * 1e-6}
@@ -156,6 +157,6 @@ def test_what_has_no_curves_over_a_run_is_refused(run: Path, tmp_path: Path):
     assert "draws one figure" in complaint("plot", run, "film", "--measured", file)
     assert "cannot be read" in complaint("plot", run, "--measured", tmp_path / "none.csv")
     with pytest.raises(td.InputError, match="no such way"):
-        td.open(run).plot(measured=file, align="best")
+        open_run(run).plot(measured=file, align="best")
     with pytest.raises(td.InputError, match="name \\[unit\\]"):
-        td.open(run).plot(measured={"mesh_phase": [0, 1], ERROR: [0, 1]})
+        open_run(run).plot(measured={"mesh_phase": [0, 1], ERROR: [0, 1]})

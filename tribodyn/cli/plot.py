@@ -47,6 +47,7 @@ def plot(
             autocompletion=records_and_plots,
         ),
     ],
+    *,
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder of the pictures.")] = Path(),
     cycles: Annotated[
         int | None,

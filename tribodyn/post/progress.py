@@ -111,7 +111,7 @@ def _bar(unit: str) -> Any:
 
 def _in_notebook(bar: Any) -> Callable[[], None]:
     """Give what draws the bar below the cell, at most every `NOTEBOOK_PAUSE`; the last one stays."""
-    from IPython.display import display
+    from IPython.display import display  # pyright: ignore[reportMissingImports]
 
     last, handle = perf_counter() + PATIENCE - NOTEBOOK_PAUSE, None
 

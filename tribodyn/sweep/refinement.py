@@ -34,12 +34,10 @@ class Refinement(NamedTuple):
     most: int
     by: tuple[str, ...]
 
-    def further(self, grid: Grid, first: Sequence[float], record: SweepWriter) -> list[float]:
-        """Values of the next round, SI, from what is recorded of the grid so far; none: it is fine enough.
-
-        `first` are the values of the first grid.
-        """
+    def further(self, grid: Grid, first: Grid, record: SweepWriter) -> list[float]:
+        """Values of the next round, SI, from what is recorded of the grid so far; none: it is fine enough."""
         values = np.array(grid.axes[0].values, dtype=float)
+        begun = np.array(first.axes[0].values, dtype=float)
         numbers = np.arange(record.status.size)
         done = record.status == DONE
         score = np.zeros(len(values) - 1)
@@ -47,11 +45,11 @@ class Refinement(NamedTuple):
             curves = np.where(done, record.read(name, numbers), np.nan).reshape(len(values), -1)
             for curve in curves.T:
                 score = np.maximum(score, interval_bends(values, curve))
-        score[np.abs(np.diff(values)) < 1.5 * _finest(values, np.array(first))] = 0.0
+        score[np.abs(np.diff(values)) < 1.5 * _finest(values, begun)] = 0.0
         score[score < max(BEND, OF_THE_WORST * float(np.max(score)))] = 0.0
         # the worst first; of equal ones the first
         chosen = np.argsort(-score, kind="stable")[: np.count_nonzero(score)]
-        left = self.most - (len(values) - len(first))
+        left = self.most - (len(values) - len(begun))
         chosen = np.sort(chosen[: max(0, left)])
         return ((values[chosen] + values[chosen + 1]) / 2.0).tolist()
 

@@ -89,7 +89,7 @@ def run(
                 done += len(chunk.numbers)
                 if follow:
                     follow(min(done, expected), expected)
-            further = refinement.further(grid, first.axes[0].values, record) if refinement else ()
+            further = refinement.further(grid, first, record) if refinement else ()
             if not further:
                 break
             finer = grid.with_values(_merged(grid.axes[0].values, further))
