@@ -181,7 +181,7 @@ def _peak_lines(record: SweepRecord) -> list[str]:
     for top in tops[:PEAKS_SHOWN]:
         quantity = QUANTITIES.get(top["quantity"]) or described(record, top["quantity"])
         value = f"{quantity.written(top['value'])} {quantity.unit}".rstrip()
-        near = shown(top["within"], record.parameters[0].units, 2)
+        near = shown(top["within"], record.parameters[0].units, 4)
         lines.append(f"peak of {quantity.title}: {value} at {_place(record, top['at'])}, within {near}")
     return lines + ([f"and {len(tops) - PEAKS_SHOWN} more peaks"] if len(tops) > PEAKS_SHOWN else [])
 
