@@ -25,6 +25,8 @@ CONTENTS = {
         "how-to/own-gears",
         "how-to/relief",
         "how-to/speeds",
+        "how-to/own-law",
+        "how-to/measured",
         "how-to/scripts",
         "assessment",
         "compare",

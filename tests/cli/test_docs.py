@@ -96,6 +96,13 @@ def folder(tmp_path: Path, record: bytes, monkeypatch: pytest.MonkeyPatch) -> Pa
     return tmp_path
 
 
+def write_tables(page: Path, folder: Path) -> None:
+    """Write the files that a page shows and refers to."""
+    for table in blocks("csv"):
+        if table.page == page:
+            (folder / table.info).write_text(table.text, encoding="utf-8")
+
+
 def commands(block: Block) -> list[list[str]]:
     lines = block.text.replace("\\\n", " ").splitlines()
     words = [shlex.split(line.removeprefix("$ ").partition(" > ")[0], comments=True) for line in lines]
@@ -108,6 +115,7 @@ PAGES_WITH_COMMANDS = sorted({block.page for block in blocks("console") if block
 @pytest.mark.parametrize("page", PAGES_WITH_COMMANDS, ids=lambda page: page.name)
 def test_commands_run(page: Path, folder: Path):
     """In the order of the page, in one folder; validations, sweeps and assessments are tested elsewhere."""
+    write_tables(page, folder)
     for block in blocks("console"):
         if block.page != page:
             continue
@@ -151,9 +159,7 @@ def test_scenarios_load(block: Block, folder: Path):
 
 @pytest.mark.parametrize("block", blocks("toml", "fragment"), ids=str)
 def test_fragments_load(block: Block, folder: Path):
-    for csv in blocks("csv"):
-        if csv.page == block.page:
-            (folder / csv.info).write_text(csv.text, encoding="utf-8")
+    write_tables(block.page, folder)
     base = find_scenario("crc-23-47").read_text(encoding="utf-8")
     (folder / "page.toml").write_text(base, encoding="utf-8")
     assert load_scenario(folder / "page.toml", flat(tomllib.loads(block.text))).title
@@ -181,6 +187,7 @@ def test_every_toml_block_is_one_or_the_other():
 )
 def test_python_runs(block: Block, folder: Path):
     matplotlib.use("agg")
+    write_tables(block.page, folder)
     try:
         exec(compile(block.text, str(block), "exec"), {"__name__": "__main__"})
     finally:

@@ -10,16 +10,19 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.gear_pair import batch
 from tribodyn.sweep.engines import DaskEngine, Engine, LocalEngine
 from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.refinement import refinement_of
 from tribodyn.sweep.run import run, settings_of
 
 KEY, _, ERROR = MOVING_ERROR.partition("=")
 SET = {KEY: ERROR, "output.samples_per_cycle": 32}
 SPEEDS = (480, 484, 488, 492)
-#: Way -> mesh cycles to march, directions.
-WAYS: dict[str, tuple[int | None, tuple[str, ...]]] = {
-    "steady": (None, ()),
-    "followed": (None, ("up", "down")),
-    "transient": (40, ()),
+#: Way -> mesh cycles to march, directions, further values where the response bends.
+WAYS: dict[str, tuple[int | None, tuple[str, ...], int | None]] = {
+    "steady": (None, (), None),
+    "followed": (None, ("up", "down"), None),
+    "transient": (40, (), None),
+    "refined": (40, (), 5),
+    "followed and refined": (None, ("up", "down"), 3),
 }
 
 
@@ -31,14 +34,19 @@ def sweep(
     way: str, output: Path, engine: Engine, speeds: Sequence[int] = SPEEDS, *, resume=False, stop=0
 ) -> Path:
     """Run a sweep, which stops after so many cases."""
-    cycles, directions = WAYS[way]
+    cycles, directions, most = WAYS[way]
     grid = Grid("jump-involute-23-47", [f"operating.pinion_speed={','.join(map(str, speeds))}rad/s"], SET)
 
     def follow(done: int, total: int) -> None:
         if stop and done >= stop and done < total:
             raise Stopped
 
-    options = {"directions": directions, "resume": resume, "follow": follow}
+    options = {
+        "directions": directions,
+        "refinement": refinement_of(grid, most, ()),
+        "resume": resume,
+        "follow": follow,
+    }
     return run(grid, settings_of(grid, cycles), engine, output, **options).path
 
 
@@ -57,7 +65,10 @@ def alone(tmp_path_factory: pytest.TempPathFactory):
 
 @pytest.mark.parametrize("way", WAYS)
 def test_interruptions_change_no_bit(way: str, alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    for chunk, stop, workers in ((1, 1, 2), (2, 2, 1), (3, 0, 2)):
+    # stopped within the first grid, at its end, and in a later round where there is one
+    for chunk, stop, workers in ((1, 1, 2), (2, 2, 1), (1, 1, 2), (1, 1, 1), (3, 0, 2)):
+        if (tmp_path / "s.h5").exists():
+            break
         monkeypatch.setattr(batch, "MOST_IN_CHUNK", chunk)
         resume = (tmp_path / "s.partial.h5").exists()
         try:
@@ -65,6 +76,8 @@ def test_interruptions_change_no_bit(way: str, alone, tmp_path: Path, monkeypatc
         except Stopped:
             assert stop
     assert differences(tmp_path / "s.h5", alone(way)) == []
+    with SweepRecord(alone(way)) as record:
+        assert len(record.parameters[0].values) == len(SPEEDS) + (WAYS[way][2] or 0)
 
 
 @pytest.mark.parametrize("way", ["steady", "transient"])

@@ -38,9 +38,9 @@ def assess(
     """Assess a drive: loads, vibration, film, temperatures, losses, margins; one folder, one report."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, end
     from tribodyn.cli.printing import print_files, print_json, print_rich, write_json
-    from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
     from tribodyn.numerics.output_files import check_output, make_folder
+    from tribodyn.post.progress import progress_bar
     from tribodyn.record.previous import watched
     from tribodyn.record.reader import Record
     from tribodyn.studies import STUDIES

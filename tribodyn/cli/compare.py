@@ -127,7 +127,7 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
 def _run(loaded: "Loaded", folder: Path, force: bool, allow_large: bool) -> Path:
     """Run a scenario into a folder; return its record."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
-    from tribodyn.cli.progress import progress_bar
+    from tribodyn.post.progress import progress_bar
     from tribodyn.record.withheld import warnings
     from tribodyn.studies.protocol.run import run as run_case
 

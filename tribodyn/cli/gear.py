@@ -87,10 +87,10 @@ def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tup
 
 def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int, force: bool) -> list[Path]:
     """Write every drawing of a gear pair into a folder; return the files."""
-    from tribodyn.cli.progress import progress_bar
     from tribodyn.drawing.cad import tooth_profile, write_gear, write_pair, write_profile, write_rack
     from tribodyn.drawing.picture import pair_figure
     from tribodyn.geometry.drive import SIDES
+    from tribodyn.post.progress import progress_bar
     from tribodyn.post.style import save
 
     def file(what: str) -> Path:

@@ -110,7 +110,7 @@ def _answer(
 ) -> None:
     """Print what a verb finds, and keep it."""
     from tribodyn.cli.printing import print_files, print_findings, print_json, write_json
-    from tribodyn.cli.progress import progress_bar
+    from tribodyn.post.progress import progress_bar
     from tribodyn.studies.protocol.load import load
 
     _check(output, force)

@@ -1,6 +1,7 @@
 """Arguments and options that several commands take alike, and what the shell completes in them."""
 
 from collections.abc import Iterable
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -137,3 +138,25 @@ def require_one_way(*, resume: bool, force: bool) -> None:
     """Refuse to continue a record and to replace it at once."""
     if resume and force:
         raise InputError("--resume", None, "contradicts --force", "give one of them")
+
+
+class Align(StrEnum):
+    """How a simulation is laid beside what was measured."""
+
+    given = "given"
+    mean = "mean"
+    fit = "fit"
+
+
+MeasuredOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--measured", metavar="FILE", help="Measured curves (CSV) to draw beside the record: name [unit],…"
+    ),
+]
+AlignOption = Annotated[
+    Align,
+    typer.Option(
+        help="With --measured: as given; mean: moved to the measured mean; fit: along the abscissa too."
+    ),
+]

@@ -60,7 +60,7 @@ def save_all(
     names: Iterable[str], beside: Path, make: Callable[[str], "Figure"], *, force: bool = False
 ) -> list[Path]:
     """Make figures by name and write them into files named after `beside`; raises as `write_output`."""
-    from tribodyn.cli.progress import progress_bar
+    from tribodyn.post.progress import progress_bar
     from tribodyn.post.style import save
 
     names = list(names)
@@ -153,7 +153,7 @@ def serve() -> None:
     artist.kwdoc = lambda _: ""
     cast(Any, artist.Artist)._update_set_signature_and_docstring = classmethod(lambda _: None)
 
-    import tribodyn.cli.progress
+    import tribodyn.post.progress
     import tribodyn.studies.pages  # noqa: F401
     from tribodyn.post.figures.over_mesh import prepare_overview
     from tribodyn.record.soundness import remember_own

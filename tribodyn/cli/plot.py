@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tribodyn.cli.options import ReplaceOption, records_and_plots
+from tribodyn.cli.options import Align, AlignOption, MeasuredOption, ReplaceOption, records_and_plots
 from tribodyn.errors import InputError
 
 if TYPE_CHECKING:
@@ -47,6 +47,7 @@ def plot(
             autocompletion=records_and_plots,
         ),
     ],
+    *,
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder of the pictures.")] = Path(),
     cycles: Annotated[
         int | None,
@@ -67,6 +68,8 @@ def plot(
             "--at", metavar="NAME=VALUE", help="The case of a sweep for poincare: pinion_speed=3000rpm."
         ),
     ] = None,
+    measured: MeasuredOption = None,
+    align: AlignOption = Align.given,
     force: ReplaceOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print the paths as JSON.")] = False,
 ) -> None:
@@ -88,7 +91,16 @@ def plot(
     beside = output / f"{'-'.join(Path(path).stem for path in paths)}.{format.value}"
     everything = not names or "all" in names
     with ExitStack() as stack:
-        if is_sweep(paths[0]):
+        if measured is not None:
+            from tribodyn.studies.measured import measured_figure
+
+            if names:
+                raise InputError("plot", names[0], "--measured draws one figure, measured", "omit the name")
+            records = [stack.enter_context(Record(path)) for path in paths]
+            pictures = save_all(
+                ["measured"], beside, lambda _: measured_figure(records, measured, align.value), force=force
+            )
+        elif is_sweep(paths[0]):
             sweeps = [stack.enter_context(SweepRecord(path)) for path in paths]
             place = _place(sweeps[0], at or [])
             chosen = sweep_names(sweeps) if everything else names

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from tribodyn.cli.options import ReplaceOption
+from tribodyn.cli.options import Align, AlignOption, MeasuredOption, ReplaceOption
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -25,6 +25,8 @@ def report(
         Path | None,
         typer.Option("--output", "-o", help="The page; default: the records' names, in this folder."),
     ] = None,
+    measured: MeasuredOption = None,
+    align: AlignOption = Align.given,
     force: ReplaceOption = False,
     pdf: Annotated[bool, typer.Option("--pdf", help="Also print it, through an installed browser.")] = False,
     json: Annotated[bool, typer.Option("--json", help="Print the path as JSON.")] = False,
@@ -42,7 +44,7 @@ def report(
         check_output(target.with_suffix(".pdf"), force)
     with ExitStack() as stack:
         opened = [stack.enter_context(open_any(Path(path))) for path in records]
-        written = write_report(opened, target, force=force)
+        written = write_report(opened, target, force=force, measured=measured, align=align.value)
     files = {"report": written}
     if pdf:
         from tribodyn.post.page.pdf import print_page

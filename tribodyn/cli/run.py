@@ -83,9 +83,9 @@ def run_loaded(
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
     from tribodyn.cli.pictures import draw_pictures, drawer, overview_path
     from tribodyn.cli.printing import print_files, print_json, print_rich
-    from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import OutputError
     from tribodyn.numerics.output_files import check_output
+    from tribodyn.post.progress import progress_bar
     from tribodyn.record.previous import watched
     from tribodyn.record.reader import Record
     from tribodyn.record.withheld import warnings

@@ -27,6 +27,7 @@ EXAMPLES = (
     "--vary operating.gear_torque=100,300N*m -o map.h5\n"
     "  tribodyn sweep jump-involute-23-47 --vary operating.pinion_speed=380:620:10rad/s --direction both\n"
     "  tribodyn sweep crc-23-47 --vary drive.pinion.profile_shift=0:0.4:0.1 --transient 40 --resume\n"
+    "  tribodyn sweep crc-23-47-300 --vary operating.pinion_speed=500:6000:250rpm --refine 60\n"
     "then: tribodyn plot map.h5 response waterfall"
 )
 
@@ -84,6 +85,22 @@ def sweep(
             "--unstable", help="With --direction: continue branches beyond their ends, unstable, round folds."
         ),
     ] = False,
+    refine: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=1,
+            max=10**5,
+            help="At most N further values of the first key, where the response bends: shows peaks.",
+        ),
+    ] = None,
+    refine_by: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="QUANTITY",
+            help="What --refine watches; several may be given. Default: the first quantity that is printed.",
+        ),
+    ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped sweep of that name.")] = False,
     engine: Annotated[
         EngineName,
@@ -109,8 +126,8 @@ def sweep(
     """Vary keys of a scenario, one record of all cases."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain, end
     from tribodyn.cli.printing import print_files, print_json, print_rich
-    from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
+    from tribodyn.post.progress import progress_bar
     from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
     from tribodyn.record.previous import watched
     from tribodyn.record.sweep_reader import SweepRecord
@@ -119,18 +136,21 @@ def sweep(
     from tribodyn.studies.pages import sweep_table
     from tribodyn.sweep.engines import engine_of
     from tribodyn.sweep.grid import Grid, default_output
-    from tribodyn.sweep.run import run, settings_of
+    from tribodyn.sweep.refinement import refinement_of
+    from tribodyn.sweep.run import cases_at_most, run, settings_of
 
     if steady and transient is not None:
         raise InputError("--steady", None, "contradicts --transient", "give one of them")
     require_one_way(resume=resume, force=force)
     grid = Grid(scenario, vary or [], overrides(settings))
+    refinement = refinement_of(grid, refine, refine_by or ())
     record = output or default_output(grid)
     kept = watched(record)
     chosen = DIRECTIONS if direction is Direction.both else (direction.value,) if direction else ()
+    most = cases_at_most(grid, refinement, len(chosen))
     with (
         engine_of(engine.value, workers, scheduler) as evaluator,
-        progress_bar(f"{grid.name}: {' × '.join(map(str, grid.shape))} cases") as progress,
+        progress_bar(grid.name, most, "cases") as progress,
     ):
         result = run(
             grid,
@@ -139,9 +159,10 @@ def sweep(
             record,
             directions=chosen,
             unstable=unstable,
+            refinement=refinement,
             force=force,
             resume=resume,
-            follow=lambda done, total: progress(done / total),
+            follow=lambda done, total: progress(1.0 - (total - done) / most),
             allow_large=allow_large,
             scenario_file="" if output else file_name(grid.path, record.parent),
         )

@@ -34,7 +34,7 @@ def validate(
     from tribodyn import validation
     from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, end
     from tribodyn.cli.printing import print_files, print_json, print_table
-    from tribodyn.cli.progress import progress_bar
+    from tribodyn.post.progress import progress_bar
     from tribodyn.validation.rows import SHOWN, counted, counts
 
     if plots is not None:

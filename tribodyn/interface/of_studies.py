@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from tribodyn.interface.run import Run, recorded, run_class
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
+from tribodyn.post.progress import progress_of
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.study import Progress
 
@@ -34,7 +35,7 @@ def _function(verb: "Verb") -> Callable[..., Any]:
         output: str | Path | None = None,
         force: bool = False,
         resume: bool = False,
-        progress: Progress | None = None,
+        progress: Progress | bool | None = None,
         allow_large: bool = False,
         client: Any = None,
         **keys: Any,
@@ -43,8 +44,16 @@ def _function(verb: "Verb") -> Callable[..., Any]:
         how = {"force": force, "resume": resume, "allow_large": allow_large}
         return recorded(loaded.case, output, progress=progress, client=client, **how)
 
-    def answer(source: Source, overrides: Mapping[str, Any] | None = None, **options: Any) -> "Finding":
-        return verb.function(scenario(source, overrides), **options)
+    def answer(
+        source: Source,
+        overrides: Mapping[str, Any] | None = None,
+        *,
+        progress: Progress | bool | None = None,
+        **options: Any,
+    ) -> "Finding":
+        case = scenario(source, overrides)
+        with progress_of(progress, case.name) as report:
+            return verb.function(case, progress=report, **options)
 
     function = wraps(verb.function)(answer if verb.answers else run)
     own = list(inspect.signature(verb.function).parameters.values())
@@ -54,6 +63,8 @@ def _function(verb: "Verb") -> Callable[..., Any]:
     any_number = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
     mine = inspect.signature(function, follow_wrapped=False).parameters.values()
     added = [parameter for parameter in mine if parameter.kind not in any_number]
-    shown = [*added, *own[1:]] if verb.answers else [*own, *added]
+    names = {parameter.name for parameter in added}
+    rest = [parameter for parameter in own[1:] if parameter.name not in names]
+    shown = [*added, *rest] if verb.answers else [*own, *added]
     vars(function)["__signature__"] = inspect.Signature(sorted(shown, key=lambda parameter: parameter.kind))
     return in_python()(function)

@@ -3,7 +3,7 @@
 import shutil
 import tempfile
 import weakref
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from functools import cache, cached_property
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from tribodyn.interface import shown
 from tribodyn.interface.scenario import Source, in_python, scenario
+from tribodyn.post.progress import progress_of
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from tribodyn.studies.measured import Source as Measured
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
 
 
@@ -85,6 +87,8 @@ class Run:
         ax: "Axes | None" = None,
         cycles: int | Literal["auto"] | None = "auto",
         against: str = "phase",
+        measured: "Measured | None" = None,
+        align: str = "given",
     ) -> "Figure":
         """Draw one figure.
 
@@ -100,6 +104,11 @@ class Run:
             How many of the last mesh cycles to show; None: all; "auto": 2, of a transient all.
         against : {"phase", "time"}
             Mesh cycles, or milliseconds.
+        measured : path or mapping, optional
+            Draw these curves beside the runs' instead: a CSV file that begins with
+            ``mesh_phase [1],transmission_error_rotational [um]``, or its columns by such names.
+        align : {"given", "mean", "fit"}
+            Runs as they are; moved to the measured mean; also along the abscissa, to the best correlation.
 
         Returns
         -------
@@ -109,16 +118,27 @@ class Run:
         Raises
         ------
         InputError
-            For an unknown name, and runs that cannot be compared.
+            For an unknown name, runs that cannot be compared, and measured curves that cannot be used.
         """
         from tribodyn.post.style import in_place_of
         from tribodyn.studies.pages import figure
 
         with self._records(others) as records, in_place_of(ax):
+            if measured is not None:
+                from tribodyn.studies.measured import measured_figure
+
+                return measured_figure(records, measured, align)
             return figure(name, records, cycles=cycles, against=against)
 
     @in_python()
-    def report(self, path: str | Path | None = None, *others: "Run", force: bool = False) -> Path:
+    def report(
+        self,
+        path: str | Path | None = None,
+        *others: "Run",
+        force: bool = False,
+        measured: "Measured | None" = None,
+        align: str = "given",
+    ) -> Path:
         """Write a page for the browser: summary, figures, the teeth rolling through mesh.
 
         Parameters
@@ -129,6 +149,8 @@ class Run:
             Runs of the same kind, side by side with this one.
         force : bool
             Replace also what is no page of ours.
+        measured, align
+            As of `plot`: a figure on the page.
 
         Returns
         -------
@@ -145,7 +167,8 @@ class Run:
         from tribodyn.studies.pages import write_report
 
         with self._records(others) as records:
-            return write_report(records, path or f"{self.path.stem}.html", force=force)
+            target = path or f"{self.path.stem}.html"
+            return write_report(records, target, force=force, measured=measured, align=align)
 
     @in_python()
     def animate(self, *others: "Run") -> shown.Animation:
@@ -235,9 +258,9 @@ def run(
     *,
     output: str | Path | None = None,
     force: bool = False,
-    film: "FilmLaw | None" = None,
-    friction: "FrictionLaw | None" = None,
-    progress: Progress | None = None,
+    film: "FilmLaw | Callable[..., Any] | None" = None,
+    friction: "FrictionLaw | Callable[..., Any] | None" = None,
+    progress: Progress | bool | None = None,
     allow_large: bool = False,
 ) -> Run:
     """Run a scenario.
@@ -250,10 +273,10 @@ def run(
         Keep the record in this file; default: in a temporary folder, as long as the result is in use.
     force : bool
         Replace a record of that name.
-    film, friction : FilmLaw, FrictionLaw, optional
+    film, friction : FilmLaw, FrictionLaw or function, optional
         Take the place of the scenario's laws.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
+    progress : callable or bool, optional
+        Called with the share done, 0 … 1; default: a bar on a terminal or in a notebook; False: none.
     allow_large : bool
         Allow runs above the resource limits (memory, disk, time).
 
@@ -274,16 +297,20 @@ def run(
     return recorded(scenario(source, overrides), output, allow_large=allow_large, **how)
 
 
-def recorded(case: CaseHead, output: str | Path | None, **how: Any) -> Run:
+def recorded(
+    case: CaseHead, output: str | Path | None, progress: Progress | bool | None = None, **how: Any
+) -> Run:
     """Run a case into a file, or into a temporary folder that is removed with the result."""
-    if output is not None:
-        return open_run(run_case(case, output, **how).path)
-    folder = tempfile.mkdtemp(prefix="tribodyn-")
-    try:
-        return open_run(run_case(case, Path(folder) / f"{case.name}.h5", **how).path, folder)
-    except BaseException:
-        shutil.rmtree(folder, ignore_errors=True)
-        raise
+    with progress_of(progress, case.name) as report:
+        how["progress"] = report
+        if output is not None:
+            return open_run(run_case(case, output, **how).path)
+        folder = tempfile.mkdtemp(prefix="tribodyn-")
+        try:
+            return open_run(run_case(case, Path(folder) / f"{case.name}.h5", **how).path, folder)
+        except BaseException:
+            shutil.rmtree(folder, ignore_errors=True)
+            raise
 
 
 def open_run(path: Path, folder: str | None = None) -> Run:

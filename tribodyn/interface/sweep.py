@@ -12,13 +12,15 @@ from tribodyn.interface import shown
 from tribodyn.interface.run import Run, open_run
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.numerics.output_files import write_output
+from tribodyn.post.progress import Report, progress_of
 from tribodyn.record import trust
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
 from tribodyn.studies import study_of
 from tribodyn.sweep.engines import engine_of
 from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import run, settings_of
+from tribodyn.sweep.refinement import refinement_of
+from tribodyn.sweep.run import cases_at_most, run, settings_of
 
 if TYPE_CHECKING:
     import xarray
@@ -121,13 +123,15 @@ def sweep(
     *,
     transient: int | None = None,
     direction: Literal["up", "down", "both"] | None = None,
+    refine: int | None = None,
+    refine_by: str | Sequence[str] = (),
     engine: Literal["native", "jax", "dask"] = "native",
     workers: int | None = None,
     scheduler: str | None = None,
     output: str | Path | None = None,
     force: bool = False,
     resume: bool = False,
-    progress: Any = None,
+    progress: Report | bool | None = None,
     allow_large: bool = False,
 ) -> "xarray.Dataset":
     """Evaluate a scenario over a grid of its keys.
@@ -142,12 +146,16 @@ def sweep(
         March so many mesh cycles; default: seek the periodic steady state of each case.
     direction : {"up", "down", "both"}, optional
         Follow the first key, each case from its neighbour's state: shows jumps.
+    refine : int, optional
+        Add at most so many further values of the first key where the response bends: shows peaks.
+    refine_by : str or list of str, optional
+        Quantities of the sweep that `refine` watches; default: the first that the command line prints.
     engine, workers, scheduler
         Where the cases are evaluated: compiled on all cores, by JAX on its device, by Dask.
     output, force, resume
         Keep the record in a file, replace one, go on with an unfinished one; default: nothing is kept.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
+    progress : callable or bool, optional
+        Called with the share done, 0 … 1; default: a bar on a terminal or in a notebook; False: none.
     allow_large : bool
         Allow grids above the resource limits.
 
@@ -166,17 +174,24 @@ def sweep(
     chosen = DIRECTIONS if direction == "both" else (direction,) if direction else ()
     with tempfile.TemporaryDirectory(prefix="tribodyn-") as folder:
         grid = _grid(source, vary, overrides, Path(folder))
+        watched = [refine_by] if isinstance(refine_by, str) else refine_by
+        refinement = refinement_of(grid, refine, watched)
         record = Path(output) if output is not None else Path(folder) / "sweep.h5"
-        with engine_of(engine, workers, scheduler) as evaluator:
+        most = cases_at_most(grid, refinement, len(chosen))
+        with (
+            engine_of(engine, workers, scheduler) as evaluator,
+            progress_of(progress, grid.name, most, "cases") as report,
+        ):
             done = run(
                 grid,
                 settings_of(grid, transient, engine),
                 evaluator,
                 record,
                 directions=chosen,
+                refinement=refinement,
                 force=force,
                 resume=resume,
-                follow=(lambda count, total: progress(count / total)) if progress else None,
+                follow=lambda count, total: report(1.0 - (total - count) / most),
                 allow_large=allow_large,
             )
         with SweepRecord(done.path) as written:

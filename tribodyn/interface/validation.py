@@ -1,10 +1,10 @@
 """Comparison with published numbers, from Python."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 from tribodyn import validation
 from tribodyn.interface.scenario import in_python
+from tribodyn.post.progress import Report, progress_of
 from tribodyn.validation.rows import SHOWN, Row, counted
 
 
@@ -29,7 +29,7 @@ class PaperComparison(list[Row]):
 
 @in_python()
 def validate(
-    paper: str, progress: Callable[[float], None] | None = None, folder: str | Path | None = None
+    paper: str, progress: Report | bool | None = None, folder: str | Path | None = None
 ) -> PaperComparison:
     """Compare with the numbers of a paper: run what its rows need.
 
@@ -37,8 +37,8 @@ def validate(
     ----------
     paper : str
         "liu-ni-2022", "diez-ibarbia", "veciana-2024", "efremenkov-2024" or "jia-2022".
-    progress : callable, optional
-        Called with the share done, 0 … 1.
+    progress : callable or bool, optional
+        As of `run`.
     folder : path, optional
         Where to keep the records of the runs; a temporary folder if not given.
 
@@ -56,6 +56,7 @@ def validate(
     SimulationError
         If one of the runs fails.
     """
-    compared = PaperComparison(validation.validate(paper, progress, folder))
+    with progress_of(progress, f"validate {paper}") as report:
+        compared = PaperComparison(validation.validate(paper, report, folder))
     compared.choices = validation.PAPERS[paper].choices
     return compared

@@ -9,7 +9,8 @@ from rich.table import Table
 from rich.text import Text
 
 from tribodyn.post import verdict
-from tribodyn.quantities.catalogue import SPREAD, scatter
+from tribodyn.post.sweep_peaks import peaks
+from tribodyn.quantities.catalogue import QUANTITIES, SPREAD, scatter
 from tribodyn.quantities.quantity import Quantity, shown, shown_unit
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
@@ -18,6 +19,8 @@ from tribodyn.record.sweep_schema import DONE
 FAILURES_SHOWN = 5
 #: Ends of branches that are named; the record has them all.
 ENDS_SHOWN = 12
+#: Peaks that are named; `show --json` has them all.
+PEAKS_SHOWN = 8
 
 
 def sweep_table(record: SweepRecord, quantities: Sequence[Quantity]) -> Group:
@@ -143,6 +146,11 @@ def _head(record: SweepRecord) -> list[str]:
     both = f", {' and '.join(record.directions)}" if record.directions else ""
     states = ", ".join(f"{count[name]} {name}" for name in ("done", "failed", "waiting") if count[name])
     lines = [f"{count['cases']} cases ({axes}{both}): {states}"]
+    if refined := record.settings.get("refine"):
+        first = record.parameters[0]
+        begun, by = len(record.settings["vary"][first.key]), " or ".join(refined["by"])
+        more, most = len(first.values) - begun, refined["most"]
+        lines.append(f"{first.key}: {begun} values and {more} more, of at most {most}, where {by} bends")
     if "solution" in record:
         solutions = record["solution"]
         found = solutions[(solutions != "") & (solutions != "failed")]
@@ -156,7 +164,8 @@ def _head(record: SweepRecord) -> list[str]:
 
 def _tail(record: SweepRecord) -> list[str]:
     ends = branch_ends(record)
-    lines = [_end_line(record, end) for end in ends[:ENDS_SHOWN]]
+    lines = _peak_lines(record)
+    lines += [_end_line(record, end) for end in ends[:ENDS_SHOWN]]
     if len(ends) > ENDS_SHOWN:
         lines.append(f"and {len(ends) - ENDS_SHOWN} more ends of branches, see end_value in the record")
     failures = record.failures()
@@ -164,6 +173,17 @@ def _tail(record: SweepRecord) -> list[str]:
     if len(failures) > FAILURES_SHOWN:
         lines.append(f"and {len(failures) - FAILURES_SHOWN} more, see message in the record")
     return lines
+
+
+def _peak_lines(record: SweepRecord) -> list[str]:
+    tops = peaks(record)
+    lines = []
+    for top in tops[:PEAKS_SHOWN]:
+        quantity = QUANTITIES.get(top["quantity"]) or described(record, top["quantity"])
+        value = f"{quantity.written(top['value'])} {quantity.unit}".rstrip()
+        near = shown(top["within"], record.parameters[0].units, 4)
+        lines.append(f"peak of {quantity.title}: {value} at {_place(record, top['at'])}, within {near}")
+    return lines + ([f"and {len(tops) - PEAKS_SHOWN} more peaks"] if len(tops) > PEAKS_SHOWN else [])
 
 
 def branch_ends(record: SweepRecord) -> list[dict[str, Any]]:
@@ -262,6 +282,7 @@ def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
         "weighted_mean": {
             name: found for name in names if (found := weighted_mean(record, name)) is not None
         },
+        "peaks": peaks(record),
         "ends": branch_ends(record),
         "failures": [{"at": at, "message": why} for at, why in record.failures()],
         "warnings": sweep_warnings(record),

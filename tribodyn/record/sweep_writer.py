@@ -38,6 +38,16 @@ from tribodyn.record.writing_lock import locked, scratch_path
 NOTE = "the sweep is going on, or was stopped: cases whose status is 0 are still to be done"
 
 
+def values_left(path: str | Path, parameter: str) -> tuple[float, ...]:
+    """Values of a parameter in what an unfinished sweep left; none where nothing readable is."""
+    try:
+        check_sound(partial_path(Path(path)))
+        with h5py.File(partial_path(Path(path)), "r") as file:
+            return tuple(map(float, file[parameter][...]))  # pyright: ignore
+    except (*UNREADABLE, InputError):
+        return ()
+
+
 class SweepHead(NamedTuple):
     """What is known of a sweep before it starts."""
 
@@ -146,6 +156,43 @@ class SweepWriter:
             self._file.seek(place.offset + int(case) * place.stride)
             rows.append(np.frombuffer(self._file.read(place.stride), kind).reshape(place.row))
         return np.array(rows)
+
+    def extend(self, head: SweepHead, rows: np.ndarray, again: np.ndarray) -> None:
+        """Give the record more values of its first parameter; what is done moves to its new place.
+
+        Every case is done. `rows` (old values,) are the new numbers of the values that were there, `again`
+        (cases,) marks cases, by their new numbers, that wait although they were done.
+        """
+        blank = _lay_out(head)
+        each = int(np.prod(head.shape[1:], dtype=int))
+        try:
+            with replacing(self.partial, scratch_path(self.path)) as scratch:
+                disk.write_new(scratch, blank.content, blank.blanks)
+                with disk.open_existing(scratch) as file:
+                    for name, place in blank.places.items():
+                        old, size = self._places[name], place.stride * each
+                        for before, after in enumerate(map(int, rows)):
+                            disk.copy(
+                                self._file,
+                                old.offset + before * size,
+                                file,
+                                place.offset + after * size,
+                                size,
+                            )
+                    status = blank.places["status"]
+                    waiting = np.dtype(self._variables["status"].dtype).type(sweep_schema.WAITING).tobytes()
+                    for case in np.flatnonzero(again):
+                        disk.put(file, status.offset + int(case) * status.stride, waiting)
+                self._file.close()  # a file that is open cannot be replaced everywhere
+        except OSError as error:
+            kept = f"all cases so far: {self.partial}, with more room --resume goes on"
+            raise unwritable(self.path, error, kept) from error
+        self._places = blank.places
+        status = self.status.reshape(-1, each)
+        self.status = np.full((head.shape[0], each), sweep_schema.WAITING, status.dtype)
+        self.status[rows] = status
+        self.status = np.where(again, sweep_schema.WAITING, self.status.ravel())
+        self._file = disk.open_existing(self.partial)
 
     def finish(self, summary: Mapping[str, Any]) -> Path:
         """Add the summary and give the record its final name; one without a single good case is "failed"."""

@@ -261,13 +261,13 @@ def _toml_remedy(line: str) -> str:
     return 'write key = value, with quotes round text and quantities: module = "3 mm"'
 
 
-def read_curve(path: Path, key: str, columns: Iterable[str]) -> dict[str, Any]:
+def read_curve(path: Path, key: str, columns: Iterable[str] = ()) -> dict[str, Any]:
     """Return the columns of a CSV file as the scenario would write them out.
 
     The first line names the columns and their units, ``time [s],torque [N*m]``; lines that begin with # are
-    comments. `columns` are the names that are due, in order.
+    comments. `columns` are the names that are due, in order; none: all that there are, two at least.
     """
-    due = list(columns)
+    due = list(columns) or ["time", "torque"]
     example = ",".join(f"{name} [unit]" for name in due)
     lines = [
         (number, line)
@@ -291,6 +291,14 @@ def read_curve(path: Path, key: str, columns: Iterable[str]) -> dict[str, Any]:
         raise bad(lines[MOST_POINTS + 1][0], f"more than {MOST_POINTS} points", "leave some out")
     heads = [_HEADER.match(cell) for cell in cells(*lines[0])]
     header = {head["name"]: (head["unit"], index) for index, head in enumerate(heads) if head}
+    if not columns:
+        unread = next((cell for cell, head in zip(cells(*lines[0]), heads, strict=True) if not head), None)
+        if unread is not None or len(header) < max(2, len(heads)):
+            rule = (
+                "two columns at least, none twice" if unread is None else f"{quoted(unread)} names no column"
+            )
+            raise bad(lines[0][0], rule, f"begin the file with {example}, … ")
+        due = list(header)
     for name in due:
         if name not in header:
             raise bad(lines[0][0], f'no column "{name} [unit]" in the header', f"write {example}")

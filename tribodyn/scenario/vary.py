@@ -168,6 +168,11 @@ def _in_si(
     return tuple(str(value).lower() if isinstance(value, bool) else str(value) for value in written), ""
 
 
+def in_si(value: float, units: str) -> float | str:
+    """A value of an axis as TOML holds it, from its SI magnitude and the axis's units."""
+    return value if units == "1" else f"{value!r} {re.sub(r'(?<=[A-Za-z])(?=[0-9])', '**', units)}"
+
+
 def base_units(value: Any) -> tuple[float, str] | None:
     """Magnitude and SI base units of a quantity whose kind only a family of teeth knows; None if none."""
     match = re.fullmatch(rf"\s*({_NUMBER})\s*(\S.*)", value, re.ASCII) if isinstance(value, str) else None

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from tribodyn.post.compare import Comparison
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.quantities.quantity import Quantity, Reported
+    from tribodyn.studies.measured import Source
     from tribodyn.studies.protocol.study import TextTable
 
 OVERVIEW = "overview"
@@ -192,10 +193,13 @@ def sweep_table(record: SweepRecord) -> "Group":
     return table_of(record, study_of_record(record).sweep_table())
 
 
-def report(records: Sequence[Record], figures: bool = True) -> str:
+def report(
+    records: Sequence[Record], figures: bool = True, measured: "Source | None" = None, align: str = "given"
+) -> str:
     """Write the page of one record, or of several side by side: one HTML file that needs no other.
 
-    Without `figures` there are only the teeth in mesh on it, and what moves them. Raises InputError for no
+    Without `figures` there are only the teeth in mesh on it, and what moves them. `measured`, `align`: see
+    `measured.measured_figure`. Raises InputError for no
     record, one without samples, and records that share no quantities.
     """
     from tribodyn.post.page.page import PageContent, page
@@ -205,6 +209,9 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
     studies = _studies_of(records, "make a page of its own")
     own = studies[0].own_page()
     if own and figures and len(records) == 1:
+        if measured is not None:
+            rule = f"{studies[0].about}: its page has no curves over a run"
+            raise InputError("measured", None, rule, "omit it")
         return own(records[0])
     contents = [
         PageContent(
@@ -218,6 +225,11 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
         )
         for study, record in zip(studies, records, strict=True)
     ]
+    if measured is not None:
+        from tribodyn.studies.measured import measured_figure
+
+        drawn = "measured", "the simulation beside it", measured_figure(records, measured, align)
+        contents[0] = contents[0]._replace(pictures=[drawn])
     return page(records, contents, figures)
 
 
@@ -255,17 +267,29 @@ def sweep_report(record: SweepRecord) -> str:
     return sweep_page(record, study.sweep_table(), pictures, sheet(record))
 
 
-def write_report(records: Sequence[Record | SweepRecord], path: str | Path, *, force: bool = False) -> Path:
+def write_report(
+    records: Sequence[Record | SweepRecord],
+    path: str | Path,
+    *,
+    force: bool = False,
+    measured: "Source | None" = None,
+    align: str = "given",
+) -> Path:
     """Write the page into a file; raises as `report` and `write_output`. Of sweeps one alone."""
     check_page(path, force)
     sweeps = [record for record in records if isinstance(record, SweepRecord)]
+    if sweeps and measured is not None:
+        raise InputError(
+            "measured", None, "lies beside a run, and this is a sweep", "name the record of a run"
+        )
     if len(sweeps) == 1 == len(records):
         text = sweep_report(sweeps[0])
     elif sweeps:
         path_of_sweep = str(sweeps[0].path)
         raise InputError("record", path_of_sweep, "a sweep has a page of its own", "make a page of each")
     else:
-        text = report([record for record in records if isinstance(record, Record)])
+        runs = [record for record in records if isinstance(record, Record)]
+        text = report(runs, measured=measured, align=align)
     return write_output(path, text, force=force)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from tribodyn.errors import InputError, InputErrors
 from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.scenario.sources import find_scenario, read_toml
-from tribodyn.scenario.vary import VARY, Axis, axes_of
+from tribodyn.scenario.vary import VARY, Axis, axes_of, in_si
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import OneByOne
 from tribodyn.studies.protocol.load import loaded_from, table_of
@@ -70,6 +70,15 @@ class Grid:
             return loaded_from(resolve(self.path, self.overrides, table_of), self.path).case
         except InputError:
             return None
+
+    def with_values(self, values: Sequence[float]) -> "Grid":
+        """The same with other values of the first axis, SI, those it has among them and its ends the same."""
+        axis = self.axes[0]
+        known = dict(zip(axis.values, axis.written, strict=True))
+        written = tuple(known[value] if value in known else in_si(value, axis.units) for value in values)
+        finer = copy.copy(self)
+        finer.axes = (axis._replace(values=tuple(values), written=written), *self.axes[1:])
+        return finer
 
     def changes_what_is_shared(self, axis: int) -> bool:
         """Whether cases at the ends of an axis share less than cases elsewhere on it."""

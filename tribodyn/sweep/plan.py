@@ -20,13 +20,15 @@ MOST_CASES = 1_000_000
 USUAL_CASES, A_CASE = 1000, 24.0
 
 
-def estimate_of(grid: Grid, settings: Any, directions: int, width: int = 1) -> Estimate:
+def estimate_of(grid: Grid, settings: Any, directions: int, width: int = 1, further: int = 0) -> Estimate:
     """What a sweep takes, from its cases at both ends of the grid.
 
     `settings` are from `sweep.run.settings_of`, `directions` is the number of senses in which the first
-    parameter is followed, 0 where cases begin by themselves; `width`: see `engines.Engine`.
+    parameter is followed, 0 where cases begin by themselves; `width`: see `engines.Engine`; `further` is the
+    most values that the first parameter may get besides.
     """
-    cases = float(np.prod(grid.shape, dtype=float)) * max(1, directions)
+    first, *others = grid.shape
+    cases = float(np.prod(others, dtype=float)) * (first + further) * max(1, directions)
     together = int(min(cases, 10.0**9))
     ends = [grid.batch.estimate(case, settings, together, width) for case in grid.ends()]
     seconds, shared = max(end.seconds for end in ends), max(end.shared for end in ends)
@@ -36,14 +38,15 @@ def estimate_of(grid: Grid, settings: Any, directions: int, width: int = 1) -> E
         cost.HEAD + cases * max(end.record for end in ends),
         cases * seconds,
         (every, *chain.from_iterable(end.drivers for end in ends)),
-        _tables(grid) * shared if shared else 0.0,
+        _tables(grid, further) * shared if shared else 0.0,
     )
 
 
-def _tables(grid: Grid) -> float:
-    """How many tables the cases have among them."""
+def _tables(grid: Grid, further: int) -> float:
+    """How many tables the cases have among them, with so many further values of the first parameter."""
+    sizes = (grid.shape[0] + further, *grid.shape[1:])
     differ = [size > 1 and grid.changes_what_is_shared(axis) for axis, size in enumerate(grid.shape)]
-    return float(np.prod([n for n, other in zip(grid.shape, differ, strict=True) if other], dtype=float))
+    return float(np.prod([n for n, other in zip(sizes, differ, strict=True) if other], dtype=float))
 
 
 def refuse_large(estimate: Estimate, allow_large: bool) -> None:

@@ -1,7 +1,8 @@
 """A sweep from its grid to its record."""
 
+import math
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -11,12 +12,14 @@ import tomli_w
 
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, WAITING, VariedKey
-from tribodyn.record.sweep_writer import SweepHead, SweepWriter
+from tribodyn.record.sweep_writer import SweepHead, SweepWriter, values_left
 from tribodyn.record.writer import check_target
 from tribodyn.scenario.vary import Axis
-from tribodyn.sweep.engines import Engine
+from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.sweep.engines import Block, Engine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.plan import chained_steps, estimate_of, refuse_large, single_steps
+from tribodyn.sweep.refinement import Refinement, begun_anew, grid_of
 
 Follow = Callable[[int, int], None]
 """Called with the cases done and to do."""
@@ -37,6 +40,12 @@ def settings_of(grid: Grid, transient: int | None = None, engine: str = "native"
     return grid.batch.settings(grid.ends(), transient, engine)
 
 
+def cases_at_most(grid: Grid, refinement: Refinement | None, directions: int) -> int:
+    """How many cases a sweep has, with all further values that it may get."""
+    further = refinement.most if refinement else 0
+    return (grid.shape[0] + further) * math.prod(grid.shape[1:]) * max(1, directions)
+
+
 def run(
     grid: Grid,
     settings: Any,
@@ -45,6 +54,7 @@ def run(
     *,
     directions: Sequence[str] = (),
     unstable: bool = False,
+    refinement: Refinement | None = None,
     force: bool = False,
     resume: bool = False,
     follow: Follow | None = None,
@@ -53,49 +63,78 @@ def run(
 ) -> SweepResult:
     """Evaluate every case of a grid and write the record; InputError before anything is computed.
 
-    The `settings` are from `settings_of`. `directions` are senses to follow the first parameter in, none:
-    every case begins by itself; `unstable` continues branches beyond the ends of their stable parts. `force`
-    replaces a record, `resume` goes on with what an unfinished sweep left; `allow_large`: see `sweep.plan`;
-    `scenario_file`: see `record.previous.Origin`.
+    The `settings` are from `settings_of`, the `refinement` from `refinement_of`. `directions` are senses to
+    follow the first parameter in, none: every case begins by itself; `unstable` continues branches beyond the
+    ends of their stable parts. `force` replaces a record, `resume` goes on with what an unfinished sweep
+    left; `allow_large`: see `sweep.plan`; `scenario_file`: see `record.previous.Origin`.
     """
     if directions or unstable:
         _can_be_followed(grid, directions, unstable)
         settings = grid.batch.following(settings, unstable)
-    refuse_large(estimate_of(grid, settings, len(directions), engine.width), allow_large)
-    head = _head(grid, settings, directions)._replace(scenario_file=scenario_file)
+    most = refinement.most if refinement else 0
+    refuse_large(estimate_of(grid, settings, len(directions), engine.width, most), allow_large)
+    first = grid
+    if refinement and resume and not force:
+        grid = grid_of(grid, refinement, values_left(output, grid.axes[0].name))
+
+    def head_of(grid: Grid) -> SweepHead:
+        return _head(grid, first, settings, directions, refinement)._replace(scenario_file=scenario_file)
+
+    head = head_of(grid)
     if not resume:
         check_target(Path(output), force, head.origin)
     _sound_somewhere(grid, settings)
-    begun = perf_counter()
+    begun, done = perf_counter(), 0
     with SweepWriter(output, head, force=force, resume=resume) as record:
-        waiting = record.status == WAITING
-        total, done = int(waiting.sum()), 0
-        size = grid.batch.size_of_chunk(settings, total, engine.width)
-
-        def recorded(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-            return record.status[numbers], record.read("state", numbers), record.read("period", numbers)
-
-        if directions:
-            steps = chained_steps(grid, waiting, size, directions, recorded)
-        else:
-            every = single_steps(grid, waiting, size)
-            steps = iter([(chunk for chunks in every for chunk in chunks)])
-        for chunks in steps:
-            for chunk, block in engine(grid.study.kind, chunks, settings):
+        done_before = int(np.sum(record.status != WAITING))
+        expected = cases_at_most(first, refinement, len(directions)) - done_before
+        while True:
+            for chunk, block in _blocks(grid, settings, engine, directions, record):
                 record.write(chunk.numbers, block)
                 done += len(chunk.numbers)
                 if follow:
-                    follow(done, total)
+                    follow(min(done, expected), expected)
+            further = refinement.further(grid, first, record) if refinement else ()
+            if not further:
+                break
+            finer = grid.with_values(_merged(grid.axes[0].values, further))
+            rows, again = begun_anew(grid, finer, directions)
+            record.extend(head_of(finer), rows, again)
+            grid = finer
         failed = int(np.sum(record.status == FAILED))
         summary = {
             "cases": record.status.size,
             "failed": failed,
-            "cases_done_by_this_call": total,
+            "cases_done_by_this_call": done,
             "wall_time": perf_counter() - begun,
         }
         path = record.finish(summary)
     status = "failed" if failed == record.status.size else "complete"
     return SweepResult(path, status, record.status.size, failed, summary)
+
+
+def _blocks(
+    grid: Grid, settings: Any, engine: Engine, directions: Sequence[str], record: SweepWriter
+) -> Iterator[tuple[Chunk, Block]]:
+    """Evaluate all cases that wait, step after step."""
+    waiting = record.status == WAITING
+    size = grid.batch.size_of_chunk(settings, int(waiting.sum()), engine.width)
+
+    def recorded(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return record.status[numbers], record.read("state", numbers), record.read("period", numbers)
+
+    if directions:
+        steps = chained_steps(grid, waiting, size, directions, recorded)
+    else:
+        every = single_steps(grid, waiting, size)
+        steps = iter([(chunk for chunks in every for chunk in chunks)])
+    for chunks in steps:
+        yield from engine(grid.study.kind, chunks, settings)
+
+
+def _merged(values: Sequence[Any], further: Sequence[float]) -> list[float]:
+    """Values and further ones between them, in the order of the values."""
+    return sorted([*values, *further], reverse=values[0] > values[-1])
 
 
 def _can_be_followed(grid: Grid, directions: Sequence[str], unstable: bool) -> None:
@@ -115,14 +154,18 @@ def _can_be_followed(grid: Grid, directions: Sequence[str], unstable: bool) -> N
         raise InputError(option, None, rule, "vary another key first, or omit it")
 
 
-def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:
+def _head(
+    grid: Grid, first: Grid, settings: Any, directions: Sequence[str], refinement: Refinement | None
+) -> SweepHead:
+    """What is known of the sweep over a grid, the first one or one with further values."""
     scales = tuple(VariedKey(axis.name, axis.key, axis.units, axis.values) for axis in grid.axes)
     described = {
-        "vary": {axis.key: list(axis.written) for axis in grid.axes},
+        "vary": {axis.key: list(axis.written) for axis in first.axes},
         "weights": {axis.name: _weights(grid, axis) for axis in grid.axes if axis.weighed},
         "drawn": [axis.name for axis in grid.axes if axis.drawn],
         "directions": [direction for direction in DIRECTIONS if direction in directions],
         "chosen": grid.base.chosen(),
+        **({"refine": refinement._asdict()} if refinement else {}),
         **settings._asdict(),
     }
     return SweepHead(

@@ -168,7 +168,7 @@ def test_a_case_without_laws_refuses_one(scenario, table, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("given", [constant, "coulomb", FilmLaw("film", "", thin), SimpleNamespace(name="x")])
+@pytest.mark.parametrize("given", [np.exp, "coulomb", FilmLaw("film", "", thin), SimpleNamespace(name="x")])
 def test_what_is_no_law_is_refused(given, case, tmp_path):
     with pytest.raises(InputError, match=r"expected a FrictionLaw.*tribodyn\.FrictionLaw"):
         run(case, tmp_path / "no.h5", friction=given)
@@ -178,3 +178,23 @@ def test_a_key_without_a_value_is_named(case, tmp_path):
     own = FrictionLaw("own", "", constant, keys=(Parameter("floor", "number", "at speed"),))
     with pytest.raises(InputError, match=r'friction\.floor: missing: law = "python:own" needs it'):
         run(case, tmp_path / "no.h5", friction=own)
+
+
+def slick(contact, film, surfaces, parameters):
+    """Falls with the entrainment speed; with numpy's exponential."""
+    return 0.03 + 0.09 * np.exp(-contact.entrainment / 2.0)
+
+
+def test_a_function_is_a_law(case, tmp_path):
+    """In five lines; the same to the last bit as the law made of it. JAX cannot trace functions of numpy."""
+    short = run(case, tmp_path / "short.h5", friction=slick)
+    long = run(case, tmp_path / "long.h5", friction=FrictionLaw("slick", "", slick))
+    assert short.summary["efficiency"] == long.summary["efficiency"]
+    with Record(short.path) as record:
+        assert record.scenario["friction"]["law"] == "python:slick"
+        found = record["friction_coefficient"]
+        expected = 0.03 + 0.09 * np.exp(-record["entrainment_speed"] / 2.0)
+        np.testing.assert_allclose(found, expected, rtol=1e-12)
+    through_jax = load_scenario("crc-23-47", {"solver.cycles": 1, "solver.method": "tsit5"})
+    with pytest.raises(InputError, match=r"solver\.method: a law calls what JAX cannot trace"):
+        run(through_jax, tmp_path / "jax.h5", friction=slick)

@@ -20,6 +20,7 @@ import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE, Model, Options
+from tribodyn.errors import InputError
 from tribodyn.numerics.cache import use_compilation_cache
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import IntegratedCycles, Status, sample_phases
@@ -47,7 +48,12 @@ def right_hand_side(phase: Any, y: Any, args: Any) -> Any:
 def _rates(phase: Any, y: Any, cycle: Any, segment: Any, numbers: Any, options: Options) -> Any:
     """Traced once, however often a method's stages name it."""
     rates: dict[int, Any] = {}
-    derivatives(phase, cycle, segment, y, Model(*numbers, options=options), {}, rates)
+    try:
+        derivatives(phase, cycle, segment, y, Model(*numbers, options=options), {}, rates)
+    except (jax.errors.TracerArrayConversionError, jax.errors.ConcretizationTypeError) as error:
+        rule = "a law calls what JAX cannot trace, such as functions of numpy"
+        remedy = "write it with tribodyn.numerics.elementary, or solve natively"
+        raise InputError("solver.method", None, rule, remedy) from error
     return jnp.stack([jnp.asarray(rates[i], dtype=y.dtype) for i in range(STATES)])
 
 

@@ -38,8 +38,8 @@ def judge(
         Positions of the pair along its way, 4 … 2000.
     map : bool
         Also over a quarter to twice the load and the speed.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
+    progress : callable or bool, optional
+        As of `run`.
 
     Returns
     -------

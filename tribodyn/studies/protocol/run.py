@@ -2,7 +2,9 @@
 
 import hashlib
 import tomllib
+from collections.abc import Callable
 from dataclasses import replace
+from inspect import isfunction
 from pathlib import Path
 from typing import Any, cast
 
@@ -21,8 +23,8 @@ def run(
     case: CaseHead,
     output: str | Path | None = None,
     *,
-    film: FilmLaw | None = None,
-    friction: FrictionLaw | None = None,
+    film: FilmLaw | Callable[..., Any] | None = None,
+    friction: FrictionLaw | Callable[..., Any] | None = None,
     force: bool = False,
     progress: Progress | None = None,
     allow_large: bool = False,
@@ -37,9 +39,9 @@ def run(
         From `load_scenario`.
     output : path, optional
         Name of the record; default ``<case name>.h5`` in the current folder.
-    film : FilmLaw, optional
+    film : FilmLaw or function, optional
         Takes the place of the scenario's film law.
-    friction : FrictionLaw, optional
+    friction : FrictionLaw or function, optional
         Takes the place of the scenario's friction law; keys of its own have the values of
         `FrictionLaw.with_values`. The keys ``sliding`` and ``reversal_width`` of the scenario stay.
     force : replace an existing record
@@ -67,16 +69,21 @@ def run(
     return STUDIES[case.kind].run(case, output, progress=progress, **how)
 
 
-def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw) -> CaseHead:
+def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw | Callable[..., Any]) -> CaseHead:
     """Return the case under a law from Python in place of its law in `table`, "film" or "friction".
 
     Its scenario, which the record of a run holds, names the law as one from Python: it cannot be loaded
     again. Raises InputError if the case has no such law, or what is given is none.
     """
     due = FilmLaw if table == "film" else FrictionLaw
+    if isfunction(law):
+        name = law.__name__.strip("<>").replace("_", "-")
+        law = due(name, next(iter((law.__doc__ or "from Python").strip().splitlines())), law)
     if not isinstance(law, due):
         rule = f"expected a {due.__name__}, got {type(law).__name__}"
-        raise InputError(table, quoted(getattr(law, "name", law)), rule, f"make one: tribodyn.{due.__name__}")
+        raise InputError(
+            table, quoted(getattr(law, "name", law)), rule, f"give a tribodyn.{due.__name__}, or a function"
+        )
     old: Any = getattr(case, table, None)
     if not isinstance(old, FilmData | FrictionData):
         rule = f'a case of kind "{case.kind}" has no {table} law'

@@ -1,0 +1,82 @@
+"""The bar of long work in Python: on a terminal, in a notebook, nowhere else."""
+
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+
+SWEEP = (
+    "import tribodyn as td\n"
+    "td.sweep('backlash-oscillator', {'damping': [0.04, 0.05, 0.06, 0.08]}, progress=PROGRESS)\n"
+)
+JUDGE = "import tribodyn as td\ntd.judge('crc-23-47', positions=4, progress=PROGRESS)\n"
+#: What a notebook's kernel has: IPython is no dependency, and this says what the bar needs of it.
+NOTEBOOK = """
+import builtins, sys, types
+class ZMQInteractiveShell: ...
+class Handle:
+    def update(self, bundle, raw): print('updated', 'text/html' in bundle and raw, bundle['text/plain'])
+def display(bundle, raw, display_id): print('displayed', bundle['text/plain']); return Handle()
+builtins.get_ipython = ZMQInteractiveShell
+sys.modules['IPython'] = types.ModuleType('IPython')
+sys.modules['IPython.display'] = types.ModuleType('IPython.display')
+sys.modules['IPython.display'].display = display
+"""
+SLOWLY = """
+import time
+from tribodyn.post.progress import progress_of
+with progress_of(None, 'slow work', 40, 'cases') as report:
+    for done in range(21):
+        report(done / 40)
+        time.sleep(0.1)
+"""
+
+
+def on_a_terminal(program: str) -> str:
+    """What a program writes to a terminal of 110 columns, without its colours."""
+    pty = pytest.importorskip("pty")  # none on Windows
+    leader, terminal = pty.openpty()
+    environment = {**os.environ, "COLUMNS": "110", "TERM": "xterm"}
+    process = subprocess.Popen(
+        [sys.executable, "-c", program], stdin=terminal, stdout=terminal, stderr=terminal, env=environment
+    )
+    os.close(terminal)
+    written = b""
+    try:
+        while piece := os.read(leader, 65536):
+            written += piece
+    except OSError:  # the other end is closed
+        pass
+    os.close(leader)
+    assert process.wait() == 0, written
+    return re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", written.decode())
+
+
+def piped(program: str) -> str:
+    """What a script writes whose output is kept."""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    return done.stdout + done.stderr
+
+
+def test_a_terminal_shows_what_is_done_the_rate_and_the_time_left():
+    shown = on_a_terminal(SLOWLY)
+    assert re.search(r"slow work .* \d+% ([6-9]|10)(\.\d+)? cases/s 0:00:0[2-5]", shown)
+
+
+@pytest.mark.parametrize("program", [SWEEP, JUDGE], ids=["sweep", "judge"])
+def test_sweeps_and_judgements_show_theirs_and_scripts_none(program: str):
+    shown = on_a_terminal(program.replace("PROGRESS", "None"))
+    assert re.search(r"\d+%", shown)
+    assert on_a_terminal(program.replace("PROGRESS", "False")) == ""
+    assert piped(program.replace("PROGRESS", "None")) == ""
+
+
+def test_a_notebook_shows_it_below_the_cell_and_the_last_one_stays():
+    lines = [line for line in piped(NOTEBOOK + SLOWLY).splitlines() if line.strip()]
+    assert lines[0].startswith("displayed")
+    assert all(line.startswith("updated True") for line in lines[1:])
+    assert 2 <= len(lines) <= 6  # at most two a second
+    assert "100%" in lines[-1]
+    assert "cases/s" in lines[-1]

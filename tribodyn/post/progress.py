@@ -1,0 +1,129 @@
+"""A progress bar with rate and time left, for what takes more than a second.
+
+It is drawn on a terminal (of stderr) or in a notebook; anywhere else, as in a script whose output is kept,
+nothing is written.
+"""
+
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from time import perf_counter
+from typing import Any
+
+from tribodyn.numerics.work import listened, watched
+
+PATIENCE = 1.0  # s
+#: The same between two pictures of the bar in a notebook.
+NOTEBOOK_PAUSE = 0.5  # s
+
+Report = Callable[[float], None]
+"""Takes the fraction done, 0 … 1."""
+
+
+@contextmanager
+def progress_of(
+    given: Report | bool | None, label: str, total: float = 100.0, unit: str = "%"
+) -> Iterator[Any]:
+    """Give what Python's functions report to: their `progress`, a bar where it is None, or nothing."""
+    if given is None or given is True:
+        with progress_bar(label, total, unit) as report:
+            yield report
+    else:
+        yield given or (lambda _fraction: None)
+
+
+@contextmanager
+def progress_bar(label: str, total: float = 100.0, unit: str = "%") -> Iterator[Report]:
+    """Give a function that takes the fraction done; a bar appears when a second has passed.
+
+    `total` is what there is to do, in `unit`, for the rate that is shown.
+    """
+    notebook = _notebook()
+    if not (notebook or sys.stderr.isatty()):
+        yield lambda _fraction: None
+        return
+    bar = _bar(unit)
+    task = bar.add_task(label, total=total)
+    reached, doing = 0.0, label
+    redraw = _in_notebook(bar) if notebook else (lambda: None)
+
+    def show(fraction: float, description: str) -> None:
+        bar.update(task, description=description, completed=fraction * total)
+        redraw()
+
+    def hear(what: str) -> None:
+        nonlocal doing
+        doing = f"{label}: {what}"
+        show(reached, doing)
+
+    def report(fraction: float) -> None:
+        nonlocal reached
+        reached = fraction
+        show(fraction, doing)
+
+    def prepare(fraction: float) -> None:
+        if fraction < 1.0:
+            show(fraction, f"{label}: finite elements")
+        else:
+            report(reached)
+
+    # a timer, so that the bar also comes up while code is compiled and no progress is reported
+    patience = threading.Timer(PATIENCE, (lambda: None) if notebook else bar.start)
+    patience.daemon = True
+    patience.start()
+    try:
+        with watched(prepare), listened(hear):
+            yield report
+        if notebook:  # where the last picture stays
+            bar.update(task, description=label, completed=total)
+            redraw()
+    finally:
+        patience.cancel()
+        patience.join()
+        bar.stop()
+
+
+def _notebook() -> bool:
+    """Whether this is a notebook, whose cells show what is displayed."""
+    if "IPython" not in sys.modules:
+        return False
+    from rich.console import Console
+
+    return Console().is_jupyter
+
+
+def _bar(unit: str) -> Any:
+    """Rich's bar: what is done, how much of it, how fast, and how long it will take."""
+    from rich.console import Console
+    from rich.progress import Progress, ProgressColumn, SpinnerColumn, Task, TimeRemainingColumn
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        def render(self, task: Task) -> Text:
+            speed = task.finished_speed or task.speed
+            return Text(f"{speed:.3g} {unit}/s" if speed else "", style="progress.data.speed")
+
+    _, name, line, share, _ = (SpinnerColumn(), *Progress.get_default_columns())
+    columns = SpinnerColumn(), name, line, share, Rate(), TimeRemainingColumn(elapsed_when_finished=True)
+    return Progress(*columns, console=Console(stderr=True), transient=True)
+
+
+def _in_notebook(bar: Any) -> Callable[[], None]:
+    """Give what draws the bar below the cell, at most every `NOTEBOOK_PAUSE`; the last one stays."""
+    from IPython.display import display  # pyright: ignore[reportMissingImports]
+
+    last, handle = perf_counter() + PATIENCE - NOTEBOOK_PAUSE, None
+
+    def redraw() -> None:
+        nonlocal last, handle
+        if perf_counter() - last < NOTEBOOK_PAUSE and not (handle and bar.finished):
+            return
+        last = perf_counter()
+        bundle = bar._repr_mimebundle_((), ())
+        if handle is None:
+            handle = display(bundle, raw=True, display_id=True)
+        else:
+            handle.update(bundle, raw=True)
+
+    return redraw

@@ -1,0 +1,235 @@
+"""Measured curves beside those of records: read from a CSV file or a mapping, and laid over each other."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError, near_name, quoted, unknown_name
+from tribodyn.record.reader import Record
+from tribodyn.scenario.sources import read_curve
+from tribodyn.scenario.units import ANGULAR_SPEED, Kind, NotAQuantity, factor_to_si
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: What a first column may be, besides the axis of the record.
+TIME, PHASE, ANGLE = "time", "mesh_phase", "pinion_angle"
+ALIGN = ("given", "mean", "fit")
+#: Fewest points that are compared, and most columns that a figure has room for.
+FEWEST, MOST_COLUMNS = 4, 6
+#: Shifts that a fit tries, over one mesh cycle.
+SHIFTS = 401
+
+Source = str | Path | Mapping[str, Any]
+"""A CSV file, or its columns: ``{"mesh_phase [1]": …, "transmission_error_rotational [um]": …}``."""
+
+
+class Measured(NamedTuple):
+    """Measured curves, in the units of their source."""
+
+    label: str
+    abscissa: str
+    values: Mapping[str, np.ndarray]  # name -> (points,); the abscissa, which increases, among them
+    units: Mapping[str, str]
+
+
+class Beside(NamedTuple):
+    """A simulated curve moved to lie beside a measured one, in the measured units."""
+
+    x: np.ndarray  # (samples,)
+    y: np.ndarray
+    #: RMS of the difference where both are, correlation there, and by how much the simulation was moved
+    difference: float
+    correlation: float
+    moved: tuple[float, float]  # along the abscissa, besides whole mesh cycles, and in value
+
+
+def read_measured(source: Source) -> Measured:
+    """Read measured curves; InputError names file, line and column of what cannot be used."""
+    if isinstance(source, Mapping):
+        columns, label = _columns(source), "measured"
+    else:
+        columns, label = read_curve(Path(source), "measured"), Path(source).stem
+    file = "" if isinstance(source, Mapping) else str(source)
+    abscissa, *quantities = columns
+    values = {name: np.asarray(column["values"], dtype=float) for name, column in columns.items()}
+
+    def bad(name: str, value: object, rule: str, remedy: str) -> InputError:
+        return InputError(f"measured.{name}", value, rule, remedy, file)
+
+    if not 1 <= len(quantities) <= MOST_COLUMNS:
+        remedy = "give one column of the abscissa and those that are to be drawn"
+        raise bad(abscissa, None, f"1 to {MOST_COLUMNS} quantities beside it, not {len(quantities)}", remedy)
+    if len(values[abscissa]) < FEWEST:
+        raise bad(abscissa, f"{len(values[abscissa])} points", f"at least {FEWEST}", "measure more")
+    for name, column in values.items():
+        if not np.all(np.isfinite(column)):
+            row = int(np.flatnonzero(~np.isfinite(column))[0]) + 1
+            raise bad(name, f"row {row}: {column[row - 1]}", "not a finite number", "leave that row out")
+    falls = np.flatnonzero(np.diff(values[abscissa]) <= 0.0)
+    if falls.size:
+        row = int(falls[0]) + 2
+        given = f"row {row}: {values[abscissa][row - 1]:g}"
+        raise bad(abscissa, given, "does not increase from row to row", "sort the rows by the first column")
+    return Measured(
+        label, abscissa, values, {name: column["unit"].strip() for name, column in columns.items()}
+    )
+
+
+def _columns(source: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of a mapping, as `read_curve` gives those of a file."""
+    columns = {}
+    for head, values in source.items():
+        name, bracket, unit = str(head).rstrip().removesuffix("]").partition("[")
+        if not bracket or np.ndim(values) != 1 or np.asarray(values).dtype.kind not in "fiu":
+            raise InputError("measured", quoted(str(head)), 'expected "name [unit]" and numbers', "give such")
+        columns[name.strip()] = {"unit": unit, "values": values}
+    lengths = {len(column["values"]) for column in columns.values()}
+    if len(columns) < 2 or len(lengths) > 1:
+        raise InputError("measured", None, "expected columns of one length, two at least", "give such")
+    return columns
+
+
+def beside(record: Record, measured: Measured, name: str, align: str = "given") -> Beside:
+    """Lay a record's dataset beside the measured one of that name.
+
+    Over the phase of the mesh and the pinion's angle the record is moved by whole mesh cycles, so that its
+    last ones lie there; over time it is not. `align` "mean" also moves it to the measured mean, "fit" besides
+    along the abscissa, by at most half a mesh cycle, to where the first column correlates best.
+    """
+    if align not in ALIGN:
+        raise InputError("align", quoted(align), "no such way", f"one of {', '.join(ALIGN)}")
+    x, cycle, periodic = _abscissa(record, measured)
+    at = measured.values[measured.abscissa] * _factor(
+        measured, measured.abscissa, _units_of(record, measured)
+    )
+    whole = 0.0
+    if measured.abscissa in (PHASE, ANGLE) and not periodic:
+        # a fit leaves half a cycle at both ends where the record is that long
+        room = cycle / 2.0 if align == "fit" and np.ptp(x) >= np.ptp(at) + 2.0 * cycle else 0.0
+        whole = cycle * np.floor((x[-1] - at[-1] - room) / cycle + 1e-9)
+    shift = 0.0
+    if align == "fit":
+        first = next(column for column in measured.values if column != measured.abscissa)
+        y, target = _simulated(record, measured, first), measured.values[first]
+        tried = np.linspace(-cycle / 2.0, cycle / 2.0, SHIFTS)
+        found = [_correlation(_at(at + whole - s, x, y, periodic), target) for s in tried]
+        shift = float(tried[int(np.argmax(found))]) if np.any(np.isfinite(found)) else 0.0
+    y, target = _simulated(record, measured, name), measured.values[name]
+    there = _at(at + whole - shift, x, y, periodic)
+    both = np.isfinite(there)
+    if np.sum(both) < FEWEST:
+        ends = [f"{a:.4g} to {b:.4g}" for a, b in ((at[0], at[-1]), (x[0] - whole, x[-1] - whole))]
+        rule = f"measured from {ends[0]}, simulated from {ends[1]} (SI): nothing to compare"
+        raise InputError(f"measured.{measured.abscissa}", None, rule, "shift the column, or simulate longer")
+    offset = float(np.mean(target[both] - there[both])) if align != "given" else 0.0
+    inside = (x - whole + shift >= at[0]) & (x - whole + shift <= at[-1])
+    shown = np.linspace(at[0], at[-1], 601) if periodic else x[inside] - whole + shift
+    curve = _at(shown + whole - shift, x, y, periodic)
+    to_unit = 1.0 / _factor(measured, measured.abscissa, _units_of(record, measured))
+    difference = float(np.sqrt(np.mean((there[both] + offset - target[both]) ** 2)))
+    moved = shift * to_unit, offset
+    return Beside(shown * to_unit, curve + offset, difference, _correlation(there, target), moved)
+
+
+def _at(places: np.ndarray, x: np.ndarray, y: np.ndarray, periodic: bool) -> np.ndarray:
+    """A curve at places; NaN outside of it, unless it repeats with period 1."""
+    if periodic:
+        return np.interp(places, x, y, period=1.0)
+    return np.interp(places, x, y, left=np.nan, right=np.nan)
+
+
+def _correlation(one: np.ndarray, other: np.ndarray) -> float:
+    both = np.isfinite(one)
+    if np.sum(both) < max(FEWEST, 0.5 * len(one)) or np.ptp(one[both]) == 0.0 or np.ptp(other[both]) == 0.0:
+        return np.nan
+    return float(np.corrcoef(one[both], other[both])[0, 1])
+
+
+def _abscissa(record: Record, measured: Measured) -> tuple[np.ndarray, float, bool]:
+    """The measured abscissa of a record, SI; the length of a mesh cycle on it; whether it repeats with 1."""
+    name = measured.abscissa
+    own = "phase" if name == PHASE else name
+    teeth = record.mesh_cycle.get("pinion_teeth") if "mesh_cycle" in record.groups else None
+    if own == record.axis or (own == TIME and TIME in record) or (own == ANGLE and own in record):
+        x = np.asarray(record[own], dtype=float)
+    elif name == PHASE and teeth and ANGLE in record:
+        x = (record[ANGLE] - record[ANGLE][0]) * (teeth / (2.0 * np.pi))
+    else:
+        known = [record.axis, *(other for other in (ANGLE,) if other in record)]
+        known += [PHASE] if (teeth and ANGLE in record) or record.axis == "phase" else []
+        raise unknown_name("measured", name, known, "abscissa of this record: the first column")
+    if len(x) < 2:
+        raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
+    if own == record.axis == "phase":
+        return x, 1.0, True
+    if name == PHASE or not teeth:
+        return x, 1.0 if name == PHASE else 0.1 * float(np.ptp(x)), False
+    pitch = 2.0 * np.pi / float(teeth)
+    turned = float(np.ptp(record[ANGLE])) if ANGLE in record else pitch
+    return x, pitch if name == ANGLE else float(np.ptp(x)) * pitch / turned, False
+
+
+def _simulated(record: Record, measured: Measured, name: str) -> np.ndarray:
+    """A dataset of the record in the measured unit; InputError where it has none of that name."""
+    curves = [own for own in record if record.dims_of(own) == (record.axis,) and own != record.axis]
+    if name not in curves:
+        if near := near_name(name, curves):
+            curves = [near, *(own for own in curves if own != near)]
+        raise unknown_name("measured", name, curves, "quantity of this record over its axis")
+    return np.asarray(record[name], dtype=float) / _factor(measured, name, record.units(name))
+
+
+def _units_of(record: Record, measured: Measured) -> str:
+    name = measured.abscissa
+    return {PHASE: "1", TIME: "s", ANGLE: "rad"}.get(name) or record.units(name)
+
+
+def _factor(measured: Measured, name: str, si: str) -> float:
+    """From the measured unit to SI; InputError names the column."""
+    unit = measured.units[name]
+    kind = ANGULAR_SPEED if si == "rad/s" else Kind(name.replace("_", " "), si, f"1 {si}")
+    try:
+        if si == "K" and unit != "K":  # a rise in °C and a temperature in °C are not told apart
+            raise NotAQuantity(f'"{unit}" may have a shifted zero', "give it in K")
+        return factor_to_si(unit, kind)
+    except NotAQuantity as error:
+        raise InputError(f"measured.{name}", f"[{unit}]", error.rule, error.remedy) from None
+
+
+def measured_figure(records: Sequence[Record], source: Source, align: str = "given") -> "Figure":
+    """Draw measured curves and those of records over the measured abscissa, a panel for each quantity."""
+    from tribodyn.post.figures.measured import Panel, draw
+    from tribodyn.post.style import house_style
+
+    measured = read_measured(source)
+    panels = []
+    try:
+        for name, values in measured.values.items():
+            if name != measured.abscissa:
+                curves = [(record, beside(record, measured, name, align)) for record in records]
+                lines = [
+                    (record.label, found.x, found.y, _said(found, measured, name)) for record, found in curves
+                ]
+                panels.append(Panel(name, measured.units[name], values, lines))
+    except InputError as error:
+        raise error.moved(
+            lambda place: place or ("" if isinstance(source, Mapping) else str(source))
+        ) from None
+    at = measured.values[measured.abscissa]
+    with house_style():
+        return draw(measured.label, measured.abscissa, measured.units[measured.abscissa], at, panels)
+
+
+def _said(found: Beside, measured: Measured, name: str) -> str:
+    """How far apart the two are, and how the simulation was moved."""
+    from tribodyn.post.figures.measured import spelled
+
+    unit = spelled(measured.units[name], name)
+    along = spelled(measured.units[measured.abscissa], measured.abscissa)
+    text = f"difference {found.difference:.3g} {unit}".rstrip() + f" RMS, correlation {found.correlation:.3f}"
+    shift, offset = found.moved
+    moves = [f"{shift:+.3g} {along}"] * (shift != 0.0) + [f"{offset:+.3g} {unit}".rstrip()] * (offset != 0.0)
+    return text + (f"; simulation moved by {' and '.join(moves)}" if moves else "")
