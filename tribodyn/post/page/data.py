@@ -33,7 +33,7 @@ _UNITS: dict[str, tuple[tuple[str, float], ...]] = {
     "W": (("kW", 1e-3), ("W", 1.0), ("mW", 1e3)),
     "rad": (("°", 180.0 / np.pi),),
     "s": (("s", 1.0), ("ms", 1e3), ("µs", 1e6)),
-    "1": (("–", 1.0),),
+    "1": (("", 1.0),),
 }
 
 
@@ -64,6 +64,11 @@ def in_engineers_units(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
             return values * factor, name
     name, factor = choices[-1 if largest else 0]
     return values * factor, name
+
+
+def with_unit(text: str, unit: str) -> str:
+    """A text and its unit in brackets; of a number without a unit the text alone."""
+    return f"{text} ({unit})" if unit else text
 
 
 def series_of(record: Record, records: int = 1) -> list[Series]:

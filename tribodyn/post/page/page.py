@@ -21,6 +21,7 @@ from tribodyn.post.page.data import (
     profiles_data,
     series_data,
     series_of,
+    with_unit,
 )
 from tribodyn.post.page.rolling_teeth import LOAD, rolling_teeth
 from tribodyn.post.report import EXCEEDED
@@ -75,7 +76,7 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
     units = [entry.pop("axis_unit") for entry in data]
     names = [series["name"] for series in data[0]["series"]]
     panels = [name for name in contents[0].panels if name in names] or names[:FIGURES]
-    axis = f"{records[0].axis.replace('_', ' ')} ({units[0]})"
+    axis = with_unit(records[0].axis.replace("_", " ").capitalize(), units[0])
     several = len(records) > 1
     sections = {
         "WARNINGS": "".join(
@@ -183,7 +184,10 @@ def summary_tables(records: Sequence[Record], reported: Sequence[Reported]) -> s
         for heading, group in some.items():
             for quantity in group:
                 merged.setdefault(heading, {}).setdefault(quantity.name, quantity)
-    tables = []
+    tables, missing = [], False
+    several = len(records) > 1
+    head = "".join(f"<th>{escape(record.label)}</th>" for record in records)
+    head = f"<tr><th></th>{head}<th></th></tr>" if several else ""
     for heading, group in merged.items():
         rows = []
         for quantity in group.values():
@@ -192,13 +196,13 @@ def summary_tables(records: Sequence[Record], reported: Sequence[Reported]) -> s
                 about = f"{quantity.definition} In the record: {quantity.name}.".strip()
                 name = f'<td title="{escape(about)}">{escape(quantity.in_table)}</td>'
                 values = "".join(f"<td>{escape(cell or '–')}</td>" for cell in cells)
+                missing = missing or not all(cells)
                 rows.append(f"<tr>{name}{values}<td>{escape(quantity.unit)}</td></tr>")
         if rows:
-            tables.append(f"<div><h3>{escape(heading)}</h3><table>{''.join(rows)}</table></div>")
-    head = ""
-    if len(records) > 1:
-        head = f"<p>Columns: {escape(', '.join(record.label for record in records))}.</p>"
-    return f'{head}<div class="summary tables wide">{"".join(tables)}</div>'
+            tables.append(f"<div><h3>{escape(heading)}</h3><table>{head}{''.join(rows)}</table></div>")
+    note = '<p class="keys">–: this record does not have the quantity.</p>' if missing else ""
+    kind = "summary tables several" if several else "summary tables"
+    return f'<div class="{kind} wide">{"".join(tables)}</div>{note}'
 
 
 def _cell(record: Record, quantity: Quantity) -> str:

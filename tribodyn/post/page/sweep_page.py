@@ -38,7 +38,7 @@ def sweep_page(
             "name": quantity.name,
             "short": quantity.title,
             "title": quantity.title,
-            "unit": quantity.unit or "–",
+            "unit": quantity.unit,
             "curves": [
                 {
                     "label": ", ".join(filter(None, (branch.label, branch.direction))),
