@@ -45,7 +45,8 @@ WIDTHS, PAPER = (400, 800, 1400), 703
 _MEASURE = """
 const onPaper = (sheet) => [...sheet.cssRules].filter((rule) => rule.media).forEach((rule) => {
   const text = rule.media.mediaText;
-  if (text === "print") rule.media.mediaText = "all"; else if (text.includes("screen")) rule.media.mediaText = "not all";
+  if (text === "print") rule.media.mediaText = "all";
+  else if (text.includes("screen")) rule.media.mediaText = "not all";
 });
 function measure(frame) {
   const page = frame.contentDocument, root = page.documentElement, found = {};
@@ -76,8 +77,9 @@ def measured(pages: list[Path], folder: Path) -> list[dict[str, list]]:
     """Width that each page needs, px, its colour and its background, by theme and width; in one browser."""
     frames = "".join(f'<iframe src="{page.as_uri()}" style="height:900px"></iframe>' for page in pages)
     script = f"const WIDTHS = {list(WIDTHS)}, PAPER = {PAPER};{_MEASURE}"
+    style = f"iframe {{ border: 0; width: {WIDTHS[0]}px; color-scheme: light; }}"
     (folder / "frames.html").write_text(
-        f'<!DOCTYPE html><meta charset="utf-8"><style>iframe {{ border: 0; width: {WIDTHS[0]}px; color-scheme: light; }}</style>'
+        f'<!DOCTYPE html><meta charset="utf-8"><style>{style}</style>'
         f'<body>{frames}<p id="found"></p><script>{script}</script></body>',
         encoding="utf-8",
     )

@@ -104,7 +104,8 @@ def series_of(record: Record, records: int = 1) -> list[Series]:
             ]
             if across == "pair":
                 curves.reverse()  # the one that entered last comes first
-        found.append(Series(name, record.long_name(name), unit, tuple(curves)))
+        title = record.long_name(name)
+        found.append(Series(name, title[:1].upper() + title[1:], unit, tuple(curves)))
     return found
 
 

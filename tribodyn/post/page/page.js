@@ -9,10 +9,17 @@
     for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
     return new Kind(bytes.buffer);
   }
+  function outlined(text) {
+    const points = numbers(text, Float32Array), outline = new Path2D();
+    for (let k = 0; k < points.length; k += 2) outline.lineTo(points[k], points[k + 1]);
+    outline.closePath();
+    return outline;
+  }
   // unpack the records
   for (const record of data.records) {
     record.axis = numbers(record.axis, Float64Array);
     record.byName = {};
+    if (record.rates) record.rates = numbers(record.rates, Float32Array);
     for (const one of record.series) {
       record.byName[one.name] = one;
       for (const curve of one.curves) {
@@ -29,20 +36,26 @@
     const teeth = record.teeth;
     if (teeth) {
       teeth.frames = teeth.frames && numbers(teeth.frames, Uint32Array);
-      teeth.roll = numbers(teeth.roll, Float64Array);
-      for (const name of ["x", "y", "alpha", "path"]) teeth[name] = numbers(teeth[name], Float32Array);
-      for (const name of ["pinion", "gear"]) {
-        const points = numbers(teeth[name], Float32Array), outline = new Path2D();
-        for (let k = 0; k < points.length; k += 2) outline.lineTo(points[k], points[k + 1]);
-        outline.closePath();
-        teeth[name] = points;
-        teeth[name + "Path"] = outline;
+      for (const name of ["x", "y", "alpha"]) teeth[name] = numbers(teeth[name], Float32Array);
+      if (teeth.bodies) {
+        for (const body of teeth.bodies) {
+          const pose = numbers(body.pose, Float32Array);
+          body.path = outlined(body.outline);
+          body.pose = (frame) => pose.subarray(3 * frame, 3 * frame + 3);
+        }
+      } else {
+        teeth.roll = numbers(teeth.roll, Float64Array);
+        teeth.path = numbers(teeth.path, Float32Array);
+        const turns = { pinion: -1, gear: teeth.radii[0] / teeth.radii[1] }, places = { pinion: -teeth.radii[0], gear: teeth.radii[1] };
+        teeth.bodies = ["pinion", "gear"].map((name) => ({
+          path: outlined(teeth[name]), fill: name, pose: (frame) => [0, places[name], turns[name] * teeth.roll[frame]],
+        }));
       }
     }
   }
   const first = data.records[0];
   let shown = data.panels.filter((name) => first.byName[name]);
-  let which = 0, at = first.start, playing = false, last = 0;
+  let which = 0, at = first.start, playing = false, last = 0, turned = 0;
   const span = () => [first.axis[0], first.axis[first.axis.length - 1]];
   let range = first.window;
 
@@ -85,7 +98,7 @@
     const pieces = words(series.title);
     if (names.length > 8) pieces.push(...named(names[0] + " … " + names[names.length - 1], "#808080"));
     else names.forEach((name, k) => pieces.push(...named("\u00a0" + name, COLORS[k % COLORS.length])));
-    if (data.records.some((one) => (one.outside || {})[series.name])) pieces.push(...words("(shaded: its law is extrapolated)"));
+    if (data.records.some((one) => (one.outside || {})[series.name])) pieces.push(...words("(shaded: " + (data.shaded || "its law is extrapolated") + ")"));
     if (data.records.some((one) => one.trust)) pieces.push(...named("outside the model", "#b3261e"));
     return wrapped(pieces, width);
   }
@@ -279,32 +292,38 @@
     const color = (name) => style.getPropertyValue(name).trim();
     const ratio = window.devicePixelRatio || 1, width = Math.round((canvas.clientWidth || 900) * ratio);
     if (canvas.width !== width) { canvas.width = width; canvas.height = Math.round(0.66 * width); }
-    const sample = indexAt(record.axis, at), frame = teeth.frames ? indexAt(teeth.frames, sample) : sample, roll = teeth.roll[frame];
+    const sample = indexAt(record.axis, at), frame = teeth.turning ? Math.floor(turned * teeth.roll.length) % teeth.roll.length : teeth.frames ? indexAt(teeth.frames, sample) : sample;
     let across = 1e-9;
-    for (let k = 0; k < teeth.path.length; k += 2) across = Math.max(across, Math.abs(teeth.path[k]), 1.4 * Math.abs(teeth.path[k + 1]));
-    const scale = (canvas.width / 2) / (1.75 * across);
+    for (let k = 0; k < (teeth.path || []).length; k += 2) across = Math.max(across, Math.abs(teeth.path[k]), 1.4 * Math.abs(teeth.path[k + 1]));
+    const scale = teeth.reach ? canvas.height / 2 / teeth.reach : canvas.width / 2 / (1.75 * across);
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, canvas.width, canvas.height);
     const world = () => context.setTransform(scale, 0, 0, -scale, canvas.width / 2, canvas.height / 2);
-    const body = (outline, centre, angle, fill, edge) => {
+    const edges = { pinion: COLORS[0], gear: COLORS[1], paper: color("--ink"), ring: color("--ring") };
+    for (const body of teeth.bodies) {
+      const [x, y, angle] = body.pose(frame);
       world();
-      context.translate(0, centre);
+      context.translate(x, y);
       context.rotate(angle);
-      context.fillStyle = fill;
-      context.fill(outline);
-      context.lineWidth = 1.4 * ratio / scale;
-      context.strokeStyle = edge;
-      context.stroke(outline);
-    };
-    body(teeth.pinionPath, -teeth.radii[0], -roll, color("--pinion"), COLORS[0]);
-    body(teeth.gearPath, teeth.radii[1], roll * teeth.radii[0] / teeth.radii[1], color("--gear"), COLORS[1]);
+      context.fillStyle = color(body.fill === "paper" ? "--card" : "--" + body.fill);
+      if (body.fill !== "ring") context.fill(body.path);
+      context.lineWidth = body.width || 1.4 * ratio / scale;
+      context.strokeStyle = edges[body.fill];
+      context.stroke(body.path);
+    }
     world();
-    context.beginPath();
-    for (let k = 0; k < teeth.path.length; k += 2) context.lineTo(teeth.path[k], teeth.path[k + 1]);
-    context.lineWidth = 1.6 * ratio / scale;
-    context.strokeStyle = color("--ink");
-    context.stroke();
+    if (teeth.path) {
+      context.beginPath();
+      for (let k = 0; k < teeth.path.length; k += 2) context.lineTo(teeth.path[k], teeth.path[k + 1]);
+      context.lineWidth = 1.6 * ratio / scale;
+      context.strokeStyle = color("--ink");
+      context.stroke();
+    }
     const loads = record.byName[data.load], tint = record.byName[$("color").value];
+    if (teeth.turning) for (let q = 0; q < teeth.pairs; q++) {
+      const x = teeth.x[frame * teeth.pairs + q], y = teeth.y[frame * teeth.pairs + q];
+      if (isFinite(x)) arrow(context, x, y, 0, 0, 1, ratio / scale);
+    }
     if (!loads) return;
     let largest = 1e-30, lowest = Infinity, highest = -Infinity;
     for (const curve of loads.curves) for (const y of curve.y) if (y > largest) largest = y;
@@ -313,10 +332,11 @@
     for (let q = 0; q < pairs; q++) {
       const x = teeth.x[frame * pairs + q], y = teeth.y[frame * pairs + q], alpha = teeth.alpha[frame * pairs + q];
       if (!isFinite(x)) continue;
-      // the curves stand newest pair first, the slots oldest first
-      const load = valueAt(loads.curves[pairs - 1 - q] || loads.curves[0]);
-      const share = tint ? (valueAt(tint.curves[pairs - 1 - q] || tint.curves[0]) - lowest) / (highest - lowest || 1) : 1;
-      arrow(context, x, y, alpha, (load / largest) * 0.55 * across, share, ratio / scale);
+      // of pairs of gears the curves stand newest first, the slots oldest first
+      const place = teeth.longest ? q : pairs - 1 - q, load = valueAt(loads.curves[place] || loads.curves[0]);
+      if (teeth.longest && !(load > 1e-9 * largest)) continue;
+      const share = tint ? (valueAt(tint.curves[place] || tint.curves[0]) - lowest) / (highest - lowest || 1) : 1;
+      arrow(context, x, y, alpha, (load / largest) * (teeth.longest || 0.55 * across), share, ratio / scale);
     }
   }
   function arrow(context, x, y, alpha, length, share, pixel) {
@@ -340,7 +360,7 @@
     for (const name of shown) {
       const series = record.byName[name];
       if (!series) continue;
-      for (const curve of series.curves) {
+      for (const curve of series.curves.length > 8 ? [] : series.curves) {
         const row = table.insertRow();
         row.insertCell().textContent = series.short + (curve.label ? ", " + curve.label : "");
         row.insertCell().textContent = written(valueAt(curve)) + (series.unit ? " " + series.unit : "");
@@ -370,8 +390,16 @@
   function tick(now) {
     if (!playing) return;
     // a mesh cycle, or a twentieth of what is shown, takes four seconds
-    const step = (now - last) / 4000 * first.cycle * Number($("speed").value);
+    const share = (now - last) / 4000 * Number($("speed").value);
     last = now;
+    // of cases side by side the cursor stays at one, whose teeth turn: the fastest by a tooth in four seconds
+    if (first.teeth && first.teeth.turning) {
+      turned = (turned + share * first.rates[indexAt(first.axis, at)]) % 1;
+      drawTeeth();
+      requestAnimationFrame(tick);
+      return;
+    }
+    const step = share * first.cycle;
     let next = at + step;
     if (next > range[1]) next = range[0];
     move(next);
@@ -388,7 +416,7 @@
     if (["SELECT", "INPUT"].includes(event.target.tagName) && event.key !== " ") return;
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (step) { const axis = first.axis; move(axis[Math.min(axis.length - 1, Math.max(0, indexAt(axis, at) + step * (event.shiftKey ? 10 : 1)))]); event.preventDefault(); }
-    if (event.key === " ") { $("play").onclick(); event.preventDefault(); }
+    if (event.key === " " && moving) { $("play").onclick(); event.preventDefault(); }
   });
   document.documentElement.dataset.theme = window.matchMedia && window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
   choose($("view"), [["window", "the last mesh cycles"], ["all", "the whole run"]]);
@@ -397,6 +425,14 @@
   if (first.byName[data.load]) $("color").value = data.load;
   choose($("which"), data.records.map((one, k) => [String(k), one.label]));
   $("which-label").hidden = data.records.length < 2;
+  if (first.teeth && first.teeth.title) $("teeth-title").textContent = first.teeth.title;
+  const moving = data.records.some((one) => one.teeth || one.profiles || (one.maps || []).length);
+  if (!moving) document.querySelector(".controls").hidden = true;
+  $("color").parentElement.hidden = !first.byName[data.load];
+  if (first.teeth && first.teeth.turning) {
+    document.querySelector(".controls .keys").textContent = "The slider chooses a case; play turns its teeth in slow motion: the fastest by a tooth in four seconds.";
+    $("teeth-title").textContent = "The teeth of the scenario that is varied";
+  }
   $("teeth-section").hidden = !data.records.some((one) => one.teeth);
   // page.html#at=1.25 opens there
   const asked = Number(new URLSearchParams(location.hash.slice(1)).get("at") || NaN);

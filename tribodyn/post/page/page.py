@@ -1,10 +1,11 @@
 """Puts a page together: one file, which asks nothing of any other place."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,6 +24,7 @@ from tribodyn.post.page.data import (
     series_of,
     with_unit,
 )
+from tribodyn.post.page.mechanism import Mechanism, mechanism_data
 from tribodyn.post.page.rolling_teeth import LOAD, rolling_teeth
 from tribodyn.post.report import EXCEEDED
 from tribodyn.post.style import inline
@@ -51,6 +53,10 @@ class PageContent(NamedTuple):
     heading: str = "Geometry"
     pictures: Sequence[tuple[str, str, Figure]] = ()  # sequence of (name, about, figure)
     verdict: Sequence[str] = ()  # what it says first
+    #: tables as above of what was found; they and the pictures then stand before the run
+    found: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
+    titles: Mapping[str, str] = MappingProxyType({})  # of datasets, in place of those of the record
+    mechanism: Mechanism | None = None  # what moves, where it is no pair of gears
 
 
 def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bool = True) -> str:
@@ -61,6 +67,10 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
     """
     data = [_record(record, len(records)) for record in records]
     for entry, record, content in zip(data, records, contents, strict=True):
+        for series in entry["series"]:
+            series["title"] = content.titles.get(series["name"], series["title"])
+        if content.mechanism:
+            entry["teeth"] = mechanism_data(content.mechanism)
         if figures:
             entry["maps"] = [map_data(record, found) for found in content.maps]
             over_places: set[str] = set()
@@ -89,7 +99,10 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
             for record, content in zip(records, contents, strict=True)
         ),
         "SHEET": _sheets(records, contents) if figures else "",
-        "PICTURES": "".join(picture(*drawn) for content in contents for drawn in content.pictures),
+        "RESULT": "".join(_result(content) for content in contents if content.found),
+        "PICTURES": "".join(
+            picture(*drawn) for content in contents if not content.found for drawn in content.pictures
+        ),
         "ORIGIN": "".join(map(origin, records)) if figures else "",
         "OVER": "Over the run",
     }
@@ -101,6 +114,7 @@ def assembled(title: str, payload: dict[str, Any], sections: dict[str, str], fig
     """Put a page together of its title, its data and the HTML of its sections."""
     payload["figures"] = figures
     parts = {
+        "RESULT": "",
         **sections,
         "TITLE": escape(title),
         # no text of a record can end the element that holds it
@@ -168,6 +182,13 @@ def _record(record: Record, count: int) -> dict[str, Any]:
         "trust": record.trust == trust.OUTSIDE,
         "teeth": rolling_teeth(record),
     }
+
+
+def _result(content: PageContent) -> str:
+    """Tables and pictures of what was found."""
+    tables = "".join(table(*part) for part in content.found)
+    drawn = "".join(picture(*part) for part in content.pictures)
+    return f'<section><h2>Result</h2><div class="tables">{tables}</div></section>{drawn}'
 
 
 def warnings_of(record: Record, named: bool) -> str:

@@ -157,7 +157,9 @@ def test_a_sweep_has_a_page(tmp_path: Path):
         np.testing.assert_allclose(unpacked(data["axis"], "<f8"), [100.0, 200.0, 300.0])
         with pytest.raises(td.InputError, match="a page of its own"):
             write_report([record, record], tmp_path / "both.html")
-    assert "data:image/png" in page.read_text(encoding="utf-8")
+    assert data["teeth"]["turning"]
+    np.testing.assert_allclose(unpacked(data["rates"]), [1 / 3, 2 / 3, 1.0], rtol=1e-6)
+    assert "data:image/png" not in page.read_text(encoding="utf-8"), "curves of the page, once more"
 
 
 def test_a_page_replaces_pages_only(crc, tmp_path: Path):
