@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from tests.support.outlines import closed, distance, turned
 from tests.support.pages import data_of, unpacked
-from tests.unit.post.page.test_page import closed, distance, turned
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
@@ -14,30 +14,33 @@ from tribodyn.studies import study_of
 from tribodyn.studies.pages import write_report
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
+from tribodyn.studies.rolling.geometry import cam_outline, crown_outline
 
 
 @pytest.fixture(scope="module")
 def rolling(tmp_path_factory) -> Record:
     """A turn of the shipped gear with rolling elements."""
-    result = run("irefc", tmp_path_factory.mktemp("irefc") / "irefc.h5")
+    result = run(load_scenario("irefc"), tmp_path_factory.mktemp("irefc") / "irefc.h5")
     with Record(result.path) as record:
         yield record  # pyright: ignore[reportReturnType]
 
 
 def test_elements_touch_cam_and_crown(rolling, rng):
-    """All around, to 5 µm: the outlines are polygons, whose chords leave 3 µm."""
+    """To 0.1 µm, between outlines so fine that their chords leave 0.02 µm."""
     study = study_of(rolling.scenario)
     found = study.mechanism(rolling)
     assert found is not None
     _, crown, cam, cage, *elements = found.bodies
     radius, count = float(rolling.geometry["element_radius"]), rolling.scenario["drive"]["elements"]
     assert len(elements) == count
+    drive = load_scenario("irefc").drive
+    fine = (crown, crown_outline(drive, 2000)), (cam, cam_outline(drive, 2000))
     for sample in rng.choice(rolling.samples, 12):
-        for body, number in zip((crown, cam), rng.choice(count, 2), strict=True):
+        for (body, outline), number in zip(fine, rng.choice(count, 2), strict=True):
             x, y, angle = body.pose[sample]
-            outline = turned(body.outline, angle) + (x, y)
+            placed = turned(outline, angle) + np.array([x, y])
             centre = elements[number].pose[sample, :2]
-            assert distance(centre, closed(outline)) == pytest.approx(radius, abs=5e-6)
+            assert distance(centre, closed(placed)) == pytest.approx(radius, abs=1e-7)
         # and the cage carries it along
         first = elements[0].pose[sample, :2] - cage.pose[sample, :2]
         assert np.angle(complex(*first) * np.exp(-1j * cage.pose[sample, 2])) == pytest.approx(0, abs=1e-9)
