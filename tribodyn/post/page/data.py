@@ -104,9 +104,13 @@ def series_of(record: Record, records: int = 1) -> list[Series]:
             ]
             if across == "pair":
                 curves.reverse()  # the one that entered last comes first
-        title = record.long_name(name)
-        found.append(Series(name, title[:1].upper() + title[1:], unit, tuple(curves)))
+        found.append(Series(name, _title(record, name), unit, tuple(curves)))
     return found
+
+
+def _title(record: Record, name: str) -> str:
+    title = record.long_name(name)
+    return title[:1].upper() + title[1:]
 
 
 def extrapolated(record: Record) -> dict[str, list[list[int]]]:
@@ -182,7 +186,7 @@ def map_data(record: Record, found: PageMap) -> dict[str, Any]:
     values, unit = in_engineers_units(found.values, record.units(found.name))
     return {
         "name": found.name,
-        "title": f"{record.long_name(found.name)}, of one pair from entry to exit",
+        "title": f"{_title(record, found.name)}, of one pair from entry to exit",
         "unit": unit,
         "x": packed(np.degrees(found.roll)),
         "y": packed(found.face * 1e3),
@@ -220,7 +224,7 @@ def profiles_data(record: Record, found: Profiles) -> dict[str, Any]:
         rows.append(
             {
                 "name": profile.name,
-                "title": record.long_name(profile.name),
+                "title": _title(record, profile.name),
                 "unit": unit,
                 "low": min(float(finite.min()), 0.0) if finite.size else 0.0,
                 "high": top,

@@ -145,7 +145,8 @@ def _table(
         mark = ' class="bad"' if number in marked else ""
         lines.append(f"<tr{mark}>{cells('td', row)}</tr>")
     table = f'<table class="numbers{kind}">{"".join(lines)}</table>'
-    return f'<section><h2>{heading}</h2><div class="wide">{table}</div></section>'
+    dashes = '<p class="quiet">–: not determined.</p>' if any("–" in row for row in rows) else ""
+    return f'<section><h2>{heading}</h2><div class="wide">{table}</div>{dashes}</section>'
 
 
 def _limits(summary: Mapping[str, Any]) -> str:
