@@ -106,4 +106,4 @@ def _lost(drawn: Sequence[Branch], order: np.ndarray, names: Sequence[str]) -> d
     lost = np.any([branch.values("contact_loss_fraction")[order] > 0.0 for branch in drawn], axis=0)
     edges = np.flatnonzero(np.diff(np.concatenate([[0], lost.astype(int), [0]])))
     intervals = np.stack([edges[::2], edges[1::2] - 1], axis=1).tolist()
-    return dict.fromkeys(names, intervals) if intervals else {}
+    return {name: intervals for name in names} if intervals else {}

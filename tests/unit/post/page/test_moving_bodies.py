@@ -1,5 +1,7 @@
 """Bodies that a page moves touch where they are said to touch, at any position."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
@@ -18,11 +20,11 @@ from tribodyn.studies.rolling.geometry import cam_outline, crown_outline
 
 
 @pytest.fixture(scope="module")
-def rolling(tmp_path_factory) -> Record:
+def rolling(tmp_path_factory) -> Iterator[Record]:
     """A turn of the shipped gear with rolling elements."""
     result = run(load_scenario("irefc"), tmp_path_factory.mktemp("irefc") / "irefc.h5")
     with Record(result.path) as record:
-        yield record  # pyright: ignore[reportReturnType]
+        yield record
 
 
 def test_elements_touch_cam_and_crown(rolling, rng):
