@@ -35,7 +35,7 @@ SAMPLES: dict[str, Variable] = {
         "deflection along the pair's normal, gap not subtracted; NaN where the pair is out of contact",
     ),
     "transmission_error_rotational": Variable(
-        _TIME, "m", "rotational dynamic transmission error r_p theta_p - r_g theta_g"
+        _TIME, "m", "dynamic transmission error, of the gears' rotations"
     ),
     "normal_load": Variable(_PAIRS, "N", "normal load of the pair"),
     "friction_force": Variable(

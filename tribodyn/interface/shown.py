@@ -113,7 +113,7 @@ def tables(some: Iterable[TextTable]) -> str:
 
 def picture_of_run(record: Record, study: Study) -> str:
     """Draw the first datasets of a record over the last mesh cycles; nothing, where there are none."""
-    from tribodyn.post.page.data import in_engineers_units, series_of
+    from tribodyn.post.page.data import in_engineers_units, series_of, with_unit
     from tribodyn.post.style import literal
 
     series = {found.name: found for found in series_of(record)}
@@ -130,8 +130,8 @@ def picture_of_run(record: Record, study: Study) -> str:
             inside = axis[curve.places] >= start
             axes.plot(axis[curve.places][inside], curve.values[inside], label=literal(curve.label))
         title = series[name].title if len(series[name].title) < LONGEST else name.replace("_", " ")
-        axes.set_title(literal(f"{title} ({series[name].unit})"), loc="left")
-        axes.set_xlabel(literal(f"{record.axis.replace('_', ' ')} ({unit})"))
+        axes.set_title(literal(with_unit(title, series[name].unit)), loc="left")
+        axes.set_xlabel(literal(with_unit(record.axis.replace("_", " "), unit)))
         if 1 < len(series[name].curves) <= CURVES:
             axes.legend(fontsize=7)
 

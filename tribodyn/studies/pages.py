@@ -222,6 +222,7 @@ def report(
             sheet(record) if figures else (),
             study.profiles(record),
             verdict=study.verdict(record),
+            mechanism=study.mechanism(record) if record.samples else None,
         )
         for study, record in zip(studies, records, strict=True)
     ]
@@ -254,17 +255,37 @@ def loaded_again(record: Record | SweepRecord) -> Loaded:
 
 
 def sweep_report(record: SweepRecord) -> str:
-    """Write the page of a sweep: its quantities over the first varied key, and its pictures."""
+    """Write the page of a sweep: its quantities over the first varied key, its teeth, its pictures."""
+    from tribodyn.post.figures.sweep.response import more_than_curves
     from tribodyn.post.page.sweep_page import sweep_page
 
     study = study_of_record(record)
     pictures = []
-    for name in sweep_names([record]):
+    for name, drawing in study.sweep_drawings().items():
+        if drawing.curves and not more_than_curves(record):
+            continue
         try:
-            pictures.append((name, study.sweep_drawings()[name].about, sweep_figure(name, [record])))
+            pictures.append((name, drawing.about, sweep_figure(name, [record])))
         except InputError:  # of a sweep that lacks what the picture shows
             continue
-    return sweep_page(record, study.sweep_table(), pictures, sheet(record))
+    return sweep_page(record, study.sweep_table(), pictures, sheet(record), _teeth(record))
+
+
+def _teeth(record: SweepRecord) -> "dict[str, Any] | None":
+    """Teeth of the scenario that is varied, for a page; None where it has no pair of gears."""
+    from tribodyn.geometry.body import geometry_arrays
+    from tribodyn.geometry.families import family
+    from tribodyn.geometry.limits.checks import check
+    from tribodyn.post.page.rolling_teeth import turning_teeth
+
+    if not study_of_record(record).has_gears:
+        return None
+    try:
+        case = loaded_again(record).case
+        assembly = check(family(case.family), case.drive)
+    except InputError:
+        return None
+    return turning_teeth(geometry_arrays(assembly), float(assembly.drive.pinion.teeth))
 
 
 def write_report(

@@ -78,3 +78,5 @@ class SweepDrawing(NamedTuple):
     about: str  # in a line
     #: (records, at) -> Figure; `at` is a parameter's name to its value in SI, for a single case
     draw: Callable[[Sequence[SweepRecord], Mapping[str, float | str]], Figure]
+    #: whether it shows quantities of the cases over the first key, as a page does itself
+    curves: bool = False

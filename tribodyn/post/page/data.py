@@ -33,7 +33,7 @@ _UNITS: dict[str, tuple[tuple[str, float], ...]] = {
     "W": (("kW", 1e-3), ("W", 1.0), ("mW", 1e3)),
     "rad": (("°", 180.0 / np.pi),),
     "s": (("s", 1.0), ("ms", 1e3), ("µs", 1e6)),
-    "1": (("–", 1.0),),
+    "1": (("", 1.0),),
 }
 
 
@@ -64,6 +64,11 @@ def in_engineers_units(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
             return values * factor, name
     name, factor = choices[-1 if largest else 0]
     return values * factor, name
+
+
+def with_unit(text: str, unit: str) -> str:
+    """A text and its unit in brackets; of a number without a unit the text alone."""
+    return f"{text} ({unit})" if unit else text
 
 
 def series_of(record: Record, records: int = 1) -> list[Series]:
@@ -99,8 +104,13 @@ def series_of(record: Record, records: int = 1) -> list[Series]:
             ]
             if across == "pair":
                 curves.reverse()  # the one that entered last comes first
-        found.append(Series(name, record.long_name(name), unit, tuple(curves)))
+        found.append(Series(name, _title(record, name), unit, tuple(curves)))
     return found
+
+
+def _title(record: Record, name: str) -> str:
+    title = record.long_name(name)
+    return title[:1].upper() + title[1:]
 
 
 def extrapolated(record: Record) -> dict[str, list[list[int]]]:
@@ -176,7 +186,7 @@ def map_data(record: Record, found: PageMap) -> dict[str, Any]:
     values, unit = in_engineers_units(found.values, record.units(found.name))
     return {
         "name": found.name,
-        "title": f"{record.long_name(found.name)}, of one pair from entry to exit",
+        "title": f"{_title(record, found.name)}, of one pair from entry to exit",
         "unit": unit,
         "x": packed(np.degrees(found.roll)),
         "y": packed(found.face * 1e3),
@@ -214,7 +224,7 @@ def profiles_data(record: Record, found: Profiles) -> dict[str, Any]:
         rows.append(
             {
                 "name": profile.name,
-                "title": record.long_name(profile.name),
+                "title": _title(record, profile.name),
                 "unit": unit,
                 "low": min(float(finite.min()), 0.0) if finite.size else 0.0,
                 "high": top,

@@ -9,10 +9,17 @@
     for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
     return new Kind(bytes.buffer);
   }
+  function outlined(text) {
+    const points = numbers(text, Float32Array), outline = new Path2D();
+    for (let k = 0; k < points.length; k += 2) outline.lineTo(points[k], points[k + 1]);
+    outline.closePath();
+    return outline;
+  }
   // unpack the records
   for (const record of data.records) {
     record.axis = numbers(record.axis, Float64Array);
     record.byName = {};
+    if (record.rates) record.rates = numbers(record.rates, Float32Array);
     for (const one of record.series) {
       record.byName[one.name] = one;
       for (const curve of one.curves) {
@@ -29,20 +36,26 @@
     const teeth = record.teeth;
     if (teeth) {
       teeth.frames = teeth.frames && numbers(teeth.frames, Uint32Array);
-      teeth.roll = numbers(teeth.roll, Float64Array);
-      for (const name of ["x", "y", "alpha", "path"]) teeth[name] = numbers(teeth[name], Float32Array);
-      for (const name of ["pinion", "gear"]) {
-        const points = numbers(teeth[name], Float32Array), outline = new Path2D();
-        for (let k = 0; k < points.length; k += 2) outline.lineTo(points[k], points[k + 1]);
-        outline.closePath();
-        teeth[name] = points;
-        teeth[name + "Path"] = outline;
+      for (const name of ["x", "y", "alpha"]) teeth[name] = numbers(teeth[name], Float32Array);
+      if (teeth.bodies) {
+        for (const body of teeth.bodies) {
+          const pose = numbers(body.pose, Float32Array);
+          body.path = outlined(body.outline);
+          body.pose = (frame) => pose.subarray(3 * frame, 3 * frame + 3);
+        }
+      } else {
+        teeth.roll = numbers(teeth.roll, Float64Array);
+        teeth.path = numbers(teeth.path, Float32Array);
+        const turns = { pinion: -1, gear: teeth.radii[0] / teeth.radii[1] }, places = { pinion: -teeth.radii[0], gear: teeth.radii[1] };
+        teeth.bodies = ["pinion", "gear"].map((name) => ({
+          path: outlined(teeth[name]), fill: name, pose: (frame) => [0, places[name], turns[name] * teeth.roll[frame]],
+        }));
       }
     }
   }
   const first = data.records[0];
   let shown = data.panels.filter((name) => first.byName[name]);
-  let which = 0, at = first.start, playing = false, last = 0;
+  let which = 0, at = first.start, playing = false, last = 0, turned = 0;
   const span = () => [first.axis[0], first.axis[first.axis.length - 1]];
   let range = first.window;
 
@@ -65,35 +78,85 @@
   const several = data.records.length > 1;
   // of many curves colours along the hues, so that neighbours are alike
   const colorOf = (number, k, count) => several ? COLORS[number % COLORS.length] : count > COLORS.length ? "hsl(" + Math.round(270 - 270 * k / (count - 1)) + " 75% 45%)" : COLORS[k % COLORS.length];
-  function heading(series) {
+  // words of a title, [text, colour] each
+  const words = (text, color) => text.split(" ").filter(Boolean).map((word) => [word, color]);
+  const named = (text, color) => [[text, color]];
+  // into lines of a width, px: how many, and as plotly reads them
+  function wrapped(pieces, width) {
+    const most = Math.max(12, Math.floor(width / 6.4)), lines = [];
+    let room = -1;
+    for (const [text, color] of pieces) {
+      const short = text.length > most ? text.slice(0, most - 1) + "…" : text;
+      if (short.length + 1 > room) { lines.push([]); room = most; }
+      room -= short.length + 1;
+      lines[lines.length - 1].push(color ? '<span style="color:' + color + '">' + plain(short) + "</span>" : plain(short));
+    }
+    return { count: lines.length, html: lines.map((line) => line.join(" ")).join("<br>") };
+  }
+  function heading(series, width) {
     const names = several ? data.records.map((one) => one.label) : series.curves.length > 1 ? series.curves.map((one) => one.label) : [];
-    if (names.length > 8) return plain(series.title + "   " + names[0] + " … " + names[names.length - 1]);
-    const colored = names.map((name, k) => '<span style="color:' + COLORS[k % COLORS.length] + '">' + plain(name) + "</span>");
-    if (data.records.some((one) => (one.outside || {})[series.name])) colored.push("(shaded: its law is extrapolated)");
-    if (data.records.some((one) => one.trust)) colored.push('<span style="color:#b3261e">outside the model</span>');
-    return [plain(series.title)].concat(colored).join("   ");
+    const pieces = words(series.title);
+    if (names.length > 8) pieces.push(...named(names[0] + " … " + names[names.length - 1], "#808080"));
+    else names.forEach((name, k) => pieces.push(...named("\u00a0" + name, COLORS[k % COLORS.length])));
+    if (data.records.some((one) => (one.outside || {})[series.name])) pieces.push(...words("(shaded: " + (data.shaded || "its law is extrapolated") + ")"));
+    if (data.records.some((one) => one.trust)) pieces.push(...named("outside the model", "#b3261e"));
+    return wrapped(pieces, width);
+  }
+  // rows from the top, px: lines of a title, then so high a panel, then a gap; their places as shares of all
+  function stacked(rows, gap) {
+    const inner = rows.reduce((sum, row) => sum + 16 * row.lines + 8 + row.high + gap, 0) - gap;
+    let y = 0;
+    const places = rows.map((row) => {
+      y += 16 * row.lines + 8;
+      const place = [Math.max(0, 1 - (y + row.high) / inner), 1 - y / inner];
+      y += row.high + gap;
+      return place;
+    });
+    return { inner: inner, places: places };
+  }
+  // on paper, px: the width between the margins of A4
+  const PAPER = 690;
+  let onPaper = false;
+  const widthOf = (id) => onPaper ? PAPER : $(id).clientWidth || 900;
+  const style = () => {
+    const found = getComputedStyle(document.documentElement), color = (name) => found.getPropertyValue(name).trim();
+    return { ink: color("--ink"), grid: color("--line") };
+  };
+  const basis = (id, left, right, ink) => ({
+    width: widthOf(id), margin: { l: left, r: right, t: 34, b: 48 }, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
+    font: { color: ink, size: 12 }, showlegend: false, annotations: [], shapes: [],
+  });
+  const title = (text, x, y) => ({
+    text: text, x: x, y: y, xref: "paper", yref: "paper", xanchor: "left", yanchor: "bottom", align: "left", showarrow: false,
+  });
+  // what is seen fills its axis; of a constant some room about it
+  function fitted(name) {
+    let low = Infinity, high = -Infinity;
+    for (const record of data.records) for (const curve of (record.byName[name] || { curves: [] }).curves)
+      for (let k = 0; k < curve.y.length; k++)
+        if (isFinite(curve.y[k]) && curve.x[k] >= range[0] && curve.x[k] <= range[1]) { low = Math.min(low, curve.y[k]); high = Math.max(high, curve.y[k]); }
+    if (low > high) return undefined;
+    const size = Math.max(Math.abs(low), Math.abs(high));
+    const room = high - low > 1e-5 * size ? 0.06 * (high - low) : 0.05 * size || 1;
+    return [low - room, high + room];
   }
   // ---- figures
   function draw() {
     if (!data.figures) return;
-    const style = getComputedStyle(document.documentElement), ink = style.getPropertyValue("--ink").trim();
-    const grid = style.getPropertyValue("--line").trim(), traces = [], count = shown.length;
-    const layout = {
-      height: 90 + 190 * count, margin: { l: 75, r: 20, t: 28, b: 48 }, paper_bgcolor: "rgba(0,0,0,0)",
-      plot_bgcolor: "rgba(0,0,0,0)", font: { color: ink, size: 12 }, hovermode: "x unified", showlegend: false,
-      annotations: [], shapes: [],
+    const { ink, grid } = style(), traces = [], count = shown.length, width = widthOf("figures"), left = width < 600 ? 52 : 75;
+    const layout = Object.assign(basis("figures", left, 14, ink), {
+      hovermode: "x unified",
       xaxis: { title: { text: data.axis }, range: range, gridcolor: grid, zeroline: false, anchor: count > 1 ? "y" + count : "y" },
-    };
+    });
+    const titles = shown.map((name) => heading(first.byName[name], width - left - 14));
+    const { inner, places } = stacked(titles.map((one) => ({ lines: one.count, high: 150 })), 10);
+    layout.height = inner + 82;
     shown.forEach((name, row) => {
-      const key = row === 0 ? "" : String(row + 1), gap = 0.11 / Math.max(count - 1, 1);
-      const height = (1 - gap * (count - 1)) / count, top = 1 - row * (height + gap);
-      const series = first.byName[name];
+      const key = row === 0 ? "" : String(row + 1), series = first.byName[name];
       layout["yaxis" + key] = {
-        domain: [Math.max(0, top - height), top], title: { text: plain(series.unit) }, gridcolor: grid, zeroline: false, anchor: "x",
+        domain: places[row], range: fitted(name), nticks: 5, title: { text: plain(series.unit) }, gridcolor: grid, zeroline: false, anchor: "x",
       };
-      layout.annotations.push({
-        text: heading(series), x: 0, y: top, xref: "paper", yref: "paper", xanchor: "left", yanchor: "bottom", showarrow: false,
-      });
+      layout.annotations.push(title(titles[row].html, 0, places[row][1]));
       data.records.forEach((record, number) => {
         const one = record.byName[name];
         if (!one) return;
@@ -112,7 +175,7 @@
         });
       });
     });
-    Plotly.react($("plot"), traces, layout, { responsive: true, displaylogo: false, scrollZoom: false });
+    Plotly.react($("plot"), traces, layout, { displaylogo: false, scrollZoom: false });
     mark();
   }
   function mark() {
@@ -130,36 +193,32 @@
   function drawMaps() {
     $("maps-section").hidden = !withMaps.length;
     if (!withMaps.length) return;
-    const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
-    const rows = mapNames.length, columns = withMaps.length, traces = [];
-    const layout = {
-      height: 60 + 250 * rows, margin: { l: 60, r: 90, t: 30, b: 45 }, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
-      font: { color: ink, size: 12 }, annotations: [], shapes: [], showlegend: false,
-    };
+    const { ink } = style(), width = widthOf("maps"), columns = width < 640 ? 1 : withMaps.length, traces = [];
+    const layout = basis("maps", 60, 84, ink), cells = [];
+    mapNames.forEach((_, row) => withMaps.forEach((record) => cells.push([record, record.maps[row], row])));
+    const across = (width - 144) / columns - 12;
+    const titles = cells.map(([record, one]) => wrapped(words(one.title + (several ? ": " + record.label : "")), across));
+    const lines = [];
+    titles.forEach((one, n) => { const row = Math.floor(n / columns); lines[row] = Math.max(lines[row] || 1, one.count); });
+    const { inner, places } = stacked(lines.map((count) => ({ lines: count, high: 180 })), 48);
+    layout.height = inner + 82;
     mapPairs = [];
-    mapNames.forEach((name, row) => {
-      let top = 0;
-      for (const record of withMaps) top = Math.max(top, record.maps[row].top);
-      withMaps.forEach((record, column) => {
-        const one = record.maps[row], n = row * columns + column, key = n ? String(n + 1) : "";
-        const z = [];
+    cells.forEach(([record, one, row], n) => {
+        const key = n ? String(n + 1) : "", column = n % columns, z = [];
+        const top = Math.max(...withMaps.map((other) => other.maps[row].top));
         for (let k = 0; k < one.y.length; k++) z.push(one.z.subarray(k * one.x.length, (k + 1) * one.x.length));
-        const left = column / columns, right = (column + 0.9) / columns, high = 1 - row / rows, low = high - 0.72 / rows;
-        layout["xaxis" + key] = { domain: [left, right], anchor: "y" + key, title: { text: row === rows - 1 ? "Roll angle from the pitch point (°)" : "" } };
-        layout["yaxis" + key] = { domain: [low, high], anchor: "x" + key, title: { text: column ? "" : "Place on the face (mm)" } };
-        layout.annotations.push({
-          text: plain(one.title) + (columns > 1 ? ": " + plain(record.label) : ""), x: left, y: high, xref: "paper", yref: "paper",
-          xanchor: "left", yanchor: "bottom", showarrow: false,
-        });
+        const left = column / columns, right = columns > 1 ? (column + 0.9) / columns : 1, place = places[Math.floor(n / columns)], [low, high] = place;
+        layout["xaxis" + key] = { domain: [left, right], anchor: "y" + key, title: { text: n >= cells.length - columns ? "Roll angle from the pitch point (°)" : "" } };
+        layout["yaxis" + key] = { domain: place, anchor: "x" + key, title: { text: column ? "" : "Place on the face (mm)" } };
+        layout.annotations.push(title(titles[n].html, left, high));
         traces.push({
           type: "heatmap", x: one.x, y: one.y, z: z, xaxis: "x" + key, yaxis: "y" + key, zmin: 0, zmax: top, colorscale: "Viridis", zsmooth: one.y.length > 1 ? "best" : false,
-          showscale: column === columns - 1, colorbar: { title: { text: plain(one.unit) }, len: 0.8 / rows, y: (low + high) / 2 },
+          showscale: column === columns - 1, colorbar: { title: { text: plain(one.unit) }, thickness: 16, len: high - low, y: (low + high) / 2 },
           hovertemplate: "%{x:.3g}°, %{y:.3g} mm: %{z:.4g} " + plain(one.unit) + "<extra></extra>",
         });
         mapPairs.push([record, key]);
-      });
     });
-    Plotly.react($("maps"), traces, layout, { responsive: true, displaylogo: false }).then(markMaps);
+    Plotly.react($("maps"), traces, layout, { displaylogo: false }).then(markMaps);
   }
   let waiting = false;
   function markMaps() {
@@ -189,26 +248,28 @@
   function drawProfiles() {
     $("profiles-section").hidden = !withProfiles.length;
     if (!withProfiles.length) return;
-    const style = getComputedStyle(document.documentElement), ink = style.getPropertyValue("--ink").trim();
-    const grid = style.getPropertyValue("--line").trim(), rows = withProfiles[0].profiles.rows, lines = Math.ceil(rows.length / 2), traces = [];
-    const layout = {
-      height: 80 + 220 * lines, margin: { l: 60, r: 20, t: 30, b: 45 }, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
-      font: { color: ink, size: 12 }, annotations: [], showlegend: false,
-    };
+    const { ink, grid } = style(), rows = withProfiles[0].profiles.rows, traces = [], width = widthOf("profiles");
+    const columns = width < 640 ? 1 : 2, share = columns > 1 ? 0.47 : 1, layout = basis("profiles", 60, 14, ink);
+    const titles = rows.map((row) => wrapped(words(row.title), share * (width - 74))), lines = [];
+    titles.forEach((one, n) => { const row = Math.floor(n / columns); lines[row] = Math.max(lines[row] || 1, one.count); });
+    const { inner, places } = stacked(lines.map((count) => ({ lines: count, high: 165 })), 36);
+    const below = wrapped(words(withProfiles[0].profiles.label), share * (width - 74));
+    layout.margin.b = 36 + 14 * below.count;
+    layout.height = inner + 34 + layout.margin.b;
     $("profiles-title").textContent = withProfiles[0].profiles.title;
     rows.forEach((row, n) => {
-      const key = n ? String(n + 1) : "", left = (n % 2) * 0.53, high = 1 - Math.floor(n / 2) / lines, low = high - 0.78 / lines;
+      const key = n ? String(n + 1) : "", left = (n % columns) * 0.53, place = places[Math.floor(n / columns)];
       let top = 0, bottom = 0;
       for (const record of withProfiles) { top = Math.max(top, record.profiles.rows[n].high); bottom = Math.min(bottom, record.profiles.rows[n].low); }
-      layout["xaxis" + key] = { domain: [left, left + 0.47], anchor: "y" + key, gridcolor: grid, zeroline: false, title: { text: n >= rows.length - 2 ? plain(withProfiles[0].profiles.label) : "", font: { size: 11 } } };
-      layout["yaxis" + key] = { domain: [low, high], anchor: "x" + key, gridcolor: grid, zeroline: false, range: [1.05 * bottom, 1.05 * top], title: { text: plain(row.unit) } };
-      layout.annotations.push({ text: plain(row.title), x: left, y: high, xref: "paper", yref: "paper", xanchor: "left", yanchor: "bottom", showarrow: false });
+      layout["xaxis" + key] = { domain: [left, left + share], anchor: "y" + key, gridcolor: grid, zeroline: false, title: { text: n >= rows.length - columns ? below.html : "", font: { size: 11 } } };
+      layout["yaxis" + key] = { domain: place, anchor: "x" + key, gridcolor: grid, zeroline: false, range: [1.05 * bottom, 1.05 * top], title: { text: plain(row.unit) } };
+      layout.annotations.push(title(titles[n].html, left, place[1]));
       withProfiles.forEach((record, number) => traces.push({
         type: "scatter", mode: "lines", x: record.profiles.x, y: profileAt(record, n), xaxis: "x" + key, yaxis: "y" + key, connectgaps: false,
         name: plain(record.label), line: { width: 1.5, color: COLORS[number % COLORS.length] },
       }));
     });
-    Plotly.react($("profiles"), traces, layout, { responsive: true, displaylogo: false });
+    Plotly.react($("profiles"), traces, layout, { displaylogo: false });
   }
   let profiled = -1;
   function moveProfiles() {
@@ -229,38 +290,40 @@
     if (!teeth) return;
     const context = canvas.getContext("2d"), style = getComputedStyle(document.documentElement);
     const color = (name) => style.getPropertyValue(name).trim();
-    const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth || 900, height = Math.round(width * 0.66);
-    if (canvas.width !== Math.round(width * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-      canvas.style.height = height + "px";
-    }
-    const sample = indexAt(record.axis, at), frame = teeth.frames ? indexAt(teeth.frames, sample) : sample, roll = teeth.roll[frame];
+    const ratio = window.devicePixelRatio || 1, width = Math.round((canvas.clientWidth || 900) * ratio);
+    if (canvas.width !== width) { canvas.width = width; canvas.height = Math.round(0.66 * width); }
+    const sample = indexAt(record.axis, at), frame = teeth.turning ? Math.floor(turned * teeth.roll.length) % teeth.roll.length : teeth.frames ? indexAt(teeth.frames, sample) : sample;
     let across = 1e-9;
-    for (let k = 0; k < teeth.path.length; k += 2) across = Math.max(across, Math.abs(teeth.path[k]), 1.4 * Math.abs(teeth.path[k + 1]));
-    const scale = (canvas.width / 2) / (1.75 * across);
+    for (let k = 0; k < (teeth.path || []).length; k += 2) across = Math.max(across, Math.abs(teeth.path[k]), 1.4 * Math.abs(teeth.path[k + 1]));
+    const scale = teeth.reach ? canvas.height / 2 / teeth.reach : canvas.width / 2 / (1.75 * across);
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, canvas.width, canvas.height);
     const world = () => context.setTransform(scale, 0, 0, -scale, canvas.width / 2, canvas.height / 2);
-    const body = (outline, centre, angle, fill, edge) => {
+    const edges = { pinion: COLORS[0], gear: COLORS[1], paper: color("--ink"), ring: color("--ring") };
+    for (const body of teeth.bodies) {
+      const [x, y, angle] = body.pose(frame);
       world();
-      context.translate(0, centre);
+      context.translate(x, y);
       context.rotate(angle);
-      context.fillStyle = fill;
-      context.fill(outline);
-      context.lineWidth = 1.4 * ratio / scale;
-      context.strokeStyle = edge;
-      context.stroke(outline);
-    };
-    body(teeth.pinionPath, -teeth.radii[0], -roll, color("--pinion"), COLORS[0]);
-    body(teeth.gearPath, teeth.radii[1], roll * teeth.radii[0] / teeth.radii[1], color("--gear"), COLORS[1]);
+      context.fillStyle = color(body.fill === "paper" ? "--card" : "--" + body.fill);
+      if (body.fill !== "ring") context.fill(body.path);
+      context.lineWidth = body.width || 1.4 * ratio / scale;
+      context.strokeStyle = edges[body.fill];
+      context.stroke(body.path);
+    }
     world();
-    context.beginPath();
-    for (let k = 0; k < teeth.path.length; k += 2) context.lineTo(teeth.path[k], teeth.path[k + 1]);
-    context.lineWidth = 1.6 * ratio / scale;
-    context.strokeStyle = color("--ink");
-    context.stroke();
+    if (teeth.path) {
+      context.beginPath();
+      for (let k = 0; k < teeth.path.length; k += 2) context.lineTo(teeth.path[k], teeth.path[k + 1]);
+      context.lineWidth = 1.6 * ratio / scale;
+      context.strokeStyle = color("--ink");
+      context.stroke();
+    }
     const loads = record.byName[data.load], tint = record.byName[$("color").value];
+    if (teeth.turning) for (let q = 0; q < teeth.pairs; q++) {
+      const x = teeth.x[frame * teeth.pairs + q], y = teeth.y[frame * teeth.pairs + q];
+      if (isFinite(x)) arrow(context, x, y, 0, 0, 1, ratio / scale);
+    }
     if (!loads) return;
     let largest = 1e-30, lowest = Infinity, highest = -Infinity;
     for (const curve of loads.curves) for (const y of curve.y) if (y > largest) largest = y;
@@ -269,10 +332,11 @@
     for (let q = 0; q < pairs; q++) {
       const x = teeth.x[frame * pairs + q], y = teeth.y[frame * pairs + q], alpha = teeth.alpha[frame * pairs + q];
       if (!isFinite(x)) continue;
-      // the curves stand newest pair first, the slots oldest first
-      const load = valueAt(loads.curves[pairs - 1 - q] || loads.curves[0]);
-      const share = tint ? (valueAt(tint.curves[pairs - 1 - q] || tint.curves[0]) - lowest) / (highest - lowest || 1) : 1;
-      arrow(context, x, y, alpha, (load / largest) * 0.55 * across, share, ratio / scale);
+      // of pairs of gears the curves stand newest first, the slots oldest first
+      const place = teeth.longest ? q : pairs - 1 - q, load = valueAt(loads.curves[place] || loads.curves[0]);
+      if (teeth.longest && !(load > 1e-9 * largest)) continue;
+      const share = tint ? (valueAt(tint.curves[place] || tint.curves[0]) - lowest) / (highest - lowest || 1) : 1;
+      arrow(context, x, y, alpha, (load / largest) * (teeth.longest || 0.55 * across), share, ratio / scale);
     }
   }
   function arrow(context, x, y, alpha, length, share, pixel) {
@@ -296,13 +360,14 @@
     for (const name of shown) {
       const series = record.byName[name];
       if (!series) continue;
-      for (const curve of series.curves) {
+      for (const curve of series.curves.length > 8 ? [] : series.curves) {
         const row = table.insertRow();
         row.insertCell().textContent = series.short + (curve.label ? ", " + curve.label : "");
-        row.insertCell().textContent = written(valueAt(curve)) + (series.unit === "–" ? "" : " " + series.unit);
+        row.insertCell().textContent = written(valueAt(curve)) + (series.unit ? " " + series.unit : "");
       }
     }
   }
+  function redraw() { draw(); drawTeeth(); drawMaps(); drawProfiles(); }
   function move(value, fromSlider) {
     const [low, high] = span();
     at = Math.min(high, Math.max(low, value));
@@ -325,8 +390,16 @@
   function tick(now) {
     if (!playing) return;
     // a mesh cycle, or a twentieth of what is shown, takes four seconds
-    const step = (now - last) / 4000 * first.cycle * Number($("speed").value);
+    const share = (now - last) / 4000 * Number($("speed").value);
     last = now;
+    // of cases side by side the cursor stays at one, whose teeth turn: the fastest by a tooth in four seconds
+    if (first.teeth && first.teeth.turning) {
+      turned = (turned + share * first.rates[indexAt(first.axis, at)]) % 1;
+      drawTeeth();
+      requestAnimationFrame(tick);
+      return;
+    }
+    const step = share * first.cycle;
     let next = at + step;
     if (next > range[1]) next = range[0];
     move(next);
@@ -338,12 +411,12 @@
   $("view").onchange = (event) => { range = event.target.value === "all" ? span() : first.window; draw(); move(Math.max(range[0], Math.min(range[1], at))); };
   $("color").onchange = drawTeeth;
   $("which").onchange = (event) => { which = Number(event.target.value); move(at); };
-  $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; draw(); drawTeeth(); drawMaps(); drawProfiles(); };
+  $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; redraw(); };
   document.addEventListener("keydown", (event) => {
     if (["SELECT", "INPUT"].includes(event.target.tagName) && event.key !== " ") return;
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (step) { const axis = first.axis; move(axis[Math.min(axis.length - 1, Math.max(0, indexAt(axis, at) + step * (event.shiftKey ? 10 : 1)))]); event.preventDefault(); }
-    if (event.key === " ") { $("play").onclick(); event.preventDefault(); }
+    if (event.key === " " && moving) { $("play").onclick(); event.preventDefault(); }
   });
   document.documentElement.dataset.theme = window.matchMedia && window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
   choose($("view"), [["window", "the last mesh cycles"], ["all", "the whole run"]]);
@@ -352,6 +425,14 @@
   if (first.byName[data.load]) $("color").value = data.load;
   choose($("which"), data.records.map((one, k) => [String(k), one.label]));
   $("which-label").hidden = data.records.length < 2;
+  if (first.teeth && first.teeth.title) $("teeth-title").textContent = first.teeth.title;
+  const moving = data.records.some((one) => one.teeth || one.profiles || (one.maps || []).length);
+  if (!moving) document.querySelector(".controls").hidden = true;
+  $("color").parentElement.hidden = !first.byName[data.load];
+  if (first.teeth && first.teeth.turning) {
+    document.querySelector(".controls .keys").textContent = "The slider chooses a case; play turns its teeth in slow motion: the fastest by a tooth in four seconds.";
+    $("teeth-title").textContent = "The teeth of the scenario that is varied";
+  }
   $("teeth-section").hidden = !data.records.some((one) => one.teeth);
   // page.html#at=1.25 opens there
   const asked = Number(new URLSearchParams(location.hash.slice(1)).get("at") || NaN);
@@ -360,6 +441,12 @@
     $("plot").on("plotly_hover", (event) => { if (!playing) move(event.points[0].x); });
     $("plot").on("plotly_relayout", mark);
   } else document.body.classList.add("teeth-alone");
-  window.addEventListener("resize", () => { drawTeeth(); mark(); });
+  let across = widthOf("figures");
+  const resized = () => { if (!onPaper && widthOf("figures") !== across) { across = widthOf("figures"); redraw(); } };
+  window.addEventListener("resize", resized);
+  new ResizeObserver(() => requestAnimationFrame(resized)).observe($("figures"));  // a scroll bar came or went
+  let screenTheme = "";
+  window.addEventListener("beforeprint", () => { onPaper = true; screenTheme = document.documentElement.dataset.theme; document.documentElement.dataset.theme = "light"; redraw(); });
+  window.addEventListener("afterprint", () => { onPaper = false; document.documentElement.dataset.theme = screenTheme; redraw(); });
   document.body.dataset.ready = "yes";
 })();

@@ -1,10 +1,11 @@
 """Puts a page together: one file, which asks nothing of any other place."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,7 +22,9 @@ from tribodyn.post.page.data import (
     profiles_data,
     series_data,
     series_of,
+    with_unit,
 )
+from tribodyn.post.page.mechanism import Mechanism, mechanism_data
 from tribodyn.post.page.rolling_teeth import LOAD, rolling_teeth
 from tribodyn.post.report import EXCEEDED
 from tribodyn.post.style import inline
@@ -50,6 +53,10 @@ class PageContent(NamedTuple):
     heading: str = "Geometry"
     pictures: Sequence[tuple[str, str, Figure]] = ()  # sequence of (name, about, figure)
     verdict: Sequence[str] = ()  # what it says first
+    #: tables as above of what was found; they and the pictures then stand before the run
+    found: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
+    titles: Mapping[str, str] = MappingProxyType({})  # of datasets, in place of those of the record
+    mechanism: Mechanism | None = None  # what moves, where it is no pair of gears
 
 
 def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bool = True) -> str:
@@ -60,6 +67,10 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
     """
     data = [_record(record, len(records)) for record in records]
     for entry, record, content in zip(data, records, contents, strict=True):
+        for series in entry["series"]:
+            series["title"] = content.titles.get(series["name"], series["title"])
+        if content.mechanism:
+            entry["teeth"] = mechanism_data(content.mechanism)
         if figures:
             entry["maps"] = [map_data(record, found) for found in content.maps]
             over_places: set[str] = set()
@@ -75,7 +86,7 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
     units = [entry.pop("axis_unit") for entry in data]
     names = [series["name"] for series in data[0]["series"]]
     panels = [name for name in contents[0].panels if name in names] or names[:FIGURES]
-    axis = f"{records[0].axis.replace('_', ' ')} ({units[0]})"
+    axis = with_unit(records[0].axis.replace("_", " ").capitalize(), units[0])
     several = len(records) > 1
     sections = {
         "WARNINGS": "".join(
@@ -88,7 +99,10 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
             for record, content in zip(records, contents, strict=True)
         ),
         "SHEET": _sheets(records, contents) if figures else "",
-        "PICTURES": "".join(picture(*drawn) for content in contents for drawn in content.pictures),
+        "RESULT": "".join(_result(content) for content in contents if content.found),
+        "PICTURES": "".join(
+            picture(*drawn) for content in contents if not content.found for drawn in content.pictures
+        ),
         "ORIGIN": "".join(map(origin, records)) if figures else "",
         "OVER": "Over the run",
     }
@@ -100,6 +114,7 @@ def assembled(title: str, payload: dict[str, Any], sections: dict[str, str], fig
     """Put a page together of its title, its data and the HTML of its sections."""
     payload["figures"] = figures
     parts = {
+        "RESULT": "",
         **sections,
         "TITLE": escape(title),
         # no text of a record can end the element that holds it
@@ -169,6 +184,13 @@ def _record(record: Record, count: int) -> dict[str, Any]:
     }
 
 
+def _result(content: PageContent) -> str:
+    """Tables and pictures of what was found."""
+    tables = "".join(table(*part) for part in content.found)
+    drawn = "".join(picture(*part) for part in content.pictures)
+    return f'<section><h2>Result</h2><div class="tables">{tables}</div></section>{drawn}'
+
+
 def warnings_of(record: Record, named: bool) -> str:
     """Write what forbids to trust a record, a paragraph each; `named`: with its label."""
     head = f"{record.label}: " if named else ""
@@ -183,7 +205,10 @@ def summary_tables(records: Sequence[Record], reported: Sequence[Reported]) -> s
         for heading, group in some.items():
             for quantity in group:
                 merged.setdefault(heading, {}).setdefault(quantity.name, quantity)
-    tables = []
+    tables, missing = [], False
+    several = len(records) > 1
+    head = "".join(f"<th>{escape(record.label)}</th>" for record in records)
+    head = f"<tr><th></th>{head}<th></th></tr>" if several else ""
     for heading, group in merged.items():
         rows = []
         for quantity in group.values():
@@ -192,13 +217,13 @@ def summary_tables(records: Sequence[Record], reported: Sequence[Reported]) -> s
                 about = f"{quantity.definition} In the record: {quantity.name}.".strip()
                 name = f'<td title="{escape(about)}">{escape(quantity.in_table)}</td>'
                 values = "".join(f"<td>{escape(cell or '–')}</td>" for cell in cells)
+                missing = missing or not all(cells)
                 rows.append(f"<tr>{name}{values}<td>{escape(quantity.unit)}</td></tr>")
         if rows:
-            tables.append(f"<div><h3>{escape(heading)}</h3><table>{''.join(rows)}</table></div>")
-    head = ""
-    if len(records) > 1:
-        head = f"<p>Columns: {escape(', '.join(record.label for record in records))}.</p>"
-    return f'{head}<div class="summary tables wide">{"".join(tables)}</div>'
+            tables.append(f"<div><h3>{escape(heading)}</h3><table>{head}{''.join(rows)}</table></div>")
+    note = '<p class="keys">–: this record does not have the quantity.</p>' if missing else ""
+    kind = "summary tables several" if several else "summary tables"
+    return f'<div class="{kind} wide">{"".join(tables)}</div>{note}'
 
 
 def _cell(record: Record, quantity: Quantity) -> str:

@@ -1,5 +1,6 @@
 """What the page needs to roll the teeth through mesh: outlines, path of contact, contact points, angles."""
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,6 +12,8 @@ from tribodyn.record.reader import Record
 LOAD = "normal_load"
 #: Positions of the gears that are kept, evenly over the run.
 MOST_FRAMES = 6000
+#: Positions over a mesh cycle of gears that turn by themselves.
+FRAMES_OF_A_CYCLE = 120
 
 
 def rolling_teeth(record: Record) -> dict[str, Any] | None:
@@ -44,6 +47,30 @@ def rolling_teeth(record: Record) -> dict[str, Any] | None:
         "gear": packed(shape["gear_outline"]),
         "path": packed(shape["path_of_contact"]),
         "radii": [float(shape["pinion_pitch_radius"]), float(shape["gear_pitch_radius"])],
+    }
+
+
+def turning_teeth(shape: Mapping[str, Any], pinion_teeth: float) -> dict[str, Any]:
+    """The same over one mesh cycle of gears of which no motion is known, by `geometry_arrays`."""
+    pinion, gear = (float(shape[f"{side}_pitch_radius"]) for side in ("pinion", "gear"))
+    distance, angle, roll = _along(np.asarray(shape["path_of_contact"]), pinion)
+    pitch = 2.0 * np.pi / pinion_teeth
+    phase = np.linspace(0.0, 1.0, FRAMES_OF_A_CYCLE, endpoint=False)[:, None]
+    turned = roll[0] + pitch * (phase + np.arange(int(np.ceil((roll[-1] - roll[0]) / pitch))))
+    found = np.where(turned <= roll[-1], np.interp(turned, roll, distance), np.nan)
+    slope = np.interp(turned, roll, angle)
+    return {
+        "frames": None,
+        "turning": True,
+        "roll": packed(turned[:, 0], "<f8"),
+        "pairs": turned.shape[1],
+        "x": packed(found * np.cos(slope)),
+        "y": packed(found * np.sin(slope)),
+        "alpha": packed(slope),
+        "pinion": packed(shape["pinion_outline"]),
+        "gear": packed(shape["gear_outline"]),
+        "path": packed(shape["path_of_contact"]),
+        "radii": [pinion, gear],
     }
 
 
@@ -83,7 +110,24 @@ def _of_the_roll_angles(record: Record, shape: dict[str, Any], cycle: dict[str, 
     """
     if not {"pinion_angle", "roll_angle", LOAD} <= set(record):
         return None
-    x, y = np.asarray(shape["path_of_contact"]).T
+    distance, angle, roll = _along(np.asarray(shape["path_of_contact"]), float(cycle["pinion_pitch_radius"]))
+    rolled = np.asarray(record["roll_angle"])
+    found = np.where(np.asarray(record[LOAD]) > 0.0, np.interp(rolled, roll, distance), np.nan)
+    slope = np.interp(rolled, roll, angle)
+    radii = float(cycle["pinion_pitch_radius"]), float(cycle["gear_pitch_radius"])
+    before, behind = np.minimum(rolled - roll[0], 0.0), np.maximum(rolled - roll[-1], 0.0)
+    x, y = found * np.cos(slope), found * np.sin(slope)
+    x, y = _turned(x, y, -radii[0], -behind)
+    x, y = _turned(x, y, radii[1], before * radii[0] / radii[1])
+    return _Places(rolled[0, 0] + np.asarray(record["pinion_angle"]), x, y, slope)
+
+
+def _along(path: np.ndarray, pitch_radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Signed distance, pressure angle and the pinion's roll angle along a path of contact (points, 2).
+
+    A path may pass through the pitch point.
+    """
+    x, y = path.T
     backward = x < 0.0
     distance = np.where(backward, -1.0, 1.0) * np.hypot(x, y)
     at_pitch_point = distance == 0.0
@@ -94,18 +138,9 @@ def _of_the_roll_angles(record: Record, shape: dict[str, Any], cycle: dict[str, 
         angle[at_pitch_point] = np.interp(0.0, *known)
     order = np.argsort(distance)
     distance, angle = distance[order], angle[order]
-    per_roll = 1.0 / (float(cycle["pinion_pitch_radius"]) * np.cos(angle))
+    per_roll = 1.0 / (pitch_radius * np.cos(angle))
     travelled = np.concatenate([[0.0], np.cumsum(0.5 * (per_roll[1:] + per_roll[:-1]) * np.diff(distance))])
-    roll = travelled - np.interp(0.0, distance, travelled)
-    rolled = np.asarray(record["roll_angle"])
-    found = np.where(np.asarray(record[LOAD]) > 0.0, np.interp(rolled, roll, distance), np.nan)
-    slope = np.interp(rolled, roll, angle)
-    radii = float(cycle["pinion_pitch_radius"]), float(cycle["gear_pitch_radius"])
-    before, behind = np.minimum(rolled - roll[0], 0.0), np.maximum(rolled - roll[-1], 0.0)
-    x, y = found * np.cos(slope), found * np.sin(slope)
-    x, y = _turned(x, y, -radii[0], -behind)
-    x, y = _turned(x, y, radii[1], before * radii[0] / radii[1])
-    return _Places(rolled[0, 0] + np.asarray(record["pinion_angle"]), x, y, slope)
+    return distance, angle, travelled - np.interp(0.0, distance, travelled)
 
 
 def _turned(x: np.ndarray, y: np.ndarray, centre: float, by: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

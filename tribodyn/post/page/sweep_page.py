@@ -8,9 +8,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.sweep.branch import axis_label, branches
+from tribodyn.post.figures.sweep.branch import Branch, axis_label, branches
+from tribodyn.post.figures.sweep.response import panels_of
 from tribodyn.post.page.data import packed
-from tribodyn.post.page.page import FIGURES, assembled, origin, picture, table, title_of
+from tribodyn.post.page.page import assembled, origin, picture, table, title_of
 from tribodyn.post.sweep_report import described, sweep_remarks, sweep_rows, sweep_warnings
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_reader import SweepRecord
@@ -21,11 +22,13 @@ def sweep_page(
     quantities: Sequence[Quantity],
     pictures: Sequence[tuple[str, str, Figure]],
     tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]],
+    teeth: dict[str, Any] | None = None,
 ) -> str:
     """Write the page; InputError if the first key is no number.
 
     Of no quantities all are shown, as the record describes them. Pictures have name, about and figure, tables
-    (what is known of the scenario that is varied) title, columns and rows.
+    (what is known of the scenario that is varied) title, columns and rows; `teeth` are those of that
+    scenario, as `rolling_teeth.turning_teeth` has them.
     """
     known = [quantity for quantity in quantities if quantity.name in record]
     known = known or [described(record, name) for name in record.quantities]
@@ -38,7 +41,7 @@ def sweep_page(
             "name": quantity.name,
             "short": quantity.title,
             "title": quantity.title,
-            "unit": quantity.unit or "–",
+            "unit": quantity.unit,
             "curves": [
                 {
                     "label": ", ".join(filter(None, (branch.label, branch.direction))),
@@ -59,11 +62,14 @@ def sweep_page(
         "window": span,
         "start": span[0],
         "series": series,
-        "teeth": None,
+        "teeth": teeth,
+        "rates": packed(_rates(record, axis)),
+        "outside": _lost(drawn, order, [quantity.name for quantity in known]),
     }
     payload = {
         "records": [data],
-        "panels": [quantity.name for quantity in known[:FIGURES]],
+        "panels": [panel.quantity.name for panel in panels_of([record], known)],
+        "shaded": "contact is lost at times",
         "load": "",
         "axis": axis_label(record.parameters[0]),
     }
@@ -84,3 +90,20 @@ def sweep_page(
             "ORIGIN": origin(record),
         },
     )
+
+
+def _rates(record: SweepRecord, axis: np.ndarray) -> np.ndarray:
+    """How fast gears turn at each value of the first key, of the fastest; all alike where it is no speed."""
+    if record.parameters[0].units != "rad/s":
+        return np.ones(len(axis))
+    return np.abs(axis) / (np.max(np.abs(axis)) or 1.0)
+
+
+def _lost(drawn: Sequence[Branch], order: np.ndarray, names: Sequence[str]) -> dict[str, list[list[int]]]:
+    """First and last case of intervals in which contact is lost on any branch, for every quantity."""
+    if "contact_loss_fraction" not in drawn[0].record:
+        return {}
+    lost = np.any([branch.values("contact_loss_fraction")[order] > 0.0 for branch in drawn], axis=0)
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], lost.astype(int), [0]])))
+    intervals = np.stack([edges[::2], edges[1::2] - 1], axis=1).tolist()
+    return {name: intervals for name in names} if intervals else {}

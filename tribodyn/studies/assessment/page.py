@@ -145,7 +145,8 @@ def _table(
         mark = ' class="bad"' if number in marked else ""
         lines.append(f"<tr{mark}>{cells('td', row)}</tr>")
     table = f'<table class="numbers{kind}">{"".join(lines)}</table>'
-    return f"<section><h2>{heading}</h2>{table}</section>"
+    dashes = '<p class="quiet">–: not determined.</p>' if any("–" in row for row in rows) else ""
+    return f'<section><h2>{heading}</h2><div class="wide">{table}</div>{dashes}</section>'
 
 
 def _limits(summary: Mapping[str, Any]) -> str:
@@ -224,7 +225,7 @@ def _part(study: Study, title: str, done: Sequence[parts.TaskResult]) -> str:
         if not result.summary:
             continue
         with Record(result.path) as record:
-            picture = f"<p>{inline(overview(record), title)}</p>"
+            picture = f'<div class="pictures">{inline(overview(record), title)}</div>'
             tables = summary_tables([record], [study.reported()])
         return f"<section><h2>{escape(title)}</h2>{picture}{tables}</section>"
     return ""
@@ -235,5 +236,5 @@ def _origin(record: Record) -> str:
     digest = escape(str(record.attrs["scenario_sha256"]))
     return (
         f'<section class="break"><h2>Scenario and origin</h2><p class="quiet">scenario sha256 {digest}</p>'
-        f"<pre>{scenario}</pre></section>"
+        f"<details><summary>Scenario file</summary><pre>{scenario}</pre></details></section>"
     )

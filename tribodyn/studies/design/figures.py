@@ -17,6 +17,7 @@ from tribodyn.record.reader import Record
 from tribodyn.studies.design.case import apart, duty_names, naming_key
 from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER, searched
 from tribodyn.studies.design.report import quantity_of
+from tribodyn.studies.design.teeth import has_teeth, teeth_figure
 
 #: Duties that are drawn as bars, at most.
 MOST_BARS = 6
@@ -45,6 +46,11 @@ class _Shown:
         title = literal(self.quantity.title)
         lines = fill(title, LONGEST, break_long_words=False, break_on_hyphens=False)
         return lines + (f" ({literal(self.quantity.unit)})" if self.quantity.unit else "")
+
+
+def objective(record: Record, place: int = 0) -> Quantity:
+    """The quantity that is an objective of a record."""
+    return _Shown(record, place).quantity
 
 
 def _feasible(record: Record) -> np.ndarray:
@@ -269,6 +275,7 @@ DRAWINGS: Mapping[str, Drawing] = {
     "overview": drawing(
         "history, start and best, free keys, what the best depends on", _overview, _found, NO_DESIGN
     ),
+    "teeth": drawing("outlines and reliefs of the start and of the best", teeth_figure, has_teeth, NO_DESIGN),
     "history": _panel("objective of every candidate, and the best so far", _draw_history, 1.4, together=True),
     "duties": _panel("first objective at each duty, at the start and at the best", _draw_duties),
     "free-keys": _panel("where in their ranges good values lie", _draw_values),

@@ -43,7 +43,7 @@ SAMPLES: dict[str, Variable] = {
     "moes_material": _over("1", "material parameter L of Moes"),
     "residual": _over("1", "largest imbalance of flow over the flow and of force over the load"),
     "pressure": _profile("Pa", "pressure of fluid and asperities, solved"),
-    "film_thickness": _profile("m", "mean gap, solved; NaN behind the film"),
+    "film_thickness": _profile("m", "mean gap, solved, up to the end of the film"),
     "temperature_rise": _profile("K", "temperature over the inlet's, mean over the film, solved"),
     "shear_stress": _profile("Pa", "shear stress, mean over the film, solved"),
     "film_by_law": Variable(("phase", "film_law"), "m", "film thickness by the regression"),
@@ -56,7 +56,7 @@ SQUEEZED: dict[str, Variable] = {
     "transient_minimum_film_thickness": _over("m", "minimum mean gap, with squeeze"),
     "transient_friction_coefficient": _over("1", "friction coefficient, with squeeze"),
     "transient_pressure": _profile("Pa", "pressure of fluid and asperities, with squeeze"),
-    "transient_film_thickness": _profile("m", "mean gap, with squeeze; NaN behind the film"),
+    "transient_film_thickness": _profile("m", "mean gap, with squeeze, up to the end of the film"),
 }
 
 TRACTION = {

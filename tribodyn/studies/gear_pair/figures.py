@@ -30,6 +30,7 @@ SWEEP_DRAWINGS: dict[str, SweepDrawing] = {
     "response": SweepDrawing(
         "transmission error, dynamic factor, film and efficiency over the first varied key",
         lambda records, _: response_figure(records, PANELS),
+        curves=True,
     ),
     "waterfall": SweepDrawing(
         "amplitude spectra of the transmission error over the first varied key", waterfall_figure

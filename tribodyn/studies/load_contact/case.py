@@ -40,9 +40,9 @@ SAMPLES: dict[str, Variable] = {
     "roll_angle": _pair(
         "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
     ),
-    "loaded_transmission_error": _phase("m", "loaded static transmission error r_p theta_p - r_g theta_g"),
+    "loaded_transmission_error": _phase("m", "loaded static transmission error, of the gears' rotations"),
     "unloaded_transmission_error": _phase(
-        "m", "unloaded (kinematic) transmission error r_p theta_p - r_g theta_g"
+        "m", "unloaded (kinematic) transmission error, of the gears' rotations"
     ),
     "normal_load": _pair("N", "normal load of the pair"),
     "line_load": _face("N/m", "normal load per face width"),

@@ -27,6 +27,7 @@ from tribodyn.studies.protocol.recording import TextTable as TextTable
 if TYPE_CHECKING:
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.post.page.data import PageMap, Profiles
+    from tribodyn.post.page.mechanism import Mechanism
     from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.reader import Record
     from tribodyn.scenario.quantity import Table
@@ -70,7 +71,8 @@ class Study:
                   it prints (both optional); ``SHORT``, short names of quantities (optional); ``PANELS``,
                   datasets that a page shows at first (optional); ``TOP``, quantities at the top of what
                   is printed as JSON (optional);
-                  ``maps(record)``, its maps over the face (optional)
+                  ``maps(record)``, its maps over the face (optional); ``mechanism(record)``, its bodies in
+                  motion, where they are no pair of gears (optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
@@ -255,6 +257,11 @@ class Study:
     def profiles(self, record: "Record") -> "Profiles | None":
         """What a page of a record shows over a place at its cursor; None: nothing."""
         found = self._part("report", "profiles", optional=True)
+        return found(record) if found else None
+
+    def mechanism(self, record: "Record") -> "Mechanism | None":
+        """The bodies that a page of a record moves; None: those of a pair of gears, or none."""
+        found = self._part("report", "mechanism", optional=True)
         return found(record) if found else None
 
     def batch(self) -> "Batch | None":

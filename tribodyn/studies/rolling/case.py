@@ -57,7 +57,7 @@ SAMPLES: dict[str, Variable] = {
     "power_in": _time("W", "power of the shaft"),
     "power_out": _time("W", "power of the cam, which drives the load"),
     "power_friction": _time("W", "power lost in all contacts"),
-    "efficiency": _time("1", "instantaneous efficiency; as_published: the product (23)"),
+    "efficiency": _time("1", "efficiency at each moment"),
 }
 
 #: Curves and lengths of the geometry.

@@ -10,6 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 import tribodyn as td
+from tests.support.outlines import closed, distance, turned
 from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tribodyn.cli.app import app
 from tribodyn.interface.run import Run
@@ -79,21 +80,6 @@ def test_contact_points_lie_on_both_flanks_and_on_the_path(scenario):
     assert found > 25
 
 
-def turned(points, angle):
-    c, s = np.cos(angle), np.sin(angle)
-    return points @ np.array([[c, s], [-s, c]])
-
-
-def closed(points):
-    return np.concatenate([points, points[:1]])
-
-
-def distance(point, line):
-    start, along = line[:-1], np.diff(line, axis=0)
-    share = np.sum((point - start) * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-30)
-    return np.min(np.linalg.norm(start + np.clip(share, 0, 1)[:, None] * along - point, axis=1))
-
-
 def test_what_is_thinned_keeps_its_extremes_and_its_gaps(rng):
     values = rng.normal(size=100_001)
     values[[777, 50_000]] = 9.0, -9.0
@@ -157,7 +143,9 @@ def test_a_sweep_has_a_page(tmp_path: Path):
         np.testing.assert_allclose(unpacked(data["axis"], "<f8"), [100.0, 200.0, 300.0])
         with pytest.raises(td.InputError, match="a page of its own"):
             write_report([record, record], tmp_path / "both.html")
-    assert "data:image/png" in page.read_text(encoding="utf-8")
+    assert data["teeth"]["turning"]
+    np.testing.assert_allclose(unpacked(data["rates"]), [1 / 3, 2 / 3, 1.0], rtol=1e-6)
+    assert 'class="pictures"' not in page.read_text(encoding="utf-8"), "curves of the page, once more"
 
 
 def test_a_page_replaces_pages_only(crc, tmp_path: Path):

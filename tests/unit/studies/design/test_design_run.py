@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import h5py
+import numpy as np
 import pytest
 
 import tribodyn as td
@@ -118,7 +119,7 @@ def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path):
 
 def test_a_front_without_duties_is_drawn_and_told(tmp_path: Path):
     found = search(tmp_path / "a.h5", minimise=["loss", "hertz_pressure_max"], evaluations=24)
-    pictures = ("overview", "history", "duties", "free-keys", "sensitivities", "front")
+    pictures = ("overview", "teeth", "history", "duties", "free-keys", "sensitivities", "front")
     assert all(found.plot(name).get_axes() for name in pictures)
     with Record(tmp_path / "a.h5") as record:
         said = " ".join(sentences(record))
@@ -127,6 +128,14 @@ def test_a_front_without_duties_is_drawn_and_told(tmp_path: Path):
     assert {"Maximum Hertz pressure", "Contact ratio"} <= {row[0] for row in quantities.rows}
     for shown in ("Quantities before and after", "data:image/png;base64,", "drive.pinion.profile_shift"):
         assert shown in text
+    order = [text.index(part) for part in ("<h2>Result</h2>", "Teeth: outlines", "<h2>Over the run</h2>")]
+    assert order == sorted(order), "what was found stands before the search"
+    (outlines, *_) = found.plot("teeth").get_axes()
+    start, best = (
+        next(line for line in outlines.lines if line.get_label() == label).get_xydata()
+        for label in ("start", "gear, best")
+    )
+    assert not np.allclose(start, best, atol=1e-3), "the found profile shifts move the gear's flanks"
 
 
 def test_constraints_that_cannot_be_kept_are_named(tmp_path: Path):

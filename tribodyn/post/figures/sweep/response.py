@@ -113,6 +113,11 @@ def maps_of(records: Sequence[SweepRecord]) -> bool:
     )
 
 
+def more_than_curves(record: SweepRecord) -> bool:
+    """Whether a response has what plain curves lack: maps, ends of branches and what is unstable beyond."""
+    return maps_of([record]) or "end_value" in record
+
+
 def _maps(record: SweepRecord, panels: Sequence[ResponsePanel]) -> Figure:
     """Draw quantities of the cases as maps over both parameters; a dot on every case that loses contact."""
     figure, rows = _grid(record, len(panels), maps=True)
@@ -142,4 +147,4 @@ def response_drawings(quantities: Sequence[Quantity]) -> dict[str, SweepDrawing]
     def draw(records: Sequence[SweepRecord], _: Mapping[str, float | str]) -> Figure:
         return response_figure(records, panels_of(records, quantities))
 
-    return {"response": SweepDrawing("quantities of the cases over the first varied key", draw)}
+    return {"response": SweepDrawing("quantities of the cases over the first varied key", draw, True)}

@@ -1,0 +1,58 @@
+"""Bodies of a mechanism and the loads between them, as a page moves them with its cursor."""
+
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from tribodyn.post.page.data import packed
+
+#: Positions that are kept, evenly over the run.
+MOST_FRAMES = 1500
+
+
+class Body(NamedTuple):
+    """A body: its outline about its own centre, and where it is."""
+
+    outline: np.ndarray  # (points, 2), m
+    pose: np.ndarray  # (samples, 3); x and y of the centre, m, and rotation, rad, anticlockwise
+    fill: Literal["pinion", "gear", "paper", "ring"]  # colour of the page; a ring is a line of `width`
+    width: float = 0.0  # m
+
+
+class Mechanism(NamedTuple):
+    """What a page shows of a mechanism, as a study describes it."""
+
+    title: str  # heading of the section
+    bodies: Sequence[Body]  # the one that lies in front comes last
+    load: str  # dataset of the loads, by which arrows are as long; a curve for each contact
+    contacts: np.ndarray  # (samples, contacts, 3); x, y, m, and direction of the load, rad
+    reach: float  # half of what is seen in height, m
+    longest: float  # length of the arrow of the largest load, m
+
+
+def mechanism_data(found: Mechanism) -> dict[str, Any]:
+    """A mechanism as the page reads it."""
+    samples = len(found.contacts)
+    frames = np.unique(np.linspace(0, samples - 1, min(samples, MOST_FRAMES)).round().astype(int))
+    x, y, alpha = np.moveaxis(found.contacts[frames], -1, 0)
+    bodies = [
+        {
+            "outline": packed(body.outline),
+            "pose": packed(body.pose[frames]),
+            "fill": body.fill,
+            "width": body.width,
+        }
+        for body in found.bodies
+    ]
+    return {
+        "frames": None if len(frames) == samples else packed(frames, "<u4"),
+        "title": found.title,
+        "bodies": bodies,
+        "pairs": x.shape[1],
+        "x": packed(x),
+        "y": packed(y),
+        "alpha": packed(alpha),
+        "reach": found.reach,
+        "longest": found.longest,
+    }
