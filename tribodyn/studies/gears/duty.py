@@ -19,10 +19,10 @@ class NominalDuty(NamedTuple):
     pinion_torque: float  # N m
     gear_torque: float  # N m
     power: float  # kW
-    pinion_speed: float  # 1/min
+    pinion_speed: float  # rpm
     pitch_line_speed: float  # m/s
     line_load: float  # F_t/b, tangential load on the pitch circle over the common face width, N/mm
-    hertz_pressure: float  # of a pair that carries the whole torque, N/mm²
+    hertz_pressure: float  # of a pair that carries the whole torque, MPa
     place: str  # where that is
     contact_ratio: float
 
@@ -59,10 +59,10 @@ def duty_lines(duty: NominalDuty) -> dict[str, tuple[float, str]]:
         "torque of the pinion": (duty.pinion_torque, "N m"),
         "torque of the gear": (duty.gear_torque, "N m"),
         "power": (duty.power, "kW"),
-        "speed of the pinion": (duty.pinion_speed, "1/min"),
+        "speed of the pinion": (duty.pinion_speed, "rpm"),
         "pitch-line speed": (duty.pitch_line_speed, "m/s"),
         "tangential load F_t/b": (duty.line_load, "N/mm"),
-        f"{HERTZ}, {duty.place}": (duty.hertz_pressure, "N/mm²"),
+        f"{HERTZ}, {duty.place}": (duty.hertz_pressure, "MPa"),
         "contact ratio": (duty.contact_ratio, ""),
     }
     return {name: line for name, line in lines.items() if isfinite(line[0])}

@@ -86,8 +86,8 @@ USUAL = {
         HERTZ,
         0.0,
         2000.0,
-        "N/mm²",
-        "ISO 14635-1: 1841 N/mm² in FZG load stage 12",
+        "MPa",
+        "ISO 14635-1: 1841 MPa in FZG load stage 12",
         "The flanks would yield or pit. Check torque or power.",
     ),
     "roughness": UsualRange(
