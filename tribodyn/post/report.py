@@ -47,7 +47,7 @@ def summary_table(
                 rows.append((f"  {label}", "withheld", ""))
             elif value is not None:
                 if np.ndim(value) and not quantity.listed:
-                    label += f", pairs {', '.join(str(pair) for pair in reversed(record.pairs))}"
+                    label += f", {_order_of(record.pairs)}"
                 rows.append((f"  {label}", quantity.written(value), quantity.unit))
         if rows:
             table.add_row(Text(group, style="bold cyan"), "", "")
@@ -66,6 +66,13 @@ def summary_table(
         for line in lines or ["The record has no summary."]
     ]
     return Group(*parts)
+
+
+def _order_of(pairs: Sequence[int]) -> str:
+    """In which order values of several pairs stand: the newest pair is 1, back flanks begin with 2."""
+    if sorted(pairs) == [0, 1]:
+        return "entering / leaving pair"
+    return f"pairs {', '.join(map(str, reversed(pairs)))}; 1 is the entering one"
 
 
 def on_methods(summary: Mapping[str, Any]) -> list[str]:
