@@ -215,7 +215,7 @@ def test_the_study_runs_draws_shows_and_compares(plugin, tmp_path):
     plugin("run", plugin.scenario(SLIDING), "-o", other.name, *sets("drive.family=involute"),
            "--set", "drive.shape={}", folder=tmp_path)  # fmt: skip
     assert (tmp_path / "involute-overview.png").exists()
-    shown = plugin("show", first.name, folder=tmp_path).stdout
+    shown = plugin("show", first.name, "--full", folder=tmp_path).stdout
     assert "Minimum specific sliding, pinion" in shown
     assert "no load, no vibration" in shown
     plugin("plot", first.name, other.name, "all", folder=tmp_path)

@@ -101,8 +101,8 @@ def test_the_story_of_a_newcomer(tmp_path: Path, forked: ForkedVerbs):
     """What writes files in processes of their own, as a user calls it; the others are forked."""
     tribodyn("init", "mine", folder=tmp_path)
     checked = json.loads(forked("check", "mine.toml", "--json", folder=tmp_path).stdout)
-    # (√(30² − 25.37²) + √(57² − 50.74²) − 81 sin 20°)/(3π cos 20°) of 18/36 teeth, module 3 mm
-    assert checked["geometry"]["contact ratio"][0] == pytest.approx(1.6111, abs=5e-4)
+    # (√(40.5² − 35.24²) + √(79.5² − 71.89²) − 114 sin 20°)/(3π cos 20°) of 25/51 teeth, module 3 mm
+    assert checked["geometry"]["contact ratio"][0] == pytest.approx(1.6849, abs=5e-4)
     said = tribodyn("run", "mine.toml", "--set", "solver.cycles=2", folder=tmp_path)
     assert said.splitlines()[-2:] == ["record   mine.h5", "picture  mine-overview.png"]
     assert "Contact ratio" in forked("show", "mine.h5", folder=tmp_path).stdout
@@ -112,7 +112,7 @@ def test_the_story_of_a_newcomer(tmp_path: Path, forked: ForkedVerbs):
     assert forked("plot", *given, folder=tmp_path).returncode == 0
     assert (tmp_path / "mine-film.svg").is_file()
     shown = json.loads(forked("show", "mine.h5", "--json", folder=tmp_path).stdout)
-    assert shown["scenario"]["operating"]["gear_torque"] == "300 N*m"
+    assert shown["scenario"]["operating"]["gear_torque"] == "550 N*m"
 
 
 def test_a_records_scenario_runs_again_to_the_same_numbers(tmp_path: Path, forked: ForkedVerbs):

@@ -42,7 +42,7 @@ def failed(path: Path, summary: dict) -> Record:
         ["Maximum normal load", "7,850", "N"],
         ["Minimum film thickness", "0.09", "µm"],
         ["Maximum Hertz pressure", "1.4", "GPa"],
-        ["pairs 1, 0", "310.0 / 150.0", "N"],
+        ["entering / leaving pair", "310.0 / 150.0", "N"],
         ["Efficiency", "98.68", "%"],
         ["Method", "dopri5"],
         ["Steps", "4,200"],

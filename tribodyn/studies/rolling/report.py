@@ -37,6 +37,15 @@ MODES = {
     "by (Z2 + 1)/2, slip lowers the loss, efficiency is the product (23). A reference, not a prediction.",
 }
 
+#: The same for the verdict, and what to do.
+_SHORT = {
+    "corrected": ("Mode corrected: speeds relative to the eccentric, efficiency by energy.",),
+    "as_published": (
+        "Mode as_published: a paper's printed formulas, a reference and no prediction.",
+        'To do: mode = "corrected" gives the motion with the right speeds and its efficiency.',
+    ),
+}
+
 PANELS = ("normal_load", "slip_speed", "power_friction", "efficiency")
 
 
@@ -58,10 +67,7 @@ def verdict(record: Record) -> list[str]:
         swings = with_unit("output_torque_peak_to_peak", swing)
         found.append(f"The output gives {torque} on the mean and swings by {swings}{even}.")
     found += lost(summary)
-    if record.summary.get("mode") == "as_published":
-        found.append("These are a paper's printed formulas, a reference and no prediction.")
-        found.append('To do: mode = "corrected" gives the motion with the right speeds and its efficiency.')
-    return found
+    return [*found, *_SHORT[record.summary["mode"]]] if record.summary.get("mode") in _SHORT else found
 
 
 def sentences(record: Record) -> list[str]:
