@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from tribodyn.interface.drive import GearPair, constraints, drive
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
     from tribodyn.interface.line_contact import line_contact
-    from tribodyn.interface.run import Run, run
+    from tribodyn.interface.result import Run
+    from tribodyn.interface.run import run
     from tribodyn.interface.scenario import scenario
     from tribodyn.interface.sweep import Sweep, sweep
     from tribodyn.interface.sweep import open_result as open
@@ -87,7 +88,7 @@ _PLACES = {
     "InputError": "tribodyn.errors",
     "OutputError": "tribodyn.errors",
     "Parameter": "tribodyn.numerics.parameter",
-    "Run": "tribodyn.interface.run",
+    "Run": "tribodyn.interface.result",
     "SimulationError": "tribodyn.errors",
     "Study": "tribodyn.studies.protocol.study",
     "Sweep": "tribodyn.interface.sweep",

@@ -24,6 +24,7 @@ from tribodyn.record import soundness
 from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
 from tribodyn.studies import pages as of
+from tribodyn.studies.comparing import compare
 from tribodyn.studies.pages import report, sweep_report
 
 pytestmark = pytest.mark.filterwarnings("ignore")  # numbers beyond all bounds may be warned of
@@ -74,7 +75,7 @@ def in_pictures(path: Path, _: Path) -> None:
 def compared(path: Path, good: Path) -> None:
     with open_any(path) as changed, open_any(good) as other:
         if not isinstance(changed, SweepRecord) and not isinstance(other, SweepRecord):
-            assert of.compare([other, changed])
+            assert compare([other, changed])
 
 
 #: Ways to use a record, and of how many changed records in a row the soak tries it on one.

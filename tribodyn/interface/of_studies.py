@@ -6,7 +6,8 @@ from functools import cache, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tribodyn.interface.run import Run, recorded, run_class
+from tribodyn.interface.result import Run
+from tribodyn.interface.run import recorded, run_class
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.post.progress import progress_of
 from tribodyn.studies import STUDIES

@@ -9,7 +9,8 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.interface import shown
-from tribodyn.interface.run import Run, open_run
+from tribodyn.interface.result import Run
+from tribodyn.interface.run import open_run
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.numerics.output_files import write_output
 from tribodyn.post.progress import Report, progress_of

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, printable_path, quoted
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario import sources
+from tribodyn.scenario import bounds, sources
 from tribodyn.scenario.messages import Key, Origins
 from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out, references
 
@@ -65,7 +65,7 @@ def resolve_table(
         except InputError as error:
             errors.append(origins.locate(error))
     data = defaults_written_out(data, table_of(data))
-    errors += [origins.locate(error) for error in sources.broken_bounds(data)]
+    errors += [origins.locate(error) for error in bounds.broken_bounds(data)]
     return Resolved(data, origins, errors)
 
 
@@ -117,8 +117,8 @@ def unresolved_keys(errors: Iterable[InputError]) -> set[str]:
 def toml_value(text: str) -> Any:
     """Return what `text` means: a TOML value if it is one, else the text itself."""
     try:
-        data = sources.parsed(f"value = {text}")
-    except (tomllib.TOMLDecodeError, sources.TooMuch):
+        data = bounds.parsed(f"value = {text}")
+    except (tomllib.TOMLDecodeError, bounds.TooMuch):
         return text
     return data["value"] if len(data) == 1 else text
 

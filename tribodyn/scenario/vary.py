@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.scenario.bounds import LONGEST_KEY, broken_bounds
 from tribodyn.scenario.quantity import Draws, InUnit, Reference, Weighed, parts_of
 from tribodyn.scenario.resolve import toml_value
-from tribodyn.scenario.sources import LONGEST_KEY, broken_bounds
 from tribodyn.scenario.unit_grammar import is_unit, two_ends
 from tribodyn.scenario.units import Kind, NotAQuantity, registry, scaled, to_si
 

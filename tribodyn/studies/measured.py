@@ -201,7 +201,7 @@ def _factor(measured: Measured, name: str, si: str) -> float:
 
 def measured_figure(records: Sequence[Record], source: Source, align: str = "given") -> "Figure":
     """Draw measured curves and those of records over the measured abscissa, a panel for each quantity."""
-    from tribodyn.post.figures.measured import Panel, draw
+    from tribodyn.post.figures.measured import MeasuredPanel, draw
     from tribodyn.post.style import house_style
 
     measured = read_measured(source)
@@ -213,7 +213,7 @@ def measured_figure(records: Sequence[Record], source: Source, align: str = "giv
                 lines = [
                     (record.label, found.x, found.y, _said(found, measured, name)) for record, found in curves
                 ]
-                panels.append(Panel(name, measured.units[name], values, lines))
+                panels.append(MeasuredPanel(name, measured.units[name], values, lines))
     except InputError as error:
         raise error.moved(
             lambda place: place or ("" if isinstance(source, Mapping) else str(source))

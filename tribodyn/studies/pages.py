@@ -17,9 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Group
 
-    from tribodyn.post.compare import Comparison
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
-    from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.studies.measured import Source
     from tribodyn.studies.protocol.study import TextTable
 
@@ -119,32 +117,6 @@ def summary_json(record: Record) -> "dict[str, Any]":
     return report.as_json(record, study_of_record(record).verdict(record))
 
 
-def compare(records: Sequence[Record]) -> "Comparison":
-    """Set complete records side by side; see `tribodyn.post.compare`. InputError where they cannot be."""
-    from tribodyn.post import compare as comparing
-
-    studies = [study_of_record(record) for record in records]
-    for record, study in zip(records, studies, strict=True):
-        if study.quantities != studies[0].quantities:
-            rule = f'kind "{record.kind}" and kind "{records[0].kind}" share no quantities to compare'
-            raise InputError("record", str(record.path), rule, "compare records of one kind")
-        if not study.compared:
-            rule = f"{study.about}: it has no means over a run to compare"
-            raise InputError("record", str(record.path), rule, "draw them into one figure")
-    return comparing.compare(records, _compared(studies))
-
-
-def _compared(studies: Sequence[Study]) -> "Reported":
-    """Heading -> quantities that any of the studies compares, in the order of the first that has them."""
-    headings: dict[str, dict[str, Quantity]] = {}
-    for study in studies:
-        for heading in study.compared:
-            some = headings.setdefault(heading, {})
-            for quantity in study.reported().get(heading, ()):
-                some.setdefault(quantity.name, quantity)
-    return {heading: tuple(some.values()) for heading, some in headings.items()}
-
-
 def sweep_names(records: Sequence[SweepRecord]) -> tuple[str, ...]:
     """Names of the figures that can be drawn from sweeps."""
     return tuple(drawable_of_sweep(records))
@@ -218,11 +190,11 @@ def report(
             study.reported(),
             study.sentences(record),
             study.panels(),
-            study.maps(record),
+            study.on_page("maps", record) or (),
             sheet(record) if figures else (),
-            study.profiles(record),
+            study.on_page("profiles", record),
             verdict=study.verdict(record),
-            mechanism=study.mechanism(record) if record.samples else None,
+            mechanism=study.on_page("mechanism", record) if record.samples else None,
         )
         for study, record in zip(studies, records, strict=True)
     ]

@@ -35,7 +35,7 @@ PLACES = 41
 CaseType = TypeVar("CaseType", bound=Lubricated)
 
 
-class Candidate(NamedTuple):
+class LawAtDuty(NamedTuple):
     """A law at a duty."""
 
     law: Any
@@ -102,7 +102,7 @@ def _along(case: Lubricated) -> LocalContact:
 
 def _nearest(
     laws: Registry[Any], given: LawInput, contact: LocalContact, weight: Float[Array, " place"]
-) -> Candidate:
+) -> LawAtDuty:
     """The law of the smallest factor of those that hold, or of all where none does."""
     found = list(_candidates(laws, given, contact, weight))
     return min(found, key=lambda candidate: (not candidate.holds, candidate.factor))
@@ -110,7 +110,7 @@ def _nearest(
 
 def _candidates(
     laws: Registry[Any], given: LawInput, contact: LocalContact, weight: Float[Array, " place"]
-) -> Iterator[Candidate]:
+) -> Iterator[LawAtDuty]:
     names: list[str] = []
     for name, law in laws.items():
         if law.judged is None or law.table_error is not None:
@@ -128,7 +128,7 @@ def _candidates(
         ratio = law.judged.ratio
         if inside < HOLDS and law.judged.outside is not None:
             ratio = law.judged.outside
-        yield Candidate(law, inside >= HOLDS, (ratio[0], ratio[2]))
+        yield LawAtDuty(law, inside >= HOLDS, (ratio[0], ratio[2]))
 
 
 def _made(law: FilmLaw | FrictionLaw, given: LawInput) -> Closure:

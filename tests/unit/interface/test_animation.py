@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import tribodyn as td
-from tribodyn.interface.run import Run
+from tribodyn.interface.result import Run
 from tribodyn.post.page import pdf
 
 

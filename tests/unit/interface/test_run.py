@@ -10,7 +10,7 @@ import pytest
 from matplotlib.figure import Figure, SubFigure
 
 import tribodyn as td
-from tribodyn.interface.run import Run
+from tribodyn.interface.result import Run
 from tribodyn.interface.sweep import Sweep
 
 SHORT = {"solver.cycles": 1, "output.samples_per_cycle": 40}

@@ -20,7 +20,7 @@ def spelled(unit: str, name: str) -> str:
     return shown or ("mesh cycles" if name == "mesh_phase" else "")
 
 
-class Panel(NamedTuple):
+class MeasuredPanel(NamedTuple):
     """A measured quantity and the simulated curves beside it, in the measured units."""
 
     name: str
@@ -29,7 +29,7 @@ class Panel(NamedTuple):
     curves: Sequence[tuple[str, np.ndarray, np.ndarray, str]]  # (label, x, y, how far they are apart)
 
 
-def draw(label: str, abscissa: str, unit: str, x: np.ndarray, panels: Sequence[Panel]) -> Figure:
+def draw(label: str, abscissa: str, unit: str, x: np.ndarray, panels: Sequence[MeasuredPanel]) -> Figure:
     """Draw panels below each other over an abscissa (points,), which has a name and a unit."""
     figure = new_figure(WIDTH, len(panels) * (PANEL_HEIGHT + 0.2) + 0.4)
     rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]

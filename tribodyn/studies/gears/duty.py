@@ -13,7 +13,7 @@ from tribodyn.tribology.contact import hertz_pressure
 HERTZ = "Hertz pressure of a pair with the whole load"
 
 
-class NominalDuty(NamedTuple):
+class DutyFigures(NamedTuple):
     """Duty of a pair at nominal speed and constant torque, magnitudes; NaN where there is no speed."""
 
     pinion_torque: float  # N m
@@ -27,7 +27,7 @@ class NominalDuty(NamedTuple):
     contact_ratio: float
 
 
-def nominal_duty(case: GearCase, assembly: Assembly) -> NominalDuty:
+def nominal_duty(case: GearCase, assembly: Assembly) -> DutyFigures:
     """Return the duty of a case."""
     path, width = assembly.path, float(assembly.common_width)
     torque, speed = abs(float(case.operating.gear_torque)), abs(float(case.operating.pinion_speed))
@@ -40,7 +40,7 @@ def nominal_duty(case: GearCase, assembly: Assembly) -> NominalDuty:
     load = torque / abs(float(motion.gear_normal_arm)) / width
     pressure = hertz_pressure(load, abs(float(motion.relative_curvature)), 2.0 / sum(moduli))
     own = torque * pinion / gear
-    return NominalDuty(
+    return DutyFigures(
         own,
         torque,
         own * speed * 1e-3,
@@ -53,7 +53,7 @@ def nominal_duty(case: GearCase, assembly: Assembly) -> NominalDuty:
     )
 
 
-def duty_lines(duty: NominalDuty) -> dict[str, tuple[float, str]]:
+def duty_lines(duty: DutyFigures) -> dict[str, tuple[float, str]]:
     """Quantities of a duty by name: value and unit, those of a drawing. What is not given is left out."""
     lines = {
         "torque of the pinion": (duty.pinion_torque, "N m"),

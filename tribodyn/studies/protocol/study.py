@@ -7,7 +7,7 @@ from inspect import ismodule
 from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.registry import cannot_be_loaded
@@ -26,8 +26,6 @@ from tribodyn.studies.protocol.recording import TextTable as TextTable
 
 if TYPE_CHECKING:
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
-    from tribodyn.post.page.data import PageMap, Profiles
-    from tribodyn.post.page.mechanism import Mechanism
     from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.reader import Record
     from tribodyn.scenario.quantity import Table
@@ -52,8 +50,8 @@ _ALSO_IN = {
 class Study:
     """A kind of study: what it is, and where its parts are.
 
-    The parts are modules of its package, or attributes of the package itself, imported on first
-    use, so that a registered study costs nothing. What a part holds may also stand in the module in brackets.
+    The parts are modules of its package, or attributes of the package itself, imported on first use. What a
+    part holds may also stand in the module in brackets.
 
     ============= =================================================================================
     part          what it holds
@@ -62,17 +60,15 @@ class Study:
                   (optional); ``case_of(scenario, toml, sha256)``, its case, a `CaseHead` and more
     rules         ``broken_rules(scenario)``, errors for the rules that tie keys together (optional; scenario)
     check         ``check(case) -> CheckResult``; raises InputError where the case cannot be run (run)
-    run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; and
-                  ``quantities_of(case) -> dict``, those of a case without a record (optional: to be
-                  swept)
+    run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; ``quantities_of(case)
+                  -> dict``, those of a case without a record (optional: to be swept)
     report        ``REPORTED``, heading -> quantities of the summary; ``sentences(record)``, how far it is
                   to be trusted; ``verdict(record)``, what a reader asks first (optional: that of gears);
-                  ``SWEPT``, quantities that a sweep keeps, and ``SWEEP_TABLE``, those that
-                  it prints (both optional); ``SHORT``, short names of quantities (optional); ``PANELS``,
-                  datasets that a page shows at first (optional); ``TOP``, quantities at the top of what
-                  is printed as JSON (optional);
-                  ``maps(record)``, its maps over the face (optional); ``mechanism(record)``, its bodies in
-                  motion, where they are no pair of gears (optional)
+                  ``SWEPT``, quantities that a sweep keeps, and ``SWEEP_TABLE``, those that it prints (both
+                  optional); ``SHORT``, short names of quantities, ``PANELS``, datasets that a page shows at
+                  first, ``TOP``, quantities at the top of what is printed as JSON (all optional); of a
+                  record ``maps`` over the face, ``profiles`` at the cursor, and its ``mechanism``, bodies
+                  in motion that are no pair of gears (all optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
@@ -91,10 +87,8 @@ class Study:
     kind : as scenarios name it
     about : what it is, in a line
     package : where its parts are
-    quantities : what its records are about. Records of studies with the same quantities can be compared and
-        drawn together.
-    compared : headings of its summary that a comparison shows; none: its records cannot be compared in a
-        table
+    quantities : what its records are about; those of studies with the same are compared and drawn together
+    compared : headings of its summary that a comparison shows; none: it is not compared in a table
     has_gears, resumes : whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run
         can be resumed
     verb, resolution : verb of the command line that runs its scenarios; key of the points of a cycle, as its
@@ -249,19 +243,9 @@ class Study:
         """Datasets that a page shows at first; none: the first ones."""
         return self._part("report", "PANELS", optional=True) or ()
 
-    def maps(self, record: "Record") -> "Sequence[PageMap]":
-        """Maps over roll angle and face that a page of a record shows; none: nothing varies over the face."""
-        found = self._part("report", "maps", optional=True)
-        return found(record) if found else ()
-
-    def profiles(self, record: "Record") -> "Profiles | None":
-        """What a page of a record shows over a place at its cursor; None: nothing."""
-        found = self._part("report", "profiles", optional=True)
-        return found(record) if found else None
-
-    def mechanism(self, record: "Record") -> "Mechanism | None":
-        """The bodies that a page of a record moves; None: those of a pair of gears, or none."""
-        found = self._part("report", "mechanism", optional=True)
+    def on_page(self, what: Literal["maps", "profiles", "mechanism"], record: "Record") -> Any:
+        """What a page of a record shows besides: `PageMap`s, `Profiles`, a `Mechanism`; None: nothing."""
+        found = self._part("report", what, optional=True)
         return found(record) if found else None
 
     def batch(self) -> "Batch | None":

@@ -13,7 +13,7 @@ import tribodyn as td
 from tests.support.outlines import closed, distance, turned
 from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tribodyn.cli.app import app
-from tribodyn.interface.run import Run
+from tribodyn.interface.result import Run
 from tribodyn.post.page.data import MOST_SAMPLES, extrapolated, thinned
 from tribodyn.post.page.rolling_teeth import rolling_teeth
 from tribodyn.record.reader import Record
