@@ -97,10 +97,16 @@ class Sweep:
         )
 
     def _repr_html_(self) -> str:
-        """Title, size, a small picture and the dataset, for notebooks."""
+        """Title, size, verdict, a small picture and the dataset, for notebooks."""
+        from tribodyn.post.page.page import verdict_list
+        from tribodyn.post.sweep_report import sweep_verdict
+
         study = study_of(self.scenario)
+        with SweepRecord(self.path) as record:
+            said = sweep_verdict(record)
         return shown.block(
             shown.heading(str(self.scenario.get("title", self.path.stem)), self._state()),
+            verdict_list(said),
             shown.picture_of_sweep(self.data, study),
             self.data._repr_html_(),
         )

@@ -11,8 +11,8 @@ from tribodyn.errors import InputError
 from tribodyn.post.figures.sweep.branch import Branch, axis_label, branches
 from tribodyn.post.figures.sweep.response import panels_of
 from tribodyn.post.page.data import packed
-from tribodyn.post.page.page import assembled, origin, picture, table, title_of
-from tribodyn.post.sweep_report import described, sweep_remarks, sweep_rows, sweep_warnings
+from tribodyn.post.page.page import assembled, origin, picture, table, title_of, verdict_list
+from tribodyn.post.sweep_report import described, sweep_remarks, sweep_rows, sweep_verdict, sweep_warnings
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_reader import SweepRecord
 
@@ -81,7 +81,8 @@ def sweep_page(
         title_of(record),
         payload,
         {
-            "WARNINGS": "".join(f'<p class="warning">{escape(warning)}</p>' for warning in warnings),
+            "WARNINGS": "".join(f'<p class="warning">{escape(warning)}</p>' for warning in warnings)
+            + verdict_list(sweep_verdict(record)),
             "SUMMARY": table("Quantities of the cases", columns, sweep_rows(record, known)),
             "TRUST": f"<ul>{remarks}</ul>",
             "OVER": "Over the first varied key",
