@@ -61,9 +61,13 @@ def test_json_and_show_say_what_the_record_says(grid: Path):
     assert {name: shown[name] for name in said} == said
     with SweepRecord(grid) as record:
         np.testing.assert_array_equal(said["figures"]["dynamic_factor"]["values"], record["dynamic_factor"])
-    assert "12 cases (3 of operating.pinion_speed, 2 of operating.gear_torque, up and down)" in invoke(
-        "show", grid
-    )
+        loudest = record["dynamic_factor"].max()
+    printed = invoke("show", grid)
+    assert "12 cases (3 of operating.pinion_speed, 2 of operating.gear_torque, up and down)" in printed
+    verdict = printed.splitlines()[1:4]
+    assert verdict[0].startswith("Vibration is largest at ")
+    assert verdict[0].endswith(f"tooth forces of {loudest:.2f} times their mean.")
+    assert verdict[2].startswith("The film is thinnest at ")
 
 
 def test_the_first_case_of_a_direction_is_the_run_of_its_scenario(grid: Path, tmp_path: Path):
@@ -108,6 +112,7 @@ def test_a_case_that_fails_leaves_the_others_alone(tmp_path: Path):
     vary = ("--vary", "drive.pinion.profile_shift=0,1.5,0.1")
     said = invoke("sweep", "involute-23-47", *vary, *SHORT, "-o", path)
     assert "2 done, 1 failed" in said
+    assert "1 of 3 cases failed." in said
     assert "failed at 1.5: " in said
     with SweepRecord(path) as record:
         assert record.status == "complete"
