@@ -27,6 +27,11 @@ stiffness_variation = 0.0
 frequency = { from = 0.8, to = 1.2, step = 0.1 }
 """
 RUN = ("run", "mine.toml", "--no-plot")
+#: A process that a shell begins in the background ignores Ctrl-C, and so do those that it begins.
+HEEDED = (
+    "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    "from tribodyn.cli import main\nmain()\n"
+)
 
 
 @pytest.fixture
@@ -182,7 +187,7 @@ def test_an_interrupted_run_keeps_the_record(end: signal.Signals, scenario: Path
     invoke(*RUN, folder=tmp_path)
     first = (tmp_path / "mine.h5").read_bytes()
     cycles(scenario, 20_000)
-    command = [sys.executable, "-m", "tribodyn", *RUN]
+    command = [sys.executable, "-c", HEEDED, *RUN]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     with subprocess.Popen(command, cwd=tmp_path, env=environment, stderr=subprocess.DEVNULL) as process:
         while not (tmp_path / "mine.partial.h5").exists():
