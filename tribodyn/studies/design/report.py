@@ -38,9 +38,8 @@ def verdict(record: Record) -> list[str]:
     for place, name in enumerate(names):
         before = start[place] if place < len(start) and start[place] is not None else np.nan
         quantity = _quantity_or_name(record.scenario, name)
-        changed = (
-            f" ({100.0 * (best[place] / before - 1.0):+.2g} %)" if before and np.isfinite(before) else ""
-        )
+        ratio = float(best[place]) / float(before) if before and np.isfinite(before) else np.nan
+        changed = f" ({100.0 * (ratio - 1.0):+.2g} %)" if np.isfinite(ratio) else ""
         won.append(f"{quantity.title}: {_change(record.scenario, name, before, best[place])}{changed}")
     found = [f"{'; '.join(won)}."]
     values = [f"{key} = {value}" for key, value in summary.get("best", {}).items()]
