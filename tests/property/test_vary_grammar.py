@@ -96,6 +96,7 @@ def test_a_count_reaches_both_ends(ends):
     [
         (f"{SPEED}", "not KEY=VALUES"),
         (f"{SPEED}=", "not KEY=VALUES"),
+        (f"{SPEED}=100:200 r\npm", "neither a range nor a list"),
         (f"{SPEED}=100:200", "a range without a number of values or a step"),
         (f"{SPEED}=200:100:10rpm", "leads away from 100; write 200:100:-10"),
         (f"{SPEED}=100:200:0rpm", "the step is zero"),

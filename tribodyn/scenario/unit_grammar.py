@@ -121,7 +121,8 @@ _RANGE = re.compile(
 def two_ends(value: str) -> tuple[str, str, str] | None:
     """First, last and unit of a range that is written as in a sentence, "500-6000 rpm"; None: it is none."""
     found = _RANGE.fullmatch(value)
-    return found and (found["first"], found["last"], found["own"] or found["unit"] or "")
+    unit = (found["own"] or found["unit"] or "") if found else ""
+    return (found["first"], found["last"], unit) if found and unit.isprintable() else None
 
 
 def range_for_one(value: str) -> tuple[str, str] | None:
