@@ -2,7 +2,7 @@
 
 import copy
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +36,6 @@ class Grid:
         self._texts = [i for i, axis in enumerate(self.axes) if not axis.numeric]
         self._resolved = lru_cache(maxsize=16)(self._resolve)
         self.batch: Batch = self.study.batch() or OneByOne(self.study)
-        self._written = self._case_as_written()
         self._check()
         self.base = self.case((0,) * len(self.axes))
 
@@ -62,9 +61,10 @@ class Grid:
             case = loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
         except InputError as error:
             raise self._as_varied(error) from None
-        return case.beside(self._written or case)
+        return case.beside(self._written or case) if case.chosen() else case
 
-    def _case_as_written(self) -> Any:
+    @cached_property
+    def _written(self) -> Any:
         """The scenario without its axes; None where it is no case without them."""
         try:
             return loaded_from(resolve(self.path, self.overrides, table_of), self.path).case
