@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.states import recorded, sampled
-from tribodyn.dynamics.outputs import outputs
+from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from tests.support.states import recorded
 from tribodyn.dynamics.extremes import LOWEST
-from tribodyn.dynamics.outputs import outputs_with_extremes
+from tribodyn.studies.gear_pair.outputs import outputs_with_extremes
 from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium

@@ -10,7 +10,7 @@ from tests.support.states import recorded, sampled
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.slices import face_positions
-from tribodyn.dynamics.outputs import outputs, segment_of
+from tribodyn.studies.gear_pair.outputs import outputs, segment_of
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.corner_contact import pair_geometry

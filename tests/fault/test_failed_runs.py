@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.outputs import outputs
+from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.dynamics.parameters import SLIP
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import Record

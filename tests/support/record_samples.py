@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.recorded import DOF, SAMPLES, scales_of
+from tribodyn.studies.gears.recorded import DOF, SAMPLES, scales_of
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.layout import Head
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey

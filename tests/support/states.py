@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribodyn.dynamics.outputs import outputs
+from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.dynamics.parameters import (
     LAG,
     MECHANICAL,

@@ -1,4 +1,4 @@
-"""Strain energy of the tooth contacts, and the torque with which its change along the mesh cycle acts.
+"""Strain energy of the tooth contacts of a mesh, and the torque with which its change along the mesh cycle acts.
 
 Written for all compilers, as `contact_forces`, whose `work` it reads.
 """
@@ -27,13 +27,13 @@ from tribodyn.numerics.elementary import law, skippable, where
 
 
 @law
-def pair_energy(i, model, work):
+def pair_energy(i, mesh, model, work):
     """Strain energy of one pair without the coupling, J."""
-    width = model.mechanics.contact_width
+    width = model.operation.contact_width
     free = work[EFFECTIVE_APPROACH, i]
     load = work[ELASTIC_LOAD, i]
     if model.options.hertz == HERTZ_POWER_LAW:
-        compliance, coefficient = work[COMPLIANCE, i], model.table.hertz_coefficient
+        compliance, coefficient = work[COMPLIANCE, i], mesh.table.hertz_coefficient
         at_width = power_law_force(width, compliance, coefficient)
         stiffness = power_law_stiffness(at_width, compliance, coefficient)
         above = power_law_work(load, compliance, coefficient) - power_law_work(
@@ -46,18 +46,18 @@ def pair_energy(i, model, work):
 
 
 @law
-def compliance_force(i, model, work):
+def compliance_force(i, mesh, model, work):
     """−∂V/∂C of one pair's strain energy at fixed effective approach, N²: ½ F² but for the contact's onset.
 
     At the onset's width w, ∂F/∂C = −F k and ∂k/∂C = −k² (1 + 0.09 h F^-0.1 k), where h F^0.9 is the Hertz
     contact's part of w and k the stiffness there.
     """
     if model.options.hertz == HERTZ_POWER_LAW:
-        width = model.mechanics.contact_width
+        width = model.operation.contact_width
         free = work[EFFECTIVE_APPROACH, i]
         compliance = work[COMPLIANCE, i]
-        at_width = power_law_force(width, compliance, model.table.hertz_coefficient)
-        stiffness = power_law_stiffness(at_width, compliance, model.table.hertz_coefficient)
+        at_width = power_law_force(width, compliance, mesh.table.hertz_coefficient)
+        stiffness = power_law_stiffness(at_width, compliance, mesh.table.hertz_coefficient)
         hertz = (1.0 / stiffness - compliance) / 0.9
         load_slope = at_width * stiffness
         stiffness_slope = stiffness * stiffness * (1.0 + 0.09 * hertz * stiffness)
@@ -65,18 +65,18 @@ def compliance_force(i, model, work):
         above = 0.5 * (load * load - at_width * at_width)
         whole = onset_integral(free, width, load_slope, stiffness_slope) + where(free > width, above, 0.0)
         return where(load > 0.0, whole, 0.0)
-    return pair_energy(i, model, work) * work[STIFFNESS, i]
+    return pair_energy(i, mesh, model, work) * work[STIFFNESS, i]
 
 
 @law
-def mesh_energy(model, work):
+def mesh_energy(mesh, model, work):
     """Strain energy V of all contacts, J, after `elastic_loads`."""
-    pairs = model.table.side.shape[0]
+    pairs = mesh.table.side.shape[0]
     energy = 0.0
     for i in range(pairs):
         if skippable(work[ELASTIC_LOAD, i] == 0.0):
             continue
-        energy = energy + pair_energy(i, model, work)
+        energy = energy + pair_energy(i, mesh, model, work)
         if model.options.sweeps > 1:
             for j in range(i):
                 if skippable(work[ELASTIC_LOAD, j] == 0.0):
@@ -86,24 +86,25 @@ def mesh_energy(model, work):
 
 
 @law
-def parametric_torque(segment, cell, u, cells_per_radian, model, work):
-    """Torque ∂V/∂φ at fixed coordinates that the classical equations leave out, N m.
+def parametric_torque(place, mesh, model, work):
+    """Torque ∂V/∂φ on the driver at fixed coordinates that the classical equations leave out, N m.
 
     Σ (½ k_i' δ_i² + F_i ∂δ_i/∂φ) with the coupling's share (Oh, Grosh & Barber 2005); the damping part of
     F_i belongs to it, so that damping dissipates c_i δ_i'² and nothing else.
     """
-    pairs = model.table.side.shape[0]
+    segment, cell, u, cells_per_radian = place
+    pairs = mesh.table.side.shape[0]
     torque = 0.0
     for i in range(pairs):
-        if out_of_reach(segment, i, model):
+        if out_of_reach(segment, i, mesh):
             continue
         load = work[ELASTIC_LOAD, i]
-        torque = torque - compliance_force(i, model, work) * work[COMPLIANCE_SLOPE, i]
+        torque = torque - compliance_force(i, mesh, model, work) * work[COMPLIANCE_SLOPE, i]
         torque = torque + work[NORMAL_LOAD, i] * work[APPROACH_SLOPE, i]
         if model.options.sweeps > 1:
             for j in range(i):
-                if out_of_reach(segment, j, model):
+                if out_of_reach(segment, j, mesh):
                     continue
-                slope = cubic_slope(model.table.coupling, segment, cell, i, j, u) * cells_per_radian
+                slope = cubic_slope(mesh.table.coupling, segment, cell, i, j, u) * cells_per_radian
                 torque = torque - slope * load * work[ELASTIC_LOAD, j]
     return torque

@@ -1,24 +1,12 @@
-"""State of every tooth contact: approach, elastic and normal load, film, friction.
+"""State of the tooth contacts of one mesh: approach, elastic and normal load, film, friction.
 
 Written once for all compilers: `work` is whatever takes `work[quantity, slot] = value`: a 2-D array in the
 native kernel, a dict everywhere else, so that the same lines run on floats, arrays and under JAX tracing.
 """
 
-from tribodyn.dynamics.parameters import (
-    HERTZ_POWER_LAW,
-    SLIDING_DYNAMIC,
-    SLIP,
-    VX_G,
-    VX_P,
-    VY_G,
-    VY_P,
-    X_G,
-    X_P,
-    XI,
-    XI_RATE,
-    Y_G,
-    Y_P,
-)
+from typing import Any, NamedTuple
+
+from tribodyn.dynamics.parameters import HERTZ_POWER_LAW, SLIDING_DYNAMIC
 from tribodyn.dynamics.smooth import (
     load_with_damping,
     onset,
@@ -36,8 +24,8 @@ from tribodyn.tribology.law import ActiveLaw
 # Quantities of one contact, rows of `work`.
 DISTANCE = 0  # signed distance r from the pitch point, m
 RADIUS = 1  # equivalent radius ρ; where it vanishes at P, averaged over the contact's width, m
-PINION_SPEED = 2  # speed along the pinion flank, averaged with the radius, m/s
-GEAR_SPEED = 3
+DRIVER_SPEED = 2  # speed along the driver's flank, averaged with the radius, m/s
+DRIVEN_SPEED = 3
 COMPLIANCE = 4  # of the pair, without the load-dependent Hertz contact, m/N
 APPROACH = 5  # δ, m
 APPROACH_RATE = 6  # dδ/dt, m/s
@@ -47,9 +35,9 @@ EFFECTIVE_APPROACH = 9  # δ less what the loads on neighbouring pairs deflect, 
 ELASTIC_LOAD = 10  # N
 NORMAL_LOAD = 11  # elastic and damping, N
 STIFFNESS = 12  # of one pair at its load, below the contact width at that of the width, N/m
-SLIDING = 13  # sliding velocity, pinion less gear, along t, m/s
+SLIDING = 13  # nominal sliding velocity, driver less driven, along t, m/s
 RELATIVE_VELOCITY = 14  # the same with the vibration, m/s
-FRICTION_FORCE = 15  # on the pinion along +t, N
+FRICTION_FORCE = 15  # on the driver along +t, N
 FRICTION_COEFFICIENT = 16
 COS = 17  # of the pressure angle
 SIN = 18
@@ -68,10 +56,32 @@ _COMPLIANCE, _GAP = CHANNELS.index("compliance"), CHANNELS.index("gap")
 _UNEVEN, PEAK = CHANNELS.index("line_load_friction"), CHANNELS.index("line_load_peak")
 
 
+class Place(NamedTuple):
+    """Where a mesh stands in its table."""
+
+    segment: Any  # whole
+    cell: Any  # whole
+    u: Any  # position in the cell, 0 … 1
+    cells_per_radian: Any  # cells per rotation of the driver
+
+
+class Motion(NamedTuple):
+    """How the two bodies of a mesh stand and move against each other, in its frame; driver less driven."""
+
+    towards: Any  # along the pitch tangent, rotations included, m
+    across: Any  # along the line of centres, m
+    along_rate: Any  # rate of the translation along the pitch tangent, m/s
+    turning_rate: Any  # rate of r_1 ϑ_1 − r_2 ϑ_2, m/s
+    across_rate: Any  # m/s
+    driver_speed: Any  # this and the next: of the bodies, rad/s
+    driven_speed: Any
+    phase_rate: Any  # nominal speed of the driver at the reference's actual speed, rad/s
+
+
 @law
-def out_of_reach(segment, i, model):
+def out_of_reach(segment, i, mesh):
     """Whether a slot's pair is off the path of contact in this segment, and may be passed over."""
-    return skippable(model.table.in_contact[segment, i] == 0.0)
+    return skippable(mesh.table.in_contact[segment, i] == 0.0)
 
 
 @law
@@ -96,92 +106,95 @@ def cubic_and_slope(c, segment, cell, slot, channel, u):
 
 
 @law
-def approach(segment, cell, u, cells_per_radian, y, model, work):
+def approach(place, motion, mesh, work):
     """Fill `work` with geometry, approach and its rates for every slot.
 
-    δ = (ξ + x_p − x_g) cos α + (y_p − y_g) sin α − gap; back flanks live in the mirrored world, where x
+    δ = towards cos α + across sin α − gap; back flanks live in the mirrored world, where the pitch tangent
     and rotations change sign.
     """
-    table = model.table
+    table = mesh.table
     c = table.channel
-    pinion_speed = model.mechanics.nominal_speed + y[SLIP]
-    ratio = table.pinion_pitch_radius / table.gear_pitch_radius
-    gear_speed = ratio * pinion_speed - y[XI_RATE] / table.gear_pitch_radius
-    towards, towards_rate = y[XI] + y[X_P] - y[X_G], y[XI_RATE] + y[VX_P] - y[VX_G]
-    across, across_rate = y[Y_P] - y[Y_G], y[VY_P] - y[VY_G]
+    segment, cell, u, cells_per_radian = place
+    ratio = mesh.driver_radius / mesh.driven_radius
+    speed = motion.driver_speed
+    towards_rate = motion.along_rate + motion.turning_rate
     for i in range(table.side.shape[0]):
-        if out_of_reach(segment, i, model):
+        if out_of_reach(segment, i, mesh):
             continue
         side = table.side[i]
         cosine, cosine_slope = cubic_and_slope(c, segment, cell, i, _COSINE, u)
         sine, sine_slope = cubic_and_slope(c, segment, cell, i, _SINE, u)
         gap, gap_slope = cubic_and_slope(c, segment, cell, i, _GAP, u)
         compliance, compliance_slope = cubic_and_slope(c, segment, cell, i, _COMPLIANCE, u)
-        along = side * towards
-        error = along * cosine + across * sine
-        slope = (along * cosine_slope + across * sine_slope - gap_slope) * cells_per_radian
+        along = side * motion.towards
+        error = along * cosine + motion.across * sine
+        slope = (along * cosine_slope + motion.across * sine_slope - gap_slope) * cells_per_radian
         distance = cubic(c, segment, cell, i, _DISTANCE, u)
         flank_speed = cubic(c, segment, cell, i, _SPEED, u)
-        lever_p = distance + table.pinion_pitch_radius * sine
-        lever_g = table.gear_pitch_radius * sine - distance
+        driver_lever = distance + mesh.driver_radius * sine
+        driven_lever = mesh.driven_radius * sine - distance
 
         work[COS, i] = cosine
         work[SIN, i] = sine
         work[DISTANCE, i] = distance
         work[RADIUS, i] = cubic(c, segment, cell, i, _RADIUS, u)
-        work[PINION_SPEED, i] = side * pinion_speed * flank_speed
-        work[GEAR_SPEED, i] = side * pinion_speed * (flank_speed - (1.0 + ratio) * distance)
+        work[DRIVER_SPEED, i] = side * speed * flank_speed
+        work[DRIVEN_SPEED, i] = side * speed * (flank_speed - (1.0 + ratio) * distance)
         work[COMPLIANCE, i] = compliance
         work[COMPLIANCE_SLOPE, i] = compliance_slope * cells_per_radian
         work[TRANSMISSION_ERROR, i] = error
         work[APPROACH, i] = error - gap
         work[APPROACH_SLOPE, i] = slope
-        work[APPROACH_RATE, i] = side * towards_rate * cosine + across_rate * sine + slope * pinion_speed
-        work[SLIDING, i] = side * pinion_speed * (1.0 + ratio) * distance
+        work[APPROACH_RATE, i] = (
+            side * towards_rate * cosine + motion.across_rate * sine + slope * motion.phase_rate
+        )
+        work[SLIDING, i] = side * speed * (1.0 + ratio) * distance
         work[RELATIVE_VELOCITY, i] = (
-            side * (pinion_speed * lever_p - gear_speed * lever_g)
-            + sine * side * (y[VX_P] - y[VX_G])
-            - cosine * across_rate
+            side * (speed * driver_lever - motion.driven_speed * driven_lever)
+            + sine * side * motion.along_rate
+            - cosine * motion.across_rate
         )
 
 
 @law
-def elastic_loads(segment, cell, u, model, work):
+def elastic_loads(place, mesh, model, work):
     """Elastic load of every pair, never tensile, with the pairs coupled through the bodies.
 
     Solves δ_i = C_ii F_i + Σ_j C_ij F_j, F ≥ 0: from the tabulated inverse, with tension cut off, by
     projected Gauss-Seidel sweeps. With all pairs loaded the start is the answer up to interpolation, and each
     sweep reduces an error by (C_ij/C_ii)² ≈ 0.1; a pair that separates is out after the first.
     """
-    pairs = model.table.side.shape[0]
-    width = model.mechanics.contact_width
-    coefficient = model.table.hertz_coefficient
+    segment, cell, u, _ = place
+    table = mesh.table
+    pairs = table.side.shape[0]
+    width = model.operation.contact_width
+    coefficient = table.hertz_coefficient
     coupled = model.options.sweeps > 1
     for i in range(pairs):
         work[ELASTIC_LOAD, i] = 0.0
-        if out_of_reach(segment, i, model):
+        if out_of_reach(segment, i, mesh):
             continue
         work[STIFFNESS, i] = 1.0 / work[COMPLIANCE, i]
         if not coupled:
             continue
         load = 0.0
         for j in range(pairs):
-            if out_of_reach(segment, j, model):
+            if out_of_reach(segment, j, mesh):
                 continue
             if j < i:
-                work[COUPLING + j, i] = cubic(model.table.coupling, segment, cell, i, j, u)
+                work[COUPLING + j, i] = cubic(table.coupling, segment, cell, i, j, u)
             elif j > i:
-                work[COUPLING + j, i] = cubic(model.table.coupling, segment, cell, j, i, u)
-            load = load + cubic(model.table.stiffness, segment, cell, i, j, u) * work[APPROACH, j]
+                work[COUPLING + j, i] = cubic(table.coupling, segment, cell, j, i, u)
+            load = load + cubic(table.stiffness, segment, cell, i, j, u) * work[APPROACH, j]
         work[ELASTIC_LOAD, i] = maximum(load, 0.0)
     for _ in range(model.options.sweeps):
         for i in range(pairs):
-            if out_of_reach(segment, i, model):
+            if out_of_reach(segment, i, mesh):
                 continue
             free = work[APPROACH, i]
             if coupled:
                 for j in range(pairs):
-                    if j != i and not out_of_reach(segment, j, model):
+                    if j != i and not out_of_reach(segment, j, mesh):
                         free = free - work[COUPLING + j, i] * work[ELASTIC_LOAD, j]
             if model.options.hertz == HERTZ_POWER_LAW:
                 compliance = work[COMPLIANCE, i]
@@ -193,83 +206,84 @@ def elastic_loads(segment, cell, u, model, work):
             else:
                 load = positive_part(free, width) * work[STIFFNESS, i]
             work[EFFECTIVE_APPROACH, i] = free
-            work[ELASTIC_LOAD, i] = model.table.in_contact[segment, i] * load
+            work[ELASTIC_LOAD, i] = table.in_contact[segment, i] * load
 
 
 @law
-def reversals_per_velocity(model):
-    """One over the sliding velocity at which friction has reversed, that of the width of reversal; s/m."""
-    ratio = model.table.pinion_pitch_radius / model.table.gear_pitch_radius
-    return 1.0 / ((1.0 + ratio) * model.mechanics.reversal_width * model.mechanics.nominal_speed)
+def reversals_per_velocity(ratio, mesh, model):
+    """One over the sliding velocity at which friction has reversed, that of the width of reversal; s/m.
+
+    `ratio` is that of the driver's speed to the reference's.
+    """
+    operation = model.operation
+    nominal_speed = ratio * operation.nominal_speed
+    return 1.0 / ((1.0 + mesh.driver_radius / mesh.driven_radius) * operation.reversal_width * nominal_speed)
 
 
 @law
-def normal_contacts(segment, cell, u, cells_per_radian, y, model, work):
-    """Fill `work` with everything about every contact but its friction; arguments as of `contact_forces`."""
-    approach(segment, cell, u, cells_per_radian, y, model, work)
-    elastic_loads(segment, cell, u, model, work)
-    for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
+def normal_contacts(place, motion, mesh, model, work):
+    """Fill `work` with everything about the contacts of a mesh but their friction."""
+    approach(place, motion, mesh, work)
+    elastic_loads(place, mesh, model, work)
+    for i in range(mesh.table.side.shape[0]):
+        if out_of_reach(place.segment, i, mesh):
             work[NORMAL_LOAD, i] = 0.0
             continue
-        _normal_contact(i, segment, cell, u, y, model, work)
+        _normal_contact(i, place, motion, mesh, model, work)
 
 
 @law
-def _normal_contact(i, segment, cell, u, y, model, work):
+def _normal_contact(i, place, motion, mesh, model, work):
     """Fill `work` with slot i's normal load and what depends on it; return the line load of its friction."""
-    mechanics = model.mechanics
-    table = model.table
+    width, table = model.operation.contact_width, mesh.table
+    segment, cell, u, _ = place
     stiffness = work[STIFFNESS, i]
-    engaged = ramp(work[EFFECTIVE_APPROACH, i], mechanics.contact_width)
-    damping = mechanics.mesh_damping * sqrt(stiffness) * work[APPROACH_RATE, i]
+    engaged = ramp(work[EFFECTIVE_APPROACH, i], width)
+    damping = mesh.damping * sqrt(stiffness) * work[APPROACH_RATE, i]
     damping = table.in_contact[segment, i] * engaged * damping
-    load = load_with_damping(work[ELASTIC_LOAD, i], damping, mechanics.contact_width * stiffness)
+    load = load_with_damping(work[ELASTIC_LOAD, i], damping, width * stiffness)
     work[NORMAL_LOAD, i] = load
     # the line load at which friction acts as it does along the uneven face
     line_load = load / table.face_width * cubic(table.channel, segment, cell, i, _UNEVEN, u)
     if model.options.averaged:
         radius = work[RADIUS, i]
         averaged = averaged_radius(
-            radius, line_load, model.surfaces.effective_modulus, table.pitch_point_length
+            radius, line_load, mesh.surfaces.effective_modulus, table.pitch_point_length
         )
         # entrainment is averaged with the radius, to which it is proportional there; sliding is not
-        added = (
-            table.side[i] * (mechanics.nominal_speed + y[SLIP]) * table.pitch_point_rate * (averaged - radius)
-        )
+        added = table.side[i] * motion.driver_speed * table.pitch_point_rate * (averaged - radius)
         work[RADIUS, i] = averaged
-        work[PINION_SPEED, i] = work[PINION_SPEED, i] + added
-        work[GEAR_SPEED, i] = work[GEAR_SPEED, i] + added
+        work[DRIVER_SPEED, i] = work[DRIVER_SPEED, i] + added
+        work[DRIVEN_SPEED, i] = work[DRIVEN_SPEED, i] + added
     return line_load
 
 
 @law
-def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
-    """Fill `work` with everything about every contact.
+def contact_forces(place, motion, reversals, mesh, model, work):
+    """Fill `work` with everything about every contact of a mesh.
 
-    The segment is given, never derived from the phase; `u` is the position in the cell, 0 … 1, and
-    `cells_per_radian` counts the table's cells per pinion rotation. `work` receives `work[quantity, slot]`.
+    The segment is given, never derived from the phase; `reversals` are those per sliding velocity, see
+    `reversals_per_velocity`. `work` receives `work[quantity, slot]`.
     """
-    approach(segment, cell, u, cells_per_radian, y, model, work)
-    elastic_loads(segment, cell, u, model, work)
-    reversals = reversals_per_velocity(model)
-    for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
+    approach(place, motion, mesh, work)
+    elastic_loads(place, mesh, model, work)
+    for i in range(mesh.table.side.shape[0]):
+        if out_of_reach(place.segment, i, mesh):
             work[NORMAL_LOAD, i] = 0.0
             work[FRICTION_FORCE, i] = 0.0
             continue
-        line_load = _normal_contact(i, segment, cell, u, y, model, work)
+        line_load = _normal_contact(i, place, motion, mesh, model, work)
         if model.options.sliding == SLIDING_DYNAMIC:
             sliding = work[RELATIVE_VELOCITY, i]
         else:
             sliding = work[SLIDING, i]
-        speed_p = work[PINION_SPEED, i]
-        speed_g = work[GEAR_SPEED, i]
+        speed_1 = work[DRIVER_SPEED, i]
+        speed_2 = work[DRIVEN_SPEED, i]
         state = local_contact(
-            line_load, 1.0 / work[RADIUS, i], 0.5 * (speed_p + speed_g), sliding, speed_p, speed_g
+            line_load, 1.0 / work[RADIUS, i], 0.5 * (speed_1 + speed_2), sliding, speed_1, speed_2
         )
-        film = ActiveLaw(model.options.film, model.film)
-        coefficient = model.options.friction.coefficient(state, film, model.surfaces, model.friction)
+        film = ActiveLaw(model.options.film, mesh.film)
+        coefficient = model.options.friction.coefficient(state, film, mesh.surfaces, mesh.friction)
         work[FRICTION_COEFFICIENT, i] = coefficient
         work[TURNED, i] = sliding * reversals
         work[FRICTION_FORCE, i] = coefficient * work[NORMAL_LOAD, i] * sign(work[TURNED, i])

@@ -10,10 +10,10 @@ import numpy as np
 
 from tribodyn.dynamics.contact_forces import (
     COS,
-    GEAR_SPEED,
+    DRIVEN_SPEED,
+    DRIVER_SPEED,
     NORMAL_LOAD,
     PEAK,
-    PINION_SPEED,
     RADIUS,
     RELATIVE_VELOCITY,
     SLIDING,
@@ -21,15 +21,16 @@ from tribodyn.dynamics.contact_forces import (
     cubic,
     out_of_reach,
 )
-from tribodyn.dynamics.equations import locate
-from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, STATES, XI
-from tribodyn.numerics.elementary import absolute, law, maximum, minimum, skippable, where
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC
+from tribodyn.dynamics.places import motion_of, place_in_mesh
+from tribodyn.numerics.elementary import absolute, law, maximum, minimum, skippable, truncate, where
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.train.structure import Layout, turned
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.law import ActiveLaw
 from tribodyn.tribology.surface_state import film_and_temperature
 
-#: Measures of the whole mesh: the rotational transmission error, up and down; and from here for the driving
+#: Measures of a whole mesh: the rotational transmission error, up and down; and from here for the driving
 #: flanks and behind them for the back flanks …
 ERROR_UP, ERROR_DOWN, DRIVING, BACK = 0, 1, 2, 5
 #: … the transmission error of the newest pair, up and down, and the force along the pitch tangent.
@@ -39,7 +40,8 @@ OF_MESH = 8
 #: square of the Hertz pressure, and by the laws in use thinness of the film and temperature.
 LOAD, PRESSURE, FILM, TEMPERATURE = range(4)
 OF_PAIR = 4
-#: Extremes: one per measure of the mesh, and one of all pairs per measure of a pair.
+#: Extremes of a mesh: one per measure of the mesh, and one of all pairs per measure of a pair. Measures and
+#: extremes of one mesh stand behind those of the other.
 EXTREMES = OF_MESH + OF_PAIR
 #: A measure that nothing has.
 LOWEST = -1e300
@@ -59,17 +61,17 @@ CAUTION, EVERY = 2.0, 4.0
 class Extremes(NamedTuple):
     """Where motions are extreme; leading axes for the cases of a batch."""
 
-    measure: Float[Array, "*case extreme"]  # (EXTREMES,); `LOWEST` where there is none
-    cycles: Float[Array, "*case extreme"]  # (EXTREMES,); mesh cycles since the start, whole and fraction
-    #: (EXTREMES,); segment of the mesh cycle: at a boundary it says on which side
-    segment: Float[Array, "*case extreme"]
-    state: Float[Array, "*case extreme state"]  # (EXTREMES, STATES)
+    measure: Float[Array, "*case extreme"]  # `EXTREMES` of every mesh; `LOWEST` where there is none
+    cycles: Float[Array, "*case extreme"]  # reference cycles since the start, whole and fraction
+    interval: Float[Array, "*case extreme"]  # of the schedule: at a boundary it says on which side
+    state: Float[Array, "*case extreme state"]
 
 
-def no_extremes(*cases: int) -> Extremes:
+def no_extremes(layout: Layout, *cases: int) -> Extremes:
     """Extremes of motions of which nothing is known."""
-    shape = (*cases, EXTREMES)
-    return Extremes(np.full(shape, LOWEST), np.zeros(shape), np.zeros(shape), np.zeros((*shape, STATES)))
+    shape = (*cases, EXTREMES * layout.meshes)
+    states = np.zeros((*shape, layout.states))
+    return Extremes(np.full(shape, LOWEST), np.zeros(shape), np.zeros(shape), states)
 
 
 def extremes_of(extremes: Extremes, cases: Any) -> Extremes:
@@ -91,85 +93,105 @@ def take_in(extremes: Extremes, others: Extremes) -> None:
 
 
 @law
-def highest_loaded(i, segment, cell, u, model, work):
+def highest_loaded(i, place, mesh, model, work):
     """Contact of slot i where its line load is highest along the face: what is recorded of its surfaces."""
     if model.options.sliding == SLIDING_DYNAMIC:
         sliding = work[RELATIVE_VELOCITY, i]
     else:
         sliding = work[SLIDING, i]
-    peak = cubic(model.table.channel, segment, cell, i, PEAK, u)
-    speed_p, speed_g = work[PINION_SPEED, i], work[GEAR_SPEED, i]
+    peak = cubic(mesh.table.channel, place.segment, place.cell, i, PEAK, place.u)
+    speed_1, speed_2 = work[DRIVER_SPEED, i], work[DRIVEN_SPEED, i]
     return local_contact(
-        work[NORMAL_LOAD, i] / model.table.face_width * peak,
+        work[NORMAL_LOAD, i] / mesh.table.face_width * peak,
         1.0 / work[RADIUS, i],
-        0.5 * (speed_p + speed_g),
+        0.5 * (speed_1 + speed_2),
         sliding,
-        speed_p,
-        speed_g,
+        speed_1,
+        speed_2,
     )
 
 
 @law
-def measure(phase, segment, y, model, work, measures):
-    """Fill `measures`, those of pairs off the path of contact left out; `work` is from `normal_contacts`."""
-    measure_loads(segment, y, model, work, measures)
-    cell, u, _ = locate(phase, segment, model.table)
-    for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
-            continue
-        contact = highest_loaded(i, segment, cell, u, model, work)
-        measures[OF_MESH + OF_PAIR * i + PRESSURE] = contact.line_load * contact.curvature
-        measure_surfaces(i, contact, model, measures)
+def measures_in(measures, layout):
+    """Number of measures of one mesh; `measures` has those of all meshes along its last axis."""
+    return measures.shape[len(measures.shape) - 1] // layout.meshes
 
 
 @law
-def measure_loads(segment, y, model, work, measures):
-    """Fill the `measures` of the mesh and the pairs' loads."""
-    table = model.table
-    measures[ERROR_UP] = y[XI]
-    measures[ERROR_DOWN] = -y[XI]
-    driving, back = 0.0 * y[XI], 0.0 * y[XI]
-    for i in range(table.side.shape[0]):
-        if out_of_reach(segment, i, model):
-            continue
-        load = work[NORMAL_LOAD, i]
-        side = DRIVING
-        if table.side[i] > 0.0:
-            driving = driving + load * work[COS, i]
-        else:
-            side = BACK
-            back = back + load * work[COS, i]
-        # slots follow each other by age
-        measures[side + NEWEST_UP] = work[TRANSMISSION_ERROR, i]
-        measures[side + NEWEST_DOWN] = -work[TRANSMISSION_ERROR, i]
-        measures[OF_MESH + OF_PAIR * i + LOAD] = load
-    measures[DRIVING + FORCE] = driving
-    measures[BACK + FORCE] = back
+def measure(phase, interval, y, model, work, measures):
+    """Fill `measures`, those of pairs off the path of contact left out; `work` is from `contacts_at`."""
+    measure_loads(interval, y, model, work, measures)
+    of_mesh = measures_in(measures, model.options.layout)
+    for m in range(model.options.layout.meshes):
+        mesh = model.meshes[m]
+        place = place_in_mesh(m, phase, interval, model)
+        for i in range(mesh.table.side.shape[0]):
+            if out_of_reach(place.segment, i, mesh):
+                continue
+            contact = highest_loaded(i, place, mesh, model, work[m])
+            first = m * of_mesh + OF_MESH + OF_PAIR * i
+            measures[first + PRESSURE] = contact.line_load * contact.curvature
+            measure_surfaces(first, contact, mesh, model, measures)
 
 
 @law
-def measure_surfaces(i, contact, model, measures):
-    """Fill the `measures` of slot i that are by laws."""
-    film = ActiveLaw(model.options.film, model.film)
-    friction = ActiveLaw(model.options.friction, model.friction)
-    thickness, temperature = film_and_temperature(contact, model.surfaces, film, friction)
-    first = OF_MESH + OF_PAIR * i
+def measure_loads(interval, y, model, work, measures):
+    """Fill the `measures` of the meshes and the pairs' loads."""
+    layout = model.options.layout
+    of_mesh = measures_in(measures, layout)
+    for m in range(layout.meshes):
+        mesh, contacts, first = model.meshes[m], work[m], m * of_mesh
+        table = mesh.table
+        segment = truncate(model.schedule.segment[interval, m])
+        error = mesh.driver_radius * turned(layout.driver[m], y, layout)
+        error = error - mesh.driven_radius * turned(layout.driven[m], y, layout)
+        measures[first + ERROR_UP] = error
+        measures[first + ERROR_DOWN] = -error
+        driving, back = 0.0 * error, 0.0 * error
+        for i in range(table.side.shape[0]):
+            if out_of_reach(segment, i, mesh):
+                continue
+            load = contacts[NORMAL_LOAD, i]
+            side = DRIVING
+            if table.side[i] > 0.0:
+                driving = driving + load * contacts[COS, i]
+            else:
+                side = BACK
+                back = back + load * contacts[COS, i]
+            # slots follow each other by age
+            measures[first + side + NEWEST_UP] = contacts[TRANSMISSION_ERROR, i]
+            measures[first + side + NEWEST_DOWN] = -contacts[TRANSMISSION_ERROR, i]
+            measures[first + OF_MESH + OF_PAIR * i + LOAD] = load
+        measures[first + DRIVING + FORCE] = driving
+        measures[first + BACK + FORCE] = back
+
+
+@law
+def measure_surfaces(first, contact, mesh, model, measures):
+    """Fill the `measures` of a slot that are by laws; `first` is the place of the slot's first one."""
+    film = ActiveLaw(model.options.film, mesh.film)
+    friction = ActiveLaw(model.options.friction, mesh.friction)
+    thickness, temperature = film_and_temperature(contact, mesh.surfaces, film, friction)
     measures[first + FILM] = -thickness
     measures[first + TEMPERATURE] = temperature
 
 
 @law
-def begin_surfaces(phase, segment, model, measures):
-    """Begin the row `SEEN` of a search at the start of a segment, where all pairs are evaluated."""
-    for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
-            continue
-        first = OF_MESH + OF_PAIR * i
-        measures[SEEN, first + AT] = phase
-        measures[SEEN, first + UNTIL] = phase
-        for j in range(FILM, OF_PAIR):
-            measures[SEEN, first + j] = measures[START, first + j]
-            measures[PACE, first + j] = 0.0 * phase
+def begin_surfaces(phase, interval, model, measures):
+    """Begin the row `SEEN` of a search at the start of an interval, where all pairs are evaluated."""
+    of_mesh = measures_in(measures, model.options.layout)
+    for m in range(model.options.layout.meshes):
+        mesh = model.meshes[m]
+        segment = truncate(model.schedule.segment[interval, m])
+        for i in range(mesh.table.side.shape[0]):
+            if out_of_reach(segment, i, mesh):
+                continue
+            first = m * of_mesh + OF_MESH + OF_PAIR * i
+            measures[SEEN, first + AT] = phase
+            measures[SEEN, first + UNTIL] = phase
+            for j in range(FILM, OF_PAIR):
+                measures[SEEN, first + j] = measures[START, first + j]
+                measures[PACE, first + j] = 0.0 * phase
 
 
 @law
@@ -190,72 +212,80 @@ def _see(far, first, phase, measures):
 
 
 @law
-def measure_end(idle, phase, step, segment, y, model, work, measures):
+def measure_end(idle, phase, step, interval, y, model, work, measures):
     """Fill the row `END` of a search; by laws only where a pair may be near an extreme, or its turn has come.
 
     Where they are left out they are `LOWEST`, and everywhere in lanes that are `idle`. `phase` is the end of
     a step, `measures` has the rows of a search.
     """
-    measure_loads(segment, y, model, work, measures[END])
+    measure_loads(interval, y, model, work, measures[END])
     count = measures[SEEN, COUNT] + 1.0
     due = count >= EVERY
     measures[SEEN, COUNT] = where(due, 0.0, count)
-    cell, u, _ = locate(phase, segment, model.table)
-    for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
-            continue
-        contact = highest_loaded(i, segment, cell, u, model, work)
-        first = OF_MESH + OF_PAIR * i
-        measures[END, first + PRESSURE] = contact.line_load * contact.curvature
-        far = idle | ((count < EVERY) & (phase + step <= measures[SEEN, first + UNTIL]))
-        _measure_unless(far, i, contact, model, measures[END])
-        if not skippable(far):
-            _see(far, first, phase, measures)
+    of_mesh = measures_in(measures, model.options.layout)
+    for m in range(model.options.layout.meshes):
+        mesh = model.meshes[m]
+        place = place_in_mesh(m, phase, interval, model)
+        for i in range(mesh.table.side.shape[0]):
+            if out_of_reach(place.segment, i, mesh):
+                continue
+            contact = highest_loaded(i, place, mesh, model, work[m])
+            first = m * of_mesh + OF_MESH + OF_PAIR * i
+            measures[END, first + PRESSURE] = contact.line_load * contact.curvature
+            far = idle | ((count < EVERY) & (phase + step <= measures[SEEN, first + UNTIL]))
+            _measure_unless(far, first, contact, mesh, model, measures[END])
+            if not skippable(far):
+                _see(far, first, phase, measures)
 
 
 @law
-def measure_inside(idle, row, phase, segment, y, model, work, measures):
+def measure_inside(idle, row, phase, interval, y, model, work, measures):
     """Fill a row of a search inside a step; by laws only where both ends of the step were so measured."""
-    measure_loads(segment, y, model, work, measures[row])
-    cell, u, _ = locate(phase, segment, model.table)
-    for i in range(model.table.side.shape[0]):
-        if out_of_reach(segment, i, model):
-            continue
-        first = OF_MESH + OF_PAIR * i
-        far = idle | (minimum(measures[START, first + FILM], measures[END, first + FILM]) <= LOWEST)
-        contact = highest_loaded(i, segment, cell, u, model, work)
-        measures[row, first + PRESSURE] = contact.line_load * contact.curvature
-        _measure_unless(far, i, contact, model, measures[row])
+    measure_loads(interval, y, model, work, measures[row])
+    of_mesh = measures_in(measures, model.options.layout)
+    for m in range(model.options.layout.meshes):
+        mesh = model.meshes[m]
+        place = place_in_mesh(m, phase, interval, model)
+        for i in range(mesh.table.side.shape[0]):
+            if out_of_reach(place.segment, i, mesh):
+                continue
+            first = m * of_mesh + OF_MESH + OF_PAIR * i
+            far = idle | (minimum(measures[START, first + FILM], measures[END, first + FILM]) <= LOWEST)
+            contact = highest_loaded(i, place, mesh, model, work[m])
+            measures[row, first + PRESSURE] = contact.line_load * contact.curvature
+            _measure_unless(far, first, contact, mesh, model, measures[row])
 
 
 @law
-def _measure_unless(far, i, contact, model, measures):
-    """Fill the `measures` of slot i that are by laws; `LOWEST` where they are far from extreme."""
-    first = OF_MESH + OF_PAIR * i
+def _measure_unless(far, first, contact, mesh, model, measures):
+    """Fill the `measures` of a slot that are by laws; `LOWEST` where they are far from extreme."""
     if skippable(far):
         for j in range(FILM, OF_PAIR):
             measures[first + j] = LOWEST
     else:
-        measure_surfaces(i, contact, model, measures)
+        measure_surfaces(first, contact, mesh, model, measures)
         for j in range(FILM, OF_PAIR):
             measures[first + j] = where(far, LOWEST, measures[first + j])
 
 
 def measures_of(pairs: int) -> int:
-    """Number of measures with so many pair slots."""
+    """Number of measures of a mesh with so many pair slots."""
     return OF_MESH + OF_PAIR * pairs
 
 
 @law
-def extreme_of(row):
-    """The extreme that a measure belongs to."""
-    return row if row < OF_MESH else OF_MESH + (row - OF_MESH) % OF_PAIR
+def extreme_of(row, of_mesh):
+    """The extreme that a measure belongs to, with so many measures of a mesh."""
+    mesh, local = row // of_mesh, row % of_mesh
+    return mesh * EXTREMES + (local if local < OF_MESH else OF_MESH + (local - OF_MESH) % OF_PAIR)
 
 
 @law
-def alike(row, rows):
-    """The measures, of so many, that belong to the same extreme as one of them."""
-    return range(row, row + 1) if row < OF_MESH else range(extreme_of(row), rows, OF_PAIR)
+def alike(row, of_mesh):
+    """The measures that belong to the same extreme as one of them, with so many measures of a mesh."""
+    mesh, local = row // of_mesh, row % of_mesh
+    first = mesh * of_mesh + OF_MESH + (local - OF_MESH) % OF_PAIR
+    return range(row, row + 1) if local < OF_MESH else range(first, (mesh + 1) * of_mesh, OF_PAIR)
 
 
 @law

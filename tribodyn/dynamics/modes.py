@@ -1,68 +1,123 @@
-"""Modes of the model linearised at its mean stiffness under load: what the orders of the mesh can meet."""
+"""Modes of the model linearised at its mean stiffness under load: what the orders of the meshes can meet."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import DRIVE_SHAFT, DRIVE_SPEED, Model
+from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.flow import flow
+from tribodyn.train.structure import LAG, TURN, shift_of, turn_of
 
-#: Modes without a compliant shaft, and with one.
-MODES, MODES_WITH_SHAFT = 5, 6
+
+class Modes(NamedTuple):
+    """Undamped modes, lowest first."""
+
+    frequency: Float[Array, " mode"]  # Hz
+    #: of translations and rotations, as the state has its coordinates; of unit modal mass
+    shape: Float[Array, "mode coordinate"]
+    share: Float[Array, "mode body"]  # of the kinetic energy
 
 
-def natural_frequencies(model: Model, cycle: MeshCycle) -> Float[Array, " mode"]:
-    """Undamped natural frequencies, lowest first, Hz.
+def natural_frequencies(model: Model, cycles: Sequence[MeshCycle]) -> Float[Array, " mode"]:
+    """Undamped natural frequencies, lowest first, Hz; see `modes`."""
+    return modes(model, cycles).frequency
 
-    The coordinates are x_p, y_p, x_g, y_g, ξ and, with a compliant shaft, its twist; the rigid rotation is
-    not among them. Stiffness is the tangent at the static load, the mean over the mesh cycle that the model
-    was made from: at every phase of those driving pairs that carry when the load is shared by compliances,
-    gaps and the bearings' give, each at its own load where the Hertz contact stiffens with it. No friction.
+
+def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
+    """Undamped modes of a train, from the mesh cycles of its meshes.
+
+    The coordinates are translations and rotations of all bodies; a reference of prescribed speed does not
+    turn, and where a torque drives, the rigid rotation is not among the modes. Stiffness is the tangent at
+    the static load, the mean over the mesh cycle: at every phase of those driving pairs that carry when the
+    load is shared by compliances, gaps and the bearings' give, each at its own load where the Hertz contact
+    stiffens with it. No friction.
     """
-    m, t = model.mechanics, model.table
-    rp, rg = float(t.pinion_pitch_radius), float(t.gear_pitch_radius)
-    mesh = _mean_stiffness(model, cycle)  # of (x_p − x_g + ξ, y_p − y_g)
-    # a force along x and a turning of ξ are one: ξ stands where x_p does
-    to_mesh = np.array([[1.0, 0.0, -1.0, 0.0, 1.0], [0.0, 1.0, 0.0, -1.0, 0.0]])
-    force = to_mesh.T @ mesh @ to_mesh
-    force[[0, 1, 2, 3], [0, 1, 2, 3]] += [
-        m.pinion_stiffness_x,
-        m.pinion_stiffness_y,
-        m.gear_stiffness_x,
-        m.gear_stiffness_y,
-    ]
-    free = 0.0 if model.options.drive == DRIVE_SPEED else rp**2 / m.pinion_inertia
-    mobility = np.array([1 / m.pinion_mass] * 2 + [1 / m.gear_mass] * 2 + [free + rg**2 / m.gear_inertia])
-    system = mobility[:, None] * force  # accelerations q'' = −system q
-    if model.options.drive == DRIVE_SHAFT:
-        shaft = float(m.shaft_stiffness)
-        wide = np.zeros((6, 6))
-        wide[:5, :5] = system
-        # the shaft drives the pinion, whose acceleration enters ξ'' by r_p and the twist's by −1
-        wide[4, 5] = -rp * shaft / m.pinion_inertia
-        wide[5, :5] = -rp / m.pinion_inertia * force[4]
-        wide[5, 5] = shaft * (1 / m.drive_inertia + 1 / m.pinion_inertia)
-        system = wide
-    squared = np.linalg.eigvals(system).real
-    return np.sqrt(np.sort(np.maximum(squared, 0.0))) / (2 * np.pi)
+    layout, bodies, links = model.layout, model.bodies, model.links
+    mass, stiffness = np.zeros(layout.half), np.zeros((layout.half, layout.half))
+    for body in range(layout.bodies):
+        mass[turn_of(body, layout)] = bodies.inertia[body]
+        if body < layout.planar:
+            mass[shift_of(body) : shift_of(body) + 2] = bodies.mass[body]
+    for k, (first, second) in enumerate(zip(layout.first, layout.second, strict=True)):
+        for direction in range(TURN + 1):
+            ends = [body for body in (first, second) if body >= 0]
+            turns = direction == TURN
+            if (turns and len(ends) < 2) or (not turns and max(ends) >= layout.planar):
+                continue
+            places = [turn_of(b, layout) if turns else shift_of(b) + direction for b in ends]
+            row = np.zeros(layout.half)
+            row[places] = [1.0, -1.0][: len(ends)]
+            stiffness += float(np.asarray(links.stiffness)[k, direction]) * np.outer(row, row)
+    still = model._replace(options=model.options._replace(drive=DRIVE_SPEED))
+    torques = flow(still).on_driven
+    for m, cycle in enumerate(cycles):
+        rows = _directions(model, m)
+        stiffness += rows.T @ _mean_stiffness(model, m, cycle, float(torques[m])) @ rows
+    free = np.arange(layout.half) if model.options.drive else np.delete(np.arange(layout.half), LAG)
+    root = 1.0 / np.sqrt(mass[free])
+    squared, vectors = np.linalg.eigh(root[:, None] * stiffness[np.ix_(free, free)] * root)
+    if model.options.drive:
+        squared, vectors = squared[1:], vectors[:, 1:]
+    shape = np.zeros((len(squared), layout.half))
+    shape[:, free] = (root[:, None] * vectors).T
+    energy = shape**2 * mass
+    owner = np.array([_body_of(place, model) for place in range(layout.half)])
+    share = np.stack([np.sum(energy[:, owner == body], axis=1) for body in range(layout.bodies)], axis=1)
+    return Modes(np.sqrt(np.maximum(squared, 0.0)) / (2 * np.pi), shape, share)
 
 
-def _mean_stiffness(model: Model, cycle: MeshCycle) -> Float[Array, "2 2"]:
+def _body_of(place: int, model: Model) -> int:
+    """Body that a coordinate belongs to."""
+    planar = model.layout.planar
+    return place // 3 if place < 3 * planar else place - 2 * planar
+
+
+def _directions(model: Model, m: int) -> Float[Array, "2 coordinate"]:
+    """What the coordinates move a mesh along its pitch tangent and across."""
+    layout, mesh = model.layout, model.meshes[m]
+    rows = np.zeros((2, layout.half))
+    for sign, body, radius in (
+        (1.0, layout.driver[m], mesh.driver_radius),
+        (-1.0, layout.driven[m], mesh.driven_radius),
+    ):
+        place = shift_of(body)
+        rows[0, place : place + 2] = sign * np.array([mesh.along_x, mesh.along_y])
+        rows[1, place : place + 2] = sign * np.array([mesh.across_x, mesh.across_y])
+        rows[0, turn_of(body, layout)] = sign * float(radius)
+    return rows
+
+
+def _support(model: Model, m: int) -> float:
+    """How much the axes of a mesh move apart per force along the line of centres, by bearings alone, m/N."""
+    layout, mesh = model.layout, model.meshes[m]
+    stiffness = np.asarray(model.links.stiffness)
+    total = 0.0
+    for body in (layout.driver[m], layout.driven[m]):
+        own = [k for k, (a, b) in enumerate(zip(layout.first, layout.second, strict=True)) if (a, b) == (body, -1)]
+        held = np.sum(stiffness[own, :TURN], axis=0)
+        across = np.array([mesh.across_x, mesh.across_y], dtype=float)
+        total += float(np.sum(across[held > 0.0] ** 2 / held[held > 0.0]))
+    return total
+
+
+def _mean_stiffness(model: Model, m: int, cycle: MeshCycle, on_driven: float) -> Float[Array, "2 2"]:
     """Mean over the mesh cycle of Σ_ij k_ij n_i n_jᵀ of the pairs that carry, n = (cos α, sin α); N/m."""
-    if model.mechanics.load_torque < 0.0:  # it presses the back flanks together, in the mirrored world
+    if on_driven < 0.0:  # it presses the back flanks together, in the mirrored world
         cycle = cycle._replace(side=-cycle.side)
     still = np.sin(cycle.pressure_angle)
-    mechanics = model.mechanics
     # what a load on one pair moves the axes apart, it takes from the others: one more compliance they share
-    bearings = 1.0 / mechanics.pinion_stiffness_y + 1.0 / mechanics.gear_stiffness_y
-    shared = bearings * still[..., :, None] * still[..., None, :]
+    shared = _support(model, m) * still[..., :, None] * still[..., None, :]
     own = np.einsum("...ii->...i", shared)
     moving = cycle._replace(
         compliance=cycle.compliance + own,
         coupling=cycle.coupling + shared - own[..., None] * np.eye(own.shape[-1]),
     )
     # N m; 1 N on the pitch circle where there is no load
-    torque = max(abs(float(mechanics.load_torque)), float(model.table.gear_pitch_radius))
+    torque = max(abs(on_driven), float(model.meshes[m].driven_radius))
     load = quasi_static(moving, torque).normal_load
     carrying = np.where(load > 0.0, 1.0, 0.0)
     contact = carrying * 0.9 * float(cycle.hertz_coefficient) * np.maximum(load, 1e-6) ** -0.1

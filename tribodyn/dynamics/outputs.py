@@ -1,103 +1,116 @@
 """What is recorded, recomputed from the states alone by the very functions the right-hand side uses."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.dynamics import contact_forces as contact
-from tribodyn.dynamics.equations import derivatives, locate, stored_energy
+from tribodyn.dynamics.energy import stored_energy
+from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.extremes import LOWEST, Extremes, highest_loaded
-from tribodyn.dynamics.parameters import (
-    LAG,
-    SLIP,
-    VX_G,
-    VX_P,
-    VY_G,
-    VY_P,
-    WORK_IN,
-    X_G,
-    X_P,
-    XI,
-    XI_RATE,
-    Y_G,
-    Y_P,
-    Model,
-)
-from tribodyn.dynamics.recorded import UNRECORDED
+from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.places import place_in_mesh
 from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.train.schedule import interval_of
+from tribodyn.train.structure import (
+    DAMPING,
+    IN,
+    LAG,
+    OUT,
+    PARAMETRIC,
+    rotational_error,
+    shift_of,
+    speed_of,
+    turned,
+    work_of,
+    works_of_meshes,
+)
+from tribodyn.train.structure import FRICTION as WORK_FRICTION
 from tribodyn.tribology.contact import LocalContact
 from tribodyn.tribology.surface_state import limits_last, surface_and_limits
 
-#: What `derivatives` returns, in order; the first five have their works in the state, in the same order.
+#: What `derivatives` returns, in order.
 POWERS = ("power_in", "power_out", "power_friction", "power_damping", "power_parametric", "drive_torque")
+#: What is worked out with them for the summary alone: shares allowed by each limit of film and friction law.
+UNRECORDED = ("closure_shares", "friction_shares")
 
 
-def segment_of(phase: Float[Array, "*sample"], boundary: Float[Array, " boundary"]) -> Int[Array, "*sample"]:
-    """Segment of each phase in [0, 1); a phase on a boundary belongs to the segment that begins there."""
-    return np.clip(np.searchsorted(boundary, phase, side="right") - 1, 0, len(boundary) - 2)
+class Evaluated(NamedTuple):
+    """States with all that the right-hand side makes of them."""
+
+    cycles: Float[Array, " sample"]  # reference cycles since the start, whole and fraction
+    phase: Float[Array, " sample"]
+    interval: Int[Array, " sample"]
+    y: Float[Array, "state sample"]
+    work: list[Any]  # contacts of every mesh
+    powers: dict[str, Float[Array, " sample"]]  # by the names of `POWERS`
+    model: Model  # with NumPy arrays
+
+    @property
+    def count(self) -> int:
+        """Number of samples."""
+        return len(self.cycles)
 
 
-def outputs(
+def evaluated(
     cycles: Float[Array, " sample"],
     states: Float[Array, "sample state"],
     model: Model,
-    segment: Int[Array, " sample"] | None = None,
-    shares: bool = False,
-) -> dict[str, np.ndarray]:
-    """All datasets of a record at samples (n,), by name: (n,), (n, pairs) or (n, dof), SI.
+    interval: Int[Array, " sample"] | None = None,
+) -> Evaluated:
+    """Evaluate states at so many reference cycles since the start.
+
+    `interval` is that of each sample: on a boundary it says on which side; by default the one that begins
+    there.
+    """
+    whole, phase, found = interval_of(cycles, model.schedule)
+    if interval is None:
+        interval = found
+    else:  # a phase before its interval ends a reference cycle
+        before = phase < np.asarray(model.schedule.start)[interval] - 1e-9
+        whole, phase = whole - before, phase + before
+    y = np.ascontiguousarray(states.T)
+    work: list[Any] = [{} for _ in model.meshes]
+    # rates with respect to the phase have no limit where the reference comes to rest; they are not recorded
+    with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
+        powers = derivatives(phase, whole, interval, y, model, work, {})
+    named = {
+        name: np.broadcast_to(power, len(cycles)) for name, power in zip(POWERS, powers, strict=True)
+    }
+    return Evaluated(cycles, phase, interval, y, work, named, model)
+
+
+def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, np.ndarray]:
+    """Datasets of one mesh by name: (n,) or (n, pairs), SI.
 
     Quantities of a pair that carries no load are NaN where they mean nothing then (film, pressure, …) and 0
-    where the loss of contact itself is the answer (loads, stiffness).
-
-    Parameters
-    ----------
-    cycles : mesh cycles since the start, whole and fraction
-    model : with NumPy arrays
-    segment : of each sample: on a boundary it says on which side; by default the one that begins there
-    shares : whether those of `UNRECORDED` are among them, (n, pairs, limits)
+    where the loss of contact itself is the answer (loads, stiffness). `shares` says whether those of
+    `UNRECORDED` are among them, (n, pairs, limits).
     """
-    table, mechanics = model.table, model.mechanics
-    whole = np.floor(cycles + 1e-12)
-    phase = np.maximum(cycles - whole, 0.0)
-    y = np.ascontiguousarray(states.T)
-    boundary = np.asarray(table.boundary)
-    if segment is None:
-        segment = segment_of(phase, boundary)
-    else:  # a phase before its segment ends a mesh cycle
-        before = phase < boundary[segment] - 1e-9
-        whole, phase = whole - before, phase + before
-    work: dict[tuple[int, int], Any] = {}
-    rates: dict[int, Any] = {}
-    # rates with respect to the phase have no limit where the pinion comes to rest; they are not recorded
-    with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
-        powers = derivatives(phase, whole, segment, y, model, work, rates)
-    count, pairs = len(cycles), table.side.shape[0]
+    model, work, count = samples.model, samples.work[m], samples.count
+    mesh = model.meshes[m]
+    table = mesh.table
+    place = place_in_mesh(m, samples.phase, samples.interval, model)
+    pairs = range(table.side.shape[0])
 
     def per_pair(row: int) -> np.ndarray:
-        return np.stack([np.broadcast_to(work[row, i], count) for i in range(pairs)], axis=-1)
+        return np.stack([np.broadcast_to(work[row, i], count) for i in pairs], axis=-1)
 
     load = per_pair(contact.NORMAL_LOAD)
-    inside = table.in_contact[segment] > 0
+    inside = np.asarray(table.in_contact)[place.segment] > 0
     touching = inside & (load > 0.0)
-    pinion_speed = mechanics.nominal_speed + y[SLIP]
-    ratio = table.pinion_pitch_radius / table.gear_pitch_radius
-    time = cycles * table.pitch_angle / mechanics.nominal_speed + y[LAG]
-    pinion_angle = cycles * table.pitch_angle
-    gear_angle = (table.pinion_pitch_radius * pinion_angle - y[XI]) / table.gear_pitch_radius
-    gear_speed = ratio * pinion_speed - y[XI_RATE] / table.gear_pitch_radius
-    speed_p, speed_g = per_pair(contact.PINION_SPEED), per_pair(contact.GEAR_SPEED)
-    power = dict(zip(POWERS, (np.broadcast_to(power, count) for power in powers), strict=True))
+    speeds = per_pair(contact.DRIVER_SPEED) + per_pair(contact.DRIVEN_SPEED)
 
     def contacting(values: np.ndarray, mask: np.ndarray = touching) -> np.ndarray:
         return np.where(mask, values, np.nan)
 
     with np.errstate(over="ignore", under="ignore"):
-        contacts = _contacts(phase, segment, model, work, count)
-        surface, limits = surface_and_limits(contacts, model.closure)
-    # by the sliding that friction is given, against which it acts at every moment: with the nominal one
-    # power_friction, the work on the vibrating bodies, is another
-    sliding_loss = np.sum(per_pair(contact.FRICTION_FORCE) * contacts.sliding, axis=1)
+        found = [highest_loaded(i, place, mesh, model, work) for i in pairs]
+        fields = ([np.broadcast_to(v, count) for v in values] for values in zip(*found, strict=True))
+        contacts = LocalContact(*(np.stack(values, axis=-1) for values in fields))
+        surface, limits = surface_and_limits(contacts, model.closure(m))
+    friction = per_pair(contact.FRICTION_FORCE)
     result = {name: contacting(values) for name, values in surface._asdict().items()}
     result |= {
         # of the whole face; the others of the surface are where the line load is highest
@@ -105,65 +118,81 @@ def outputs(
         # geometry exists on the whole path of contact, loaded or not
         "transmission_error_normal": contacting(per_pair(contact.TRANSMISSION_ERROR), inside),
         "pressure_angle": contacting(np.arctan2(per_pair(contact.SIN), per_pair(contact.COS)), inside),
-        "time": time,
-        "pinion_angle": pinion_angle,
-        "displacement": np.stack([y[X_P], y[Y_P], y[X_G], y[Y_G], pinion_angle, gear_angle], axis=-1),
-        "velocity": np.stack([y[VX_P], y[VY_P], y[VX_G], y[VY_G], pinion_speed, gear_speed], axis=-1),
-        "transmission_error_rotational": y[XI],
+        "transmission_error_rotational": rotational_error(samples.y.T, m, model),
         "normal_load": np.where(inside, load, 0.0),
-        "friction_force": np.where(inside, per_pair(contact.FRICTION_FORCE), 0.0),
-        "film_parameter": result["central_film_thickness"] / model.surfaces.roughness,
+        "friction_force": np.where(inside, friction, 0.0),
+        "film_parameter": result["central_film_thickness"] / mesh.surfaces.roughness,
         "equivalent_radius": contacting(per_pair(contact.RADIUS), inside),
-        "entrainment_speed": contacting(0.5 * (speed_p + speed_g), inside),
+        "entrainment_speed": contacting(0.5 * speeds, inside),
         "sliding_speed": contacting(contacts.sliding, inside),
         "mesh_stiffness": np.where(touching, per_pair(contact.STIFFNESS), 0.0),
         # where the film law states a range, 1 also where there is no contact
         "closure_in_range": np.where(
             touching, result["closure_in_range"], 1.0 + 0.0 * surface.closure_in_range
         ),
-        **power,
-        "stored_energy": np.broadcast_to(stored_energy(y, model, work), count),
-        **{name.replace("power", "work"): y[WORK_IN + i] for i, name in enumerate(POWERS[:5])},
-        "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
+        # by the sliding that friction is given, against which it acts at every moment: with the nominal one
+        # power_friction, the work on the moving bodies, is another
+        "sliding_loss": np.sum(friction * contacts.sliding, axis=1),
+        "mesh_power_friction": np.sum(friction * per_pair(contact.RELATIVE_VELOCITY), axis=1, where=inside),
     }
     if shares:
         result |= {name: limits_last(law) for name, law in zip(UNRECORDED, limits, strict=True)}
     return result
 
 
-def outputs_with_extremes(
+def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> dict[str, np.ndarray]:
+    """Datasets of the whole train by name: (n,), and those of its bodies (n, body), SI.
+
+    Rotations of a body are positive in its own nominal sense. `sliding_loss` is that of all meshes, W.
+    """
+    model, y = samples.model, samples.y
+    layout, operation, ratio = model.layout, model.operation, np.asarray(model.bodies.ratio)
+    angle = samples.cycles * operation.pitch_angle
+    planar, bodies = range(layout.planar), range(layout.bodies)
+    works = {
+        "work_in": y[work_of(layout, IN)],
+        "work_out": y[work_of(layout, OUT)],
+        "work_friction": np.sum(y[works_of_meshes(layout, WORK_FRICTION)], axis=0),
+        "work_damping": y[work_of(layout, DAMPING)],
+        "work_parametric": y[work_of(layout, PARAMETRIC)],
+    }
+    power = samples.powers
+
+    def over(places: Any) -> np.ndarray:
+        return np.stack([np.broadcast_to(values, samples.count) for values in places], axis=-1)
+
+    return {
+        "time": samples.cycles * operation.pitch_angle / operation.nominal_speed + y[LAG],
+        "reference_angle": angle,
+        "x": over(y[shift_of(b)] for b in planar),
+        "y": over(y[shift_of(b) + 1] for b in planar),
+        "angle": over(ratio[b] * angle + turned(b, y, layout) for b in bodies),
+        "x_rate": over(y[layout.half + shift_of(b)] for b in planar),
+        "y_rate": over(y[layout.half + shift_of(b) + 1] for b in planar),
+        "speed": over(speed_of(b, y, model) for b in bodies),
+        **power,
+        "stored_energy": np.broadcast_to(stored_energy(y, model, samples.work), samples.count),
+        **works,
+        "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
+    }
+
+
+def at_extremes(
     cycles: Float[Array, " sample"],
     states: Float[Array, "sample state"],
     extremes: Extremes | None,
     model: Model,
-    shares: bool = False,
-) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], np.ndarray]:
-    """`outputs` at samples and where a motion is extreme, and the mesh cycles (n,) of the latter."""
+) -> tuple[Evaluated, Float[Array, " extreme"]]:
+    """Samples and, behind them, where a motion is extreme, evaluated; and the cycles of the latter."""
     if extremes is None:
-        return outputs(cycles, states, model, shares=shares), {}, np.empty(0)
+        return evaluated(cycles, states, model), np.empty(0)
     there = extremes.measure > LOWEST
-    phase = np.maximum(cycles - np.floor(cycles + 1e-12), 0.0)
-    segment = segment_of(phase, np.asarray(model.table.boundary))
-    block = outputs(
-        np.concatenate([cycles, extremes.cycles[there]]),
+    _, _, interval = interval_of(cycles, model.schedule)
+    at = extremes.cycles[there]
+    samples = evaluated(
+        np.concatenate([cycles, at]),
         np.concatenate([states, extremes.state[there]]),
         model,
-        np.concatenate([segment, extremes.segment[there].astype(int)]),
-        shares,
+        np.concatenate([interval, extremes.interval[there].astype(int)]),
     )
-    count = len(cycles)
-    sampled, extreme = (
-        {name: values[part] for name, values in block.items()} for part in (slice(count), slice(count, None))
-    )
-    return sampled, extreme, extremes.cycles[there]
-
-
-def _contacts(
-    phase: Float[Array, " sample"], segment: Int[Array, " sample"], model: Model, work: Any, count: int
-) -> LocalContact:
-    """Contacts of all pairs (n, pairs), where their line loads are highest."""
-    cell, u, _ = locate(phase, segment, model.table)
-    pairs = range(model.table.side.shape[0])
-    contacts = [highest_loaded(i, segment, cell, u, model, work) for i in pairs]
-    fields = ([np.broadcast_to(value, count) for value in values] for values in zip(*contacts, strict=True))
-    return LocalContact(*(np.stack(values, axis=-1) for values in fields))
+    return samples, at

@@ -4,12 +4,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIDING_KINEMATIC, STATES, Model
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIDING_KINEMATIC, Model
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.initial import accelerations
 from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF, SWITCHING
 from tribodyn.solve.tolerances import state_scales
+from tribodyn.train.schedule import place_of
 
 _DISTANCE = CHANNELS.index("signed_distance")
 #: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one, with
@@ -41,44 +42,53 @@ def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
     The spectral radius of the mechanics' Jacobian (central differences) over the stability limit, integrated
     over the phase; it is sampled finely where a pair's friction reverses, a short and possibly stiff stretch.
     """
-    phases, segments = _places(model)
-    scale = state_scales(model, state)[:MECHANICAL]
-    shift = np.zeros((MECHANICAL, STATES))
-    shift[:, :MECHANICAL] = SHARE * np.diag(scale)
-    shape = (len(phases), MECHANICAL, STATES)
+    cycles, phases, intervals = _places(model)
+    mechanical, states = model.layout.mechanical, model.layout.states
+    scale = state_scales(model, state)[:mechanical]
+    shift = np.zeros((mechanical, states))
+    shift[:, :mechanical] = SHARE * np.diag(scale)
+    shape = (len(phases), mechanical, states)
     up, down = (
-        accelerations(np.broadcast_to(state + sign * shift, shape), phases[:, None], segments[:, None], model)
+        accelerations(np.broadcast_to(state + sign * shift, shape), phases[:, None], intervals[:, None], model)
         for sign in (1, -1)
     )
-    jacobians = np.swapaxes((up - down)[..., :MECHANICAL] / (2.0 * SHARE * scale[:, None]), 1, 2)
+    jacobians = np.swapaxes((up - down)[..., :mechanical] / (2.0 * SHARE * scale[:, None]), 1, 2)
     radius = np.max(np.abs(np.linalg.eigvals(jacobians)), axis=1)
-    width = np.diff(phases)
-    return float(np.sum(0.5 * width * (radius[1:] + radius[:-1]))) / REAL_STABILITY
+    width = np.diff(cycles)
+    whole = float(np.sum(0.5 * width * (radius[1:] + radius[:-1])))
+    return whole / model.schedule.period / REAL_STABILITY
 
 
-def _places(model: Model) -> tuple[Float[Array, " place"], Int[Array, " place"]]:
-    """Phases, in order, and their segments."""
-    table = model.table
-    boundary = np.asarray(table.boundary)
-    channel = np.asarray(table.channel)
-    phases, segments = [], []
-    for segment in range(len(boundary) - 1):
-        start, end = boundary[segment], boundary[segment + 1]
-        places = list(np.linspace(start, end, PHASES))
-        distance = channel[segment, :, :, _DISTANCE, 0]
-        nodes = np.linspace(start, end, distance.shape[0] + 1)[:-1]
-        for slot in np.flatnonzero(np.asarray(table.in_contact)[segment]):
-            low, high = sorted((0, -1), key=lambda i, slot=slot: distance[i, slot])
-            if distance[low, slot] <= 0.0 <= distance[high, slot]:
-                order = np.argsort(distance[:, slot])
-                pitch_point = np.interp(0.0, distance[order, slot], nodes[order])
-                slope = abs(distance[-1, slot] - distance[0, slot]) / (nodes[-1] - nodes[0])
-                width = float(model.mechanics.reversal_width) / slope
-                about = np.linspace(-REVERSAL_REACH, REVERSAL_REACH, REVERSAL_PHASES)
-                places += list(np.clip(pitch_point + width * about, start, end))
+def _places(
+    model: Model,
+) -> tuple[Float[Array, " place"], Float[Array, " place"], Int[Array, " place"]]:
+    """Places over the common period in order: reference cycles, phases in them, and intervals."""
+    schedule = model.schedule
+    first, start, end = (np.asarray(part) for part in (schedule.first, schedule.start, schedule.end))
+    passed, phases, intervals = [], [], []
+    for interval in range(len(start)):
+        low, high = float(start[interval]), float(end[interval])
+        places = list(np.linspace(low, high, PHASES))
+        for m, mesh in enumerate(model.meshes):
+            segment = int(np.asarray(schedule.segment)[interval, m])
+            own = np.asarray(mesh.table.boundary)[segment : segment + 2]
+            distance = np.asarray(mesh.table.channel)[segment, :, :, _DISTANCE, 0]
+            own_nodes = np.linspace(*own, distance.shape[0] + 1)[:-1]
+            nodes = np.array([place_of(m, phase, schedule, interval) for phase in own_nodes])
+            for slot in np.flatnonzero(np.asarray(mesh.table.in_contact)[segment]):
+                before, after = sorted((0, -1), key=lambda i, slot=slot: distance[i, slot])
+                if distance[before, slot] <= 0.0 <= distance[after, slot]:
+                    order = np.argsort(distance[:, slot])
+                    pitch_point = np.interp(0.0, distance[order, slot], nodes[order])
+                    slope = abs(distance[-1, slot] - distance[0, slot]) / (nodes[-1] - nodes[0])
+                    width = float(model.operation.reversal_width) / slope
+                    about = np.linspace(-REVERSAL_REACH, REVERSAL_REACH, REVERSAL_PHASES)
+                    places += list(np.clip(pitch_point + width * about, low, high))
+        cycle = int(np.searchsorted(first[1:], interval, side="right"))
         phases += sorted(places)
-        segments += [segment] * len(places)
-    return np.array(phases), np.array(segments)
+        passed += [cycle] * len(places)
+        intervals += [interval] * len(places)
+    return np.array(passed) + np.array(phases), np.array(phases), np.array(intervals)
 
 
 def choose(method: str, model: Model, state: Float[Array, " state"]) -> Choice:

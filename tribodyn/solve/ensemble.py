@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from tribodyn.dynamics.extremes import extremes_of, put_extremes, take_in
-from tribodyn.dynamics.parameters import STATES, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.work import in_threads, usable_cores
 from tribodyn.solve.choice import choose
@@ -45,7 +45,7 @@ def march(
 
     Parameters
     ----------
-    models : they may differ in every number, table and option
+    models : they may differ in every number, table and option but their layout
     states : where each case starts, at phase 0
     cycles : mesh cycles to do; with 0 the states come back as they are
     window, samples : last cycles to keep, 0 … cycles, and samples in each of them
@@ -61,13 +61,14 @@ def march(
     """
     states = np.asarray(states, dtype=float)
     cases = len(models)
-    if states.shape != (cases, STATES):
-        raise ValueError(f"states have shape {states.shape}, not ({cases}, {STATES}) for {cases} models")
+    wanted = (cases, models[0].layout.states if cases else 0)
+    if states.shape != wanted and cases:
+        raise ValueError(f"states have shape {states.shape}, not {wanted} for {cases} models")
     if not 0 <= window <= cycles:
         raise ValueError(f"a window of {window} cycles does not fit into {cycles}")
     if cycles == 0 or cases == 0:
         # no kernel is made for it: they all do a cycle before they look
-        return nothing_yet(states, window * samples, extremes)
+        return nothing_yet(models[0].layout, states, window * samples, extremes)
     count = workers or usable_cores()
     march = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps, extremes)
     if runs(method) is Runs.JAX:
@@ -126,7 +127,7 @@ def one_by_one(
     progress: Callable[[float], None] | None = None,
 ) -> Ensemble:
     """Integrate each case with an integrator of its own, as a single run does, one case per thread."""
-    result = nothing_yet(states, march.window * march.samples, march.extremes)
+    result = nothing_yet(models[0].layout, states, march.window * march.samples, march.extremes)
     cancelled = threading.Event()
     opening = march.cycles - march.window
 

@@ -6,13 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics import parameters
 from tribodyn.dynamics.contact_forces import APPROACH, COS
-from tribodyn.dynamics.equations import derivatives, load_torque
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.loads import load_torque
+from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import SimulationError
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.step_control import largest_displacement, unbounded
+from tribodyn.solve.right_hand_side import contacts_of
+from tribodyn.train.flow import Flow, flow
+from tribodyn.train.structure import TURN, Mesh, displacements, shift_of, turn_of, turned, velocities
 
 _COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
 #: Values of the unknown states, or what is left of the equations.
@@ -43,88 +47,116 @@ TOO_SOFT = (
 
 
 def accelerations(
-    states: Float[Array, "*places state"], phase: Any, segment: Any, model: parameters.Model
+    states: Float[Array, "*places state"], phase: Any, interval: Any, model: Model
 ) -> Float[Array, "*places state"]:
-    """Derivatives of states per mesh cycle, many at once and without compiled code, each at its place."""
+    """Derivatives of states per reference cycle, many at once, without compiled code, each at its place."""
     rates: dict[int, Any] = {}
-    derivatives(phase, 0.0, segment, np.moveaxis(states, -1, 0), model, {}, rates)
-    return np.stack([np.broadcast_to(rates[i], states.shape[:-1]) for i in range(parameters.STATES)], axis=-1)
+    derivatives(phase, 0.0, interval, np.moveaxis(states, -1, 0), model, contacts_of(model), rates)
+    return np.stack([np.broadcast_to(rates[i], states.shape[:-1]) for i in range(model.layout.states)], axis=-1)
 
 
-def static_deflection(model: parameters.Model, torque: float) -> float:
-    """Deflection of the mesh under a gear torque, all on the first segment's pairs, m; a scale."""
-    table = model.table
+def static_deflection(mesh: Mesh, torque: float) -> float:
+    """Deflection of a mesh under a torque on its driven body, all on one segment's pairs, m; a scale."""
+    table = mesh.table
     channel, in_contact = np.asarray(table.channel)[-1, 0, :, :, 0], np.asarray(table.in_contact)[-1]
     stiffness = float(np.sum(1.0 / channel[:, _COMPLIANCE] * in_contact))
     cosine = float(channel[-1, _COSINE])
-    return abs(torque) / (float(table.gear_pitch_radius) * cosine) / stiffness
+    return abs(torque) / (float(mesh.driven_radius) * cosine) / stiffness
 
 
-def static_equilibrium(
-    model: parameters.Model, phase: float = 0.0, segment: int = 0
-) -> Float[Array, " state"]:
-    """State at which nothing accelerates relative to the pinion, at one phase of the mesh.
+def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> Float[Array, " state"]:
+    """State at which nothing accelerates relative to the reference, at one phase.
 
-    Solved by damped Newton steps on the equations of motion themselves, friction included, for the
-    translations, ξ and (with a shaft) its twist; all relative velocities are zero. The load and the drive
-    press the driving flanks together, or the back flanks where there are any. Where they press neither, every
-    position within the backlash is in equilibrium: returned is the one in which the driving flanks begin to
-    touch, the limit of a vanishing load. Raises SimulationError where there is none, e.g. because the load
-    does not press the flanks together.
+    Solved by damped Newton steps on the equations of motion themselves, friction included, for translations
+    and micro-rotations; all relative velocities are zero. Load and drive press the driving flanks together,
+    or the back flanks where there are any. Where they press neither, in all meshes, every position within the
+    backlash is in equilibrium: returned is the one in which the driving flanks begin to touch, the limit of a
+    vanishing load. Raises SimulationError where there is none, e.g. because the load does not press the
+    flanks together.
     """
-    mechanics = model.mechanics
-    time = phase * float(model.table.pitch_angle) / float(mechanics.nominal_speed)
-    torque = float(load_torque(time, 0.0, mechanics))
-    deflection = static_deflection(model, max(abs(torque), 1e-3))
-    unknown: list[int] = list(parameters.DISPLACEMENTS)
-    equation = list(parameters.VELOCITIES)
-    shaft = model.options.drive == parameters.DRIVE_SHAFT
-    scale = np.full(len(unknown), deflection)
-    y = np.zeros(parameters.STATES)
-    y[parameters.XI] = _first_touch(model, phase, segment)
-    if shaft:
-        unknown.append(parameters.TWIST)
-        torques = max(abs(float(mechanics.drive_torque)), abs(torque), 1e-3)
-        scale = np.append(scale, torques / mechanics.shaft_stiffness)
-    values = y[unknown]
+    layout, operation = model.layout, model.operation
+    time = phase * float(operation.pitch_angle) / float(operation.nominal_speed)
+    varying = float(load_torque(time, operation))
+    largest = float(np.sum(np.abs(np.concatenate([operation.load_torques, operation.load_amplitudes]))))
+    torques = flow(model, varying, largest)
+    loads = torques.on_driven
+    deflection = np.array(
+        [static_deflection(mesh, max(abs(t), 1e-3)) for mesh, t in zip(model.meshes, loads, strict=True)]
+    )
+    unknown, equation = displacements(layout), velocities(layout)
+    touch = _first_touch(model, phase, interval)
+    y = _closed(model, touch, torques)
 
-    def residual(values: Trials, model: parameters.Model = model) -> Trials:
+    def residual(values: Trials, model: Model = model) -> Trials:
         """What is left of the accelerations at values of the unknown states, the others as in `y`."""
-        states = np.broadcast_to(y, (*values.shape[:-1], parameters.STATES)).copy()
+        states = np.broadcast_to(y, (*values.shape[:-1], layout.states)).copy()
         states[..., unknown] = values
-        rate = accelerations(states, phase, segment, model)
-        if not shaft:
-            return rate[..., equation]
-        twisting = rate[..., parameters.MOTOR_SLIP] - rate[..., parameters.SLIP]
-        return np.concatenate([rate[..., equation], twisting[..., None]], axis=-1)
+        return accelerations(states, phase, interval, model)[..., equation]
 
-    if shaft:  # which the free bodies twist in proportion
-        twist = np.append(np.zeros(len(scale) - 1), scale[-1])
-        free, twisted = residual(values)[-1], residual(values + twist)[-1]
-        values[-1] = scale[-1] * free / (free - twisted)
-    push = float(residual(values)[equation.index(parameters.XI_RATE)]) * float(mechanics.gear_inertia)
-    if abs(push) <= _NO_LOAD * _torques(model) * float(model.table.gear_pitch_radius):
-        y[unknown] = values
+    ratio = np.asarray(model.bodies.ratio)[list(layout.driven)]
+    if np.all(np.abs(loads) * ratio <= _NO_LOAD * torques.largest):
         return y
-    side = 1.0 if push > 0.0 else -1.0
+    side = np.where(loads >= 0.0, 1.0, -1.0)
     # beyond the width over which contact sets in, where the stiffness vanishes like the load
-    clear = 3.0 * deflection + float(mechanics.contact_width) + _maximum_gap(model, segment, side)
-    values[unknown.index(parameters.XI)] = side * clear
+    gaps = [_maximum_gap(model, m, interval, side[m]) for m in range(layout.meshes)]
+    clear = 3.0 * deflection + float(operation.contact_width) + np.array(gaps)
+    values = _closed(model, side * clear, torques)[unknown]
+    scale = _scales(model, deflection)[unknown]
     tolerance = 1e-6 * float(np.linalg.norm(residual(values))) + 1e-30
     found = _root(residual, values, scale, tolerance)
     if found is None:  # damping of a moving error holds the flanks all but apart, or deep in each other
-        shares = np.linspace(0.0, 1.0, DAMPING_STEPS)
-        for damping in shares * float(mechanics.mesh_damping):
-            softer = model._replace(mechanics=mechanics._replace(mesh_damping=damping))
-            found = _root(partial(residual, model=softer), values, scale, tolerance)
+        for share in np.linspace(0.0, 1.0, DAMPING_STEPS).tolist():
+            meshes = tuple(mesh._replace(damping=share * mesh.damping) for mesh in model.meshes)
+            found = _root(partial(residual, model=model._replace(meshes=meshes)), values, scale, tolerance)
             if found is None:
-                pressed = bool(np.any(np.asarray(model.table.side) * side > 0))
-                raise SimulationError(DAMPED_AWAY if damping else NOT_FOUND if pressed else APART)
+                sides = [np.asarray(mesh.table.side) for mesh in model.meshes]
+                pressed = all(bool(np.any(of * way > 0)) for of, way in zip(sides, side, strict=True))
+                raise SimulationError(DAMPED_AWAY if share else NOT_FOUND if pressed else APART)
             values = found
     y[unknown] = found
-    if unbounded(y, model.table):
-        raise SimulationError(TOO_SOFT.format(float(largest_displacement(y))))
+    if unbounded(y, model):
+        moved = max(float(largest_displacement(m, y, model)) for m in range(layout.meshes))
+        raise SimulationError(TOO_SOFT.format(moved))
     return y
+
+
+def _closed(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float[Array, " state"]:
+    """State in which the meshes have rotational errors (m) and shafts the twist of their torque."""
+    layout = model.layout
+    y = np.zeros(layout.states)
+    stiffness = np.asarray(model.links.stiffness)[:, TURN]
+    for body, nearer, m, link in torques.branches:
+        start = float(turned(nearer, y, layout))
+        if link >= 0:
+            value = start - float(torques.on_body[body]) / float(stiffness[link])
+        else:
+            mesh = model.meshes[m]
+            ends = float(mesh.driver_radius), float(mesh.driven_radius)
+            if body == layout.driven[m]:
+                value = (ends[0] * start - errors[m]) / ends[1]
+            else:
+                value = (ends[1] * start + errors[m]) / ends[0]
+        y[turn_of(body, layout)] = value
+    return y
+
+
+def _scales(model: Model, deflection: Float[Array, " mesh"]) -> Float[Array, " state"]:
+    """Sizes of displacements, from the deflections of the meshes; m, rad."""
+    layout = model.layout
+    scale = np.zeros(layout.states)
+    ends = [(layout.driver, "driver_radius"), (layout.driven, "driven_radius")]
+    for bodies, radius in ends:
+        for m, body in enumerate(bodies):
+            place = shift_of(body)
+            scale[place : place + 2] = np.maximum(scale[place : place + 2], deflection[m])
+            i = turn_of(body, layout)
+            scale[i] = max(scale[i], deflection[m] / float(getattr(model.meshes[m], radius)))
+    # of what no mesh moves: as large as any
+    rest = scale == 0.0
+    turns = [turn_of(body, layout) for body in range(layout.bodies)]
+    scale[rest] = np.max(deflection)
+    scale[[i for i in turns if rest[i]]] = max(scale[i] for i in turns if not rest[i])
+    return scale
 
 
 def _root(
@@ -156,9 +188,10 @@ def _root(
     return values if np.linalg.norm(value) <= tolerance else None
 
 
-def _maximum_gap(model: parameters.Model, segment: int, side: float) -> float:
-    """Largest distance between the flanks of a side (±1), as ξ, m: by static transmission error, backlash."""
-    table = model.table
+def _maximum_gap(model: Model, m: int, interval: int, side: float) -> float:
+    """Largest distance between the flanks of a side (±1), as the error of the rotations, m."""
+    table = model.meshes[m].table
+    segment = int(np.asarray(model.schedule.segment)[interval, m])
     there = (np.asarray(table.side) * side > 0) & (np.asarray(table.in_contact)[segment] > 0)
     if not there.any():
         return 0.0
@@ -166,22 +199,19 @@ def _maximum_gap(model: parameters.Model, segment: int, side: float) -> float:
     return float(max(0.0, np.max(channel[..., _GAP, 0])) / np.min(channel[..., _COSINE, 0]))
 
 
-def _first_touch(model: parameters.Model, phase: float, segment: int) -> float:
-    """ξ at which the first of the driving flanks touches while no bearing is loaded, m."""
-    work: dict[tuple[int, int], Any] = {}
-    derivatives(phase, 0.0, segment, np.zeros(parameters.STATES), model, work, {})
-    table = model.table
-    driving = np.flatnonzero((np.asarray(table.side) > 0) & (np.asarray(table.in_contact)[segment] > 0))
-    return min(float(-work[APPROACH, i] / work[COS, i]) for i in map(int, driving)) + 0.0  # not −0
+def _first_touch(model: Model, phase: float, interval: int) -> Float[Array, " mesh"]:
+    """Rotational errors at which the first of the driving flanks touches while no bearing is loaded, m."""
+    work = contacts_of(model)
+    derivatives(phase, 0.0, interval, np.zeros(model.layout.states), model, work, {})
+    found = []
+    for m, mesh in enumerate(model.meshes):
+        segment = int(np.asarray(model.schedule.segment)[interval, m])
+        there = (np.asarray(mesh.table.side) > 0) & (np.asarray(mesh.table.in_contact)[segment] > 0)
+        gaps = [float(-work[m][APPROACH, i] / work[m][COS, i]) for i in map(int, np.flatnonzero(there))]
+        found.append(min(gaps) + 0.0)  # not −0
+    return np.array(found)
 
 
-def _torques(model: parameters.Model) -> float:
-    """Sum of the magnitudes of all torques on the gears, N m."""
-    mechanics = model.mechanics
-    load = np.concatenate([mechanics.load_torques, mechanics.load_amplitudes, [mechanics.load_torque]])
-    return float(np.sum(np.abs(load)) + abs(mechanics.drive_torque))
-
-
-def initial_state(model: parameters.Model, kind: str) -> Float[Array, " state"]:
+def initial_state(model: Model, kind: str) -> Float[Array, " state"]:
     """State at the start of a run: "static" equilibrium, or "unloaded" with the flanks just touching."""
-    return static_equilibrium(model) if kind == "static" else np.zeros(parameters.STATES)
+    return static_equilibrium(model) if kind == "static" else np.zeros(model.layout.states)

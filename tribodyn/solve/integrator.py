@@ -1,14 +1,13 @@
 """What every integrator takes and returns, of one case or of a batch, and how it ended."""
 
 from enum import IntEnum
-from itertools import pairwise
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes, no_extremes, put_extremes
-from tribodyn.dynamics.parameters import STATES
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.train.structure import Layout
 
 
 class Status(IntEnum):
@@ -109,21 +108,18 @@ def put(result: Ensemble, places: Int[Array, " some"], part: Ensemble) -> None:
         put_extremes(result.extremes, places, part.extremes)
 
 
-def nothing_yet(states: Float[Array, "case state"], kept: int, extremes: bool = False) -> Ensemble:
+def nothing_yet(
+    layout: Layout, states: Float[Array, "case state"], kept: int, extremes: bool = False
+) -> Ensemble:
     """Results before anything is integrated, with room for `kept` samples per case, and maybe extremes."""
     count = len(states)
     return Ensemble(
         states.copy(),
-        np.full((count, kept, STATES), np.nan),
+        np.full((count, kept, states.shape[1]), np.nan),
         np.zeros(count, dtype=int),
         np.zeros(count),
         np.zeros(count, dtype=int),
         np.zeros(count, dtype=int),
-        no_extremes(count if extremes else 0),
+        no_extremes(layout, count if extremes else 0),
     )
 
-
-def sample_phases(boundary: Float[Array, " boundary"], samples: int) -> list[Float[Array, " sample"]]:
-    """Phases k/samples of one mesh cycle by segment, to which its start belongs and its end does not."""
-    phases = np.arange(samples) / max(samples, 1)
-    return [phases[(phases >= start) & (phases < end)] for start, end in pairwise(boundary)]

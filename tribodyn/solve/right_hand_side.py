@@ -8,51 +8,65 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.contact_forces import QUANTITIES
-from tribodyn.dynamics.equations import derivatives, engagement
-from tribodyn.dynamics.parameters import SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI_RATE, Model
+from tribodyn.dynamics.energy import engagement
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import law, where
+from tribodyn.numerics.elementary import law, truncate, where
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.structure import IN, LAG, PARAMETRIC, turn_of
 
 
 @law
-def engage(segment, applies, y, model, work, behind):
-    """Take a state over the boundary at the start of a segment; at segment 0 over the end of a mesh cycle.
+def engage(interval, applies, y, model, work, behind):
+    """Take a state over the boundary at the start of an interval; of a cycle's first over the last one's end.
 
     `applies` says whether the state stands before the boundary; if not, it stays: at the start of a run.
-    `behind` receives the states that may jump, slip, ξ', work in, parametric work; it may be `y`.
+    `behind` receives the states that may jump: the reference's slip, the rates of the other bodies'
+    micro-rotations, work in, parametric work; it may be `y`.
     """
-    boundary = model.table.boundary
-    segments = model.table.in_contact.shape[0]
-    before = (segment + segments - 1) % segments
-    slip, xi_rate, work_in, parametric = engagement(
-        before, boundary[before + 1], segment, boundary[segment], y, model, work
-    )
-    behind[SLIP] = where(applies, y[SLIP] + slip, y[SLIP])
-    behind[XI_RATE] = where(applies, y[XI_RATE] + xi_rate, y[XI_RATE])
-    behind[WORK_IN] = where(applies, y[WORK_IN] + work_in, y[WORK_IN])
-    behind[WORK_PARAMETRIC] = where(applies, y[WORK_PARAMETRIC] + parametric, y[WORK_PARAMETRIC])
+    layout = model.options.layout
+    half, works = layout.half, layout.mechanical
+    slip, work_in, parametric = engagement(interval, y, model, work)
+    behind[half + LAG] = where(applies, y[half + LAG] + slip, y[half + LAG])
+    for body in range(1, layout.bodies):
+        i = half + turn_of(body, layout)
+        behind[i] = where(applies, y[i] - model.bodies.ratio[body] * slip, y[i])
+    behind[works + IN] = where(applies, y[works + IN] + work_in, y[works + IN])
+    behind[works + PARAMETRIC] = where(applies, y[works + PARAMETRIC] + parametric, y[works + PARAMETRIC])
 
 
-def engaged(segment: Any, applies: Any, y: Any, model: Model) -> list[Any]:
+@law
+def interval_at(cycle, model):
+    """Number of the interval that begins a reference cycle, by the cycles before; whole numbers."""
+    first = model.schedule.first
+    return truncate(first[cycle % (first.shape[0] - 1)])
+
+
+def engaged(interval: Any, applies: Any, y: Any, model: Model) -> list[Any]:
     """All states behind the boundary, one by one: `engage` for arrays that cannot be written to."""
-    behind = {i: y[i] for i in range(STATES)}
-    engage(segment, applies, y, model, {}, behind)
-    return [behind[i] for i in range(STATES)]
+    states = model.layout.states
+    behind = {i: y[i] for i in range(states)}
+    engage(interval, applies, y, model, contacts_of(model), behind)
+    return [behind[i] for i in range(states)]
 
 
-def engage_next(state: Float[Array, " state"], model: Model) -> None:
-    """Take a state at the end of a mesh cycle over the engagement that begins the next, in place."""
-    engage(0, True, state, model, {}, state)
+def engage_next(state: Float[Array, " state"], cycle: int, model: Model) -> None:
+    """Take a state at the start of a reference cycle over the engagement there, in place."""
+    engage(int(interval_at(cycle, model)), True, state, model, contacts_of(model), state)
 
 
-def work_array(model: Model) -> Float[Array, "quantity pair"]:
+def contacts_of(model: Model) -> list[dict[Any, Any]]:
+    """What takes the quantities of every mesh's contacts where no compiled code does."""
+    return [{} for _ in model.meshes]
+
+
+def work_array(model: Model) -> Float[Array, "mesh quantity pair"]:
     """Scratch for the contacts' quantities."""
-    pairs = model.table.side.shape[0]
-    return np.zeros((QUANTITIES + pairs, pairs))
+    return np.zeros((len(model.meshes), QUANTITIES + model.pairs, model.pairs))
 
 
 @kernel
-def rhs(phase, cycle, segment, y, model, work, dy):
+def rhs(phase, cycle, interval, y, model, work, dy):
     """The compiled right-hand side; returns the powers of `derivatives`."""
-    return derivatives(phase, cycle, segment, y, model, work, dy)
+    return derivatives(phase, cycle, interval, y, model, work, dy)

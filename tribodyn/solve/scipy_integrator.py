@@ -1,19 +1,20 @@
 """SciPy's solvers on the compiled right-hand side, segment by segment, step by step."""
 
 import warnings
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, Radau
 
-from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.integrator import IntegratedCycles, Status, sample_phases
+from tribodyn.solve.integrator import IntegratedCycles, Status
 from tribodyn.solve.march.step_control import STANDSTILL, unbounded
 from tribodyn.solve.right_hand_side import engage, rhs, work_array
 from tribodyn.solve.tolerances import StepTolerances
+from tribodyn.train.schedule import intervals, sample_phases
+from tribodyn.train.structure import LAG, Layout, displacements
 
 #: SciPy's class of each method.
 SOLVERS: dict[str, Any] = {"radau": Radau, "bdf": BDF, "lsoda": LSODA, "dop853": DOP853}
@@ -23,15 +24,15 @@ SMALLEST_RTOL = 3e-14
 SLOWEST = 1e-4
 
 
-def rtol_of_all(rtol: float, atol: Float[Array, " state"], y: Float[Array, " state"]) -> float:
+def rtol_of_all(
+    rtol: float, atol: Float[Array, " state"], y: Float[Array, " state"], layout: Layout
+) -> float:
     """One relative tolerance for all states, under which displacements keep to their absolute ones.
 
     SciPy's implicit solvers take no other; see `step_control.RELATIVE`.
     """
-    places = list(DISPLACEMENTS)
-    return max(
-        min(rtol, float(np.min(atol[places])) / max(float(np.max(np.abs(y[places]))), 1e-300)), SMALLEST_RTOL
-    )
+    places = displacements(layout)
+    return max(min(rtol, float(np.min(atol[places] / np.maximum(np.abs(y[places]), 1e-300)))), SMALLEST_RTOL)
 
 
 class _Ended(Exception):
@@ -49,8 +50,7 @@ class ScipyIntegrator:
     def __init__(self, method: str, model: Model, samples: int, tolerances: StepTolerances):
         self.method = SOLVERS[method]
         self.model = model
-        self.boundary = np.asarray(model.table.boundary)
-        self.phases = sample_phases(self.boundary, samples)
+        self.phases = sample_phases(model.schedule, samples)
         self.tolerances = tolerances
         self.started = False
 
@@ -59,14 +59,16 @@ class ScipyIntegrator:
         walk = _Walk(self, state)
         for cycle in range(first_cycle, first_cycle + cycles):
             walk.steps_before = walk.steps
-            for segment, (start, end) in enumerate(pairwise(self.boundary)):
-                if segment or self.started:
-                    engage(segment, True, walk.y, self.model, walk.work, walk.y)
+            schedule = self.model.schedule
+            for interval in intervals(schedule, cycle):
+                start, end = float(schedule.start[interval]), float(schedule.end[interval])
+                if start > 0.0 or self.started:
+                    engage(interval, True, walk.y, self.model, walk.work, walk.y)
                 self.started = True
                 try:
                     with warnings.catch_warnings():
                         warnings.simplefilter("ignore")  # LSODA's own words arrive in its message
-                        walk.over(float(cycle), segment, start, end)
+                        walk.over(float(cycle), interval, start, end)
                 except _Ended as ended:
                     return walk.result(ended.status, cycle - first_cycle + ended.phase, ended.message)
         return walk.result(Status.DONE, float(cycles))
@@ -90,40 +92,42 @@ class _Walk:
         self.work = work_array(integrator.model)
         self.samples: list[Float[Array, "sample state"]] = []
         self.steps = self.steps_before = self.evaluations = 0
-        self._place, self._rates = np.empty(STATES), np.empty(STATES)
+        states = integrator.model.layout.states
+        self._place, self._rates = np.empty(states), np.empty(states)
         self._arguments = [*map(packed, (self._place, integrator.model, self.work, self._rates))]
 
-    def over(self, cycle: float, segment: int, start: float, end: float) -> None:
-        """Integrate over a segment; raises `_Ended` where that cannot be done."""
+    def over(self, cycle: float, interval: int, start: float, end: float) -> None:
+        """Integrate over an interval; raises `_Ended` where that cannot be done."""
         rtol, atol, max_steps = self.integrator.tolerances
-        nominal_speed = self.integrator.model.mechanics.nominal_speed
+        model = self.integrator.model
+        nominal_speed, slip = model.operation.nominal_speed, model.layout.half + LAG
         slowest = (SLOWEST - 1.0) * nominal_speed
 
         def slope(phase: float, y: Float[Array, " state"]) -> Float[Array, " state"]:
-            """Very steep where the pinion does not turn: a stage on trial may go there, no accepted step.
+            """Very steep where the reference does not turn: a stage on trial may go there, no accepted step.
 
             Not without numbers, which LSODA takes for a step without error, and BDF for a damaged Jacobian.
             """
             self.evaluations += 1
             self._place[:] = y
-            self._place[SLIP] = max(self._place[SLIP], slowest)
-            rhs(phase, cycle, segment, *self._arguments)
+            self._place[slip] = max(self._place[slip], slowest)
+            rhs(phase, cycle, interval, *self._arguments)
             return self._rates.copy()
 
         def end_where_nothing_goes_on(phase: float, y: Float[Array, " state"], failed: bool) -> None:
-            share = 1.0 + y[SLIP] / nominal_speed
+            share = 1.0 + y[slip] / nominal_speed
             if share <= SLOWEST or (failed and share < STANDSTILL):
                 raise _Ended(Status.STALLED, phase)
             if not np.all(np.isfinite(y)):
                 raise _Ended(Status.NOT_FINITE, phase)
-            if unbounded(y, self.integrator.model.table):
+            if unbounded(y, model):
                 raise _Ended(Status.UNBOUNDED, phase)
 
-        at = self.integrator.phases[segment]
+        at = self.integrator.phases[interval]
         end_where_nothing_goes_on(start, self.y, False)
         if not np.all(np.isfinite(slope(start, self.y))):
             raise _Ended(Status.NOT_FINITE, start)
-        rtol = rtol_of_all(rtol, atol, self.y)
+        rtol = rtol_of_all(rtol, atol, self.y, model.layout)
         solver = self.integrator.method(slope, start, self.y, end, rtol=rtol, atol=atol)
         try:
             while solver.status == "running":
@@ -143,5 +147,5 @@ class _Walk:
 
     def result(self, status: Status, reached: float, message: str = "") -> IntegratedCycles:
         """What became of it."""
-        samples = np.concatenate(self.samples) if self.samples else np.empty((0, STATES))
+        samples = np.concatenate(self.samples) if self.samples else np.empty((0, len(self.y)))
         return IntegratedCycles(samples, self.y, status, reached, self.steps, self.evaluations, message)

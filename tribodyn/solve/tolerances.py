@@ -5,10 +5,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics import parameters
+from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
+from tribodyn.dynamics.places import motion_of
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
+from tribodyn.train.flow import flow, tree
+from tribodyn.train.structure import LAG, TURN, Mesh, displacements, shift_of, turn_of, works
 
 _COMPLIANCE = CHANNELS.index("compliance")
 _COSINE, _SINE, _GAP = CHANNELS.index("cosine"), CHANNELS.index("sine"), CHANNELS.index("gap")
@@ -28,124 +31,155 @@ class StepTolerances(NamedTuple):
 
 
 class TableScales(NamedTuple):
-    """What tolerances take from the mesh cycle's table alone."""
+    """What tolerances take from a mesh's table alone."""
 
     stiffness: float  # of one pair, from its mean compliance over the mesh cycle, N/m
-    per_torque: float  # deflection per torque, m/(N m)
-    gap_slope: float  # largest slope of the gaps over the pinion's rotation, m/rad
+    per_torque: float  # deflection per torque on the driven body, m/(N m)
+    gap_slope: float  # largest slope of the gaps over the driver's rotation, m/rad
 
 
-def table_scales(model: parameters.Model) -> TableScales:
-    """The scales of a model's table."""
-    channel, boundary = np.asarray(model.table.channel), np.asarray(model.table.boundary)
-    widths = np.diff(boundary) * float(model.table.pitch_angle) / channel.shape[1]
-    steepest = np.max(np.abs(channel[..., _GAP, 1]), axis=1) * np.asarray(model.table.in_contact)
+def table_scales(mesh: Mesh) -> TableScales:
+    """The scales of a mesh's table."""
+    table = mesh.table
+    channel, boundary = np.asarray(table.channel), np.asarray(table.boundary)
+    widths = np.diff(boundary) * float(table.pitch_angle) / channel.shape[1]
+    steepest = np.max(np.abs(channel[..., _GAP, 1]), axis=1) * np.asarray(table.in_contact)
     return TableScales(
         1.0 / float(np.mean(channel[..., _COMPLIANCE, 0])),
-        static_deflection(model, 1.0),
+        static_deflection(mesh, 1.0),
         float(np.max(np.max(steepest, axis=-1) / widths)),
     )
 
 
-def _mass(model: parameters.Model) -> float:
-    """Mass that the two inertias have along the pitch tangent, kg."""
-    mechanics, table = model.mechanics, model.table
-    pinion, gear = float(table.pinion_pitch_radius), float(table.gear_pitch_radius)
-    return float(1.0 / (pinion**2 / mechanics.pinion_inertia + gear**2 / mechanics.gear_inertia))
+class MeshScales(NamedTuple):
+    """Scales of every mesh."""
+
+    tables: list[TableScales]
+    deflection: Float[Array, " mesh"]  # m
+    energy: Float[Array, " mesh"]  # that works are measured by, J
 
 
-def _transmitted(model: parameters.Model, deflection: float, stiffness: float) -> float:
-    """Energy that a mesh with a deflection transmits in one mesh cycle, J."""
-    return stiffness * deflection * float(model.table.pinion_pitch_radius) * float(model.table.pitch_angle)
+def _inertial_mass(model: Model, m: int) -> float:
+    """Mass that the inertias of a mesh's bodies have along its pitch tangent, kg."""
+    layout, mesh, inertia = model.layout, model.meshes[m], model.bodies.inertia
+    first, second = float(mesh.driver_radius), float(mesh.driven_radius)
+    return 1.0 / (first**2 / float(inertia[layout.driver[m]]) + second**2 / float(inertia[layout.driven[m]]))
 
 
-def absolute_tolerances(
-    model: parameters.Model,
-    rtol: float,
-    deflection: float,
-    scales: TableScales | None = None,
-    energy: float | None = None,
-) -> Float[Array, " state"]:
-    """Rtol times the scale of every state, from the static deflection of the mesh (m).
+def _transmitted(model: Model, m: int, deflection: float, stiffness: float) -> float:
+    """Energy that a mesh with a deflection transmits in one reference cycle, J."""
+    turned = float(model.bodies.ratio[model.layout.driver[m]]) * float(model.operation.pitch_angle)
+    return stiffness * deflection * float(model.meshes[m].driver_radius) * turned
 
-    Displacements scale with the deflection, velocities with the deflection times the mesh's natural
-    frequency, works with a share of an energy (J; None: that transmitted in one mesh cycle). `scales` are
-    those of the table, if known.
+
+def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[Array, " state"]:
+    """Rtol times the scale of every state, from the deflections of the meshes.
+
+    Displacements of a body scale with the least deflection of its meshes, velocities with the deflection
+    times the mesh's natural frequency, works with a share of an energy. A body without meshes has the scales
+    of the one that it is linked to.
     """
-    pinion_radius = float(model.table.pinion_pitch_radius)
-    stiffness = (scales or table_scales(model)).stiffness
-    velocity = deflection * np.sqrt(stiffness / _mass(model))
-    scale = np.empty(parameters.STATES)
-    scale[list(parameters.DISPLACEMENTS)] = deflection
-    scale[list(parameters.VELOCITIES)] = velocity
-    scale[[parameters.SLIP, parameters.MOTOR_SLIP]] = velocity / pinion_radius
-    scale[parameters.TWIST] = deflection / pinion_radius
-    scale[parameters.LAG] = deflection / pinion_radius / model.mechanics.nominal_speed
-    energy = _transmitted(model, deflection, stiffness) if energy is None else energy
-    scale[list(parameters.WORKS)] = SHARE_OF_WORKS * energy
+    layout = model.layout
+    frequency = [np.sqrt(t.stiffness / _inertial_mass(model, m)) for m, t in enumerate(scales.tables)]
+    none = np.full(layout.bodies, np.inf)
+    shift, shift_rate, turn, turn_rate = none.copy(), none.copy(), none.copy(), none.copy()
+    for m, mesh in enumerate(model.meshes):
+        deflection = float(scales.deflection[m])
+        ends = ((layout.driver[m], mesh.driver_radius), (layout.driven[m], mesh.driven_radius))
+        for body, radius in ends:
+            velocity = deflection * frequency[m]
+            shift[body], shift_rate[body] = (
+                min(shift[body], deflection),
+                min(shift_rate[body], velocity),
+            )
+            turn[body] = min(turn[body], deflection / float(radius))
+            turn_rate[body] = min(turn_rate[body], velocity / float(radius))
+    for body, nearer, mesh, _ in tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0)):
+        if mesh < 0 and np.isinf(turn[body]):
+            for each in (shift, shift_rate, turn, turn_rate):
+                each[body] = each[nearer]
+    scale = np.empty(layout.states)
+    half = layout.half
+    for body in range(layout.bodies):
+        i = turn_of(body, layout)
+        scale[i], scale[half + i] = turn[body], turn_rate[body]
+        if body < layout.planar:
+            place = shift_of(body)
+            scale[place : place + 2], scale[half + place : half + place + 2] = shift[body], shift_rate[body]
+    scale[LAG] = turn[0] / float(model.operation.nominal_speed)
+    scale[works(layout)] = SHARE_OF_WORKS * np.max(scales.energy)
     return rtol * scale
 
 
-def state_scales(model: parameters.Model, state: Float[Array, " state"]) -> Float[Array, " state"]:
-    """Sizes of all states by the deflection that the mesh has in a state or would have under the load."""
-    scales = table_scales(model)
-    return absolute_tolerances(model, 1.0, max(_loaded(model, state, scales), _least(model)), scales)
+def state_scales(model: Model, state: Float[Array, " state"]) -> Float[Array, " state"]:
+    """Sizes of all states by the deflections that the meshes have in a state or would have under the load."""
+    tables = [table_scales(mesh) for mesh in model.meshes]
+    deflection = np.maximum(_loaded(model, state, tables), _least(model))
+    energy = [_transmitted(model, m, deflection[m], table.stiffness) for m, table in enumerate(tables)]
+    return absolute_tolerances(model, 1.0, MeshScales(tables, deflection, np.array(energy)))
 
 
-def _least(model: parameters.Model) -> float:
+def _least(model: Model) -> float:
     """Smallest deflection that tolerances are scaled by, at least the width over which contact sets in; m."""
-    return max(float(model.mechanics.contact_width), MINIMUM_DEFLECTION)
+    return max(float(model.operation.contact_width), MINIMUM_DEFLECTION)
 
 
-def _loaded(model: parameters.Model, state: Float[Array, " state"], scales: TableScales) -> float:
-    """Deflection that the mesh has in a state or would have under its load, without the bearings; m.
+def _loaded(model: Model, state: Float[Array, " state"], tables: list[TableScales]) -> Float[Array, " mesh"]:
+    """Deflections that the meshes have in a state or would have under their load, without the bearings; m.
 
     The load is the largest that constant part, harmonics and table can add up to.
     """
-    mechanics, table = model.mechanics, model.table
-    torque = abs(float(mechanics.load_torque)) + float(np.sum(np.abs(mechanics.load_amplitudes)))
-    torque += float(np.max(np.abs(mechanics.load_torques), initial=0.0))
-    there = np.asarray(table.in_contact)[0] > 0
-    pairs, side = np.asarray(table.channel)[0, 0, there, :, 0], np.asarray(table.side)[there]
-    along, across = (
-        state[parameters.XI] + state[parameters.X_P] - state[parameters.X_G],
-        state[parameters.Y_P] - state[parameters.Y_G],
-    )
-    pressed = side * along * pairs[:, _COSINE] + across * pairs[:, _SINE] - pairs[:, _GAP]
-    return max(float(np.max(pressed)), scales.per_torque * torque)
+    operation, layout = model.operation, model.layout
+    varying = float(np.sum(np.abs(operation.load_amplitudes)))
+    varying += float(np.max(np.abs(operation.load_torques), initial=0.0))
+    constant = float(model.bodies.load[layout.output])
+    still = model._replace(options=model.options._replace(drive=DRIVE_SPEED))
+    torque = np.abs(flow(still, varying if constant >= 0.0 else -varying).on_driven)
+    found = np.empty(len(model.meshes))
+    for m, mesh in enumerate(model.meshes):
+        table, motion = mesh.table, motion_of(m, state, model)
+        segment = int(np.asarray(model.schedule.segment)[0, m])
+        there = np.asarray(table.in_contact)[segment] > 0
+        pairs, side = np.asarray(table.channel)[segment, 0, there, :, 0], np.asarray(table.side)[there]
+        pressed = side * motion.towards * pairs[:, _COSINE] + motion.across * pairs[:, _SINE] - pairs[:, _GAP]
+        found[m] = max(float(np.max(pressed)), tables[m].per_torque * torque[m])
+    return found
 
 
-def _energy(model: parameters.Model, loaded: float, scales: TableScales) -> float:
+def _energy(model: Model, m: int, loaded: float, table: TableScales) -> float:
     """Energy that works are measured by, J.
 
-    That transmitted in one mesh cycle; where there is no load, the kinetic energy that the gaps give, and at
-    least the strain energy over the width in which contact sets in.
+    That transmitted in one reference cycle; where there is no load, the kinetic energy that the gaps give,
+    and at least the strain energy over the width in which contact sets in.
     """
-    moved = _mass(model) * (scales.gap_slope * float(model.mechanics.nominal_speed)) ** 2
-    strain = scales.stiffness * _least(model) ** 2
-    return max(_transmitted(model, loaded, scales.stiffness), moved, strain)
+    speed = float(model.bodies.ratio[model.layout.driver[m]]) * float(model.operation.nominal_speed)
+    moved = _inertial_mass(model, m) * (table.gap_slope * speed) ** 2
+    strain = table.stiffness * _least(model) ** 2
+    return max(_transmitted(model, m, loaded, table.stiffness), moved, strain)
 
 
 def tolerances_from(
-    model: parameters.Model, state: Float[Array, " state"], rtol: float, max_steps: int
+    model: Model, state: Float[Array, " state"], rtol: float, max_steps: int
 ) -> StepTolerances:
-    """Tolerances scaled by the deflection that the mesh has in `state` or would have under the load."""
+    """Tolerances scaled by the deflections that the meshes have in `state` or would have under the load."""
     return StepTolerances(rtol, tolerances_of_many([model], state[None], rtol)[0], max_steps)
 
 
 def tolerances_of_many(
-    models: Sequence[parameters.Model], states: Float[Array, "case state"], rtol: float
+    models: Sequence[Model], states: Float[Array, "case state"], rtol: float
 ) -> Float[Array, "case state"]:
-    """Absolute tolerances of many cases; what depends on the table alone is computed once per table."""
+    """Absolute tolerances of many cases; what depends on a table alone is computed once per table."""
     known: dict[int, TableScales] = {}
-    tolerances = np.empty((len(models), parameters.STATES))
+    tolerances = np.empty(states.shape)
     for case, model in enumerate(models):
-        if id(model.table) not in known:
-            known[id(model.table)] = table_scales(model)
-        scales = known[id(model.table)]
-        loaded = _loaded(model, states[case], scales)
-        deflection, energy = max(loaded, _least(model)), _energy(model, loaded, scales)
-        tolerances[case] = absolute_tolerances(model, rtol, deflection, scales, energy)
-    # no relative part, see `step_control.RELATIVE`: in its place that of the deflection
-    tolerances[:, list(parameters.DISPLACEMENTS)] *= 2.0
+        for mesh in model.meshes:
+            if id(mesh.table) not in known:
+                known[id(mesh.table)] = table_scales(mesh)
+        tables = [known[id(mesh.table)] for mesh in model.meshes]
+        loaded = _loaded(model, states[case], tables)
+        energy = [_energy(model, m, loaded[m], table) for m, table in enumerate(tables)]
+        scales = MeshScales(tables, np.maximum(loaded, _least(model)), np.array(energy))
+        tolerances[case] = absolute_tolerances(model, rtol, scales)
+        # no relative part, see `step_control.relative_factor`: in its place that of the deflection
+        tolerances[case, displacements(model.layout)] *= 2.0
     return tolerances

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes, no_extremes, take_in
-from tribodyn.dynamics.parameters import LAG, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.choice import choose
 from tribodyn.solve.integrator import REASONS, IntegratedCycles, Integrator, Status
@@ -14,6 +14,7 @@ from tribodyn.solve.march.marching import NativeIntegrator
 from tribodyn.solve.methods import AUTO, Runs, integrator_class, runs
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import StepTolerances, tolerances_from
+from tribodyn.train.structure import LAG
 
 #: Of a native run between two writes, at most: mesh cycles, samples, and steps, judged by those before.
 MAXIMUM_CYCLES, MAXIMUM_SAMPLES, MAXIMUM_STEPS = 250, 20_000, 50_000
@@ -78,7 +79,7 @@ class MarchedAgain:
             method = choose(AUTO, self._model, state).method
             self._native = NativeIntegrator(method, self._model, 0, self._tolerances)
             self._native.extremes = True
-        found = no_extremes()
+        found = no_extremes(self._model.layout)
         for cycle in range(len(part.samples) // self._samples):
             self._native.started = False
             again = self._native.integrate(part.samples[cycle * self._samples], first_cycle + cycle, 1)
@@ -119,7 +120,7 @@ def transient(
     """
     tolerances = tolerances_from(model, state, settings.rtol, settings.max_steps)
     integrator = make_integrator(settings.method, model, settings.samples, tolerances, settings.extremes)
-    cycle_time = float(model.table.pitch_angle) / model.mechanics.nominal_speed
+    cycle_time = float(model.operation.pitch_angle) / model.operation.nominal_speed
     opening = settings.cycles - settings.window
     steps = evaluations = done = 0
     while done < settings.cycles:
@@ -143,6 +144,6 @@ def transient(
         state = part.state
         done += count
     state = state.copy()
-    engage_next(state, model)
+    engage_next(state, done, model)
     yield SampledStates(np.array([float(done)]), state[None], 0, 0)
     yield Stop(state, float(done), steps, evaluations, "", done * cycle_time + float(state[LAG]))

@@ -48,7 +48,7 @@ from tribodyn.dynamics.extremes import (
     take_in,
     vertex,
 )
-from tribodyn.dynamics.outputs import outputs, outputs_with_extremes
+from tribodyn.studies.gear_pair.outputs import outputs, outputs_with_extremes
 from tribodyn.dynamics.parameters import STATES, XI
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of, worthwhile

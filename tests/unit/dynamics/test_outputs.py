@@ -6,7 +6,7 @@ import pytest
 from tests.support.states import random_state
 from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.outputs import outputs, segment_of
+from tribodyn.studies.gear_pair.outputs import outputs, segment_of
 from tribodyn.dynamics.parameters import (
     LAG,
     MOTOR_SLIP,

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.support.record_samples import block, gear_pair_writer, geometry, mesh_cycle
-from tribodyn.dynamics.recorded import DOF
+from tribodyn.studies.gears.recorded import DOF
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.record.writer import RecordWriter

@@ -86,8 +86,10 @@ def _store_row(context, builder, pointer, value):
     builder.store(value, row_at(builder, pointer, INT64(0)), align=ALIGNMENT)
 
 
+#: A row of lanes as an element.
+ROW = Element(LANES, WIDTH, _load_row, _store_row)
 #: An array of floats, its last axis the lanes, as rows of lanes.
-rows_of = elements_of(Element(LANES, WIDTH, _load_row, _store_row))
+rows_of = elements_of(ROW)
 
 
 def subscripts(index: Any) -> list[Any]:

@@ -5,9 +5,10 @@ each case has them, and a lane holds no more than their address: a hundred cases
 and nothing is copied.
 """
 
+import hashlib
 import operator
 import struct
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from llvmlite import ir
@@ -15,7 +16,7 @@ from numba.core import cgutils, types
 from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr, signature
 from numba.extending import lower_builtin, lower_getattr, lower_getattr_generic, models, register_model
 
-from tribodyn.kernels.lanes.arrays import ALIGNMENT, indices_of, row_at, subscripts
+from tribodyn.kernels.lanes.arrays import ALIGNMENT, ROW, ElementArrayType, indices_of, row_at, subscripts
 from tribodyn.kernels.lanes.vectors import (
     DOUBLE,
     FLOATS,
@@ -48,49 +49,81 @@ class LaneTableType(types.Type):
 
 
 class Field(NamedTuple):
-    """A field of a record."""
+    """A field of a record; places are counted from where the record's own begin."""
 
     name: str
     ndim: int  # axes of the table; 0: a number
     row: int  # among the block's numbers or addresses
     first_length: int  # where the table's shape begins among all lengths
-    shared: bool  # whether the table is the same in every lane
+    shared: bool = False  # whether the table is the same in every lane
+    inline: bool = False  # whether the table stands among the numbers, every entry a row
+
+
+class Places(NamedTuple):
+    """How many numbers, addresses and lengths."""
+
+    numbers: int
+    addresses: int
+    lengths: int
+
+
+class Part(NamedTuple):
+    """A field that is a record, or several of one kind, one after the other."""
+
+    name: str
+    fields: "tuple[Field | Part, ...]"
+    first: Places  # where it begins in the record
+    size: Places  # of one record
+    count: int = 0  # 0: one record and no tuple of several
 
 
 class LaneRecordType(types.Type):
     """Type of a record of numbers and tables over the lanes."""
 
-    def __init__(self, fields: tuple[Field, ...]):
+    def __init__(self, fields: tuple[Field | Part, ...]):
         self.fields = {field.name: field for field in fields}
-        described = ", ".join(f"{f.name}:{f.ndim}@{f.row}/{f.first_length}/{f.shared}" for f in fields)
-        super().__init__(name=f"LaneRecord({described}; {WIDTH})")
+        digest = hashlib.sha256(repr(fields).encode()).hexdigest()[:12]
+        super().__init__(name=f"LaneRecord({digest}; {WIDTH})")
+
+
+class LaneRecordsType(types.Type):
+    """Type of several such records."""
+
+    def __init__(self, part: Part):
+        self.item = LaneRecordType(part.fields)
+        self.size = part.size
+        super().__init__(name=f"LaneRecords({self.item.name} x {part.count})")
 
 
 class LaneRecord(NamedTuple):
     """One of a model's named tuples over the lanes, as Python hands it to a kernel."""
 
-    fields: tuple[Field, ...]
-    #: numbers, addresses: (F, WIDTH) float64, (T, WIDTH) int64
+    part: Part
+    #: numbers, addresses: (F, WIDTH) float64, (T, WIDTH) int64, of the whole model
     numbers: np.ndarray
     addresses: np.ndarray
     lengths: np.ndarray  # (L,) int64, shapes of all tables, one after the other; the same in every lane
 
     def as_argument(self) -> PackedValue:
         """As kernels read it: the addresses of the three arrays; the caller keeps them alive."""
-        addresses = (array.ctypes.data for array in (self.numbers, self.addresses, self.lengths))
-        return PackedValue(LaneLayout(self.fields), struct.pack("=3q", *addresses), self)
+        blocks = (self.numbers, self.addresses, self.lengths)
+        places = (
+            block.ctypes.data + first * block.strides[0]
+            for block, first in zip(blocks, self.part.first, strict=True)
+        )
+        return PackedValue(LaneLayout(self.part), struct.pack("=3q", *places), self)
 
 
 class LaneLayout(NamedTuple):
     """Layout of a `LaneRecord` among a kernel's arguments."""
 
-    fields: tuple[Field, ...]
+    part: Part
     words: int = 3
 
     @property
-    def type(self) -> LaneRecordType:
+    def type(self) -> Any:
         """Its type to numba."""
-        return LaneRecordType(self.fields)
+        return LaneRecordsType(self.part) if self.part.count else LaneRecordType(self.part.fields)
 
 
 @register_model(LaneTableType)
@@ -101,6 +134,7 @@ class _LaneTableModel(models.StructModel):
 
 
 @register_model(LaneRecordType)
+@register_model(LaneRecordsType)
 class _LaneRecordModel(models.StructModel):
     def __init__(self, manager, record):
         members = [("numbers", _FLOATS_AT), ("addresses", _INTEGERS_AT), ("lengths", _INTEGERS_AT)]
@@ -217,6 +251,10 @@ class _RecordAttributes(AttributeTemplate):
         field = record.fields.get(name)
         if field is None:
             return None
+        if isinstance(field, Part):
+            return LaneRecordsType(field) if field.count else LaneRecordType(field.fields)
+        if field.inline:
+            return ElementArrayType(field.ndim, ROW)
         return LaneTableType(field.ndim, field.shared) if field.ndim else LANES
 
 
@@ -224,15 +262,50 @@ class _RecordAttributes(AttributeTemplate):
 def _record_attribute(context, builder, record, value, name):
     value = cgutils.create_struct_proxy(record)(context, builder, value)
     field = record.fields[name]
+    if isinstance(field, Part):
+        kind = LaneRecordsType(field) if field.count else LaneRecordType(field.fields)
+        return _moved(context, builder, kind, value, [INT64(each) for each in field.first])
     at = INT64(field.row * WIDTH)
     if not field.ndim:
         return builder.load(row_at(builder, value.numbers, at), align=ALIGNMENT)
-    table = cgutils.create_struct_proxy(LaneTableType(field.ndim, field.shared))(context, builder)
-    place = builder.bitcast(builder.gep(value.addresses, [at]), INTEGERS.as_pointer())
-    table.addresses = builder.load(place, align=ALIGNMENT)
     lengths = [
         builder.load(builder.gep(value.lengths, [INT64(field.first_length + axis)]))
         for axis in range(field.ndim)
     ]
-    table.shape = cgutils.pack_array(builder, lengths)
+    shape = cgutils.pack_array(builder, lengths)
+    if field.inline:
+        rows = cgutils.create_struct_proxy(ElementArrayType(field.ndim, ROW))(context, builder)
+        rows.data, rows.shape = builder.gep(value.numbers, [at]), shape
+        return rows._getvalue()
+    table = cgutils.create_struct_proxy(LaneTableType(field.ndim, field.shared))(context, builder)
+    place = builder.bitcast(builder.gep(value.addresses, [at]), INTEGERS.as_pointer())
+    table.addresses = builder.load(place, align=ALIGNMENT)
+    table.shape = shape
     return table._getvalue()
+
+
+def _moved(context, builder, kind, value, places):
+    """The same block, seen from other places on among numbers, addresses and lengths."""
+    part = cgutils.create_struct_proxy(kind)(context, builder)
+    numbers, addresses, lengths = places
+    part.numbers = builder.gep(value.numbers, [builder.mul(numbers, INT64(WIDTH))])
+    part.addresses = builder.gep(value.addresses, [builder.mul(addresses, INT64(WIDTH))])
+    part.lengths = builder.gep(value.lengths, [lengths])
+    return part._getvalue()
+
+
+@of_operator(operator.getitem)
+class _GetRecord(AbstractTemplate):
+    def generic(self, args, kws):
+        records, index = args
+        if isinstance(records, LaneRecordsType) and isinstance(index, types.Integer):
+            return signature(records.item, records, types.int64)
+        return None
+
+
+@lower_builtin(operator.getitem, LaneRecordsType, types.int64)
+def _record_item(context, builder, signature, values):
+    records = signature.args[0]
+    value = cgutils.create_struct_proxy(records)(context, builder, values[0])
+    places = [builder.mul(values[1], INT64(each)) for each in records.size]
+    return _moved(context, builder, records.item, value, places)

@@ -1,8 +1,9 @@
 """What kernels are and how their arguments lie in memory: a single block of words of 8 bytes.
 
-A number is a word; an array its address and lengths; a named tuple its fields one after the other; a function
-no word at all. The layout says which of these a value is, and the machine code of a kernel depends on nothing
-else: numbers and lengths are never compiled in, functions are.
+A number is a word; an array its address and lengths; a named tuple its fields one after the other, and a tuple
+its items, which are alike; a function and a fixed number no word at all. The layout says which of these a
+value is, and the machine code of a kernel depends on nothing else: functions and fixed numbers are compiled
+in, other numbers and lengths never.
 
 A function that is handed to a kernel is compiled into it, with all that it calls and with the numbers that
 it takes from its module and from around it. Of functions it is the bytecode that counts, wherever they are
@@ -23,6 +24,7 @@ import numpy as np
 
 from tribodyn.numerics import elementary
 from tribodyn.numerics.sources import code_of
+from tribodyn.numerics.static import Fixed, Indices
 
 _serial = count()
 
@@ -172,6 +174,20 @@ class Array(NamedTuple):
         return 1 + self.ndim * (1 if self.order == "C" else 2)
 
 
+class FixedLayout(NamedTuple):
+    """Layout of a number that is compiled in."""
+
+    value: int
+    words: int = 0
+
+
+class SeveralLayout(NamedTuple):
+    """Layout of a tuple of so many items of one layout."""
+
+    item: Any
+    count: int
+
+
 class RecordLayout:
     """A named tuple: its name, and the layout of every field. One object for all that are equal.
 
@@ -201,6 +217,7 @@ class PackedValue(NamedTuple):
 FLOAT, INT, BOOL = Numeric("float"), Numeric("int"), Numeric("bool")
 _float, _int = struct.Struct("=d").pack, struct.Struct("=q").pack
 _array = cache(Array)
+_several = cache(SeveralLayout)
 
 
 @cache
@@ -217,6 +234,10 @@ def packed(value: Any) -> PackedValue:
         return PackedValue(FLOAT, _float(value), value)
     if isinstance(value, np.ndarray):
         return _packed_array(value)
+    if isinstance(value, Fixed):
+        return PackedValue(FixedLayout(int(value)), b"", value)
+    if isinstance(value, Indices):
+        return _packed_array(value.array)
     if isinstance(value, (bool, np.bool_)):
         return PackedValue(BOOL, _int(value), value)
     if isinstance(value, (int, np.integer)):
@@ -227,9 +248,20 @@ def packed(value: Any) -> PackedValue:
         return value.as_argument()
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return together(type(value).__qualname__, value._fields, value)  # pyright: ignore[reportAttributeAccessIssue]
+    if isinstance(value, tuple):
+        return _packed_items(value)
     raise TypeError(
-        f"a kernel takes numbers, arrays, functions and named tuples of them, not {type(value).__name__}"
+        f"a kernel takes numbers, arrays, functions and tuples of them, not {type(value).__name__}"
     )
+
+
+def _packed_items(values: tuple[Any, ...]) -> PackedValue:
+    """Pack a tuple of values that are alike."""
+    items = [packed(value) for value in values]
+    layouts = {item.layout for item in items}
+    if len(layouts) != 1:
+        raise TypeError(f"a kernel takes tuples of items of one layout, not of {len(layouts)}")
+    return PackedValue(_several(layouts.pop(), len(items)), b"".join(item.words for item in items), values)
 
 
 def _packed_array(array: np.ndarray) -> PackedValue:
@@ -254,6 +286,8 @@ def functions_in(layout: Any) -> Iterator[FunctionLayout]:
     """Go through the functions that a layout holds."""
     if isinstance(layout, FunctionLayout):
         yield layout
+    elif isinstance(layout, SeveralLayout):
+        yield from functions_in(layout.item)
     elif isinstance(layout, RecordLayout):
         for _, field in layout.fields:
             yield from functions_in(field)

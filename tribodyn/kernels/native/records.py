@@ -1,6 +1,7 @@
 """A kernel's arguments to numba: a block of words that stays where it is, its fields read where used."""
 
 import hashlib
+import operator
 from typing import Any, cast
 
 import numba
@@ -8,11 +9,18 @@ import numpy as np
 from llvmlite import ir
 from numba import extending
 from numba.core import cgutils, types
-from numba.core.typing.templates import AttributeTemplate, infer_getattr
-from numba.extending import lower_getattr_generic, models, register_model
+from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr, infer_global, signature
+from numba.extending import lower_builtin, lower_getattr_generic, models, register_model
 from numba.np.arrayobj import populate_array
 
-from tribodyn.kernels.native.arguments import Array, FunctionLayout, Numeric, RecordLayout
+from tribodyn.kernels.native.arguments import (
+    Array,
+    FixedLayout,
+    FunctionLayout,
+    Numeric,
+    RecordLayout,
+    SeveralLayout,
+)
 
 intrinsic = cast(Any, extending.intrinsic)
 
@@ -36,13 +44,25 @@ class RecordType(types.Type):
         super().__init__(name=f"{record.name}.{digest}")  # short: it is part of every function's name
 
 
+class SeveralType(types.Type):
+    """Type of a block of records of one type, one after the other."""
+
+    def __init__(self, several: SeveralLayout):
+        self.item = type_of(several.item)
+        self.words = words_of(several.item)
+        super().__init__(name=f"{several.count} x {self.item.name}")
+
+
 @register_model(RecordType)
+@register_model(SeveralType)
 class _RecordModel(models.OpaqueModel):
     pass
 
 
 def words_of(layout: Any) -> int:
     """Words that a value of a layout takes."""
+    if isinstance(layout, SeveralLayout):
+        return layout.count * words_of(layout.item)
     if isinstance(layout, RecordLayout):
         return sum(words_of(field) for _, field in layout.fields)
     return 1 if isinstance(layout, Numeric) else layout.words
@@ -55,6 +75,10 @@ def type_of(layout: Any) -> Any:
     """Type of a layout to numba."""
     if isinstance(layout, RecordLayout):
         return RecordType(layout)
+    if isinstance(layout, SeveralLayout):
+        return SeveralType(layout)
+    if isinstance(layout, FixedLayout):
+        return types.literal(layout.value)
     if isinstance(layout, Array):
         return types.Array(numba.from_dtype(np.dtype(layout.dtype)), layout.ndim, layout.order)
     if isinstance(layout, FunctionLayout):
@@ -68,8 +92,10 @@ def _read(context, builder, kind, block, word):
     """A field's value, from its first word on; blocks do not change while a kernel runs."""
     if isinstance(kind, types.Function):
         return context.get_dummy_value()  # its type says it all
+    if isinstance(kind, types.IntegerLiteral):
+        return _INT64(kind.literal_value)
     place = builder.gep(block, [_INT64(WORD * word)])
-    if isinstance(kind, RecordType):
+    if isinstance(kind, (RecordType, SeveralType)):
         return place
     if isinstance(kind, types.Array):
         items = [
@@ -108,6 +134,21 @@ class _Fields(AttributeTemplate):
 @lower_getattr_generic(RecordType)
 def _field(context, builder, record, block, name):
     return _read(context, builder, *_place(record, name, block))
+
+
+@cast(Any, infer_global)(operator.getitem)
+class _Items(AbstractTemplate):
+    def generic(self, args, kws):
+        several, index = args
+        if isinstance(several, SeveralType) and isinstance(index, types.Integer):
+            return signature(several.item, several, types.int64)
+        return None
+
+
+@lower_builtin(operator.getitem, SeveralType, types.int64)
+def _item(context, builder, signature, values):
+    step = builder.mul(values[1], _INT64(WORD * signature.args[0].words))
+    return builder.gep(values[0], [step])
 
 
 def _place(record, name, block):

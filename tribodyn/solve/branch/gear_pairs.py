@@ -79,7 +79,7 @@ def followed_states(
 ) -> list[LegResult]:
     """Follow gear pairs, each along its leg, to the steady motions at the targets.
 
-    States of the legs are (STATES,) at phase 0 after engagement, those that are handed on likewise; numbers
+    States of the legs are at phase 0 after engagement, those that are handed on likewise; numbers
     are those of `periodic.steady_states`. Branches go on beyond the ends of their stable parts where
     `unstable` asks for it.
     """
@@ -94,9 +94,10 @@ def followed_states(
         rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
         starts = {legs[number].line: legs[number].state for number in numbers}
         settings = {"solver": method, "max_steps": max_steps, "workers": workers, **rtols}
-        family = GearLines(model_at, starts, moving, **settings)
-        short = [legs[number]._replace(state=legs[number].state[list(moving)]) for number in numbers]
-        arrivals = follow(family, short, tolerance=tolerance, max_periods=max_cycles)
+        family = GearLines(model_at, starts, moving.states, **settings)
+        short = [legs[number]._replace(state=legs[number].state[list(moving.states)]) for number in numbers]
+        most = max(1, max_cycles // moving.period)
+        arrivals = follow(family, short, tolerance=tolerance, max_periods=most)
         period_map, _ = family.at([leg.line for leg in short], [leg.target for leg in short])
         assert isinstance(period_map, GearMap)
         steadies = sampled(period_map, [arrival.orbit for arrival in arrivals], samples)

@@ -9,16 +9,18 @@ import jax
 import jax.numpy as jnp
 
 from tribodyn.dynamics.contact_forces import FRICTION_FORCE, TURNED, contact_forces
-from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.solve.march.step_control import (
     MOST_TRIES,
     begin_turning,
     keep_turned,
     longest_step,
-    turn_of,
+    reversals_in,
+    turn_of_friction,
     unbounded,
 )
+from tribodyn.solve.right_hand_side import contacts_of
 
 #: What stands for a motion that grew without bound: diffrax has no result of its own for it, and gives this
 #: one only where rejected steps are stored, which is not done here.
@@ -69,7 +71,7 @@ class LimitedSteps(_CountingSteps):
         accepted = accepted + jnp.where(keep, 1, 0)
         over = (accepted > self.allowed) & (result == diffrax.RESULTS.successful)
         result = diffrax.RESULTS.where(over, diffrax.RESULTS.max_steps_reached, result)
-        grown = keep & unbounded(y1, model.table) & (result == diffrax.RESULTS.successful)
+        grown = keep & unbounded(y1, model) & (result == diffrax.RESULTS.successful)
         result = diffrax.RESULTS.where(grown, GROWN, result)
         return keep, next_t0, next_t1, jump, (inside, accepted), result
 
@@ -85,9 +87,9 @@ class TurningSteps(_CountingSteps):
     def adapt_step_size(self, *arguments: Any) -> tuple[Any, ...]:
         """Call the inner controller, and see how far the step has turned friction."""
         *step, (inside, tries) = arguments
-        t0, t1, y0, y1, (_, segment, model), *_ = step
+        t0, t1, y0, y1, (_, interval, model), *_ = step
         keep, next_t0, next_t1, jump, inside, result = self.controller.adapt_step_size(*step, inside)
-        too_far, shorter, longest = _turned(t0, t1, y0, y1, segment, model[:-1], model.options)
+        too_far, shorter, longest = _turned(t0, t1, y0, y1, interval, model[:-1], model.options)
         again = keep & too_far & self.applies & (tries < MOST_TRIES)
         longest = jnp.where(self.applies, longest, jnp.inf)
         next_t1 = jnp.where(keep, jnp.minimum(next_t1, next_t0 + longest), next_t1)
@@ -98,17 +100,17 @@ class TurningSteps(_CountingSteps):
 
 @partial(jax.jit, static_argnames="options")
 def _turned(
-    t0: Any, t1: Any, y0: Any, y1: Any, segment: Any, numbers: Any, options: Options
+    t0: Any, t1: Any, y0: Any, y1: Any, interval: Any, numbers: Any, options: Options
 ) -> tuple[Any, Any, Any]:
     """Whether a step has turned friction too far, the step to try instead, the longest one after it."""
     model = Model(*numbers, options=options)
-    work: dict[Any, Any] = {}
-    begin_turning(t0, segment, y0, model, work)
-    end: dict[Any, Any] = {}
-    cell, u, cells_per_radian = locate(t1, segment, model.table)
-    contact_forces(segment, cell, u, cells_per_radian, y1, model, end)
-    work |= {key: value for key, value in end.items() if key[0] in (TURNED, FRICTION_FORCE)}
+    work, ends = contacts_of(model), contacts_of(model)
+    begin_turning(t0, interval, y0, model, work)
+    for m, (mesh, end) in enumerate(zip(model.meshes, ends, strict=True)):
+        place, motion = place_in_mesh(m, t1, interval, model), motion_of(m, y1, model)
+        contact_forces(place, motion, reversals_in(m, model), mesh, model, end)
+        work[m] |= {key: value for key, value in end.items() if key[0] in (TURNED, FRICTION_FORCE)}
     step = t1 - t0
-    too_far, shorter = turn_of(step, segment, model, work)
-    keep_turned(True, step, segment, model, work)
-    return too_far, shorter, longest_step(segment, model, work)
+    too_far, shorter = turn_of_friction(step, interval, model, work)
+    keep_turned(True, step, interval, model, work)
+    return too_far, shorter, longest_step(interval, model, work)

@@ -19,8 +19,10 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import in_threads
 from tribodyn.solve.integrator import Ensemble, March, Status, nothing_yet
 from tribodyn.solve.jax import integrator
-from tribodyn.solve.lanes.batch import by_shape
+from tribodyn.solve.lanes.batch import SHARED, by_shape
 from tribodyn.solve.tolerances import tolerances_of_many
+from tribodyn.train.schedule import Schedule, intervals
+from tribodyn.train.structure import Mesh
 
 #: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
 #: with copies of its last case, so that fewer cases compile nothing again. On a CPU one thread per part.
@@ -37,7 +39,7 @@ class BatchPart(NamedTuple):
 
     method: integrator.DiffraxMethod
     width: int  # at least the number of cases; what is missing is filled up
-    one_table: bool  # whether all cases of this shape have the same
+    one_table: bool  # whether all cases of this shape have the same tables
     places: Int[Array, " case"]
 
 
@@ -51,14 +53,14 @@ def through_jax(
 ) -> Ensemble:
     """Integrate with a method of diffrax, mapped over the cases: what `ensemble.march` does with those.
 
-    A failed case's state is the one at the end of the segment before, where `reached` points too. On a
+    A failed case's state is the one at the end of the interval before, where `reached` points too. On a
     processor the parts go to `workers` threads; elsewhere there is one.
 
     Compiled once for a method, a width, a shape of models (`lanes.batch.ModelShape`), tables shared or
     not, and every `jax.integrator.ROOM` samples per cycle; for no number, and not for fewer cases.
     """
     use_compilation_cache()
-    result = nothing_yet(states, march.window * march.samples, march.extremes)
+    result = nothing_yet(models[0].layout, states, march.window * march.samples, march.extremes)
     parts = _parts(models, integrator.METHODS[method], width_here())
     threads = workers if jax.default_backend() == "cpu" else 1
     cancelled = threading.Event()
@@ -80,8 +82,9 @@ def _parts(models: Sequence[Model], method: integrator.DiffraxMethod, width: int
     """Parts of cases of one shape, those of low speed, which take the most steps, side by side."""
     parts = []
     for group in by_shape(models):
-        one_table = all(models[case].table is models[group[0]].table for case in group)
-        order = np.array(sorted(group, key=lambda case: float(models[case].mechanics.nominal_speed)))
+        tables = {tuple(id(mesh.table) for mesh in models[case].meshes) for case in group}
+        one_table = len(tables) == 1
+        order = np.array(sorted(group, key=lambda case: float(models[case].operation.nominal_speed)))
         parts += [
             BatchPart(method, width, one_table, order[i : i + width]) for i in range(0, len(order), width)
         ]
@@ -93,16 +96,11 @@ def _cycles(part: BatchPart, models: Sequence[Model], march: March, result: Ense
     places = part.places
     rows = np.pad(places, (0, part.width - len(places)), mode="edge")
     mine = [models[case] for case in rows]
-    tables = [model.table for model in mine]
-    numbers = (
-        jax.tree.map(partial(jnp.asarray, dtype=float), tables[0]) if part.one_table else stacked(tables),
-        stacked([model.mechanics for model in mine]),
-        *(stacked([getattr(model, name) for model in mine]) for name in ("surfaces", "film", "friction")),
-    )
-    boundary = np.array([np.asarray(table.boundary) for table in tables])
-    grids = [integrator.padded_phases(row, march.samples) for row in boundary]
+    numbers = _stacked_numbers(mine, part.one_table)
+    grids = [integrator.padded_phases(model.schedule, march.samples) for model in mine]
     dense = np.array([at for at, _ in grids])
-    control = integrator.SegmentControl(
+    control = integrator.IntervalControl(
+        jnp.asarray(np.array([integrator.places_in_cycle(model.schedule) for model in mine])),
         jnp.full(dense.shape, np.nan, dtype=float),
         jnp.asarray(integrator.steps_end_on(mine)),
         jnp.full(part.width, march.rtol, dtype=float),
@@ -114,7 +112,8 @@ def _cycles(part: BatchPart, models: Sequence[Model], march: March, result: Ense
         kept = done - (march.cycles - march.window)
         if kept == 0:
             control = control._replace(at=jnp.asarray(dense))
-        carried, segments = _compiled(
+        passed = intervals(mine[0].schedule, march.first_cycle + done)
+        carried, found = _compiled(
             part,
             mine[0].options,
             numbers,
@@ -124,15 +123,16 @@ def _cycles(part: BatchPart, models: Sequence[Model], march: March, result: Ense
             control,
         )
         cases = slice(len(places))
-        status = np.asarray(segments.status)[cases]
+        status = np.asarray(found.status)[cases, : len(passed)]
         whole = np.argmax(np.pad(status, ((0, 0), (0, 1)), constant_values=-1) != Status.DONE, axis=1)
-        result.reached[places] += boundary[np.arange(len(places)), whole]
-        result.steps[places] += np.sum(np.asarray(segments.steps)[cases], axis=1)
-        result.evaluations[places] += np.sum(np.asarray(segments.evaluations)[cases], axis=1)
+        starts = np.array([[*np.asarray(m.schedule.start)[list(passed)], 1.0] for m in mine[: len(places)]])
+        result.reached[places] += starts[np.arange(len(places)), whole]
+        result.steps[places] += np.sum(np.asarray(found.steps)[cases], axis=1)
+        result.evaluations[places] += np.sum(np.asarray(found.evaluations)[cases], axis=1)
         if kept >= 0 and march.samples:
-            sampled = np.asarray(segments.samples)
+            sampled = np.asarray(found.samples)
             for i, case in enumerate(places):
-                block = [sampled[i, k, : grids[i][1][k]] for k in range(whole[i])]
+                block = [sampled[i, k, : grids[i][1][passed[k]]] for k in range(whole[i])]
                 block = np.concatenate([*block, np.empty((0, sampled.shape[-1]))])
                 first = kept * march.samples
                 result.samples[case, first : first + len(block)] = block
@@ -150,8 +150,8 @@ def _compiled(
     carried: integrator.Carried,
     cycle: int,
     started: bool,
-    control: integrator.SegmentControl,
-) -> tuple[integrator.Carried, integrator.SegmentResult]:
+    control: integrator.IntervalControl,
+) -> tuple[integrator.Carried, integrator.IntervalResult]:
     """Give `over_one_cycle`; what was not yet compiled is compiled by one thread while the others wait."""
     shapes = tuple((x.shape, x.dtype) for x in jax.tree.leaves((numbers, control)))
     key = (part.method, options, part.one_table, shapes)
@@ -178,18 +178,49 @@ def over_one_cycle(
     carried: integrator.Carried,
     cycle: Any,
     started: Any,
-    control: integrator.SegmentControl,
-) -> tuple[integrator.Carried, integrator.SegmentResult]:
+    control: integrator.IntervalControl,
+) -> tuple[integrator.Carried, integrator.IntervalResult]:
     """`jax.integrator.over_cycle` mapped over the cases: a leading axis on all but cycle and started."""
 
     def over_case(
-        numbers: Any, carried: integrator.Carried, control: integrator.SegmentControl
-    ) -> tuple[integrator.Carried, integrator.SegmentResult]:
+        numbers: Any, carried: integrator.Carried, control: integrator.IntervalControl
+    ) -> tuple[integrator.Carried, integrator.IntervalResult]:
         return integrator.over_cycle(method, options, numbers, carried, cycle, started, control)
 
-    return jax.vmap(over_case, in_axes=((None if one_table else 0, 0, 0, 0, 0), 0, 0))(
-        numbers, carried, control
+    return jax.vmap(over_case, in_axes=(_axes(numbers, one_table), 0, 0))(numbers, carried, control)
+
+
+def _axes(numbers: Any, one_table: bool) -> Any:
+    """Which of the numbers have an axis of cases: all but tables and patterns that they have in common."""
+    meshes, *rest = numbers
+    table = None if one_table else 0
+    several = tuple(Mesh(*(table if name == "table" else 0 for name in Mesh._fields)) for _ in meshes)
+    schedule = Schedule(*(None if name in SHARED else 0 for name in Schedule._fields))
+    return several, *(schedule if isinstance(part, Schedule) else 0 for part in rest)
+
+
+def _stacked_numbers(models: Sequence[Model], one_table: bool) -> Any:
+    """The numbers of models of one shape, see `_axes`."""
+
+    def common(part: Any, names: Sequence[str]) -> Any:
+        """A record with some of its fields made arrays of JAX, without an axis of cases."""
+        return {name: jax.tree.map(partial(jnp.asarray, dtype=float), getattr(part, name)) for name in names}
+
+    first = models[0]
+    meshes = []
+    for m, mesh in enumerate(first.meshes):
+        shared = common(mesh, ["table"]) if one_table else {}
+        others = [name for name in Mesh._fields if name not in shared]
+        own = {name: stacked([getattr(model.meshes[m], name) for model in models]) for name in others}
+        meshes.append(Mesh(**shared, **own))
+    names = [name for name in Schedule._fields if name in SHARED]
+    others = [name for name in Schedule._fields if name not in SHARED]
+    own = {name: stacked([getattr(model.schedule, name) for model in models]) for name in others}
+    schedule = Schedule(**common(first.schedule, names), **own)
+    bodies, links, operation = (
+        stacked([getattr(model, name) for model in models]) for name in ("bodies", "links", "operation")
     )
+    return tuple(meshes), bodies, links, schedule, operation
 
 
 def stacked(trees: list[Any]) -> Any:

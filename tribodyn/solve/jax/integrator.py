@@ -1,7 +1,7 @@
 """diffrax's solvers (Tsit5, Dopri8, Kvaerno5) on the same right-hand side, through JAX.
 
 The reference solver, the stiff choice, and the way to gradients and to a GPU. A mesh cycle is one compiled
-function: a scan over segments, each solved from boundary to boundary with the segment passed explicitly, so
+function: a scan over intervals, each solved from end to end with the interval passed explicitly, so
 that no number of the scenario is compiled in. Steps end where friction reverses, as the native ones do.
 """
 
@@ -19,42 +19,45 @@ import jax.numpy as jnp
 import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE, Model, Options
+from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, Model, Options
 from tribodyn.errors import InputError
 from tribodyn.numerics.cache import use_compilation_cache
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.integrator import IntegratedCycles, Status, sample_phases
+from tribodyn.solve.integrator import IntegratedCycles, Status
 from tribodyn.solve.jax.controllers import GROWN, LimitedSteps, TurningSteps
 from tribodyn.solve.march.reversal import SHARES, filled_up, stops_of_many
-from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_STEP, RELATIVE, resolves_turns
-from tribodyn.solve.right_hand_side import engaged
+from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_STEP, relative_factor, resolves_turns
+from tribodyn.solve.right_hand_side import contacts_of, engaged
 from tribodyn.solve.tolerances import StepTolerances
+from tribodyn.train.schedule import Schedule, intervals, sample_phases
+from tribodyn.train.structure import LAG
 
 jax.config.update("jax_enable_x64", True)
 
 #: Fills up the phases to sample: it passes diffrax's checks and is never due.
 NEVER = np.nan
-#: Samples that the compiled code has room for in a segment, or a multiple.
+#: Samples that the compiled code has room for in an interval, or a multiple.
 ROOM = 256
 
 
 def right_hand_side(phase: Any, y: Any, args: Any) -> Any:
-    """Derivative of the state as a JAX array; `args` is (cycle, segment, model)."""
-    cycle, segment, model = args
-    return _rates(phase, y, cycle, segment, model[:-1], model.options)
+    """Derivative of the state as a JAX array; `args` is (cycle, interval, model)."""
+    cycle, interval, model = args
+    return _rates(phase, y, cycle, interval, model[:-1], model.options)
 
 
 @partial(jax.jit, static_argnames="options")
-def _rates(phase: Any, y: Any, cycle: Any, segment: Any, numbers: Any, options: Options) -> Any:
+def _rates(phase: Any, y: Any, cycle: Any, interval: Any, numbers: Any, options: Options) -> Any:
     """Traced once, however often a method's stages name it."""
     rates: dict[int, Any] = {}
     try:
-        derivatives(phase, cycle, segment, y, Model(*numbers, options=options), {}, rates)
+        model = Model(*numbers, options=options)
+        derivatives(phase, cycle, interval, y, model, contacts_of(model), rates)
     except (jax.errors.TracerArrayConversionError, jax.errors.ConcretizationTypeError) as error:
         rule = "a law calls what JAX cannot trace, such as functions of numpy"
         remedy = "write it with tribodyn.numerics.elementary, or solve natively"
         raise InputError("solver.method", None, rule, remedy) from error
-    return jnp.stack([jnp.asarray(rates[i], dtype=y.dtype) for i in range(STATES)])
+    return jnp.stack([jnp.asarray(rates[i], dtype=y.dtype) for i in range(options.layout.states)])
 
 
 class DiffraxMethod(NamedTuple):
@@ -75,32 +78,33 @@ METHODS = {
 
 
 class Carried(NamedTuple):
-    """What is handed from one segment to the next; all with leading axes for the cases of a batch."""
+    """What is handed from one interval to the next; all with leading axes for the cases of a batch."""
 
-    #: at the end of the segment before; of a run that failed where the last whole segment ended
+    #: at the end of the interval before; of a run that failed where the last whole one ended
     y: Float[Array, "*case state"]
     step: Float[Array, "*case"]  # first step to try, mesh cycles
     steps: Int[Array, "*case"]  # accepted in this mesh cycle so far
     status: Int[Array, "*case"]  # a `Status`
 
 
-class SegmentControl(NamedTuple):
-    """How to integrate, segment by segment; with a leading axis for the cases of a batch."""
+class IntervalControl(NamedTuple):
+    """How to integrate, interval by interval; with a leading axis for the cases of a batch."""
 
-    at: Float[Array, "*case segment room"]  # phases to sample, filled up with `NEVER`
-    stops: Float[Array, "*case segment stop"]  # phases that steps end on
+    within: Int[Array, "*case place"]  # numbers of intervals in a cycle, up to the most of any
+    at: Float[Array, "*case interval room"]  # phases to sample, filled up with `NEVER`
+    stops: Float[Array, "*case interval stop"]  # phases that steps end on
     rtol: Float[Array, "*case"]
     atol: Float[Array, "*case state"]
     max_steps: Int[Array, "*case"]  # steps allowed in one mesh cycle
 
 
-class SegmentResult(NamedTuple):
-    """What became of segments: their samples, as many as were due, and what they cost."""
+class IntervalResult(NamedTuple):
+    """What became of a cycle's intervals: their samples, as many as were due, and what they cost."""
 
-    samples: Float[Array, "*case segment room state"]
-    status: Int[Array, "*case segment"]
-    steps: Int[Array, "*case segment"]
-    evaluations: Int[Array, "*case segment"]
+    samples: Float[Array, "*case place room state"]
+    status: Int[Array, "*case place"]
+    steps: Int[Array, "*case place"]
+    evaluations: Int[Array, "*case place"]
 
 
 def over_cycle(
@@ -110,18 +114,19 @@ def over_cycle(
     carried: Carried,
     cycle: Any,
     started: Any,
-    control: SegmentControl,
-) -> tuple[Carried, SegmentResult]:
-    """Integrate over one mesh cycle: a scan over its segments, each solved from boundary to boundary.
+    control: IntervalControl,
+) -> tuple[Carried, IntervalResult]:
+    """Integrate over one mesh cycle: a scan over its intervals, each solved from end to end.
 
     `numbers` are the model's but for its options; `started` says whether the engagement at phase 0 comes
     first.
     """
     model = Model(*numbers, options=options)
-    table, mechanics = model.table, model.mechanics
-    segments = table.in_contact.shape[0]
+    schedule, layout = model.schedule, options.layout
+    slip = layout.half + LAG
+    relative = np.array([relative_factor(i, layout) for i in range(layout.states)])
     pid: Any = diffrax.PIDController(
-        control.rtol * RELATIVE,
+        control.rtol * relative,
         control.atol,
         pcoeff=method.proportional,
         icoeff=method.integral,
@@ -129,20 +134,27 @@ def over_cycle(
         force_dtmin=False,
     )
     if options.sliding == SLIDING_DYNAMIC:
-        pid = TurningSteps(pid, resolves_turns(control.atol[XI_RATE], model))
+        pid = TurningSteps(pid, resolves_turns(control.atol, model))
     stall = None
     if options.drive != DRIVE_SPEED:
-        stall = diffrax.Event(lambda t, y, args, **kwargs: mechanics.nominal_speed + y[SLIP] <= 0.0)
+        stall = diffrax.Event(lambda t, y, args, **kwargs: model.operation.nominal_speed + y[slip] <= 0.0)
 
-    def over_segment(carried: Carried, segment: Any) -> tuple[Carried, SegmentResult]:
-        dead = carried.status != Status.DONE
-        start, end = table.boundary[segment], table.boundary[segment + 1]
-        y = jnp.stack(engaged(segment, (segment > 0) | started, carried.y, model))
+    first = jnp.asarray(schedule.first).astype(int)
+    cycle_of_period = jnp.asarray(cycle).astype(int) % (first.shape[0] - 1)
+    opening, closing = first[cycle_of_period], first[cycle_of_period + 1]
+
+    def over_interval(carried: Carried, k: Any) -> tuple[Carried, IntervalResult]:
+        # a cycle of fewer intervals than another of the period waits for the rest of the scan
+        interval = jnp.minimum(opening + k, closing - 1)
+        beyond = opening + k >= closing
+        dead = (carried.status != Status.DONE) | beyond
+        start, end = schedule.start[interval], schedule.end[interval]
+        y = jnp.stack(engaged(interval, (k > 0) | started, carried.y, model))
         # a case that failed waits for the others of its batch at a harmless state, over next to nothing
         y = jnp.where(dead, 0.0, y)
         end = jnp.where(dead, start + 1e-9 * (end - start), end)
-        at = jnp.where(dead, NEVER, control.at[segment])
-        clipped = diffrax.ClipStepSizeController(pid, step_ts=control.stops[segment])
+        at = jnp.where(dead, NEVER, control.at[interval])
+        clipped = diffrax.ClipStepSizeController(pid, step_ts=control.stops[interval])
         solution = diffrax.diffeqsolve(
             diffrax.ODETerm(right_hand_side),
             method.solver(),
@@ -150,7 +162,7 @@ def over_cycle(
             end,
             jnp.minimum(carried.step, end - start),
             y,
-            args=(jnp.asarray(cycle, dtype=float), segment, model),
+            args=(jnp.asarray(cycle, dtype=float), interval, model),
             saveat=diffrax.SaveAt(ts=at, t1=True),
             stepsize_controller=LimitedSteps(clipped, control.max_steps - carried.steps),
             max_steps=None,
@@ -172,7 +184,7 @@ def over_cycle(
         for result, meaning in failures:
             status = jnp.where(solution.result == result, meaning, status)
         status = jnp.where(dead, carried.status, status)
-        good = status == Status.DONE
+        good = (status == Status.DONE) & ~beyond
         mean_step = (end - start) / jnp.maximum(accepted, 1)
         went_on = Carried(
             jnp.where(good, last, carried.y),
@@ -182,10 +194,10 @@ def over_cycle(
         )
         taken = jnp.minimum(accepted, control.max_steps - carried.steps)  # the step too many is counted there
         cost = jnp.where(dead, 0, solution.stats["num_steps"] * method.stages)
-        return went_on, SegmentResult(states[:-1], status, jnp.where(dead, 0, taken), cost)
+        return went_on, IntervalResult(states[:-1], status, jnp.where(dead, 0, taken), cost)
 
     return jax.lax.scan(
-        over_segment, carried._replace(steps=jnp.zeros_like(carried.steps)), jnp.arange(segments)
+        over_interval, carried._replace(steps=jnp.zeros_like(carried.steps)), control.within
     )
 
 
@@ -193,7 +205,7 @@ over_one_cycle = jax.jit(over_cycle, static_argnames=("method", "options"))
 
 
 def beginning(state: Float[Array, "*case state"]) -> Carried:
-    """What is handed to the first segment; leading axes are those of the state.
+    """What is handed to the first interval; leading axes are those of the state.
 
     Of the types that a mesh cycle hands on: a plain number's weak one would compile everything once more.
     """
@@ -203,23 +215,26 @@ def beginning(state: Float[Array, "*case state"]) -> Carried:
     return Carried(jnp.asarray(state, dtype=float), step, none, none + Status.DONE)
 
 
-def padded_phases(
-    boundary: Float[Array, " boundary"], samples: int
-) -> tuple[Float[Array, "segment room"], list[int]]:
-    """Phases of the samples in every segment (S, room), filled up with `NEVER`, and how many are samples.
+def padded_phases(schedule: Schedule, samples: int) -> tuple[Float[Array, "interval room"], list[int]]:
+    """Phases of the samples in every interval, filled up with `NEVER`, and how many are samples.
 
     The room is a multiple of `ROOM`, so that neither another contact ratio nor another number of samples
     compiles anything again.
     """
-    groups = sample_phases(boundary, samples)
+    groups = sample_phases(schedule, samples)
     room = ROOM * max(1, -(-samples // ROOM))
     filled = [np.append(group, np.full(room - len(group), NEVER)) for group in groups]
     return np.array(filled), [len(group) for group in groups]
 
 
-def steps_end_on(models: Sequence[Model]) -> Float[Array, "case segment stop"]:
+def places_in_cycle(schedule: Schedule) -> Int[Array, " place"]:
+    """Numbers of intervals in a reference cycle, up to the most of any."""
+    return np.arange(int(np.max(np.diff(np.asarray(schedule.first)))))
+
+
+def steps_end_on(models: Sequence[Model]) -> Float[Array, "case interval stop"]:
     """Phases that steps end on, see `reversal.stops`; their number depends on the pair slots only."""
-    count = 1 + len(SHARES) * np.asarray(models[0].table.in_contact).shape[1]
+    count = 1 + len(SHARES) * sum(mesh.table.side.shape[0] for mesh in models[0].meshes)
     return filled_up(stops_of_many(models), count)
 
 
@@ -231,9 +246,10 @@ class DiffraxIntegrator:
         self.method = METHODS[method]
         self.options: Options = model.options
         self.numbers = jax.tree.map(partial(jnp.asarray, dtype=float), model.numbers)
-        self.boundary = np.asarray(model.table.boundary)
-        at, self.counts = padded_phases(self.boundary, samples)
-        self.control = SegmentControl(
+        self.schedule = model.schedule
+        at, self.counts = padded_phases(model.schedule, samples)
+        self.control = IntervalControl(
+            jnp.asarray(places_in_cycle(model.schedule)),
             jnp.asarray(at),
             jnp.asarray(steps_end_on([model])[0]),
             jnp.asarray(tolerances.rtol, dtype=float),
@@ -246,20 +262,21 @@ class DiffraxIntegrator:
     def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
         """See `integrator.Integrator`."""
         carried = beginning(state)._replace(step=jnp.asarray(self.step, dtype=float))
-        samples, reached, steps, evaluations = [np.empty((0, STATES))], 0.0, 0, 0
+        samples, reached, steps, evaluations = [np.empty((0, state.shape[-1]))], 0.0, 0, 0
         for cycle in range(first_cycle, first_cycle + cycles):
-            carried, segments = over_one_cycle(
+            numbers = intervals(self.schedule, cycle)
+            carried, found = over_one_cycle(
                 self.method, self.options, self.numbers, carried, cycle, self.started, self.control
             )
             self.started = True
-            status, sampled = np.asarray(segments.status), np.asarray(segments.samples)
+            status, sampled = np.asarray(found.status)[: len(numbers)], np.asarray(found.samples)
             failed = status != Status.DONE
-            whole = int(np.argmax(failed)) if failed.any() else len(status)
-            samples += [sampled[k, : self.counts[k]] for k in range(whole)]
-            steps += int(np.sum(segments.steps))
-            evaluations += int(np.sum(segments.evaluations))
-            reached += float(self.boundary[whole])
-            if whole < len(status):
+            whole = int(np.argmax(failed)) if failed.any() else len(numbers)
+            samples += [sampled[k, : self.counts[numbers[k]]] for k in range(whole)]
+            steps += int(np.sum(found.steps))
+            evaluations += int(np.sum(found.evaluations))
+            reached += 1.0 if whole == len(numbers) else float(np.asarray(self.schedule.start)[numbers[whole]])
+            if whole < len(numbers):
                 break
         self.step = float(carried.step)
         status = Status(int(carried.status))

@@ -9,10 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.extremes import Extremes
-from tribodyn.dynamics.parameters import STATES, Model, Options
-from tribodyn.kernels.lanes.tables import Field, LaneRecord
+from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.kernels.lanes.tables import Field, LaneRecord, Part, Places
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import Ensemble, March, nothing_yet, put
@@ -21,27 +20,25 @@ from tribodyn.solve.lanes.queue import CASE, ROWS, LaneBlock, Queue
 from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.reversal import stops_of_many
 from tribodyn.solve.methods import dopri5
+from tribodyn.solve.right_hand_side import work_array
 from tribodyn.solve.tolerances import tolerances_of_many
 
 #: Time between two reports of progress, s.
 INTERVAL = 0.1
-#: The model's named tuples of numbers and tables.
+#: The model's parts of numbers and tables.
 RECORDS = tuple(name for name in Model._fields if name != "options")
 #: Tables that models of one shape have in common, value for value: branches may hang on them.
-SHARED = ("side", "in_contact")
+SHARED = ("side", "in_contact", "first", "segment", "opens")
+#: Records whose tables are short, and stand among the numbers.
+SHORT = ("Bodies", "Links", "Schedule")
 
 
 class ModelShape(NamedTuple):
     """What must be the same in all lanes: the options, and the shape of every field."""
 
     options: Options
-    shapes: tuple[tuple[tuple[int, ...], ...], ...]
-    contacts: bytes  # side of every slot, and which are in contact in which segment
-
-    @property
-    def pairs(self) -> int:
-        """Number of pair slots."""
-        return self.shapes[0][2][0]
+    shapes: tuple[Any, ...]  # of every part, nested as it is
+    contacts: bytes  # all that is `SHARED`
 
 
 class Kept(NamedTuple):
@@ -56,37 +53,43 @@ class Packed(NamedTuple):
     """Models of one shape."""
 
     shape: ModelShape
-    fields: tuple[tuple[Field, ...], ...]  # fields of every record
+    fields: tuple[Part, ...]
     numbers: np.ndarray  # (C, F) float64
     addresses: np.ndarray  # (C, T) int64
     lengths: np.ndarray  # (L,) int64
     kept: list[Kept]  # what the addresses point into
 
 
-def shape_of(model: Model, known: dict[int, tuple[Any, ...]] | None = None) -> ModelShape:
+Known = dict[int, tuple[Any, ...]]
+"""Records examined so far, by their identity, with what was found."""
+
+
+def shape_of(model: Model, known: Known | None = None) -> ModelShape:
     """What a model must have in common with another to run beside it.
 
     `known` keeps the shapes of records, for models that have some in common.
     """
     known = {} if known is None else known
-    shapes, contacts = [], b""
-    for name in RECORDS:
-        record = getattr(model, name)
-        if id(record) not in known:
-            tables = [getattr(record, table) for table in SHARED] if name == "table" else []
-            known[id(record)] = (
-                tuple(getattr(value, "shape", ()) for value in record),
-                b"".join(np.asarray(table, dtype=float).tobytes() for table in tables),
-            )
-        own_shapes, own_contacts = known[id(record)]
-        shapes.append(own_shapes)
-        contacts += own_contacts
-    return ModelShape(model.options, tuple(shapes), contacts)
+    parts = [_shape_of(getattr(model, name), known) for name in RECORDS]
+    return ModelShape(model.options, tuple(part[0] for part in parts), b"".join(part[1] for part in parts))
+
+
+def _shape_of(value: Any, known: Known) -> tuple[Any, bytes]:
+    """Shapes of a record, or of several, and the content of what is `SHARED`."""
+    if not isinstance(value, tuple):
+        return getattr(value, "shape", ()), b""
+    if id(value) not in known:
+        parts = [_shape_of(item, known) for item in value]
+        names = getattr(value, "_fields", ())
+        own = [np.asarray(getattr(value, name), dtype=float).tobytes() for name in names if name in SHARED]
+        contents = b"".join(part[1] for part in parts) + b"".join(own)
+        known[id(value)] = (tuple(part[0] for part in parts), contents, value)
+    return known[id(value)][:2]
 
 
 def by_shape(models: Sequence[Model]) -> list[np.ndarray]:
     """Places of the models of each shape; a record that many have in common is examined once."""
-    known: dict[int, tuple[Any, ...]] = {}
+    known: Known = {}
     groups: dict[ModelShape, list[int]] = {}
     for place, model in enumerate(models):
         groups.setdefault(shape_of(model, known), []).append(place)
@@ -96,63 +99,94 @@ def by_shape(models: Sequence[Model]) -> list[np.ndarray]:
 def pack(models: Sequence[Model]) -> Packed:
     """Rows of models of one shape; tables stay where they are."""
     shape = shape_of(models[0])
-    fields, lengths = _fields(models[0], shape)
+    lengths: list[int] = []
+    fields, at = [], Places(0, 0, 0)
+    for name in RECORDS:
+        fields.append(_part(name, getattr(models[0], name), at, lengths))
+        at = _after(fields[-1])
     kept: dict[int, Kept] = {}
-    rows: dict[int, tuple[Any, list[float], list[int]]] = {}
+    rows: Known = {}
     numbers, addresses = [], []
     for model in models:
-        numbers.append([])
-        addresses.append([])
-        for name, group in zip(RECORDS, fields, strict=True):
-            record = getattr(model, name)
-            if id(record) not in rows:
-                rows[id(record)] = (record, *_row(record, group, kept))
-            numbers[-1] += rows[id(record)][1]
-            addresses[-1] += rows[id(record)][2]
+        row = [_row(getattr(model, name), kept, rows) for name in RECORDS]
+        numbers.append([number for part in row for number in part[0]])
+        addresses.append([address for part in row for address in part[1]])
     where, shapes = np.array(addresses, dtype=np.int64), np.array(lengths, dtype=np.int64)
-    return Packed(shape, fields, np.array(numbers), where, shapes, list(kept.values()))
+    return Packed(shape, tuple(fields), np.array(numbers), where, shapes, list(kept.values()))
 
 
-def _fields(model: Model, shape: ModelShape) -> tuple[tuple[tuple[Field, ...], ...], list[int]]:
-    fields, lengths = [], []
-    number = address = 0
-    for name, shapes in zip(RECORDS, shape.shapes, strict=True):
-        group = []
-        for field, axes in zip(getattr(model, name)._fields, shapes, strict=True):
-            row = address if axes else number
-            group.append(Field(field, len(axes), row, len(lengths), field in SHARED))
-            number += not axes
-            address += bool(axes)
-            lengths += axes
-        fields.append(tuple(group))
-    return tuple(fields), lengths
+def _after(part: Part) -> Places:
+    """Where a part ends."""
+    count = max(part.count, 1)
+    return Places(*(first + count * each for first, each in zip(part.first, part.size, strict=True)))
 
 
-def _row(record: Any, fields: tuple[Field, ...], kept: dict[int, Kept]) -> tuple[list[float], list[int]]:
-    """Numbers and addresses of one record; a table that several records share is kept once."""
-    numbers, addresses = [], []
-    for value, field in zip(record, fields, strict=True):
-        if not field.ndim:
-            numbers.append(float(value))
+def _part(name: str, value: Any, first: Places, lengths: list[int]) -> Part:
+    """The layout of a record, or of several, that begins at a place; `lengths` receives those of its tables."""
+    if not hasattr(value, "_fields"):
+        parts = [_part(name, item, first, lengths) for item in value]
+        return parts[0]._replace(count=len(value))
+    at = Places(0, 0, 0)
+    fields: list[Field | Part] = []
+    inline = type(value).__name__ in SHORT
+    for field, item in zip(value._fields, value, strict=True):
+        if isinstance(item, tuple):
+            fields.append(_part(field, item, at, lengths))
+            at = _after(fields[-1])
             continue
-        if id(value) not in kept:
-            array = np.ascontiguousarray(value, dtype=np.float64)
-            kept[id(value)] = Kept(value, array, array.ctypes.data)
-        addresses.append(kept[id(value)].address)
+        axes = np.shape(item)
+        among = bool(axes) and inline and field not in SHARED
+        row = at.numbers if among or not axes else at.addresses
+        fields.append(Field(field, len(axes), row, at.lengths, field in SHARED, among))
+        lengths += axes
+        at = Places(
+            at.numbers + (int(np.prod(axes)) if among else not axes),
+            at.addresses + (bool(axes) and not among),
+            at.lengths + len(axes),
+        )
+    return Part(name, tuple(fields), first, at)
+
+
+def _row(value: Any, kept: dict[int, Kept], known: Known) -> tuple[list[float], list[int]]:
+    """Numbers and addresses of a record, or of several; a table that records share is kept once."""
+    if id(value) in known:
+        return known[id(value)][:2]
+    numbers: list[float] = []
+    addresses: list[int] = []
+    names = getattr(value, "_fields", [""] * len(value))
+    inline = type(value).__name__ in SHORT
+    for field, item in zip(names, value, strict=True):
+        if isinstance(item, tuple):
+            own, pointed = _row(item, kept, known)
+            numbers += own
+            addresses += pointed
+        elif not np.ndim(item):
+            numbers.append(float(item))
+        elif inline and field not in SHARED:
+            numbers += np.ravel(item).tolist()
+        else:
+            if id(item) not in kept:
+                array = np.ascontiguousarray(item, dtype=np.float64)
+                kept[id(item)] = Kept(item, array, array.ctypes.data)
+            addresses.append(kept[id(item)].address)
+    known[id(value)] = (numbers, addresses, value)
     return numbers, addresses
 
 
 def lane_model(packed: Packed) -> tuple[Model, np.ndarray, np.ndarray]:
     """A model over the lanes, and its numbers (F, WIDTH) and addresses (T, WIDTH), all of the first case."""
     numbers, addresses = _over_lanes(packed.numbers[0]), _over_lanes(packed.addresses[0])
-    records: list[Any] = [LaneRecord(group, numbers, addresses, packed.lengths) for group in packed.fields]
-    return Model(**dict(zip(RECORDS, records, strict=True)), options=packed.shape.options), numbers, addresses
+    records: dict[str, Any] = {
+        part.name: LaneRecord(part, numbers, addresses, packed.lengths) for part in packed.fields
+    }
+    return Model(**records, options=packed.shape.options), numbers, addresses
 
 
 class LaneBatch(NamedTuple):
     """Cases whose models have one shape, in the order of the queue, and their places in the ensemble."""
 
     places: Int[Array, " case"]
+    model: Model  # the first one
     packed: Packed
     queue: Queue
 
@@ -184,7 +218,7 @@ def in_lanes(
             for batch in batches:
                 batch.queue.stop[0] = 1
             pool.shutdown(cancel_futures=True)
-    result = nothing_yet(states, march.window * march.samples, march.extremes)
+    result = nothing_yet(models[0].layout, states, march.window * march.samples, march.extremes)
     for batch in batches:
         put(result, batch.places, batch.queue.result)
     return result
@@ -197,26 +231,28 @@ def _batch(
 
     Lanes side by side then cost about the same.
     """
-    speeds = [float(models[case].mechanics.nominal_speed) for case in places]
+    speeds = [float(models[case].operation.nominal_speed) for case in places]
     places = places[np.argsort(speeds, kind="stable")]
     mine = [models[case] for case in places]
     packed = pack(mine)
-    result = nothing_yet(states[places], march.window * march.samples, march.extremes)
+    result = nothing_yet(mine[0].layout, states[places], march.window * march.samples, march.extremes)
     counters = (np.zeros(1, dtype=np.int64) for _ in range(3))
     atol, stops = tolerances_of_many(mine, states[places], march.rtol), stops_of_many(mine)
-    return LaneBatch(places, packed, Queue(packed.numbers, packed.addresses, atol, stops, result, *counters))
+    queue = Queue(packed.numbers, packed.addresses, atol, stops, result, *counters)
+    return LaneBatch(places, mine[0], packed, queue)
 
 
 def _work(batch: LaneBatch, march: March) -> None:
     """Work through a queue, until it is empty, in lanes of this thread's own."""
     model, numbers, addresses = lane_model(batch.packed)
-    pairs = batch.packed.shape.pairs
-    measures, state, extremes = Search.begun(pairs)
+    given = batch.model
+    layout, pairs = given.layout, given.pairs
+    measures, state, extremes = Search.begun(layout, pairs)
     search = Search(_over_lanes(measures), _over_lanes(state), Extremes(*map(_over_lanes, extremes)))
-    y, atol = np.zeros((STATES, WIDTH)), np.zeros((STATES, WIDTH))
-    work, rows = np.zeros((QUANTITIES + pairs, pairs, WIDTH)), np.zeros((ROWS, WIDTH))
+    y, atol = np.zeros((layout.states, WIDTH)), np.zeros((layout.states, WIDTH))
+    work, rows = _over_lanes(work_array(given)), np.zeros((ROWS, WIDTH))
     rows[CASE] = -1.0
-    block = LaneBlock(numbers, addresses, rows, y, atol, _over_lanes(dopri5.buffer()), work, search)
+    block = LaneBlock(numbers, addresses, rows, y, atol, _over_lanes(dopri5.buffer(layout)), work, search)
     march_lanes(model, block, batch.queue, march)
 
 

@@ -1,12 +1,13 @@
 """Dormand-Prince 5(4) for a vector of cases side by side, one case per lane.
 
-Every lane has its own phase, step and error control; the lanes meet only at the ends of segments, where they
-wait for the last. A lane that is done, or that failed, takes the queue's next case at the end of the cycle.
+Every lane has its own phase, step and error control; the lanes meet only at the ends of intervals, where they
+wait for the last. A lane that is done, or that failed, takes the queue's next case where the next common
+period begins.
 No lane's arithmetic reads another lane, so a case's bits are the same whatever the other lanes hold.
 """
 
 from tribodyn.dynamics.extremes import Extremes
-from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIP, STATES, XI_RATE
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC
 from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, any_of
@@ -41,7 +42,8 @@ from tribodyn.solve.march import step_control as rules
 from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Place
 from tribodyn.solve.methods import dopri5
-from tribodyn.solve.right_hand_side import engage
+from tribodyn.solve.right_hand_side import engage, interval_at
+from tribodyn.train.structure import LAG
 
 METHOD = dopri5.METHOD
 
@@ -50,18 +52,24 @@ METHOD = dopri5.METHOD
 def march_lanes(model, block, queue, march):
     """Integrate cases of the queue, `WIDTH` at a time, until none is left."""
     rows, y, buffer, work = rows_of(block.rows), rows_of(block.y), rows_of(block.buffer), rows_of(block.work)
-    segments = model.table.in_contact.shape[0]
-    while take_cases(block, queue, march):
-        for segment in range(segments):
-            open_segment(segment, model, block, queue, march)
+    period = model.schedule.first.shape[0] - 1
+    cycle = 0
+    while take_cases(block, queue, march, cycle == 0):
+        opening = interval_at(march.first_cycle + cycle, model)
+        closing = interval_at(march.first_cycle + cycle + 1, model)
+        if closing <= opening:  # the last cycle of the common period
+            closing = model.schedule.start.shape[0]
+        for interval in range(opening, closing):
+            open_interval(interval, model, block, queue, march)
             fresh = True
             while any_of(rows[PHASE] < rows[END]):
                 choose_step(model, block, queue, march)
-                place = Place(rows[PHASE], rows[CYCLE] + march.first_cycle, segment, rows[END])
+                place = Place(rows[PHASE], rows[CYCLE] + march.first_cycle, interval, rows[END])
                 taken = dopri5.attempt(fresh, rows[STEP], place, y, march, model, work, buffer)
-                judge(taken, segment, model, block, queue, march)
+                judge(taken, interval, model, block, queue, march)
                 fresh = False
         close_cycle(block, queue, march)
+        cycle = (cycle + 1) % period if any_of(rows[CASE] >= 0.0) else 0
 
 
 @part
@@ -69,7 +77,7 @@ def search_of(block):
     """The search for extremes, over the lanes."""
     search, found = block.search, block.search.extremes
     extremes = Extremes(
-        rows_of(found.measure), rows_of(found.cycles), rows_of(found.segment), rows_of(found.state)
+        rows_of(found.measure), rows_of(found.cycles), rows_of(found.interval), rows_of(found.state)
     )
     return Search(rows_of(search.measures), rows_of(search.state), extremes)
 
@@ -82,28 +90,28 @@ def seeking(lanes, block, march):
 
 
 @part
-def open_segment(segment, model, block, queue, march):
-    """Put all lanes at the segment's start, behind the change of contacting pairs; keep a sample if due."""
+def open_interval(interval, model, block, queue, march):
+    """Put all lanes at the interval's start, behind the change of contacting pairs; keep a sample if due."""
     rows, y, work = rows_of(block.rows), rows_of(block.y), rows_of(block.work)
-    start, end = model.table.boundary[segment], model.table.boundary[segment + 1]
+    start, end = model.schedule.start[interval], model.schedule.end[interval]
     has_case = rows[CASE] >= 0.0
     rows[PHASE] = where(has_case, start, end)
     rows[END] = end
-    engage(segment, has_case & (rows[FRESH] == 0.0), y, model, work, y)
+    engage(interval, has_case & (rows[FRESH] == 0.0), y, model, work, y)
     rows[FRESH] = where(has_case, 0.0, rows[FRESH])
     if model.options.sliding == SLIDING_DYNAMIC:
-        rules.begin_turning(rows[PHASE], segment, y, model, work)
+        rules.begin_turning(rows[PHASE], interval, y, model, work)
     for lane in range(WIDTH):
         block.rows[STOP, lane] = 0.0
         if block.rows[CASE, lane] >= 0.0:
-            block.rows[LIMIT, lane] = queue.stops[int(block.rows[CASE, lane]), segment, 0]
+            block.rows[LIMIT, lane] = queue.stops[int(block.rows[CASE, lane]), interval, 0]
     due = has_case & (rows[DUE] <= start)
     if any_of(due):
         keep_sample(due, block.y, block, queue, march)
     if march.extremes:
         lanes = seeking(has_case, block, march)
         if any_of(lanes):
-            place = Place(start, rows[CYCLE] + march.first_cycle, segment, end)
+            place = Place(start, rows[CYCLE] + march.first_cycle, interval, end)
             extreme_search.open_segment(lanes, place, y, model, work, search_of(block))
 
 
@@ -111,13 +119,13 @@ def open_segment(segment, model, block, queue, march):
 def choose_step(model, block, queue, march):
     """Let a step that comes near the next stop end on it, and give up where no step is possible any more."""
     rows = rows_of(block.rows)
-    nominal_speed = model.mechanics.nominal_speed
+    nominal_speed, slip = model.operation.nominal_speed, model.options.layout.half + LAG
     running = rows[PHASE] < rows[END]
     rows[UNCUT_STEP] = rows[STEP]
     cut, step = rules.cut_at_stop(rows[PHASE], rows[STEP], rows[LIMIT])
     rows[CUT] = where(running & cut, 1.0, 0.0)
     rows[STEP] = where(running, step, rows[STEP])
-    taken, speed = rows[STEPS] - rows[STEPS_BEFORE], nominal_speed + rows_of(block.y)[SLIP]
+    taken, speed = rows[STEPS] - rows[STEPS_BEFORE], nominal_speed + rows_of(block.y)[slip]
     failure = rules.refusal(taken, march.max_steps, rows[STEP], speed, nominal_speed)
     failed = running & (failure > 0.0)
     if any_of(failed):
@@ -125,8 +133,8 @@ def choose_step(model, block, queue, march):
 
 
 @part
-def judge(evaluations, segment, model, block, queue, march):
-    """Accept or reject the step of every lane that is not yet at the end of the segment, each for itself."""
+def judge(evaluations, interval, model, block, queue, march):
+    """Accept or reject the step of every lane that is not yet at the end of the interval, each for itself."""
     rows, y, buffer, atol, work = (
         rows_of(block.rows),
         rows_of(block.y),
@@ -134,12 +142,13 @@ def judge(evaluations, segment, model, block, queue, march):
         rows_of(block.atol),
         rows_of(block.work),
     )
+    layout = model.options.layout
     new = buffer[STATE]
     phase, step = rows[PHASE], rows[STEP]
     running = phase < rows[END]
     cut = rows[CUT] > 0.0
     rows[EVALUATIONS] = rows[EVALUATIONS] + where(running, 1.0 * evaluations, 0.0)
-    worst, total = rules.collected_errors(buffer[ERROR], y, new, atol, march.rtol)
+    worst, total = rules.collected_errors(buffer[ERROR], y, new, atol, march.rtol, layout)
     error = rules.step_error(worst, total)
     accepted, undefined, failure = rules.step_outcome(error, step, new, model)
     failed = running & (failure > 0.0)
@@ -149,35 +158,35 @@ def judge(evaluations, segment, model, block, queue, march):
     accepted = accepted & running
     turned, shorter = accepted & ~accepted, step
     if model.options.sliding == SLIDING_DYNAMIC:
-        too_far, shorter = rules.turn_of(step, segment, model, work)
-        fine = rules.resolves_turns(atol[XI_RATE], model)
+        too_far, shorter = rules.turn_of_friction(step, interval, model, work)
+        fine = rules.resolves_turns(atol, model)
         turned = accepted & too_far & fine & (rows[TRIES] < rules.MOST_TRIES)
         accepted = accepted & ~turned
         rows[TRIES] = where(turned, rows[TRIES] + 1.0, where(accepted, 0.0, rows[TRIES]))
-        rules.keep_turned(accepted, step, segment, model, work)
+        rules.keep_turned(accepted, step, interval, model, work)
     reached = where(cut, rows[LIMIT], phase + step)
     due = accepted & (rows[DUE] <= reached) & (rows[DUE] < rows[END])
     while any_of(due):
-        dopri5.sample((rows[DUE] - phase) / step, step, y, buffer, rows_of(block.search.state))
+        dopri5.sample((rows[DUE] - phase) / step, step, y, buffer, rows_of(block.search.state), layout)
         keep_sample(due, block.search.state, block, queue, march)
         due = accepted & (rows[DUE] <= reached) & (rows[DUE] < rows[END])
     if march.extremes:
         lanes = seeking(accepted, block, march)
         if any_of(lanes):
-            place = Place(phase, rows[CYCLE] + march.first_cycle, segment, reached)
+            place = Place(phase, rows[CYCLE] + march.first_cycle, interval, reached)
             search = search_of(block)
             extreme_search.search_step(METHOD, lanes, place, step, y, model, work, buffer, search)
     grown = step * dopri5.growth(error, rows[LAST_ERROR])
     grown = rules.next_step(grown, cut, rows[UNCUT_STEP])
     if model.options.sliding == SLIDING_DYNAMIC:
-        longest = rules.longest_step(segment, model, work)
-        grown = where(rules.resolves_turns(atol[XI_RATE], model), minimum(grown, longest), grown)
+        longest = rules.longest_step(interval, model, work)
+        grown = where(rules.resolves_turns(atol, model), minimum(grown, longest), grown)
     rejected = where(turned, shorter, step * where(undefined, rules.RETRY, dopri5.shrinkage(error)))
     rows[STEP] = where(running, where(accepted, grown, rejected), step)
     rows[LAST_ERROR] = where(accepted, maximum(error, rules.MINIMUM_ERROR), rows[LAST_ERROR])
     rows[PHASE] = where(accepted, reached, rows[PHASE])
     rows[STEPS] = rows[STEPS] + where(accepted, 1.0, 0.0)
-    for i in range(STATES):
+    for i in range(layout.states):
         y[i] = where(accepted, new[i], y[i])
         last = buffer[SCRATCH + dopri5.STAGES - 1, i]  # of a step accepted the next one's first stage
         buffer[SCRATCH, i] = where(accepted, last, buffer[SCRATCH, i])
@@ -188,4 +197,4 @@ def judge(evaluations, segment, model, block, queue, march):
             if block.rows[SELECTED, lane] > 0.0:
                 stop = int(block.rows[STOP, lane]) + 1
                 block.rows[STOP, lane] = stop
-                block.rows[LIMIT, lane] = queue.stops[int(block.rows[CASE, lane]), segment, stop]
+                block.rows[LIMIT, lane] = queue.stops[int(block.rows[CASE, lane]), interval, stop]

@@ -7,7 +7,7 @@ The rows are in three groups: step control, counters, flags.
 
 from typing import NamedTuple
 
-from tribodyn.dynamics.extremes import EXTREMES, LOWEST
+from tribodyn.dynamics.extremes import LOWEST
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, count
 from tribodyn.kernels.native.parts import part
@@ -17,12 +17,12 @@ from tribodyn.solve.integrator import Ensemble, Status
 from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR
 
-#: Step control: phase (mesh cycles, 0 … 1); end of the segment, a lane runs while its phase is below; next
+#: Step control: phase (mesh cycles, 0 … 1); end of the interval, a lane runs while its phase is below; next
 #: stop, see `reversal`; the step, and what it was before it was cut to end there; the last error; phase of
 #: the next sample, above 1 if none is left.
 PHASE, END, LIMIT, STEP, UNCUT_STEP, LAST_ERROR, DUE = range(7)
 #: Counters: number of the case, −1 for none; cycles that it has done; steps accepted, and those before this
-#: mesh cycle; evaluations; numbers of the next stop in the segment and of the next sample in the cycle; how
+#: mesh cycle; evaluations; numbers of the next stop in the interval and of the next sample in the cycle; how
 #: often the step was tried again because friction turned too far.
 CASE, CYCLE, STEPS, STEPS_BEFORE, EVALUATIONS, STOP, SAMPLE, TRIES = range(7, 15)
 #: Flags, 0 or 1: no engagement opens the first cycle; the step was cut; the lane is selected (where it fails,
@@ -42,7 +42,7 @@ class LaneBlock(NamedTuple):
     y: Float[Array, "state lane"]
     atol: Float[Array, "state lane"]
     buffer: Float[Array, "row state lane"]  # of the method
-    work: Float[Array, "quantity pair lane"]
+    work: Float[Array, "mesh quantity pair lane"]
     search: Search  # with the lanes as its last axis
 
 
@@ -52,7 +52,7 @@ class Queue(NamedTuple):
     numbers: Float[Array, "case number"]  # this and the next: the models, see `batch`
     addresses: Int[Array, "case table"]
     atol: Float[Array, "case state"]
-    stops: Float[Array, "case segment stop"]  # phases that steps end on, see `reversal.stops`
+    stops: Float[Array, "case interval stop"]  # phases that steps end on, see `reversal.stops`
     result: Ensemble  # its `state` holds the start before
     taken: Int[Array, "1"]  # cases begun
     done: Int[Array, "1"]  # mesh cycles done
@@ -67,12 +67,12 @@ def copy(source, target):
 
 
 @part
-def take_cases(block, queue, march):
-    """Fill the lanes that have no case; False if none has one any more."""
+def take_cases(block, queue, march, opens):
+    """Fill the lanes that have no case, where a common period `opens`; False if none has one any more."""
     rows = block.rows
     running = False
     for lane in range(WIDTH):
-        if rows[CASE, lane] < 0.0 and queue.taken[0] < queue.result.state.shape[0]:
+        if opens and rows[CASE, lane] < 0.0 and queue.taken[0] < queue.result.state.shape[0]:
             case = count(queue.taken, 1)
             if case < queue.result.state.shape[0]:
                 copy(queue.numbers[case], block.numbers[:, lane])
@@ -82,7 +82,7 @@ def take_cases(block, queue, march):
                 for row in range(ROWS):
                     rows[row, lane] = 0.0
                 rows[CASE, lane] = case
-                for i in range(EXTREMES):
+                for i in range(block.search.extremes.measure.shape[0]):
                     block.search.extremes.measure[i, lane] = LOWEST
                 rows[STEP, lane] = FIRST_STEP
                 rows[LAST_ERROR, lane] = MINIMUM_ERROR
@@ -125,8 +125,8 @@ def let_go(lane, status, block, queue):
     if extremes.measure.shape[0] > 0:
         copy(found.measure[:, lane], extremes.measure[case])
         copy(found.cycles[:, lane], extremes.cycles[case])
-        copy(found.segment[:, lane], extremes.segment[case])
-        for i in range(EXTREMES):
+        copy(found.interval[:, lane], extremes.interval[case])
+        for i in range(found.measure.shape[0]):
             copy(found.state[i, :, lane], extremes.state[case, i])
     rows[CASE, lane] = -1.0
     rows[PHASE, lane] = rows[END, lane]

@@ -8,12 +8,12 @@ steps it has no samples.
 import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, largest_slope, law, maximum, minimum, plain, sqrt
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.extreme_search import ignore_segment, ignore_step
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, scratch_buffer
+from tribodyn.train.structure import Layout
 
 STAGES = 12
 # fmt: off
@@ -88,28 +88,28 @@ def shrinkage(error):
     return maximum(0.3, 0.9 * error**-0.125)
 
 
-def buffer() -> Float[Array, "row state"]:
+def buffer(layout: Layout) -> Float[Array, "row state"]:
     """Scratch for the kernel: the new state, its error and the stages."""
-    return scratch_buffer(STAGES + 1)
+    return scratch_buffer(STAGES + 1, layout)
 
 
 @kernel
 def attempt(fresh, step, place, y, control, model, work, buffer):
     """See `marching.Method`; the rates at the new state are the next step's first."""
-    stage, k = buffer[STATE], buffer[SCRATCH:]
+    stage, k, layout = buffer[STATE], buffer[SCRATCH:], model.options.layout
     if fresh:
-        for i in range(STATES):
+        for i in range(layout.states):
             stage[i] = y[i]
     for s in range(0 if fresh else 1, STAGES + 1):
         if s > 0:
             # nothing depends on the works before the new state
-            for i in range(STATES if s == STAGES else MECHANICAL):
+            for i in range(layout.states if s == STAGES else layout.mechanical):
                 total = A[s, 0] * k[0, i]
                 for j in range(SECOND[s], s):
                     total = total + A[s, j] * k[j, i]
                 stage[i] = y[i] + step * total
-        derivatives(place.phase + C[s] * step, place.cycle, place.segment, stage, model, work, k[s])
-    for i in range(STATES):
+        derivatives(place.phase + C[s] * step, place.cycle, place.interval, stage, model, work, k[s])
+    for i in range(layout.states):
         fifth, third = 0.0 * y[i], 0.0 * y[i]
         for j in range(STAGES):
             fifth = fifth + E5[j] * k[j, i]
@@ -121,16 +121,16 @@ def attempt(fresh, step, place, y, control, model, work, buffer):
 
 
 @kernel
-def sample(theta, step, y, buffer, out):
+def sample(theta, step, y, buffer, out, layout):
     """See `marching.Method`: a chord, as only states at the start of a mesh cycle are asked for."""
-    for i in range(STATES):
+    for i in range(layout.states):
         out[i] = y[i] + theta * (buffer[STATE, i] - y[i])
 
 
 @kernel
-def accept(buffer):
+def accept(buffer, layout):
     """See `marching.Method`: the last rates are the next step's first."""
-    for i in range(STATES):
+    for i in range(layout.states):
         buffer[SCRATCH, i] = buffer[SCRATCH + STAGES, i]
     return False
 
@@ -142,7 +142,7 @@ def adapted(step, error, last_error, buffer):
 
 
 @kernel
-def contacts(phase, segment, model, work, buffer):
+def contacts(phase, interval, model, work, buffer):
     """See `marching.Method`: nobody asks."""
 
 

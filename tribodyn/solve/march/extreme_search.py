@@ -3,7 +3,7 @@
 Every accepted step is measured at its end (`dynamics.extremes.measure`), where the method knows the contacts
 already. Where a measure is so near its extreme so far that it may pass it inside the step, it is measured in
 the middle too, and where the parabola through the three values is highest, on the method's dense output.
-Both sides of every boundary between segments are measured.
+Both sides of every boundary between intervals are measured.
 
 The same code seeks in one case and in many side by side: `lanes` says which of these take part, and is True
 for the one. What a lane finds depends on no other.
@@ -14,7 +14,6 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from tribodyn.dynamics.contact_forces import normal_contacts
-from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.extremes import (
     END,
     EXTREME,
@@ -32,14 +31,16 @@ from tribodyn.dynamics.extremes import (
     measure,
     measure_end,
     measure_inside,
+    measures_in,
     measures_of,
     no_extremes,
     vertex,
 )
-from tribodyn.dynamics.parameters import STATES
+from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, opposite, where
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.structure import Layout
 
 #: Rise over an extreme, as a share of it, that is not worth another evaluation.
 WORTH = 1e-7
@@ -55,9 +56,10 @@ class Search(NamedTuple):
     extremes: Extremes  # the most extreme measures so far, and where
 
     @classmethod
-    def begun(cls, pairs: int) -> Self:
-        """A search that knows nothing, with so many pair slots."""
-        return cls(np.zeros((ROWS, measures_of(pairs))), np.zeros(STATES), no_extremes())
+    def begun(cls, layout: Layout, pairs: int) -> Self:
+        """A search that knows nothing, with so many pair slots in every mesh."""
+        measures = np.zeros((ROWS, layout.meshes * measures_of(pairs)))
+        return cls(measures, np.zeros(layout.states), no_extremes(layout))
 
 
 @law
@@ -84,19 +86,21 @@ def rate_of(start, end, per_step):
 
 
 @law
-def begin_rates(measures, extreme, rows):
-    """Suppose, at the start of a segment, that measures rise twice as fast as any alike moved before.
+def begin_rates(measures, extreme, of_mesh, layout):
+    """Suppose, at the start of an interval, that measures rise twice as fast as any alike moved before.
 
     There measures have corners, and pairs other slots.
     """
-    for which in range(EXTREMES):
-        fastest = 0.0 * extreme[which] - 1.0
-        for row in alike(which, rows):
-            rate = absolute(measures[RATE, row])
-            fastest = maximum(fastest, where(rate < UNKNOWN, rate, -1.0))
-        known = (extreme[which] > LOWEST) & (fastest >= 0.0)
-        for row in alike(which, rows):
-            measures[RATE, row] = where(known, 2.0 * fastest, UNKNOWN)
+    for m in range(layout.meshes):
+        for which in range(EXTREMES):
+            best = extreme[m * EXTREMES + which]
+            fastest = 0.0 * best - 1.0
+            for row in alike(m * of_mesh + which, of_mesh):
+                rate = absolute(measures[RATE, row])
+                fastest = maximum(fastest, where(rate < UNKNOWN, rate, -1.0))
+            known = (best > LOWEST) & (fastest >= 0.0)
+            for row in alike(m * of_mesh + which, of_mesh):
+                measures[RATE, row] = where(known, 2.0 * fastest, UNKNOWN)
 
 
 @law
@@ -106,51 +110,55 @@ def worthwhile(value, extreme):
 
 
 @kernel
-def contacts_at(phase, segment, y, model, work):
+def contacts_at(phase, interval, y, model, work):
     """Fill `work` with the contacts of a state, but for friction."""
-    cell, u, cells_per_radian = locate(phase, segment, model.table)
-    normal_contacts(segment, cell, u, cells_per_radian, y, model, work)
+    for m in range(model.options.layout.meshes):
+        place = place_in_mesh(m, phase, interval, model)
+        normal_contacts(place, motion_of(m, y, model), model.meshes[m], model, work[m])
 
 
 @kernel
-def keep(lanes, row, cycles, segment, y, search):
+def keep(lanes, row, cycles, interval, y, search, layout):
     """Replace the extremes that a row of measures, those of a state, surpasses."""
     measures, extremes = search.measures, search.extremes
+    of_mesh = measures_in(measures, layout)
     for i in range(measures.shape[1]):
         value = measures[row, i]
-        which = extreme_of(i)
+        which = extreme_of(i, of_mesh)
         better = lanes & (value > extremes.measure[which])
         if anywhere(better):
             extremes.measure[which] = where(better, value, extremes.measure[which])
             extremes.cycles[which] = where(better, cycles, extremes.cycles[which])
-            extremes.segment[which] = where(better, 1.0 * segment, extremes.segment[which])
-            for j in range(STATES):
+            extremes.interval[which] = where(better, 1.0 * interval, extremes.interval[which])
+            for j in range(layout.states):
                 extremes.state[which, j] = where(better, y[j], extremes.state[which, j])
-            for other in alike(i, measures.shape[1]):
+            for other in alike(i, of_mesh):
                 measures[EXTREME, other] = extremes.measure[which]
 
 
 @kernel
 def open_segment(lanes, place, y, model, work, search):
-    """Measure the state at the start of a segment."""
+    """Measure the state at the start of an interval."""
+    layout = model.options.layout
     measures, extreme = search.measures, search.extremes.measure
+    of_mesh = measures_in(measures, layout)
     for i in range(measures.shape[1]):
         for row in range(RATE):
             measures[row, i] = LOWEST
-        measures[EXTREME, i] = extreme[extreme_of(i)]
-    begin_rates(measures, extreme, measures.shape[1])
-    contacts_at(place.phase, place.segment, y, model, work)
-    measure(place.phase, place.segment, y, model, work, measures[START])
-    begin_surfaces(place.phase, place.segment, model, measures)
-    keep(lanes, START, place.cycle + place.phase, place.segment, y, search)
+        measures[EXTREME, i] = extreme[extreme_of(i, of_mesh)]
+    begin_rates(measures, extreme, of_mesh, layout)
+    contacts_at(place.phase, place.interval, y, model, work)
+    measure(place.phase, place.interval, y, model, work, measures[START])
+    begin_surfaces(place.phase, place.interval, model, measures)
+    keep(lanes, START, place.cycle + place.phase, place.interval, y, search, layout)
 
 
 @kernel
 def search_step(method, lanes, place, step, y, model, work, buffer, search):
     """Seek extremes over an accepted step from the state `y`, which ends at `place.end`."""
     measures, new = search.measures, buffer[0]
-    method.contacts(place.end, place.segment, model, work, buffer)
-    measure_end(opposite(lanes), place.end, step, place.segment, new, model, work, measures)
+    method.contacts(place.end, place.interval, model, work, buffer)
+    measure_end(opposite(lanes), place.end, step, place.interval, new, model, work, measures)
     better, inside = step < 0.0, step < 0.0
     for i in range(measures.shape[1]):
         start, end, extreme = measures[START, i], measures[END, i], measures[EXTREME, i]
@@ -158,7 +166,7 @@ def search_step(method, lanes, place, step, y, model, work, buffer, search):
         inside = inside | promising(start, end, measures[RATE, i] * step, extreme)
     better, inside = lanes & better, lanes & inside
     if anywhere(better):
-        keep(better, END, place.cycle + place.end, place.segment, new, search)
+        keep(better, END, place.cycle + place.end, place.interval, new, search, model.options.layout)
     if anywhere(inside):
         look_inside(method, inside, place, step, y, model, work, buffer, search)
     per_step = 1.0 / step
@@ -171,19 +179,21 @@ def search_step(method, lanes, place, step, y, model, work, buffer, search):
 @kernel
 def look_inside(method, lanes, place, step, y, model, work, buffer, search):
     """Measure the middles of steps, and one after the other the places where measures are highest."""
+    layout = model.options.layout
     measures, extreme = search.measures, search.extremes.measure
+    of_mesh = measures_in(measures, layout)
     chosen, row, share, done = lanes, MIDDLE, 0.5 + 0.0 * step, 0.0 * step - 1.0
     while anywhere(chosen):
         phase = place.phase + share * step
-        method.sample(share, step, y, buffer, search.state)
-        contacts_at(phase, place.segment, search.state, model, work)
-        measure_inside(opposite(chosen), row, phase, place.segment, search.state, model, work, measures)
-        keep(chosen, row, place.cycle + phase, place.segment, search.state, search)
+        method.sample(share, step, y, buffer, search.state, layout)
+        contacts_at(phase, place.interval, search.state, model, work)
+        measure_inside(opposite(chosen), row, phase, place.interval, search.state, model, work, measures)
+        keep(chosen, row, place.cycle + phase, place.interval, search.state, search, layout)
         row = TRIAL
         following, share = 0.0 * step + NONE, 0.0 * step
         for i in range(measures.shape[1]):
             at, value = vertex(measures[START, i], measures[MIDDLE, i], measures[END, i])
-            wanted = lanes & (at > 0.0) & worthwhile(value, extreme[extreme_of(i)])
+            wanted = lanes & (at > 0.0) & worthwhile(value, extreme[extreme_of(i, of_mesh)])
             wanted = wanted & (done < i) & (following == NONE)
             following = where(wanted, 1.0 * i, following)
             share = where(wanted, at, share)

@@ -1,52 +1,60 @@
 """Jacobian of the right-hand side, from its structure and a few differences.
 
-The contacts see the bodies through their relative position and motion alone, so a column of the gear's is the
-pinion's with the sign changed, but for the bearings, which are linear. Five differences give all columns of
-the six degrees of freedom; what drive and load add is differenced where they are switched on.
+The contacts of a mesh see its bodies through their relative position and motion alone: through two numbers of
+position and three or four of velocity. Differences in these give the mesh's matrix k, from which its columns
+in the bodies' coordinates follow, Pᵀ k P; links are linear. What the reference's speed and the time do is
+differenced in the whole right-hand side, where they are switched on.
 """
 
 from typing import NamedTuple
 
-from tribodyn.dynamics.parameters import (
-    DRIVE_SHAFT,
-    DRIVE_SPEED,
-    LAG,
-    MECHANICAL,
-    MOTOR_SLIP,
-    SLIP,
-    STATES,
-    TWIST,
-    VX_G,
-    VX_P,
-    VY_G,
-    VY_P,
-    WORK_DAMPING,
-    X_G,
-    X_P,
-    XI,
-    XI_RATE,
-    Y_G,
-    Y_P,
-)
+from tribodyn.dynamics.contact_energy import parametric_torque
+from tribodyn.dynamics.contact_forces import Motion, contact_forces, reversals_per_velocity
+from tribodyn.dynamics.equations import resultants
+from tribodyn.dynamics.loads import load_torque
+from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
+from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.kernels.native import kernel
+from tribodyn.numerics.elementary import law
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.right_hand_side import rhs
+from tribodyn.train.structure import (
+    DAMPING,
+    FRICTION,
+    IN,
+    LAG,
+    OF_MESHES,
+    OUT,
+    PARAMETRIC,
+    TURN,
+    WORKS_OF_MESH,
+    shift_of,
+    slip_of,
+    slip_of_body,
+    speed_of,
+    turn_of,
+    turning,
+)
+from tribodyn.train.structure import SLIDING as WORK_SLIDING
 
 #: Difference over the scale of a state: rounding then costs 1e-8 of a derivative, and the curvature of the
 #: contact law over its width 1e-5; both are far below what the step needs.
 SHARE = 1e-7
 #: Difference of a velocity over the sliding velocity at which friction has reversed, at most.
 SHARE_OF_REVERSAL = 1e-4
-#: Difference of the phase, mesh cycles.
+#: Difference of the phase, reference cycles.
 PHASE_DIFFERENCE = 1e-7
+#: What of a mesh's motion is differenced: towards, across, along the tangent, across, the driven body's and the
+#: driver's rotation.
+TOWARDS, ACROSS, ALONG_RATE, ACROSS_RATE, DRIVEN_RATE, DRIVER_RATE = range(6)
 
 
 class Differences(NamedTuple):
     """Where the derivatives go."""
 
-    trial: Float[Array, " state"]  # (STATES,); scratch
-    jacobian: Float[Array, "state mechanical"]  # (STATES, MECHANICAL or more); receives ∂f/∂y
-    slope: Float[Array, " state"]  # (STATES,); receives ∂f/∂φ
+    trial: Float[Array, " state"]  # scratch
+    jacobian: Float[Array, "state mechanical"]  # or more columns; receives ∂f/∂y
+    slope: Float[Array, " state"]  # receives ∂f/∂φ
 
 
 @kernel
@@ -55,74 +63,209 @@ def column(j, difference, place, y, f, model, work, into):
     kept = y[j]
     y[j] = kept + difference
     exact = y[j] - kept
-    rhs(place.phase, place.cycle, place.segment, y, model, work, into.trial)
+    rhs(place.phase, place.cycle, place.interval, y, model, work, into.trial)
     y[j] = kept
-    for i in range(STATES):
+    for i in range(model.options.layout.states):
         into.jacobian[i, j] = (into.trial[i] - f[i]) / exact
     return 1
+
+
+@law
+def _moved(motion, which, by, mesh):
+    """A motion with one of its numbers changed: lengths in m, velocities in m/s at the pitch circle."""
+    driver = by if which == DRIVER_RATE else 0.0
+    driven = by if which == DRIVEN_RATE else 0.0
+    return Motion(
+        motion.towards + (by if which == TOWARDS else 0.0),
+        motion.across + (by if which == ACROSS else 0.0),
+        motion.along_rate + (by if which == ALONG_RATE else 0.0),
+        motion.turning_rate + (driver - driven),
+        motion.across_rate + (by if which == ACROSS_RATE else 0.0),
+        motion.driver_speed + driver / mesh.driver_radius,
+        motion.driven_speed + driven / mesh.driven_radius,
+        motion.phase_rate,
+    )
+
+
+@kernel
+def differentiate_mesh(m, place, y, scale, model, work, jacobian):
+    """Add what a mesh does to the forces, and fill its works; returns how often its contacts were evaluated.
+
+    Rows of rates receive forces and torques, those of work in and parametric work torques on the reference.
+    `work` is as the right-hand side left it.
+    """
+    layout, bodies = model.options.layout, model.bodies
+    half, works = layout.half, layout.mechanical
+    mesh, contacts = model.meshes[m], work[m]
+    driver, driven = layout.driver[m], layout.driven[m]
+    ratio = bodies.ratio[driver]
+    at = place_in_mesh(m, place.phase, place.interval, model)
+    motion = motion_of(m, y, model)
+    reversals = reversals_per_velocity(ratio, mesh, model)
+    before = resultants(at, mesh, model, contacts)
+    torque = parametric_torque(at, mesh, model, contacts)
+    x_1, x_2 = shift_of(driver), shift_of(driven)
+    turn_1, turn_2 = turn_of(driver, layout), turn_of(driven, layout)
+    of_mesh = works + OF_MESHES + WORKS_OF_MESH * m
+    length = SHARE * scale[turn_2] * mesh.driven_radius
+    velocity = min(SHARE * scale[half + turn_2] * mesh.driven_radius, SHARE_OF_REVERSAL / reversals)
+    count = 6 if driver > 0 else 5
+    for which in range(count):
+        by = length if which <= ACROSS else velocity
+        contact_forces(at, _moved(motion, which, by, mesh), reversals, mesh, model, contacts)
+        after = resultants(at, mesh, model, contacts)
+        along, across = (after[0] - before[0]) / by, (after[1] - before[1]) / by
+        resisting, driving = (after[2] - before[2]) / by, (after[3] - before[3]) / by
+        friction, sliding = (after[4] - before[4]) / by, (after[5] - before[5]) / by
+        damping = (after[6] - before[6]) / by
+        parametric = ratio * (parametric_torque(at, mesh, model, contacts) - torque) / by
+        x = mesh.along_x * along + mesh.across_x * across
+        z = mesh.along_y * along + mesh.across_y * across
+        # the number's derivatives by the states: of x and y of both bodies, and of their rotations
+        by_x, by_z, by_1, by_2 = 0.0, 0.0, 0.0, 0.0
+        if which == TOWARDS:
+            by_x, by_z, by_1, by_2 = mesh.along_x, mesh.along_y, mesh.driver_radius, -mesh.driven_radius
+        elif which == ALONG_RATE:
+            by_x, by_z = mesh.along_x, mesh.along_y
+        elif which <= ACROSS_RATE:
+            by_x, by_z = mesh.across_x, mesh.across_y
+        elif which == DRIVEN_RATE:
+            by_2 = mesh.driven_radius
+        else:
+            by_1 = mesh.driver_radius
+        first = 0 if which <= ACROSS else half
+        for k in range(6):
+            if k == 0:
+                j, share = first + x_1, by_x
+            elif k == 1:
+                j, share = first + x_1 + 1, by_z
+            elif k == 2:
+                j, share = first + x_2, -by_x
+            elif k == 3:
+                j, share = first + x_2 + 1, -by_z
+            elif k == 4:
+                j, share = first + turn_1, by_1 if driver > 0 else 0.0
+            else:
+                j, share = first + turn_2, by_2
+            jacobian[half + x_1, j] += share * x
+            jacobian[half + x_1 + 1, j] += share * z
+            jacobian[half + x_2, j] -= share * x
+            jacobian[half + x_2 + 1, j] -= share * z
+            jacobian[half + turn_1, j] -= share * resisting
+            jacobian[half + turn_2, j] += share * driving
+            jacobian[works + DAMPING, j] += share * damping
+            jacobian[works + PARAMETRIC, j] += share * parametric
+            jacobian[of_mesh + FRICTION, j] += share * friction
+            jacobian[of_mesh + WORK_SLIDING, j] += share * sliding
+    return count
+
+
+@kernel
+def differentiate_links(y, model, jacobian):
+    """Add what the links do to the forces, and to the power that damping takes."""
+    layout, links = model.options.layout, model.links
+    half, lost = layout.half, layout.mechanical + DAMPING
+    for k in range(links.stiffness.shape[0]):
+        first, second = layout.first[k], layout.second[k]
+        for direction in range(TURN + 1):
+            if direction == TURN:
+                if second < 0:
+                    continue
+                i, j = turn_of(first, layout), turn_of(second, layout)
+                rate = turning(first, y, layout) - turning(second, y, layout)
+            else:
+                if first >= layout.planar or second >= layout.planar:
+                    continue
+                i, j = shift_of(first) + direction, shift_of(second) + direction
+                rate = y[half + i]
+                if second >= 0:
+                    rate = rate - y[half + j]
+            stiffness, damping = links.stiffness[k, direction], links.damping[k, direction]
+            turns = direction == TURN
+            if not (turns and first == 0):  # the reference has no micro-rotation
+                jacobian[half + i, i] -= stiffness
+                jacobian[half + i, half + i] -= damping
+                jacobian[lost, half + i] += 2.0 * damping * rate
+                if second >= 0:
+                    jacobian[half + j, i] += stiffness
+                    jacobian[half + j, half + i] += damping
+            if second >= 0 and not (turns and second == 0):
+                jacobian[half + j, j] -= stiffness
+                jacobian[half + j, half + j] -= damping
+                jacobian[lost, half + j] -= 2.0 * damping * rate
+                jacobian[half + i, j] += stiffness
+                jacobian[half + i, half + j] += damping
 
 
 @kernel
 def differentiate(place, y, f, scale, model, work, into):
     """Jacobian and slope of the right-hand side at a `marching.Place`; `f` is its value there.
 
-    `scale` (STATES,) are sizes of the states. Returns how many right-hand sides it took.
+    `scale` are sizes of the states, `work` is as the right-hand side left it. Returns how many right-hand
+    sides it took, evaluations of a mesh counted as its share of one.
     """
+    operation, bodies, options = model.operation, model.bodies, model.options
+    layout = options.layout
+    half, works, states = layout.half, layout.mechanical, layout.states
     jacobian = into.jacobian
-    mechanics, table = model.mechanics, model.table
-    speed = mechanics.nominal_speed
-    rate = table.pitch_angle / (speed + y[SLIP])
-    ratio = table.pinion_pitch_radius / table.gear_pitch_radius
-    maximum = SHARE_OF_REVERSAL * (1.0 + ratio) * mechanics.reversal_width * speed
-    for i in range(STATES):
-        for j in range(MECHANICAL):
+    reference_speed = operation.nominal_speed + slip_of(y, layout)
+    rate = operation.pitch_angle / reference_speed
+    time = (place.cycle + place.phase) * operation.pitch_angle / operation.nominal_speed + y[LAG]
+    for i in range(states):
+        for j in range(works):
             jacobian[i, j] = 0.0
-    evaluations = 0
-    for j in range(MECHANICAL):
-        difference = SHARE * scale[j]
-        wanted = j == XI or j == Y_P or j == VX_P or j == VY_P or j == XI_RATE
-        if j == VX_P or j == VY_P or j == XI_RATE:
-            difference = min(difference, maximum)
-        elif j == SLIP:
-            wanted = model.options.drive != DRIVE_SPEED
-            difference = min(difference, SHARE * speed)
-        elif j == TWIST or j == MOTOR_SLIP:
-            wanted = model.options.drive == DRIVE_SHAFT
-        elif j == LAG:
-            wanted = mechanics.load_amplitudes.shape[0] > 0 or mechanics.load_times.shape[0] > 1
-        if wanted:
-            evaluations += column(j, difference, place, y, f, model, work, into)
+    contacts = 0
+    for m in range(layout.meshes):
+        contacts += differentiate_mesh(m, place, y, scale, model, work, jacobian)
+    evaluations = (contacts + layout.meshes - 1) // layout.meshes
+    differentiate_links(y, model, jacobian)
+    consistent = options.formulation == ENERGY_CONSISTENT
+    prescribed = options.drive == DRIVE_SPEED
+    for b in range(1, layout.bodies):  # loads and drive; what the reference's speed does is differenced below
+        i = half + turn_of(b, layout)
+        jacobian[i, i] -= bodies.load_damping[b]
+        resisting = bodies.load[b] + bodies.load_damping[b] * slip_of_body(b, y, model)
+        if b == layout.output:
+            resisting += load_torque(time, operation)
+        jacobian[works + OUT, i] += resisting + bodies.load_damping[b] * speed_of(b, y, model)
+        if b == layout.input and not prescribed:
+            torque = operation.drive_torque - operation.speed_regulation * slip_of_body(b, y, model)
+            jacobian[i, i] -= operation.speed_regulation
+            jacobian[works + IN, i] += torque - operation.speed_regulation * speed_of(b, y, model)
+    for j in range(works):
+        on_reference = jacobian[half + LAG, j]
+        if consistent:
+            on_reference -= jacobian[works + PARAMETRIC, j]
+            jacobian[works + PARAMETRIC, j] = 0.0
+        if prescribed:
+            jacobian[works + IN, j] -= on_reference * reference_speed
+            acceleration = 0.0
+        else:
+            acceleration = on_reference / bodies.inertia[0]
+        jacobian[half + LAG, j] = rate * acceleration
+        jacobian[works + PARAMETRIC, j] *= reference_speed
+        for b in range(layout.bodies):
+            if b > 0:
+                i = half + turn_of(b, layout)
+                jacobian[i, j] = rate * (jacobian[i, j] / bodies.inertia[b] - bodies.ratio[b] * acceleration)
+            if b < layout.planar:
+                x = half + shift_of(b)
+                jacobian[x, j] *= rate / bodies.mass[b]
+                jacobian[x + 1, j] *= rate / bodies.mass[b]
+        for i in range(works, states):
+            jacobian[i, j] *= rate
+    for i in range(half):
+        if i != LAG:
+            jacobian[i, half + i] = rate
 
-    pinion, gear = rate / mechanics.pinion_mass, rate / mechanics.gear_mass
-    for i in range(STATES):
-        jacobian[i, X_P] = jacobian[i, XI]
-        jacobian[i, X_G] = -jacobian[i, XI]
-        jacobian[i, Y_G] = -jacobian[i, Y_P]
-        jacobian[i, VX_G] = -jacobian[i, VX_P]
-        jacobian[i, VY_G] = -jacobian[i, VY_P]
-    # the pinion's differenced columns hold its bearings, which came over to the gear's with a minus
-    jacobian[VX_P, X_P] -= pinion * mechanics.pinion_stiffness_x
-    jacobian[VX_G, X_G] -= gear * mechanics.gear_stiffness_x
-    jacobian[VY_P, Y_G] -= pinion * mechanics.pinion_stiffness_y
-    jacobian[VY_G, Y_G] -= gear * mechanics.gear_stiffness_y
-    jacobian[X_P, VX_G] += rate
-    jacobian[Y_P, VY_G] += rate
-    jacobian[X_G, VX_G] += rate
-    jacobian[Y_G, VY_G] += rate
-    jacobian[VX_P, VX_G] -= pinion * mechanics.pinion_damping_x
-    jacobian[VY_P, VY_G] -= pinion * mechanics.pinion_damping_y
-    jacobian[VX_G, VX_G] -= gear * mechanics.gear_damping_x
-    jacobian[VY_G, VY_G] -= gear * mechanics.gear_damping_y
-    jacobian[WORK_DAMPING, VX_G] += (
-        2.0 * rate * (mechanics.pinion_damping_x * y[VX_P] + mechanics.gear_damping_x * y[VX_G])
-    )
-    jacobian[WORK_DAMPING, VY_G] += (
-        2.0 * rate * (mechanics.pinion_damping_y * y[VY_P] + mechanics.gear_damping_y * y[VY_G])
-    )
-
+    if not prescribed:
+        difference = min(SHARE * scale[half + LAG], SHARE * operation.nominal_speed)
+        evaluations += column(half + LAG, difference, place, y, f, model, work, into)
+    if operation.load_amplitudes.shape[0] > 0 or operation.load_times.shape[0] > 1:
+        evaluations += column(LAG, SHARE * scale[LAG], place, y, f, model, work, into)
     difference = PHASE_DIFFERENCE if place.phase + PHASE_DIFFERENCE < place.end else -PHASE_DIFFERENCE
     moved = place.phase + difference
-    rhs(moved, place.cycle, place.segment, y, model, work, into.trial)
-    for i in range(STATES):
+    rhs(moved, place.cycle, place.interval, y, model, work, into.trial)
+    for i in range(states):
         into.slope[i] = (into.trial[i] - f[i]) / (moved - place.phase)
     return evaluations + 1

@@ -8,13 +8,14 @@ it: on the CRC drive that made the error of the transmission error 30 times what
 """
 
 from collections.abc import Sequence
-from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, Model
-from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.mesh.cycle import CHANNELS, Polynomials
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.schedule import place_of
 
 #: Distances from the pitch point, over the width of reversal: its ends; the pitch point, where the friction
 #: coefficient has a kink in the sliding speed; and places beside it, as a fluid of high viscosity reaches its
@@ -24,9 +25,8 @@ SHARES = (-1.0, -0.2, -0.04, 0.0, 0.04, 0.2, 1.0)
 _DISTANCE = CHANNELS.index("signed_distance")
 
 
-def passages(model: Model, segment: int, distance: float) -> list[float]:
+def passages(table: Polynomials, segment: int, distance: float) -> list[float]:
     """Phases at which a pair in contact is at a signed distance from the pitch point (m), in one segment."""
-    table = model.table
     start, end = (float(x) for x in np.asarray(table.boundary)[segment : segment + 2])
     coefficients = np.asarray(table.channel)[segment, :, :, _DISTANCE]
     phases = []
@@ -42,45 +42,54 @@ def passages(model: Model, segment: int, distance: float) -> list[float]:
     return phases
 
 
-def stops(model: Model) -> Float[Array, "segment stop"]:
-    """Phases that steps end on, ascending, each segment's end last and repeated to fill up.
+def stops(model: Model) -> Float[Array, "interval stop"]:
+    """Phases that steps end on, ascending, each interval's end last and repeated to fill up.
 
-    For every pair: the places of `SHARES`, with the nominal sliding velocity.
+    For every pair of every mesh: the places of `SHARES`, with the nominal sliding velocity.
     """
     shares = () if model.options.sliding == SLIDING_DYNAMIC else SHARES
-    boundary = np.asarray(model.table.boundary)
-    width = float(model.mechanics.reversal_width)
+    schedule = model.schedule
+    start, end, segment = (np.asarray(part) for part in (schedule.start, schedule.end, schedule.segment))
+    width = float(model.operation.reversal_width)
+    known: dict[tuple[int, int], list[float]] = {}
     rows = []
-    for segment, (start, end) in enumerate(pairwise(boundary)):
-        inside = [phase for share in shares for phase in passages(model, segment, share * width)]
-        near = 1e-9 * (end - start)
-        rows.append(sorted(phase for phase in inside if start + near < phase < end - near))
+    for interval in range(len(start)):
+        inside: list[float] = []
+        for m, mesh in enumerate(model.meshes):
+            key = id(mesh.table), int(segment[interval, m])
+            if key not in known:
+                known[key] = [phase for share in shares for phase in passages(mesh.table, key[1], share * width)]
+            inside += [place_of(m, phase, schedule, interval) for phase in known[key]]
+        first, last = float(start[interval]), float(end[interval])
+        near = 1e-9 * (last - first)
+        rows.append(sorted(phase for phase in inside if first + near < phase < last - near))
     count = 1 + max(len(row) for row in rows)
-    return np.array([row + [end] * (count - len(row)) for row, end in zip(rows, boundary[1:], strict=True)])
+    return np.array([row + [last] * (count - len(row)) for row, last in zip(rows, end, strict=True)])
 
 
-def stops_of_many(models: Sequence[Model]) -> Float[Array, "case segment stop"]:
+def stops_of_many(models: Sequence[Model]) -> Float[Array, "case interval stop"]:
     """`stops` of many cases; computed once for all that have them in common.
 
-    Those of fewer segments than others have rows behind their last one that nobody reads.
+    Those of fewer intervals than others have rows behind their last one that nobody reads.
     """
-    numbers: dict[tuple[int, float, int], int] = {}
+    numbers: dict[tuple[Any, ...], int] = {}
     different: list[np.ndarray] = []
     rows = []
     for model in models:
-        key = (id(model.table), float(model.mechanics.reversal_width), model.options.sliding)
+        tables = tuple(id(mesh.table) for mesh in model.meshes)
+        key = (tables, id(model.schedule), float(model.operation.reversal_width), model.options.sliding)
         if key not in numbers:
             numbers[key] = len(different)
             different.append(stops(model))
         rows.append(numbers[key])
-    segments, count = (max(given.shape[axis] for given in different) for axis in (0, 1))
-    unread = [((0, segments - len(given)), (0, 0)) for given in different]
+    intervals, count = (max(given.shape[axis] for given in different) for axis in (0, 1))
+    unread = [((0, intervals - len(given)), (0, 0)) for given in different]
     return np.array(
         [np.pad(filled_up(given, count), rest, "edge") for given, rest in zip(different, unread, strict=True)]
     )[rows]
 
 
-def filled_up(stops: Float[Array, "*case segment given"], count: int) -> Float[Array, "*case segment stop"]:
-    """Stops, so many in every segment: its last one, the segment's end, is repeated."""
+def filled_up(stops: Float[Array, "*case interval given"], count: int) -> Float[Array, "*case interval stop"]:
+    """Stops, so many in every interval: its last one, the interval's end, is repeated."""
     behind = count - stops.shape[-1]
     return np.concatenate([stops, np.repeat(stops[..., -1:], behind, axis=-1)], axis=-1)

@@ -11,22 +11,17 @@ tried again with its own rate. At creep speeds the width is no more than the tol
 then is left to the error control, which takes steps by the force.
 """
 
-import numpy as np
-
 from tribodyn.dynamics import contact_forces as contact
-from tribodyn.dynamics.equations import locate
-from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES, WORKS, X_G, X_P, XI, Y_G, Y_P
-from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, where
+from tribodyn.dynamics.places import motion_of, place_in_mesh
+from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, truncate, where
 from tribodyn.solve.integrator import Status
+from tribodyn.train.structure import LAG, shift_of, turn_of, turned
 
 #: First step to try and the smallest one, mesh cycles; a step is the last if it ends this close to the end.
 FIRST_STEP, MINIMUM_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
 #: Error taken for that of the last step at the start, and the smallest that is remembered.
 MINIMUM_ERROR = 1e-4
-#: Factor on the relative tolerance of every state. Displacements have none: on soft bearings they are many
-#: times the deflection of the mesh, on which all forces depend. Nor have works, which grow with the run.
-RELATIVE = np.array([0.0 if state in (*DISPLACEMENTS, *WORKS) else 1.0 for state in range(STATES)])
-#: Share of the nominal speed below which steps that vanish mean that the pinion comes to rest: rates with
+#: Share of the nominal speed below which steps that vanish mean that the reference comes to rest: rates with
 #: respect to phase grow without bound there. A light pinion at low nominal speed still turns at a hundredth
 #: of it when a step is the smallest one.
 STANDSTILL = 0.05
@@ -48,8 +43,8 @@ def cut_at_stop(phase, step, stop):
 def refusal(steps, max_steps, step, speed, nominal_speed):
     """The `Status` for which no step can be taken, as a number; 0.0 where one can.
 
-    Too many in this mesh cycle; the pinion comes to rest, as it does where steps vanish as it stops, and at
-    once where an engagement takes all its kinetic energy; or too small. Speeds are the pinion's.
+    Too many in this mesh cycle; the reference comes to rest, as it does where steps vanish as it stops, and at
+    once where an engagement takes all its kinetic energy; or too small. Speeds are the reference's.
     """
     too_many, vanishing, stopped = steps >= max_steps, step < MINIMUM_STEP, speed <= 0.0
     failure = 0.0 * step
@@ -58,6 +53,16 @@ def refusal(steps, max_steps, step, speed, nominal_speed):
         failure = where(at_rest, STALLED, where(vanishing, STEP_TOO_SMALL, failure))
         failure = where(too_many, TOO_MANY_STEPS, failure)
     return failure
+
+
+@law
+def relative_factor(state, layout):
+    """Factor on the relative tolerance of a state.
+
+    Displacements have none: on soft bearings they are many times the deflection of the mesh, on which all
+    forces depend. Nor have works, which grow with the run.
+    """
+    return 1.0 if state == LAG or layout.half <= state < layout.mechanical else 0.0
 
 
 @law
@@ -73,11 +78,11 @@ def collected(worst, total, weighed):
 
 
 @law
-def collected_errors(difference, before, after, atol, rtol):
+def collected_errors(difference, before, after, atol, rtol, layout):
     """Largest error of all states over their tolerances, and the sum of them."""
     worst, total = 0.0, 0.0
-    for i in range(STATES):
-        relative = rtol * RELATIVE[i]
+    for i in range(layout.states):
+        relative = rtol * relative_factor(i, layout)
         weighed = weighed_error(plain(difference[i]), plain(before[i]), plain(after[i]), atol[i], relative)
         worst, total = collected(worst, total, weighed)
     return worst, total
@@ -100,8 +105,9 @@ def step_outcome(error, step, after, model):
     """
     accepted = error <= 1.0
     undefined = (error != error) | (error >= INFINITE)
-    at_rest = accepted & (model.mechanics.nominal_speed + after[SLIP] <= 0.0)
-    runaway = accepted & unbounded(after, model.table)
+    layout = model.options.layout
+    at_rest = accepted & (model.operation.nominal_speed + after[layout.half + LAG] <= 0.0)
+    runaway = accepted & unbounded(after, model)
     failure = 0.0 * step
     if anywhere(undefined | at_rest | runaway):
         failure = where(at_rest, STALLED, where(runaway, UNBOUNDED, failure))
@@ -110,21 +116,32 @@ def step_outcome(error, step, after, model):
 
 
 @law
-def largest_displacement(state):
-    """Largest magnitude of the displacements of the bodies and of the transmission error, m."""
-    pinion = maximum(absolute(plain(state[X_P])), absolute(plain(state[Y_P])))
-    gear = maximum(absolute(plain(state[X_G])), absolute(plain(state[Y_G])))
-    return maximum(maximum(pinion, gear), absolute(plain(state[XI])))
+def unbounded(state, model):
+    """Whether a motion has grown without bound: something moved by more than a centre distance.
+
+    No gears are left then of which the table of a mesh says anything. An unstable motion grows exponentially,
+    so that it matters little where the bound is.
+    """
+    layout = model.options.layout
+    farthest = 0.0 * plain(state[0])
+    for m in range(layout.meshes):
+        mesh = model.meshes[m]
+        distance = mesh.driver_radius + mesh.driven_radius
+        farthest = maximum(farthest, largest_displacement(m, state, model) / distance)
+    return farthest > 1.0
 
 
 @law
-def unbounded(state, table):
-    """Whether a motion has grown without bound: something moved by more than the centre distance.
-
-    No gears are left then of which the table of the mesh says anything. An unstable motion grows
-    exponentially, so that it matters little where the bound is.
-    """
-    return largest_displacement(state) > table.pinion_pitch_radius + table.gear_pitch_radius
+def largest_displacement(m, state, model):
+    """Largest magnitude of the displacements of a mesh's bodies and of its transmission error, m."""
+    layout, mesh = model.options.layout, model.meshes[m]
+    driver, driven = layout.driver[m], layout.driven[m]
+    a, b = shift_of(driver), shift_of(driven)
+    first = maximum(absolute(plain(state[a])), absolute(plain(state[a + 1])))
+    second = maximum(absolute(plain(state[b])), absolute(plain(state[b + 1])))
+    error = mesh.driver_radius * plain(turned(driver, state, layout))
+    error = error - mesh.driven_radius * plain(turned(driven, state, layout))
+    return maximum(maximum(first, second), absolute(error))
 
 
 @law
@@ -145,9 +162,27 @@ UNLIMITED = 1e9
 
 
 @law
-def resolves_turns(tolerance, model):
-    """Whether a tolerance of the velocities, m/s, is fine enough to see friction turn."""
-    return tolerance * contact.reversals_per_velocity(model) < FINEST
+def resolves_turns(atol, model):
+    """Whether tolerances of the states are fine enough to see friction turn, in some mesh."""
+    layout = model.options.layout
+    fine = atol[0] < 0.0
+    for m in range(layout.meshes):
+        tolerance = model.meshes[m].driven_radius * atol[layout.half + turn_of(layout.driven[m], layout)]
+        fine = fine | (tolerance * reversals_in(m, model) < FINEST)
+    return fine
+
+
+@law
+def reversals_in(m, model):
+    """`contact_forces.reversals_per_velocity` of a mesh."""
+    ratio = model.bodies.ratio[model.options.layout.driver[m]]
+    return contact.reversals_per_velocity(ratio, model.meshes[m], model)
+
+
+@law
+def segment_in(m, interval, model):
+    """Segment of a mesh's table in an interval."""
+    return truncate(model.schedule.segment[interval, m])
 
 
 @law
@@ -162,58 +197,70 @@ def next_share(share, rate):
 
 
 @law
-def begin_turning(phase, segment, y, model, work):
-    """Fill `work` with where the pairs' sliding stands at the start of a segment; `TURNING_RATE` is 0."""
-    cell, u, cells_per_radian = locate(phase, segment, model.table)
-    contact.approach(segment, cell, u, cells_per_radian, y, model, work)
-    per_velocity = contact.reversals_per_velocity(model)
-    for i in range(model.table.side.shape[0]):
-        if contact.out_of_reach(segment, i, model):
-            continue
-        work[contact.TURNED_BEFORE, i] = plain(work[contact.RELATIVE_VELOCITY, i]) * per_velocity
-        work[contact.TURNING_RATE, i] = 0.0 * plain(work[contact.TURNED_BEFORE, i])
+def begin_turning(phase, interval, y, model, work):
+    """Fill `work` with where the pairs' sliding stands at the start of an interval; `TURNING_RATE` is 0."""
+    for m in range(model.options.layout.meshes):
+        mesh, contacts = model.meshes[m], work[m]
+        place = place_in_mesh(m, phase, interval, model)
+        contact.approach(place, motion_of(m, y, model), mesh, contacts)
+        per_velocity = reversals_in(m, model)
+        for i in range(mesh.table.side.shape[0]):
+            if contact.out_of_reach(place.segment, i, mesh):
+                continue
+            contacts[contact.TURNED_BEFORE, i] = plain(contacts[contact.RELATIVE_VELOCITY, i]) * per_velocity
+            contacts[contact.TURNING_RATE, i] = 0.0 * plain(contacts[contact.TURNED_BEFORE, i])
 
 
 @law
-def longest_step(segment, model, work):
-    """Longest step from here at the rates of the last one, mesh cycles."""
+def longest_step(interval, model, work):
+    """Longest step from here at the rates of the last one, reference cycles."""
     longest = UNLIMITED
-    for i in range(model.table.side.shape[0]):
-        if contact.out_of_reach(segment, i, model):
-            continue
-        rate = plain(work[contact.TURNING_RATE, i])
-        distance, _ = next_share(plain(work[contact.TURNED_BEFORE, i]), rate)
-        longest = minimum(
-            longest, where(rate != 0.0, distance / absolute(where(rate != 0.0, rate, 1.0)), UNLIMITED)
-        )
+    for m in range(model.options.layout.meshes):
+        mesh, contacts = model.meshes[m], work[m]
+        segment = segment_in(m, interval, model)
+        for i in range(mesh.table.side.shape[0]):
+            if contact.out_of_reach(segment, i, mesh):
+                continue
+            rate = plain(contacts[contact.TURNING_RATE, i])
+            distance, _ = next_share(plain(contacts[contact.TURNED_BEFORE, i]), rate)
+            longest = minimum(
+                longest, where(rate != 0.0, distance / absolute(where(rate != 0.0, rate, 1.0)), UNLIMITED)
+            )
     return longest
 
 
 @law
-def turn_of(step, segment, model, work):
+def turn_of_friction(step, interval, model, work):
     """Whether a step has turned the friction of a loaded pair too far, and the step to try instead.
 
     `work` is as the right-hand side left it at the end of the step.
     """
     shorter = 1.0 * step
-    for i in range(model.table.side.shape[0]):
-        if contact.out_of_reach(segment, i, model):
-            continue
-        before = plain(work[contact.TURNED_BEFORE, i])
-        change = plain(work[contact.TURNED, i]) - before
-        distance, near = next_share(before, change)
-        far = (absolute(change) > distance + near) & (plain(work[contact.FRICTION_FORCE, i]) != 0.0)
-        shorter = minimum(shorter, where(far, step * distance / absolute(where(far, change, 1.0)), step))
+    for m in range(model.options.layout.meshes):
+        mesh, contacts = model.meshes[m], work[m]
+        segment = segment_in(m, interval, model)
+        for i in range(mesh.table.side.shape[0]):
+            if contact.out_of_reach(segment, i, mesh):
+                continue
+            before = plain(contacts[contact.TURNED_BEFORE, i])
+            change = plain(contacts[contact.TURNED, i]) - before
+            distance, near = next_share(before, change)
+            loaded = plain(contacts[contact.FRICTION_FORCE, i]) != 0.0
+            far = (absolute(change) > distance + near) & loaded
+            shorter = minimum(shorter, where(far, step * distance / absolute(where(far, change, 1.0)), step))
     return shorter < step, maximum(shorter, SHORTEST * step)
 
 
 @law
-def keep_turned(accepted, step, segment, model, work):
+def keep_turned(accepted, step, interval, model, work):
     """Take over where the sliding stands after a step that was accepted."""
-    for i in range(model.table.side.shape[0]):
-        if contact.out_of_reach(segment, i, model):
-            continue
-        before, after = plain(work[contact.TURNED_BEFORE, i]), plain(work[contact.TURNED, i])
-        rate = plain(work[contact.TURNING_RATE, i])
-        work[contact.TURNING_RATE, i] = where(accepted, (after - before) / step, rate)
-        work[contact.TURNED_BEFORE, i] = where(accepted, after, before)
+    for m in range(model.options.layout.meshes):
+        mesh, contacts = model.meshes[m], work[m]
+        segment = segment_in(m, interval, model)
+        for i in range(mesh.table.side.shape[0]):
+            if contact.out_of_reach(segment, i, mesh):
+                continue
+            before, after = plain(contacts[contact.TURNED_BEFORE, i]), plain(contacts[contact.TURNED, i])
+            rate = plain(contacts[contact.TURNING_RATE, i])
+            contacts[contact.TURNING_RATE, i] = where(accepted, (after - before) / step, rate)
+            contacts[contact.TURNED_BEFORE, i] = where(accepted, after, before)

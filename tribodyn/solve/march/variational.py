@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import STATES, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.duals import functions  # noqa: F401  (its import gives the laws their derivatives)
 from tribodyn.kernels.duals.functions import LENGTH, VALUE, duals_of
 from tribodyn.kernels.duals.numbers import DIRECTIONS
@@ -31,8 +31,9 @@ from tribodyn.solve.march.marching import Control, march_with
 from tribodyn.solve.march.reversal import stops_of_many
 from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR
 from tribodyn.solve.methods import rodas4
-from tribodyn.solve.right_hand_side import engage, work_array
+from tribodyn.solve.right_hand_side import engage, interval_at, work_array
 from tribodyn.solve.tolerances import tolerances_of_many
+from tribodyn.train.structure import Layout
 
 #: Floats to a cache line, on which dual numbers begin: half the time of a march that lets them cross it.
 CACHE_LINE = 8
@@ -58,17 +59,17 @@ def stiff(march, control, model, y, out, work, buffer):
 
 
 @kernel
-def engage_with_derivative(y, model, work):
+def engage_with_derivative(interval, y, model, work):
     """Take a state and its derivatives over the engagement that begins a mesh cycle."""
     duals = duals_of(y)
-    engage(0, True, duals, model, duals_of(work), duals)
+    engage(interval, True, duals, model, duals_of(work), duals)
 
 
 class DualMethod(NamedTuple):
     """A native method over dual numbers."""
 
     integrate: Callable[..., Any]  # kernel
-    buffer: Callable[[], Float[Array, "row state"]]  # () -> its buffer over floats
+    buffer: Callable[[Layout], Float[Array, "row state"]]  # (layout) -> its buffer over floats
     tolerance: float  # of the derivatives in a step, over the scale of the states
 
 
@@ -86,11 +87,11 @@ METHODS = {
 class Derived(NamedTuple):
     """The ends of marches and their derivatives."""
 
-    state: Float[Array, "row state"]  # (R, STATES); behind the engagement that ends the last mesh cycle
-    slopes: Float[Array, "row state direction"]  # (R, STATES, D); its derivatives in the directions given
-    status: Int[Array, " row"]  # (R,); A `Status`
-    reached: Float[Array, " row"]  # (R,); mesh cycles done
-    steps: Int[Array, " row"]  # (R,); accepted steps
+    state: Float[Array, "row state"]  # behind the engagement that ends the last mesh cycle
+    slopes: Float[Array, "row state direction"]  # its derivatives in the directions given
+    status: Int[Array, " row"]  # a `Status`
+    reached: Float[Array, " row"]  # mesh cycles done
+    steps: Int[Array, " row"]  # accepted steps, of all passes
 
 
 def march_with_derivative(
@@ -106,38 +107,45 @@ def march_with_derivative(
 ) -> Derived:
     """March from the start of a mesh cycle, behind its engagement, with the derivatives in some directions.
 
-    The error control takes a direction, of at most `DIRECTIONS`, for a displacement of the state and measures
-    its error likewise, so that it should be of the size of the states' scales. `rtol` is of the motion; that
-    of the derivatives is the method's. `methods` has a key of `METHODS` for every row.
+    The error control takes a direction for a displacement of the state and measures its error likewise, so
+    that it should be of the size of the states' scales. More than `DIRECTIONS` are done in several passes.
+    `rtol` is of the motion; that of the derivatives is the method's. `methods` has a key of `METHODS` for
+    every row. All models have one layout.
     """
     count = directions.shape[-1]
-    if count > DIRECTIONS:
-        raise ValueError(f"{count} directions, at most {DIRECTIONS} fit")
     atol, stops = tolerances_of_many(models, states, rtol), stops_of_many(models)
     march = March(0, cycles, cycles, 0, False, rtol, max_steps)
-    rows = len(models)
+    rows, size = states.shape
     numbers = _packed(models)
     result = Derived(
-        np.empty((rows, STATES)),
-        np.empty((rows, STATES, count)),
+        np.empty((rows, size)),
+        np.empty((rows, size, count)),
         np.zeros(rows, dtype=int),
         np.zeros(rows),
         np.zeros(rows, dtype=int),
     )
 
     def integrate(row: int) -> None:
-        method = METHODS[methods[row]]
-        y, work = _duals((STATES,)), _duals(work_array(models[row]).shape)
-        y[:, :count], y[:, VALUE] = directions[row], states[row]
+        for first in range(0, max(count, 1), DIRECTIONS):
+            over(row, slice(first, min(first + DIRECTIONS, count)))
+            if result.status[row] != Status.DONE:
+                return
+
+    def over(row: int, part: slice) -> None:
+        method, layout = METHODS[methods[row]], models[row].layout
+        y, work = _duals((size,)), _duals(work_array(models[row]).shape)
+        width = part.stop - part.start
+        y[:, :width], y[:, VALUE] = directions[row][:, part], states[row]
         scales = atol[row], atol[row] / rtol
         control = Control(FIRST_STEP, MINIMUM_ERROR, *scales, stops[row], method.tolerance)
         model = numbers[row]
-        out, buffer = _duals((cycles * march.samples, STATES)), _duals(method.buffer().shape)
+        out, buffer = _duals((cycles * march.samples, size)), _duals(method.buffer(layout).shape)
         status, reached, _, _, steps, _, _ = method.integrate(march, control, model, y, out, work, buffer)
         if status == Status.DONE:
-            engage_with_derivative(y, model, work)
-        result.state[row], result.slopes[row] = y[:, VALUE], y[:, :count]
-        result.status[row], result.reached[row], result.steps[row] = status, reached, steps
+            engage_with_derivative(int(interval_at(cycles, models[row])), y, model, work)
+        result.state[row], result.slopes[row][:, part] = y[:, VALUE], y[:, :width]
+        result.status[row], result.reached[row] = status, reached
+        result.steps[row] += steps
 
     in_threads(integrate, range(rows), min(workers, rows))
     return result

@@ -7,12 +7,12 @@ formulas are laws, so that the kernel for one case and that for many side by sid
 import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import law, maximum, minimum
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.extreme_search import open_segment, search_step
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
+from tribodyn.train.structure import Layout
 
 A = np.array(
     [
@@ -44,31 +44,31 @@ STAGES = 7
 
 
 @law
-def stage_state(s, step, y, k, stage):
+def stage_state(s, step, y, k, stage, layout):
     """State at which stage s = 1 … 6 is evaluated; the last one is the new state.
 
     Written out, so that the compiler takes many states at once; the works are summed at the last stage only,
     as nothing depends on them.
     """
     if s == 1:
-        for i in range(MECHANICAL):
+        for i in range(layout.mechanical):
             stage[i] = y[i] + step * (A[1, 0] * k[0, i])
     elif s == 2:
-        for i in range(MECHANICAL):
+        for i in range(layout.mechanical):
             stage[i] = y[i] + step * (A[2, 0] * k[0, i] + A[2, 1] * k[1, i])
     elif s == 3:
-        for i in range(MECHANICAL):
+        for i in range(layout.mechanical):
             stage[i] = y[i] + step * (A[3, 0] * k[0, i] + A[3, 1] * k[1, i] + A[3, 2] * k[2, i])
     elif s == 4:
-        for i in range(MECHANICAL):
+        for i in range(layout.mechanical):
             total = A[4, 0] * k[0, i] + A[4, 1] * k[1, i] + A[4, 2] * k[2, i] + A[4, 3] * k[3, i]
             stage[i] = y[i] + step * total
     elif s == 5:
-        for i in range(MECHANICAL):
+        for i in range(layout.mechanical):
             total = A[5, 0] * k[0, i] + A[5, 1] * k[1, i] + A[5, 2] * k[2, i] + A[5, 3] * k[3, i]
             stage[i] = y[i] + step * (total + A[5, 4] * k[4, i])
     else:
-        for i in range(STATES):
+        for i in range(layout.states):
             total = A[6, 0] * k[0, i] + A[6, 2] * k[2, i] + A[6, 3] * k[3, i] + A[6, 4] * k[4, i]
             stage[i] = y[i] + step * (total + A[6, 5] * k[5, i])
 
@@ -103,38 +103,38 @@ def dense_output(theta, step, before, after, k, i):
     )
 
 
-def buffer() -> Float[Array, "row state"]:
+def buffer(layout: Layout) -> Float[Array, "row state"]:
     """Scratch for the kernel: the new state, its error and the stages."""
-    return scratch_buffer(STAGES)
+    return scratch_buffer(STAGES, layout)
 
 
 @kernel
 def attempt(fresh, step, place, y, control, model, work, buffer):
     """See `marching.Method`."""
-    stage, k = buffer[STATE], buffer[SCRATCH:]
+    stage, k, layout = buffer[STATE], buffer[SCRATCH:], model.options.layout
     if fresh:
-        for i in range(STATES):
+        for i in range(layout.states):
             stage[i] = y[i]
     for s in range(0 if fresh else 1, STAGES):
         if s > 0:
-            stage_state(s, step, y, k, stage)
-        derivatives(place.phase + C[s] * step, place.cycle, place.segment, stage, model, work, k[s])
-    for i in range(STATES):
+            stage_state(s, step, y, k, stage, layout)
+        derivatives(place.phase + C[s] * step, place.cycle, place.interval, stage, model, work, k[s])
+    for i in range(layout.states):
         buffer[ERROR, i] = step * embedded_difference(k, i)
     return STAGES if fresh else STAGES - 1
 
 
 @kernel
-def sample(theta, step, y, buffer, out):
+def sample(theta, step, y, buffer, out, layout):
     """See `marching.Method`."""
-    for i in range(STATES):
+    for i in range(layout.states):
         out[i] = dense_output(theta, step, y[i], buffer[STATE, i], buffer[SCRATCH:], i)
 
 
 @kernel
-def accept(buffer):
+def accept(buffer, layout):
     """See `marching.Method`: the last stage is the next step's first."""
-    for i in range(STATES):
+    for i in range(layout.states):
         buffer[SCRATCH, i] = buffer[SCRATCH + STAGES - 1, i]
     return False
 

@@ -1,7 +1,7 @@
 """Native stiff method: the Rosenbrock pair RODAS4P in mesh phase, restarted exactly at engagement.
 
-Displacements have velocities and nothing else as their rates, so they are eliminated: of the 14 mechanical
-states a 7 by 7 matrix is factorised. The works depend on the mechanics only and follow without a matrix.
+Displacements have velocities and nothing else as their rates, so they are eliminated: a matrix of half as
+many rows as there are mechanical states is factorised. The works depend on the mechanics only and follow without a matrix.
 
 RODAS4P 4(3) has six stages with one matrix, is stiffly accurate and L-stable. Of its kind it keeps its order
 where a stiff system follows a given motion, as teeth do that are dragged slowly through the mesh.
@@ -16,7 +16,6 @@ y_1 = y + Σ m_j U_j with the last stage as the error.
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, truncate
 from tribodyn.numerics.shapes import Array, Float
@@ -24,6 +23,7 @@ from tribodyn.solve.march.extreme_search import contacts_at, open_segment, searc
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
 from tribodyn.solve.right_hand_side import rhs
+from tribodyn.train.structure import Layout
 
 STAGES = 6
 GAMMA = 0.25
@@ -58,8 +58,6 @@ D = np.array(
     ]
 )
 
-#: Coordinates; state HALF + i is the velocity of state i.
-HALF = MECHANICAL // 2
 #: Longest step, mesh cycles. A stiff solution that just follows the mesh would let steps grow to a tenth of a
 #: cycle; the samples between their ends are of third order only, and no error estimate sees them. Over this
 #: length a third-order interpolant of what the geometry does in a cycle is exact to 1e-6 or better.
@@ -68,7 +66,6 @@ LONGEST_STEP = 1 / 64
 _U = SCRATCH
 _RATE, _TRIAL, _SLOPE, _RIGHT, _ORDER = range(_U + STAGES, _U + STAGES + 5)
 _JACOBIAN = _ORDER + 1
-_MATRIX = _JACOBIAN + STATES
 
 
 @law
@@ -90,81 +87,84 @@ def dense_output(theta, before, after, first, second):
     return (1.0 - theta) * before + theta * (after + (1.0 - theta) * (first + theta * second))
 
 
-def buffer() -> Float[Array, "row state"]:
+def buffer(layout: Layout) -> Float[Array, "row state"]:
     """Scratch for the kernel: new state, error, stages, Jacobian, matrix."""
-    return scratch_buffer(_MATRIX + HALF - SCRATCH)
+    return scratch_buffer(_JACOBIAN + layout.states + layout.half - SCRATCH, layout)
 
 
 @kernel
-def factorise(shift, jacobian, matrix, order):
+def factorise(shift, jacobian, matrix, order, layout):
     """LU factors, with rows exchanged as `order` says, of the velocities' matrix: s I − D − K B/s.
 
     B, K and D are the blocks ∂q'/∂v, ∂v'/∂q and ∂v'/∂v of the Jacobian, and s = 1/(γ h).
     """
-    for i in range(HALF):
-        for j in range(HALF):
-            total = -jacobian[HALF + i, HALF + j]
-            for m in range(HALF):
-                total -= jacobian[HALF + i, m] * jacobian[m, HALF + j] / shift
+    half = layout.half
+    for i in range(half):
+        for j in range(half):
+            total = -jacobian[half + i, half + j]
+            for m in range(half):
+                total -= jacobian[half + i, m] * jacobian[m, half + j] / shift
             matrix[i, j] = total
         matrix[i, i] += shift
-    for j in range(HALF):
+    for j in range(half):
         best = j
-        for i in range(j + 1, HALF):
+        for i in range(j + 1, half):
             if absolute(matrix[i, j]) > absolute(matrix[best, j]):
                 best = i
         order[j] = best
-        for m in range(HALF):
+        for m in range(half):
             matrix[j, m], matrix[best, m] = matrix[best, m], matrix[j, m]
-        for i in range(j + 1, HALF):
+        for i in range(j + 1, half):
             matrix[i, j] /= matrix[j, j]
-            for m in range(j + 1, HALF):
+            for m in range(j + 1, half):
                 matrix[i, m] -= matrix[i, j] * matrix[j, m]
 
 
 @kernel
-def resolve(shift, jacobian, matrix, order, right, solution):
+def resolve(shift, jacobian, matrix, order, right, solution, layout):
     """Solve (s I − J) solution = right for all states."""
-    for i in range(HALF):
-        total = right[HALF + i]
-        for m in range(HALF):
-            total += jacobian[HALF + i, m] * right[m] / shift
-        solution[HALF + i] = total
-    for j in range(HALF):
+    half, mechanical = layout.half, layout.mechanical
+    for i in range(half):
+        total = right[half + i]
+        for m in range(half):
+            total += jacobian[half + i, m] * right[m] / shift
+        solution[half + i] = total
+    for j in range(half):
         best = truncate(order[j])
-        solution[HALF + j], solution[HALF + best] = solution[HALF + best], solution[HALF + j]
-    for i in range(HALF):
+        solution[half + j], solution[half + best] = solution[half + best], solution[half + j]
+    for i in range(half):
         for m in range(i):
-            solution[HALF + i] -= matrix[i, m] * solution[HALF + m]
-    for k in range(HALF):
-        i = HALF - 1 - k
-        for m in range(i + 1, HALF):
-            solution[HALF + i] -= matrix[i, m] * solution[HALF + m]
-        solution[HALF + i] /= matrix[i, i]
-    for i in range(HALF):
+            solution[half + i] -= matrix[i, m] * solution[half + m]
+    for k in range(half):
+        i = half - 1 - k
+        for m in range(i + 1, half):
+            solution[half + i] -= matrix[i, m] * solution[half + m]
+        solution[half + i] /= matrix[i, i]
+    for i in range(half):
         total = right[i]
-        for m in range(HALF, MECHANICAL):
+        for m in range(half, mechanical):
             total += jacobian[i, m] * solution[m]
         solution[i] = total / shift
-    for i in range(MECHANICAL, STATES):
+    for i in range(mechanical, layout.states):
         total = right[i]
-        for m in range(MECHANICAL):
+        for m in range(mechanical):
             total += jacobian[i, m] * solution[m]
         solution[i] = total / shift
 
 
 @kernel
-def stiffness(step, buffer):
+def stiffness(step, buffer, layout):
     """Step over the time constant, at the start of the step last attempted.
 
     From the sums of all rates of decay and of all squared frequencies: an upper bound, close where one
     motion is much stiffer than the others.
     """
-    jacobian = buffer[_JACOBIAN:_MATRIX]
+    half, mechanical = layout.half, layout.mechanical
+    jacobian = buffer[_JACOBIAN : _JACOBIAN + layout.states]
     decay, squared = 0.0, 0.0
-    for i in range(HALF, MECHANICAL):
+    for i in range(half, mechanical):
         decay -= jacobian[i, i]
-        for j in range(HALF):
+        for j in range(half):
             squared -= jacobian[i, j] * jacobian[j, i]
     return step * max(abs(decay), abs(squared) ** 0.5)
 
@@ -175,39 +175,41 @@ def attempt(fresh, step, place, y, control, model, work, buffer):
     stage, error = buffer[STATE], buffer[ERROR]
     rate, trial, slope = buffer[_RATE], buffer[_TRIAL], buffer[_SLOPE]
     right, order = buffer[_RIGHT], buffer[_ORDER]
-    u, jacobian, matrix = buffer[_U : _U + STAGES], buffer[_JACOBIAN:_MATRIX], buffer[_MATRIX:]
+    layout = model.options.layout
+    matrix_at = _JACOBIAN + layout.states
+    u, jacobian, matrix = buffer[_U : _U + STAGES], buffer[_JACOBIAN:matrix_at], buffer[matrix_at:]
     evaluations = STAGES - 1
     if fresh:
-        rhs(place.phase, place.cycle, place.segment, y, model, work, rate)
+        rhs(place.phase, place.cycle, place.interval, y, model, work, rate)
         into = Differences(trial, jacobian, slope)
         evaluations += 1 + differentiate(place, y, rate, control.scale, model, work, into)
     shift = 1.0 / (GAMMA * step)
-    factorise(shift, jacobian, matrix, order)
+    factorise(shift, jacobian, matrix, order, layout)
     for s in range(STAGES):
         if s > 0:
-            for i in range(STATES):
+            for i in range(layout.states):
                 total = 0.0
                 for j in range(s):
                     total += A[s, j] * u[j, i]
                 stage[i] = y[i] + total
-            rhs(place.phase + ALPHA[s] * step, place.cycle, place.segment, stage, model, work, trial)
-        for i in range(STATES):
+            rhs(place.phase + ALPHA[s] * step, place.cycle, place.interval, stage, model, work, trial)
+        for i in range(layout.states):
             total = 0.0
             for j in range(s):
                 total += C[s, j] * u[j, i]
             f = rate[i] if s == 0 else trial[i]
             right[i] = f + total / step + GAMMAS[s] * step * slope[i]
-        resolve(shift, jacobian, matrix, order, right, u[s])
-    for i in range(STATES):
+        resolve(shift, jacobian, matrix, order, right, u[s], layout)
+    for i in range(layout.states):
         error[i] = u[STAGES - 1, i]
         stage[i] += error[i]
     return evaluations
 
 
 @kernel
-def sample(theta, step, y, buffer, out):
+def sample(theta, step, y, buffer, out, layout):
     """See `marching.Method`."""
-    for i in range(STATES):
+    for i in range(layout.states):
         first = 0.0
         second = 0.0
         for j in range(STAGES - 1):
@@ -217,7 +219,7 @@ def sample(theta, step, y, buffer, out):
 
 
 @kernel
-def accept(buffer):
+def accept(buffer, layout):
     """See `marching.Method`: there is a new Jacobian for every step."""
     return True
 
@@ -231,9 +233,9 @@ def adapted(step, error, last_error, buffer):
 
 
 @kernel
-def contacts(phase, segment, model, work, buffer):
+def contacts(phase, interval, model, work, buffer):
     """See `marching.Method`."""
-    contacts_at(phase, segment, buffer[STATE], model, work)
+    contacts_at(phase, interval, buffer[STATE], model, work)
 
 
 METHOD = Method(attempt, sample, accept, adapted, contacts, open_segment, search_step)

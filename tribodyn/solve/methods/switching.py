@@ -5,16 +5,14 @@ methods say with every step how stiff it is: the explicit one after Hairer & Wan
 Differential Equations II (2nd ed., 1996), IV.2, the other from the Jacobian that it has anyway.
 """
 
-from tribodyn.dynamics.parameters import MECHANICAL
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.extreme_search import open_segment, search_step
 from tribodyn.solve.march.marching import SCRATCH, Method, march_with, scratch_buffer
 from tribodyn.solve.methods import dopri5, rodas4
 from tribodyn.solve.methods.dopri5 import A
+from tribodyn.train.structure import Layout
 
-#: First velocity among the mechanical states.
-HALF = MECHANICAL // 2
 #: State at the last stage less that at the one before, over the step, by the stages' rates.
 APART = A[6] - A[5]
 #: Step over the time constant of the stiffest motion: above the first stability limits the explicit method;
@@ -25,23 +23,22 @@ EXPLICIT_STEPS, STIFF_STEPS = 12, 3
 #: Explicit steps after which the stiff method is tried whatever the explicit one says of stiffness: where the
 #: tolerance of a velocity exceeds the width of reversal, its stages jump across, and find friction constant.
 MOST_EXPLICIT_STEPS = 500.0
-#: The last row of the buffer: which method (0 explicit), the step over the time constant, steps in a row that
-#: speak for the other method, explicit steps in a row.
-MODE = len(rodas4.buffer())
+#: Columns of the buffer's last row: which method (0 explicit), the step over the time
+#: constant, steps in a row that speak for the other method, explicit steps in a row.
 WHICH, STIFFNESS, COUNT, EXPLICIT_RUN = range(4)
 EXPLICIT_METHOD, STIFF_METHOD = 0.0, 1.0
 
 
-def buffer() -> Float[Array, "row state"]:
+def buffer(layout: Layout) -> Float[Array, "row state"]:
     """Scratch for the kernel: that of both methods, one at a time, and a row of the choice between them."""
-    return scratch_buffer(MODE + 1 - SCRATCH)
+    return scratch_buffer(len(rodas4.buffer(layout)) + 1 - SCRATCH, layout)
 
 
 @kernel
-def explicit_stiffness(k):
+def explicit_stiffness(k, layout):
     """Step over the time constant, squared, from the last two stages, which stand at the same phase."""
     rates, states = 0.0, 0.0
-    for i in range(HALF, MECHANICAL):
+    for i in range(layout.half, layout.mechanical):
         moved = APART[0] * k[0, i] + APART[1] * k[1, i] + APART[2] * k[2, i]
         moved += APART[3] * k[3, i] + APART[4] * k[4, i] + APART[5] * k[5, i]
         rate = k[6, i] - k[5, i]
@@ -53,35 +50,36 @@ def explicit_stiffness(k):
 @kernel
 def attempt(fresh, step, place, y, control, model, work, buffer):
     """See `marching.Method`."""
-    if buffer[MODE, WHICH] == EXPLICIT_METHOD:
+    layout = model.options.layout
+    if buffer[buffer.shape[0] - 1, WHICH] == EXPLICIT_METHOD:
         evaluations = dopri5.attempt(fresh, step, place, y, control, model, work, buffer)
-        buffer[MODE, STIFFNESS] = explicit_stiffness(buffer[SCRATCH:])
+        buffer[buffer.shape[0] - 1, STIFFNESS] = explicit_stiffness(buffer[SCRATCH:], layout)
         return evaluations
     evaluations = rodas4.attempt(fresh, step, place, y, control, model, work, buffer)
-    buffer[MODE, STIFFNESS] = rodas4.stiffness(step, buffer)
+    buffer[buffer.shape[0] - 1, STIFFNESS] = rodas4.stiffness(step, buffer, layout)
     return evaluations
 
 
 @kernel
-def sample(theta, step, y, buffer, out):
+def sample(theta, step, y, buffer, out, layout):
     """See `marching.Method`."""
-    if buffer[MODE, WHICH] == EXPLICIT_METHOD:
-        dopri5.sample(theta, step, y, buffer, out)
+    if buffer[buffer.shape[0] - 1, WHICH] == EXPLICIT_METHOD:
+        dopri5.sample(theta, step, y, buffer, out, layout)
     else:
-        rodas4.sample(theta, step, y, buffer, out)
+        rodas4.sample(theta, step, y, buffer, out, layout)
 
 
 @kernel
-def accept(buffer):
+def accept(buffer, layout):
     """See `marching.Method`: a step after the methods have changed begins fresh."""
-    mode = buffer[MODE]
+    mode = buffer[buffer.shape[0] - 1]
     if mode[WHICH] == EXPLICIT_METHOD:
         mode[COUNT] = mode[COUNT] + 1.0 if mode[STIFFNESS] > STIFF * STIFF else 0.0
         mode[EXPLICIT_RUN] += 1.0
         if mode[COUNT] >= EXPLICIT_STEPS or mode[EXPLICIT_RUN] >= MOST_EXPLICIT_STEPS:
             mode[WHICH], mode[COUNT], mode[EXPLICIT_RUN] = STIFF_METHOD, 0.0, 0.0
             return True
-        return dopri5.accept(buffer)
+        return dopri5.accept(buffer, layout)
     mode[COUNT] = mode[COUNT] + 1.0 if mode[STIFFNESS] < NOT_STIFF else 0.0
     if mode[COUNT] >= STIFF_STEPS:
         mode[WHICH], mode[COUNT] = EXPLICIT_METHOD, 0.0
@@ -91,18 +89,18 @@ def accept(buffer):
 @kernel
 def adapted(step, error, last_error, buffer):
     """See `marching.Method`."""
-    if buffer[MODE, WHICH] == EXPLICIT_METHOD:
+    if buffer[buffer.shape[0] - 1, WHICH] == EXPLICIT_METHOD:
         return dopri5.adapted(step, error, last_error, buffer)
     return rodas4.adapted(step, error, last_error, buffer)
 
 
 @kernel
-def contacts(phase, segment, model, work, buffer):
+def contacts(phase, interval, model, work, buffer):
     """See `marching.Method`."""
-    if buffer[MODE, WHICH] == EXPLICIT_METHOD:
-        dopri5.contacts(phase, segment, model, work, buffer)
+    if buffer[buffer.shape[0] - 1, WHICH] == EXPLICIT_METHOD:
+        dopri5.contacts(phase, interval, model, work, buffer)
     else:
-        rodas4.contacts(phase, segment, model, work, buffer)
+        rodas4.contacts(phase, interval, model, work, buffer)
 
 
 METHOD = Method(attempt, sample, accept, adapted, contacts, open_segment, search_step)

@@ -1,17 +1,18 @@
-"""The map of gear pairs over one mesh cycle, as the search for steady states takes it.
+"""The map of trains over their common period, as the search for steady states takes it.
 
-It takes the mechanical state at phase 0, just after engagement, to the same place a mesh cycle later. The
-rigid rotation has no part in it: the independent variable is the mesh's phase, and the time lag, on which
-nothing depends while the load is steady, is omitted together with the audit's works. With prescribed speed
-ten states remain, with a torque source eleven, with a shaft thirteen.
+It takes the mechanical state at phase 0, just after engagement, to the same place a period later, which for a
+single pair of gears is a mesh cycle. The rigid rotation has no part in it: the independent variable is the
+phase of the reference mesh, and the time lag, on which nothing depends while the load is steady, is omitted
+together with the audit's works. Of a pair with prescribed speed ten states remain, with a torque source
+eleven, with a shaft thirteen.
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics import parameters
+from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT, Model
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import usable_cores
 from tribodyn.solve.choice import choose
@@ -21,20 +22,28 @@ from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import DIFFERENCE, Marched, Tangent, by_differences
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales
+from tribodyn.train.structure import LAG, Layout, displacements, velocities
 
 
-def moving_states(model: parameters.Model) -> tuple[int, ...]:
-    """Indices of the states that the map over a mesh cycle acts on."""
-    free = {*parameters.DISPLACEMENTS, *parameters.VELOCITIES}
-    if model.options.drive != parameters.DRIVE_SPEED:
-        free |= {parameters.SLIP}
-    if model.options.drive == parameters.DRIVE_SHAFT:
-        free |= {parameters.TWIST, parameters.MOTOR_SLIP}
-    return tuple(sorted(free))
+class Moving(NamedTuple):
+    """What models must have in common to be searched side by side."""
+
+    states: tuple[int, ...]  # places of the states that the map acts on
+    layout: Layout
+    period: int  # reference cycles of the map
+
+
+def moving_states(model: Model) -> Moving:
+    """What the map over the common period of a model acts on."""
+    layout = model.layout
+    free = {*displacements(layout), *velocities(layout)}
+    if model.options.drive != DRIVE_SPEED:
+        free |= {layout.half + LAG}
+    return Moving(tuple(sorted(free)), layout, model.schedule.period)
 
 
 class GearMap:
-    """Maps over a mesh cycle of gear pairs with the same `moving_states`, as `motions.PeriodMap`.
+    """Maps over the common period of trains with the same `moving_states`, as `motions.PeriodMap`.
 
     Scales and the integration method follow from the states at the start; fixed points are sought with
     `fine_rtol`. Tangents are exact with native methods (`variational`), difference quotients with others.
@@ -42,7 +51,7 @@ class GearMap:
 
     def __init__(
         self,
-        models: Sequence[parameters.Model],
+        models: Sequence[Model],
         starts: Float[Array, "case state"],
         moving: tuple[int, ...],
         *,
@@ -53,6 +62,7 @@ class GearMap:
         workers: int | None,
     ):
         self.models = models
+        self.layout, self.cycles = models[0].layout, models[0].schedule.period
         self.moving = list(moving)
         self.rtol = {False: rtol, True: min(rtol, fine_rtol)}
         self.settings: dict[str, Any] = {"max_steps": max_steps, "workers": workers}
@@ -67,7 +77,7 @@ class GearMap:
 
     def full(self, states: Float[Array, "row moving"]) -> Float[Array, "row state"]:
         """States of the model from states of the map."""
-        whole = np.zeros((len(states), parameters.STATES))
+        whole = np.zeros((len(states), self.layout.states))
         whole[:, self.moving] = states
         return whole
 
@@ -78,9 +88,10 @@ class GearMap:
         result = self.integrate(self.full(states), cases, periods, 1, fine)
         end, reasons = result.state, reasons_of(result.status, result.reached)
         for row, case in enumerate(cases):
-            if self.models[case].options.formulation == parameters.ENERGY_CONSISTENT and not reasons[row]:
-                engage_next(end[row], self.models[case])
-        after = np.concatenate([result.samples[:, 1:], end[:, None]], axis=1)[..., self.moving]
+            if self.models[case].options.formulation == ENERGY_CONSISTENT and not reasons[row]:
+                engage_next(end[row], periods * self.cycles, self.models[case])
+        begins = result.samples[:, :: self.cycles]
+        after = np.concatenate([begins[:, 1:], end[:, None]], axis=1)[..., self.moving]
         after[[bool(reason) for reason in reasons]] = np.nan
         return Marched(after, reasons)
 
@@ -91,13 +102,13 @@ class GearMap:
         from tribodyn.solve.march.variational import march_with_derivative
 
         scale = self.scale[cases]
-        directions = np.zeros((len(cases), parameters.STATES, len(self.moving)))
+        directions = np.zeros((len(cases), self.layout.states, len(self.moving)))
         directions[:, self.moving] = scale[:, :, None] * np.eye(len(self.moving))
         derived = march_with_derivative(
             [self.models[case] for case in cases],
             self.full(states),
             directions,
-            cycles=periods,
+            cycles=periods * self.cycles,
             rtol=self.rtol[True],
             # the derivatives may need more than the motion, for which the limit is
             max_steps=max(MAX_STEPS, self.settings["max_steps"]),
@@ -118,15 +129,16 @@ class GearMap:
         extremes: bool = False,
     ) -> Ensemble:
         """Integrate whole states over some mesh cycles, all of them sampled."""
-        result = nothing_yet(states, periods * samples, extremes)
+        cycles = periods * self.cycles
+        result = nothing_yet(self.layout, states, cycles * samples, extremes)
         for solver in sorted(set(self.solvers)):
             rows = np.flatnonzero([self.solvers[case] == solver for case in cases])
             if rows.size:
                 part = march(
                     [self.models[case] for case in cases[rows]],
                     states[rows],
-                    cycles=periods,
-                    window=periods,
+                    cycles=cycles,
+                    window=cycles,
                     samples=samples,
                     rtol=self.rtol[fine],
                     method=solver,

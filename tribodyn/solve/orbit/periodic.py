@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes, extremes_of
-from tribodyn.dynamics.parameters import DRIVE_SPEED, STATES, Model
+from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import MAX_STEPS
-from tribodyn.solve.orbit.gear_map import GearMap, moving_states, reasons_of
+from tribodyn.solve.orbit.gear_map import GearMap, Moving, moving_states, reasons_of
 from tribodyn.solve.orbit.motions import FAILED, Orbit, failed_orbit
 from tribodyn.solve.orbit.search import Method, find
 
@@ -83,20 +83,21 @@ def steady_states(
     for model in models:
         refuse_time_dependent(model)
     motions: dict[int, SteadyMotion] = {}
-    groups: dict[tuple[int, ...], dict[int, Float[Array, " state"]]] = {}
+    groups: dict[Moving, dict[int, Float[Array, " state"]]] = {}
     for case, model in enumerate(models):
         try:
             start = static_equilibrium(model) if states is None else states[case]
             groups.setdefault(moving_states(model), {})[case] = np.asarray(start, dtype=float)
         except SimulationError as error:
-            motions[case] = _failed(np.zeros(STATES), error.reason)
+            motions[case] = _failed(np.zeros(model.layout.states), error.reason)
     settings: dict[str, Any] = {"solver": solver, "max_steps": max_steps, "workers": workers}
     rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
-    limits: dict[str, Any] = {"tolerance": tolerance, "max_periods": max_cycles, "method": method}
     for moving, starts in groups.items():
         begin = np.array(list(starts.values()))
-        period_map = GearMap([models[case] for case in starts], begin, moving, **rtols, **settings)
-        orbits = find(period_map, begin[:, list(moving)], progress=progress, **limits)
+        period_map = GearMap([models[case] for case in starts], begin, moving.states, **rtols, **settings)
+        most = max(1, max_cycles // period_map.cycles)
+        limits: dict[str, Any] = {"tolerance": tolerance, "max_periods": most, "method": method}
+        orbits = find(period_map, begin[:, list(moving.states)], progress=progress, **limits)
         if method == "auto":
             _search_finely(period_map, orbits, tolerance, settings)
         motions |= zip(starts, sampled(period_map, orbits, samples), strict=True)
@@ -126,8 +127,8 @@ def refuse_time_dependent(model: Model) -> None:
 
     Harmonics at whole multiples of the mesh frequency of a prescribed speed repeat with the mesh.
     """
-    mechanics = model.mechanics
-    torques = np.asarray(mechanics.load_torques)
+    operation = model.operation
+    torques = np.asarray(operation.load_torques)
     if len(torques) > 1 and np.ptp(torques) > 0.0:
         raise InputError(
             "operating.gear_torque_table",
@@ -135,8 +136,8 @@ def refuse_time_dependent(model: Model) -> None:
             "a load that changes over time has no steady state over the mesh cycle",
             "omit the table, or run the scenario in time",
         )
-    period = float(model.table.pitch_angle) / float(mechanics.nominal_speed)
-    frequencies = np.asarray(mechanics.load_frequencies)[np.asarray(mechanics.load_amplitudes) != 0.0]
+    period = float(operation.pitch_angle) / float(operation.nominal_speed)
+    frequencies = np.asarray(operation.load_frequencies)[np.asarray(operation.load_amplitudes) != 0.0]
     for frequency in frequencies:
         orders = frequency * period / (2.0 * np.pi)
         if model.options.drive != DRIVE_SPEED or abs(orders - round(orders)) > 1e-9:
@@ -156,7 +157,7 @@ def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Stea
     for case, orbit in enumerate(orbits):
         state, last = period_map.full(np.array([orbit.state, orbit.last]))
         whole = vars(orbit) | {"state": state, "last": last}
-        motions[case] = SteadyMotion(**whole, samples=np.empty((0, STATES)), end=state, extremes=None)
+        motions[case] = SteadyMotion(**whole, samples=np.empty((0, len(state))), end=state, extremes=None)
     for period in sorted({*cycles} - {0}):
         cases = np.flatnonzero(np.array(cycles) == period)
         states = np.array([motions[case].state for case in cases.tolist()])
@@ -173,4 +174,4 @@ def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Stea
 
 def _failed(state: Float[Array, " state"], reason: str) -> SteadyMotion:
     orbit = failed_orbit(state, 0, reason)
-    return SteadyMotion(**vars(orbit), samples=np.empty((0, STATES)), end=state, extremes=None)
+    return SteadyMotion(**vars(orbit), samples=np.empty((0, len(state))), end=state, extremes=None)

@@ -11,7 +11,7 @@ import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.slices import friction_ratio, peak_ratio
-from tribodyn.dynamics.recorded import SAMPLES
+from tribodyn.studies.gears.recorded import SAMPLES
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, contacts, settled

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, effective_contact_ratio
-from tribodyn.dynamics.recorded import scales_of
+from tribodyn.studies.gears.recorded import scales_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.families import family

@@ -4,15 +4,17 @@ import math
 from dataclasses import dataclass
 
 from tribodyn.dynamics.data import BearingData
-from tribodyn.dynamics.parameters import STATES
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
 from tribodyn.studies.protocol import cost
+from tribodyn.train.structure import layout_of
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
 #: and an attribute of a record holds no longer spectrum.
 WIDEST_WINDOW = 400
+#: States of a pair with a compliant shaft, which has the most.
+MOST_STATES = int(layout_of(2, 3, [(0, 1)], [], 0, 0).states)
 #: Mesh cycles until most steady states are found.
 STEADY_CYCLES = 60
 #: Stiffness of a mesh over width and modulus of elasticity: 20 N/(mm µm) of steel, ISO 6336-1.
@@ -66,7 +68,7 @@ def estimate_in_sweep(case: Case, cycles: int, window: int, together: int) -> co
     return cost.total(
         (*_drivers(case), *marched),
         _table(case)._replace(record=0.0),
-        cost.in_memory(3.0 * together * window * samples, STATES * 8.0),
+        cost.in_memory(3.0 * together * window * samples, MOST_STATES * 8.0),
         cost.in_memory(window * samples, cost.SAMPLE_BYTES),
         _marching(case, float(cycles), together=True),
         cost.Estimate(seconds=cost.MARCHED_SAMPLE * window * samples),

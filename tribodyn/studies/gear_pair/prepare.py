@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics import parameters
+from tribodyn.dynamics.data import BearingData
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
 from tribodyn.mesh.equilibrium import contacts, elastic, settled
@@ -16,6 +17,8 @@ from tribodyn.mesh.quasi_static import friction_loss
 from tribodyn.numerics.curve import monotone_slopes
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gears.prepare import PreparedGears, assembled, at_tooth_temperature
+from tribodyn.train.schedule import Schedule, of_one_mesh
+from tribodyn.train.structure import GROUND, Bodies, Layout, Links, Mesh, layout_of
 from tribodyn.tribology.closure import Closure, closure_of
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
@@ -25,6 +28,10 @@ SWEEPS, SWEEPS_STRONGLY_COUPLED = 4, 8
 STRONGLY_COUPLED = 0.1
 #: With a load-dependent Hertz contact the inverse is no more than a guess, wrong by about a tenth.
 SWEEPS_NONLINEAR = 12
+
+
+#: Bodies of the train.
+PINION, GEAR, MOTOR = 0, 1, 2
 
 
 @dataclass(frozen=True)
@@ -42,6 +49,7 @@ class Tabulated(NamedTuple):
 
     cycle: MeshCycle
     table: Polynomials  # the same as the right-hand side reads it
+    schedule: Schedule  # when the set of contacting pairs changes
     #: (mass kg, inertia kg m²); of pinion and gear alone
     masses: tuple[tuple[float, float], tuple[float, float]]
     assembly: Assembly
@@ -86,11 +94,10 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> PreparedPair:
     `tabulated` is of a case with the same `table_key`; it is made here where it is not given. Raises
     InputError where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
-    cycle, table, (pinion, gear), assembly, _ = made = tabulated or tables(case)
+    made = tabulated or tables(case)
+    cycle, (pinion, gear), assembly = made.cycle, made.masses, made.assembly
     warm, thermal = at_tooth_temperature(case, assembly, _quasi_static_loss(made))
-    surfaces, film, friction = closure = closure_of(warm)
-    mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle, closure)
-    model = parameters.Model(table, mechanics, surfaces, film.parameters, friction.parameters, options)
+    model = _model(case, made, closure_of(warm), (pinion, gear))
     return PreparedPair(warm, assembly, cycle, thermal, model, (pinion, gear), case)
 
 
@@ -125,24 +132,23 @@ def tables(case: Case) -> Tabulated:
         turning = Assembly(assembly.family._replace(corner=True), assembly.drive)
         return mesh_cycle_of(turning, case.materials, case.mesh, torque)
 
-    return Tabulated(cycle, polynomials(cycle), (pinion, gear), assembly, split)
+    table = polynomials(cycle)
+    return Tabulated(cycle, table, of_one_mesh(table.boundary), (pinion, gear), assembly, split)
 
 
-def _options(case: Case, cycle: MeshCycle, closure: Closure) -> parameters.Options:
-    drive = parameters.DRIVE_SPEED
-    if case.operating.source == "torque":
-        drive = parameters.DRIVE_TORQUE if case.operating.shaft_stiffness is None else parameters.DRIVE_SHAFT
+def _options(case: Case, cycle: MeshCycle, closure: Closure, layout: Layout) -> parameters.Options:
     linear = float(cycle.hertz_coefficient) == 0.0
     return parameters.Options(
         film=closure.film.functions,
         friction=closure.friction.functions,
+        layout=layout,
         sliding=parameters.SLIDING_DYNAMIC
         if case.friction.sliding == "dynamic"
         else parameters.SLIDING_KINEMATIC,
         formulation=parameters.ENERGY_CONSISTENT
         if case.mesh.formulation == "energy-consistent"
         else parameters.CLASSICAL,
-        drive=drive,
+        drive=parameters.DRIVE_TORQUE if case.operating.source == "torque" else parameters.DRIVE_SPEED,
         hertz=parameters.HERTZ_IN_TABLE if linear else parameters.HERTZ_POWER_LAW,
         sweeps=_sweeps(cycle),
         averaged=int(float(cycle.pitch_point_length) > 0.0),
@@ -160,44 +166,79 @@ def _sweeps(cycle: MeshCycle) -> int:
     return SWEEPS_STRONGLY_COUPLED if np.max(both * share) > STRONGLY_COUPLED else SWEEPS
 
 
-def _mechanics(
-    case: Case, pinion: tuple[float, float], gear: tuple[float, float], cycle: MeshCycle
-) -> parameters.Mechanics:
-    operating, bearings = case.operating, case.bearings
-    pinion_radius, gear_radius = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
-    equivalent_mass = pinion[1] * gear[1] / (pinion[1] * gear_radius**2 + gear[1] * pinion_radius**2)
+def _model(
+    case: Case, made: Tabulated, closure: Closure, masses: tuple[tuple[float, float], tuple[float, float]]
+) -> parameters.Model:
+    """The train of two bodies on bearings, and a third, of the drive, where a shaft gives way."""
+    operating, cycle = case.operating, made.cycle
+    shaft = operating.source == "torque" and operating.shaft_stiffness is not None
+    (mass_1, inertia_1), (mass_2, inertia_2) = masses
+    radius_1, radius_2 = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
+    equivalent_mass = inertia_1 * inertia_2 / (inertia_1 * radius_2**2 + inertia_2 * radius_1**2)
+    motor = [operating.drive_inertia] if shaft else []
+    ratio = radius_1 / radius_2
+    bodies = Bodies(
+        mass=np.array([mass_1, mass_2]),
+        inertia=np.array(
+            [
+                inertia_1 + (0.0 if shaft else operating.drive_inertia),
+                inertia_2 + operating.load_inertia,
+                *motor,
+            ]
+        ),
+        ratio=np.array([1.0, ratio, *(1.0 for _ in motor)]),
+        load=np.array([0.0, operating.gear_torque, *(0.0 for _ in motor)]),
+        load_damping=np.array([0.0, operating.load_damping, *(0.0 for _ in motor)]),
+    )
+    links = [_bearing(bearing, mass) for bearing, mass in zip(case.bearings, (mass_1, mass_2), strict=True)]
+    ends = [(PINION, GROUND), (GEAR, GROUND)]
+    if shaft:
+        links.append(([0.0, 0.0, operating.shaft_stiffness], [0.0, 0.0, operating.shaft_damping]))
+        ends.append((MOTOR, PINION))
+    layout = layout_of(2, 2 + len(motor), [(PINION, GEAR)], ends, MOTOR if shaft else PINION, GEAR)
+    mesh = Mesh(
+        table=made.table,
+        driver_radius=cycle.pinion_pitch_radius,
+        driven_radius=cycle.gear_pitch_radius,
+        along_x=1.0,
+        along_y=0.0,
+        across_x=0.0,
+        across_y=1.0,
+        damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass)),
+        surfaces=closure.surfaces,
+        film=closure.film.parameters,
+        friction=closure.friction.parameters,
+    )
+    return parameters.Model(
+        (mesh,),
+        bodies,
+        Links(*(np.array(values) for values in zip(*links, strict=True))),
+        made.schedule,
+        operation_of(case, ratio),
+        _options(case, cycle, closure, layout),
+    )
 
-    def damping(ratio: float, stiffness: float, mass: float) -> float:
-        return 2.0 * ratio * float(np.sqrt(stiffness * mass))
 
-    rigid = 0.0 if operating.shaft_stiffness is not None else operating.drive_inertia
-    balance = operating.gear_torque * pinion_radius / gear_radius
+def _bearing(bearing: BearingData, mass: float) -> tuple[list[float], list[float]]:
+    """Stiffness and damping of a shaft and its bearings, per direction."""
+    stiffness = [bearing.stiffness_x, bearing.stiffness_y, 0.0]
+    ratios = [bearing.damping_ratio_x, bearing.damping_ratio_y, 0.0]
+    return stiffness, [2.0 * z * float(np.sqrt(k * mass)) for z, k in zip(ratios, stiffness, strict=True)]
+
+
+def operation_of(case: Case, ratio: float) -> parameters.Operation:
+    """How a case is driven and loaded; `ratio` is that of the gear's speed to the pinion's."""
+    operating = case.operating
     times, torques = (np.asarray(values, dtype=float) for values in operating.torque_table or ((), ()))
     harmonics = np.array(operating.torque_harmonics, dtype=float).reshape(-1, 3)
-    return parameters.Mechanics(
-        pinion_mass=pinion[0],
-        gear_mass=gear[0],
-        pinion_inertia=pinion[1] + rigid,
-        gear_inertia=gear[1] + operating.load_inertia,
-        pinion_stiffness_x=bearings[0].stiffness_x,
-        pinion_stiffness_y=bearings[0].stiffness_y,
-        gear_stiffness_x=bearings[1].stiffness_x,
-        gear_stiffness_y=bearings[1].stiffness_y,
-        pinion_damping_x=damping(bearings[0].damping_ratio_x, bearings[0].stiffness_x, pinion[0]),
-        pinion_damping_y=damping(bearings[0].damping_ratio_y, bearings[0].stiffness_y, pinion[0]),
-        gear_damping_x=damping(bearings[1].damping_ratio_x, bearings[1].stiffness_x, gear[0]),
-        gear_damping_y=damping(bearings[1].damping_ratio_y, bearings[1].stiffness_y, gear[0]),
-        mesh_damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass)),
-        contact_width=case.mesh.contact_width,
-        reversal_width=case.friction.reversal_width,
+    balance = operating.gear_torque * ratio
+    return parameters.Operation(
         nominal_speed=operating.pinion_speed,
+        pitch_angle=2.0 * np.pi / case.drive.pinion.teeth,
         drive_torque=balance if operating.pinion_torque is None else operating.pinion_torque,
         speed_regulation=operating.speed_regulation,
-        drive_inertia=operating.drive_inertia,
-        shaft_stiffness=operating.shaft_stiffness or 0.0,
-        shaft_damping=operating.shaft_damping,
-        load_torque=operating.gear_torque,
-        load_damping=operating.load_damping,
+        contact_width=case.mesh.contact_width,
+        reversal_width=case.friction.reversal_width,
         load_times=times,
         load_torques=torques,
         load_slopes=_monotone_slopes(times, torques),

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.outputs import outputs_with_extremes
-from tribodyn.dynamics.recorded import UNRECORDED, scales_of
+from tribodyn.dynamics.outputs import UNRECORDED
+from tribodyn.studies.gear_pair.outputs import MESH, outputs_with_extremes
+from tribodyn.studies.gears.recorded import scales_of
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
@@ -70,7 +71,7 @@ def run(
 def check(case: Case) -> CheckResult:
     """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
     prepared = prepare(case)
-    return check_gears(prepared, prepared.model.closure, prepared.masses)
+    return check_gears(prepared, prepared.model.closure(MESH), prepared.masses)
 
 
 def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunResult:
@@ -87,7 +88,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         "gear_mass": prepared.masses[1][0],
         "pinion_inertia": prepared.masses[0][1],
         "gear_inertia": prepared.masses[1][1],
-        "mode_frequencies": natural_frequencies(model, cycle),
+        "mode_frequencies": natural_frequencies(model, [cycle]),
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
         "compliance_remark": compliance_remark(prepared.assembly, case.materials, case.mesh) or None,
         **_by_standard(prepared),
@@ -141,7 +142,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         loss = np.abs(last["friction_force"] * last["sliding_speed"])[touching]
         film_shares, friction_shares = (last[name][touching] for name in UNRECORDED)
         summary |= exceeded_limits(case, film_shares, friction_shares, loss)
-        summary |= steady_quantities(last, work, cycle, samples, speed, statistics.in_window)
+        summary |= steady_quantities(last, work, prepared, samples, speed, statistics.in_window)
         summary |= thermal_quantities(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
         summary |= contact_quantities(case.lubricant, summary)
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
@@ -213,7 +214,7 @@ class RunStatistics:
         shown = self.in_window if complete else self.extremes
         return shown.values() | {
             "extremes": {"run": self.extremes.described(), "last_cycles": self.in_window.described()},
-            "energy_residual": energy_residual(first, last, stored_last - stored_first),
+            "energy_residual": energy_residual(first, last, stored_last - stored_first, self.prepared.model.layout),
         }
 
     def window_work(self) -> np.ndarray:

@@ -8,23 +8,27 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import (
-    LAG,
-    WORK_DAMPING,
-    WORK_FRICTION,
-    WORK_IN,
-    WORK_OUT,
-    WORK_PARAMETRIC,
-    WORK_SLIDING,
-    XI,
-)
-from tribodyn.dynamics.recorded import pair_numbers
+from tribodyn.studies.gears.recorded import pair_numbers
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in, total_stiffness
 from tribodyn.post.cycles import amplitude_spectrum
 from tribodyn.record.trust import Judge, heat_of
+from tribodyn.studies.gear_pair.outputs import MESH
 from tribodyn.studies.gear_pair.prepare import PreparedPair
+from tribodyn.train.structure import (
+    DAMPING,
+    FRICTION,
+    IN,
+    LAG,
+    OUT,
+    PARAMETRIC,
+    SLIDING,
+    Layout,
+    rotational_error,
+    work_of,
+    works_of_meshes,
+)
 from tribodyn.tribology.surface_state import fraction_in_range
 
 #: Summary name -> record name and sign of what is largest there, over the whole run and over its last cycles.
@@ -124,26 +128,29 @@ def mesh_force(block: dict[str, np.ndarray], slots: np.ndarray) -> np.ndarray:
     return np.sum(block["normal_load"][:, slots] * np.cos(angle), axis=1)
 
 
-def energy_residual(first: np.ndarray, last: np.ndarray, stored: float) -> float:
+def energy_residual(first: np.ndarray, last: np.ndarray, stored: float, layout: Layout) -> float:
     """Residual of the energy balance over a run, as a share of the largest of the works in it.
 
     W_in + W_parametric − W_out − W_friction − W_damping − ΔE from the first to the last state; `stored` is
     ΔE, J. The largest is that of the driving gear where power flows through, and that of what takes or feeds
     the energy of a mesh without load.
     """
-    works = (last - first)[[WORK_IN, WORK_PARAMETRIC, WORK_OUT, WORK_FRICTION, WORK_DAMPING]]
+    change = last - first
+    friction = float(np.sum(change[works_of_meshes(layout, FRICTION)]))
+    of_train = [change[work_of(layout, which)] for which in (IN, PARAMETRIC, OUT)]
+    works = np.array([*of_train, friction, change[work_of(layout, DAMPING)]])
     missing = works @ [1.0, 1.0, -1.0, -1.0, -1.0] - stored
     return float(missing / max(np.max(np.abs(works)), 1e-300))
 
 
-def friction_work_on_vibration(work: np.ndarray) -> float | None:
+def friction_work_on_vibration(work: np.ndarray, layout: Layout) -> float | None:
     """Work of friction on the vibration, as a share of the loss that the rotation alone has; > 0: fed.
 
     What friction takes of the moving bodies, Σ F_f v_rel, is what it would take of bodies that only rotate, Σ
-    F_f v_s, less what it gives to the vibration. None without friction. `work` (STATES,) is the change of the
-    state over whole mesh cycles.
+    F_f v_s, less what it gives to the vibration. None without friction. `work` is the change of the state over
+    whole mesh cycles.
     """
-    nominal, taken = float(work[WORK_SLIDING]), float(work[WORK_FRICTION])
+    nominal, taken = (float(np.sum(work[works_of_meshes(layout, which)])) for which in (SLIDING, FRICTION))
     return (nominal - taken) / abs(nominal) if nominal != 0.0 else None
 
 
@@ -159,7 +166,7 @@ def warning_of(share: float | None, sliding: str) -> str | None:
 def steady_quantities(
     window: dict[str, np.ndarray],
     work: np.ndarray,
-    cycle: MeshCycle,
+    prepared: PreparedPair,
     samples: int,
     nominal_speed: float,
     extremes: RunningExtremes,
@@ -168,9 +175,10 @@ def steady_quantities(
 
     Those of loads and of single pairs are of the working flanks: the back flanks where the gear drives. The
     `window` has the record's arrays over these cycles, last sample not included, so many `samples` in each.
-    `work` (STATES,) is the change of the state over them: its works are integrated, so that no mean power
+    `work` is the change of the state over them: its works are integrated, so that no mean power
     depends on the sampling. `nominal_speed` is the pinion's, rad/s.
     """
+    cycle, layout = prepared.cycle, prepared.model.layout
     error = window["transmission_error_rotational"]
     load = window["normal_load"]
     friction = np.abs(window["friction_force"])
@@ -182,12 +190,13 @@ def steady_quantities(
     duration = float(cycles * cycle.pitch_angle / nominal_speed + work[LAG])
     frequency = cycles / duration
     orders, amplitudes = spectrum = amplitude_spectrum(error, samples)
-    mean_powers = work[[WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING]] / duration
-    power_in, power_out, power_friction, power_damping = mean_powers
+    power_in, power_out, power_damping = (work[work_of(layout, which)] / duration for which in (IN, OUT, DAMPING))
+    power_friction = np.sum(work[works_of_meshes(layout, FRICTION)]) / duration
     stiffness = total_stiffness(window["mesh_stiffness"], window["pressure_angle"])
     # the mean load by its work over the gear's rotation: neither depends on the sampling
-    turned = cycle.pinion_pitch_radius * cycle.pitch_angle * cycles - work[XI]
-    force = float(work[WORK_OUT] / turned)
+    turned = cycle.pinion_pitch_radius * cycle.pitch_angle * cycles
+    turned = turned - float(rotational_error(work, MESH, prepared.model))
+    force = float(work[work_of(layout, OUT)] / turned)
     # a load that is reversed on the mean has driving flanks to work on where there is no backlash
     sign = -1.0 if force < 0.0 and np.any(cycle.side < 0) else 1.0
     # the last slot of either side holds a pair that is on the path of contact all the time
@@ -213,7 +222,7 @@ def steady_quantities(
         "mesh_stiffness_mean": float(np.mean(stiffness)),
         "mesh_stiffness_peak_to_peak": float(np.ptp(stiffness)),
         **extremes.where("film_parameter_min", cycle),
-        "friction_work_on_vibration": friction_work_on_vibration(work),
+        "friction_work_on_vibration": friction_work_on_vibration(work, layout),
         "driving_gear": driving_gear(power_in, power_out),
         "power_in_mean": float(power_put_in(power_in, power_out)),
         "power_friction_mean": float(power_friction),

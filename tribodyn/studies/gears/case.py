@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Self
 
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.dynamics.recorded import DOF_SCALE, PAIR, SAMPLES
+from tribodyn.studies.gears.recorded import DOF_SCALE, PAIR, SAMPLES
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
 from tribodyn.mesh.cycle import MESH_CYCLE

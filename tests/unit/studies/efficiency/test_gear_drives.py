@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.closures import LOCAL_LAWS, VECIANA, coulomb, of_case, under
-from tribodyn.dynamics.outputs import outputs, segment_of
+from tribodyn.studies.gear_pair.outputs import outputs, segment_of
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage

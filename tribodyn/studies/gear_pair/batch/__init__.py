@@ -2,14 +2,12 @@
 
 from collections.abc import Sequence
 
-from tribodyn.dynamics.modes import MODES, MODES_WITH_SHAFT
-from tribodyn.dynamics.parameters import STATES
 from tribodyn.errors import InputError
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
 from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate, tabulated
-from tribodyn.studies.gear_pair.case import STEADY_CYCLES, Case, estimate_in_sweep
+from tribodyn.studies.gear_pair.case import MOST_STATES, STEADY_CYCLES, Case, estimate_in_sweep
 from tribodyn.studies.gear_pair.prepare import prepare, table_key
 from tribodyn.studies.gear_pair.report import layout_of, row_bytes
 from tribodyn.studies.protocol.cost import Estimate
@@ -20,6 +18,8 @@ from tribodyn.studies.sweeping.batch import Batch
 MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS = 2000, MAX_PERIOD, 256
 #: The same of a transient: a quarter of its cycles, at most this many; points of its section, half of them.
 TRANSIENT_WINDOW, TRANSIENT_POINTS = 16, 256
+#: Modes without a compliant shaft, and with one.
+MODES, MODES_WITH_SHAFT = 5, 6
 #: Bytes of states that the cases of a chunk may fill: what bounds the memory of a sweep.
 CHUNK_BYTES = 64 * 2**20
 MOST_IN_CHUNK = 256
@@ -30,7 +30,7 @@ CHUNKS, MINIMUM_IN_CHUNK = 16, 32
 class GearPairs:
     """See `sweeping.batch.Batch`."""
 
-    states = STATES
+    states = MOST_STATES
     layout = staticmethod(layout_of)
     sharing = staticmethod(table_key)
     evaluate = staticmethod(evaluate)
@@ -58,7 +58,7 @@ class GearPairs:
 
     def size_of_chunk(self, settings: SweepSettings, total: int, width: int) -> int:
         """Cases to be evaluated together, by the room that their windows take."""
-        by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * STATES * 8)))
+        by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * MOST_STATES * 8)))
         return max(width, min(by_room, max(MINIMUM_IN_CHUNK, total // CHUNKS)))
 
     def estimate(self, case: Case, settings: SweepSettings, total: int, width: int) -> Estimate:

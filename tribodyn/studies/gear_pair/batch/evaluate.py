@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.outputs import outputs_with_extremes
-from tribodyn.dynamics.parameters import XI, XI_RATE, frictionless
+from tribodyn.studies.gear_pair.outputs import MESH, outputs_with_extremes
+from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.record.trust import TRUST, Judge, judge_tribology, number
@@ -38,6 +38,7 @@ from tribodyn.studies.gears.check import remarks_in_brief
 from tribodyn.studies.gears.prepare import MOST_MOTIONS, at_own_temperature, thermal_quantities
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
+from tribodyn.train.structure import rotational_error, rotational_error_rate
 
 if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch
@@ -48,7 +49,7 @@ def window_quantities(
 ) -> tuple[dict[str, float], dict[str, Any]]:
     """Return the quantities of `report.SWEPT` over a window, SI units, and what is said of their trust."""
     count, last = len(window.states), window.end.copy()
-    engage_next(last, prepared.model)
+    engage_next(last, window.first_cycle + count // samples, prepared.model)
     cycles = window.first_cycle + np.arange(count + 1) / samples
     states = np.concatenate([window.states, last[None]])
     block, extreme, at = outputs_with_extremes(cycles, states, window.extremes, prepared.model)
@@ -57,7 +58,7 @@ def window_quantities(
     extremes.add(at, extreme)
     speed, work = prepared.case.operating.pinion_speed, window.end - window.start
     inside = {name: values[:count] for name, values in block.items()}
-    quantities = steady_quantities(inside, work, prepared.cycle, samples, speed, extremes)
+    quantities = steady_quantities(inside, work, prepared, samples, speed, extremes)
     quantities |= extremes.values()
     quantities |= thermal_quantities(prepared.thermal, quantities["power_in_mean"], quantities["efficiency"])
     judge = Judge()
@@ -91,7 +92,7 @@ def fill_unstable(
             quantities, _ = window_quantities(prepared_at(value), window, samples)
             for name in UNSTABLE_QUANTITIES:
                 rows[PREFIX + name][i, end, m] = quantities[name]
-            section = motion.samples[::samples, XI]
+            section = rotational_error(motion.samples[::samples], MESH, prepared_at(value).model)
             rows["unstable_poincare_error"][i, end, m, : len(section)] = section
 
 
@@ -161,8 +162,9 @@ def _evaluate(chunk: Chunk, settings: SweepSettings, workers: int | None) -> dic
         try:
             prepared = prepare(case, tabulated(case))
             given = None if chunk.states is None or np.isnan(chunk.states[i, 0]) else chunk.states[i]
-            ready[i] = prepared, _start(prepared, settings) if given is None else given
-            frequencies = natural_frequencies(prepared.model, prepared.cycle)
+            start = _start(prepared, settings) if given is None else given[: prepared.model.layout.states]
+            ready[i] = prepared, start
+            frequencies = natural_frequencies(prepared.model, [prepared.cycle])
             rows["mode_frequency"][i, : len(frequencies)] = frequencies
         except (InputError, SimulationError) as error:
             _fail(rows, i, str(error))
@@ -231,13 +233,14 @@ def _fill(
     texts = [*remarks(trust | {"warning": warning}), *remarks_in_brief(prepared.case.toml)]
     rows["message"][i] = remarked(rows["message"][i], *map(warned, texts))
     rows[TRUST][i] = number(trust)
-    error = outcome.window.states[:, XI]
+    model, section = prepared.model, outcome.section
+    error = rotational_error(outcome.window.states, MESH, model)
     room = settings.window * settings.samples
     whole = room if outcome.period == 0 else room // error.size * error.size
     rows["transmission_error_rotational"][i, :whole] = np.resize(error, whole)
-    rows["poincare_error"][i, : len(outcome.section)] = outcome.section[:, XI]
-    rows["poincare_rate"][i, : len(outcome.section)] = outcome.section[:, XI_RATE]
-    rows["state"][i] = outcome.state
+    rows["poincare_error"][i, : len(outcome.section)] = rotational_error(section, MESH, model)
+    rows["poincare_rate"][i, : len(outcome.section)] = rotational_error_rate(section, MESH, model)
+    rows["state"][i, : len(outcome.state)] = outcome.state
     if settings.followed:
         fill_ends(rows, i, outcome.ends)
     rows["status"][i] = DONE
@@ -257,10 +260,12 @@ def _start(prepared: PreparedPair, settings: SweepSettings) -> np.ndarray:
     model, initial = prepared.model, prepared.case.solver.initial
     if not settings.steady or initial != "static":
         return initial_state(model, initial)
-    creeping = model.mechanics._replace(nominal_speed=CREEP)
+    creeping = model.operation._replace(nominal_speed=CREEP)
     # the model, which is kept with the result, keeps another table from taking this one's identity
-    key = (id(model.table), model.options, *(np.asarray(value).tobytes() for value in creeping))
-    still = frictionless(model._replace(mechanics=creeping))
+    still = frictionless(model._replace(operation=creeping))
+    numbers = (*creeping, *model.bodies, *model.links, *(mesh.damping for mesh in model.meshes))
+    tables = tuple(id(mesh.table) for mesh in model.meshes)
+    key = (tables, model.options, *(np.asarray(value).tobytes() for value in numbers))
     return _equilibria(_Wanted(key, lambda: static_equilibrium(still))).copy()
 
 

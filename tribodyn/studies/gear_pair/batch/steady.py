@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes, extremes_of
-from tribodyn.dynamics.parameters import LAG, STATES, WORKS, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import InputError
 from tribodyn.solve.branch.arclength import BranchEnd
 from tribodyn.solve.branch.continuation import Leg
@@ -20,6 +20,7 @@ from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import PreparedPair, Tabulated, prepare, table_key
 from tribodyn.studies.gear_pair.report import UNKNOWN
 from tribodyn.studies.sweeping.batch import NeighbourWay, NothingBetween, case_between
+from tribodyn.train.structure import LAG, Layout, works
 
 if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch
@@ -29,9 +30,9 @@ class CaseWindow(NamedTuple):
     """A case's way through its window."""
 
     first_cycle: int  # whole mesh cycles done before
-    #: (cycles · samples, STATES), over whole mesh cycles, the sample that closes the last not included
+    #: (cycles · samples, states), over whole mesh cycles, the sample that closes the last not included
     states: np.ndarray
-    start: np.ndarray  # (STATES,), states at both ends; the difference of their works is the window's
+    start: np.ndarray  # states at both ends; the difference of their works is the window's
     end: np.ndarray
     extremes: Extremes | None = None  # of the motion between the samples
 
@@ -40,9 +41,9 @@ class Outcome(NamedTuple):
     """Outcome of a case."""
 
     window: CaseWindow | None  # None where the case failed
-    #: (STATES,), after the engagement at phase 0, clock and audit at zero: where a neighbour continues
+    #: after the engagement at phase 0, clock and audit at zero: where a neighbour continues
     state: np.ndarray
-    section: np.ndarray  # (points, STATES), states at the start of mesh cycles, the last ones
+    section: np.ndarray  # (points, states), states at the start of mesh cycles, the last ones
     solution: str  # sort of motion, as `orbit.motions.Orbit.kind`; or "transient"
     cycles: int  # mesh cycles integrated
     message: str = ""  # why it failed, or a remark on its result
@@ -60,10 +61,10 @@ def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:
     return Outcome(None, state, np.empty((0, state.size)), "failed", int(cycles), reason)
 
 
-def without_audit(state: np.ndarray) -> np.ndarray:
+def without_audit(state: np.ndarray, layout: Layout) -> np.ndarray:
     """The state with its clock and its audit at zero."""
     state = state.copy()
-    state[[LAG, *WORKS]] = 0.0
+    state[[LAG, *works(layout)]] = 0.0
     return state
 
 
@@ -77,7 +78,7 @@ def marched(
     samples: int,
     **solver: Any,
 ) -> list[Outcome]:
-    """March every case from its state, (C, STATES), after the engagement at phase 0.
+    """March every case from its state, (C, states), after the engagement at phase 0.
 
     So many mesh `cycles`; of the last, the `window`, samples are kept, and of some `points` the first state.
     `solver` are further arguments of `ensemble.march`.
@@ -106,12 +107,12 @@ def marched(
             reason = f"stopped after {reached:.4g} mesh cycles: {REASONS[Status(int(part.status[row]))]}"
             outcomes.append(failed(part.state[row], reached, reason))
             continue
-        section = np.concatenate([led.samples[i], ran.samples[row, ::samples]]).reshape(-1, STATES)
+        section = np.concatenate([led.samples[i], ran.samples[row, ::samples]]).reshape(-1, model.layout.states)
         state = ran.state[row].copy()
-        engage_next(state, model)
+        engage_next(state, cycles, model)
         extremes = extremes_of(ran.extremes, row)
         kept = CaseWindow(before, ran.samples[row], led.state[i], ran.state[row], extremes)
-        outcomes.append(Outcome(kept, without_audit(state), section[-points:], "transient", int(reached)))
+        outcomes.append(Outcome(kept, without_audit(state, model.layout), section[-points:], "transient", int(reached)))
     return outcomes
 
 
@@ -177,7 +178,7 @@ def steady(
     unstable: UnstableRange | None = None,
     **solver: Any,
 ) -> list[Outcome]:
-    """Find every case's steady state from its state, (C, STATES), after the engagement at phase 0.
+    """Find every case's steady state from its state, (C, states), after the engagement at phase 0.
 
     `cycles` are marched at most; `points` has the section of a motion without period. `legs`, `model_at` and
     `unstable` follow a neighbour's motion to each case, see `gear_pairs.followed_states`; lines are cases.

@@ -93,9 +93,6 @@ SAMPLES: dict[str, Variable] = {
     "efficiency": Variable(_TIME, "1", "instantaneous efficiency"),
 }
 
-#: What is worked out with them for the summary alone: shares allowed by each limit of film and friction law.
-UNRECORDED = ("closure_shares", "friction_shares")
-
 
 def pair_numbers(front_pairs: int, pairs: int) -> list[int]:
     """Numbers of the pair slots: the driving flanks end with 1, the back flanks go on from 2."""

@@ -1,0 +1,138 @@
+"""When the set of contacting pairs changes: the cycles of the reference mesh, cut into intervals.
+
+The frequencies of a train's meshes are rational multiples of each other, so that all of them stand at their
+phases again after a common period of whole reference cycles. An interval ends where any mesh comes to the
+next segment of its table. In mesh 0 this is exact; in the others, whose driver may be twisted against the
+reference by a few micrometres, it falls where the nominal rotation has it.
+"""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import floor, lcm
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.elementary import law, namespace
+from tribodyn.numerics.shapes import Array, Float, Int
+
+#: Reference cycles; changes that are closer than this fall together.
+TOGETHER = 1e-9
+
+
+class Schedule(NamedTuple):
+    """Intervals of the common period; phases are of the reference mesh, 0 … 1 in each of its cycles."""
+
+    first: Float[Array, " bound"]  # number of the interval that begins each reference cycle; last, of all
+    start: Float[Array, " interval"]  # phase
+    end: Float[Array, " interval"]
+    segment: Float[Array, "interval mesh"]  # of the mesh's table; whole
+    opens: Float[Array, "interval mesh"]  # 1 where the mesh comes to this segment at the interval's start
+    rate: Float[Array, " mesh"]  # cycles of the mesh per reference cycle
+    offset: Float[Array, "interval mesh"]  # phase of the mesh less its rate times the phase
+
+    @property
+    def period(self) -> int:
+        """Reference cycles after which everything repeats."""
+        return len(self.first) - 1
+
+
+def of_one_mesh(boundary: Float[Array, " boundary"]) -> Schedule:
+    """The schedule of a single mesh: the segments of its table. The boundary may be traced."""
+    xp = namespace(boundary)
+    count = boundary.shape[0] - 1
+    segment = np.arange(count, dtype=float)[:, None]
+    start, end = xp.asarray(boundary)[:-1], xp.asarray(boundary)[1:]
+    first = np.array([0.0, count])
+    return Schedule(first, start, end, segment, np.ones((count, 1)), np.ones(1), np.zeros((count, 1)))
+
+
+def common_period(rates: Sequence[Fraction]) -> int:
+    """Reference cycles after which meshes of these rates stand at their phases again."""
+    return lcm(*(rate.denominator for rate in rates))
+
+
+def schedule_of(
+    boundaries: Sequence[Float[Array, " boundary"]], rates: Sequence[Fraction], phases: Sequence[float]
+) -> Schedule:
+    """The schedule of meshes with the boundaries of their tables, rates and phases (mesh cycles) at the start.
+
+    The first one is the reference, of rate 1 and phase 0.
+    """
+    if len(boundaries) == 1:
+        return of_one_mesh(boundaries[0])
+    period = common_period(rates)
+    events: list[tuple[float, int]] = []
+    for mesh, (boundary, rate, phase) in enumerate(zip(boundaries, rates, phases, strict=True)):
+        passed = floor(float(phase))
+        for turn in range(passed - 1, passed + int(period * rate) + 2):
+            for at in np.asarray(boundary)[:-1]:
+                place = (turn + float(at) - phase) / float(rate)
+                nearest = round(place)  # the reference's own cycles begin at whole numbers
+                place = float(nearest) if abs(place - nearest) < TOGETHER else place
+                if 0.0 <= place < period:
+                    events.append((place, mesh))
+    events.sort()
+    starts: list[float] = []
+    opening: list[list[int]] = []
+    for place, mesh in events:
+        if not starts or place - starts[-1] >= TOGETHER:
+            starts.append(place)
+            opening.append([])
+        opening[-1].append(mesh)
+    ends = [*starts[1:], float(period)]
+    cycles = [floor(start) for start in starts]
+    first = np.searchsorted(cycles, np.arange(period + 1)).astype(float)
+    opens = np.zeros((len(starts), len(rates)))
+    segment, offset = np.zeros_like(opens), np.zeros_like(opens)
+    for n, (start, end, cycle) in enumerate(zip(starts, ends, cycles, strict=True)):
+        opens[n, opening[n]] = 1.0
+        for mesh, (boundary, rate, phase) in enumerate(zip(boundaries, rates, phases, strict=True)):
+            middle = phase + float(rate) * 0.5 * (start + end)
+            inside = np.searchsorted(np.asarray(boundary), middle - floor(middle), side="right") - 1
+            segment[n, mesh] = min(max(inside, 0), len(boundary) - 2)
+            offset[n, mesh] = phase + float(rate * cycle) - floor(middle)
+    phase_in = np.array(starts) - np.array(cycles)
+    phase_out = np.array(ends) - np.array(cycles)
+    return Schedule(first, phase_in, phase_out, segment, opens, np.array([float(r) for r in rates]), offset)
+
+
+@law
+def phase_of(phase, interval, mesh, schedule):
+    """Phase of a mesh at a phase of the reference in an interval."""
+    return schedule.rate[mesh] * phase + schedule.offset[interval, mesh]
+
+
+def interval_of(
+    cycles: Float[Array, "*sample"], schedule: Schedule
+) -> tuple[Float[Array, "*sample"], Float[Array, "*sample"], Int[Array, "*sample"]]:
+    """Whole reference cycles, phase and interval at mesh cycles since the start, whole and fraction.
+
+    What stands on a boundary belongs to the interval that begins there.
+    """
+    whole = np.floor(cycles + 1e-12)
+    phase = np.maximum(cycles - whole, 0.0)
+    first, start = np.asarray(schedule.first), np.asarray(schedule.start)
+    cycle_of_start = np.searchsorted(first[1:], np.arange(len(start)), side="right")
+    at = np.mod(whole, schedule.period) + phase
+    found = np.searchsorted(cycle_of_start + start, at, side="right") - 1
+    return whole, phase, np.clip(found, 0, len(start) - 1)
+
+
+def intervals(schedule: Schedule, cycle: int) -> range:
+    """Numbers of the intervals of a reference cycle since the start."""
+    first = np.asarray(schedule.first)
+    k = cycle % schedule.period
+    return range(int(first[k]), int(first[k + 1]))
+
+
+def sample_phases(schedule: Schedule, samples: int) -> list[Float[Array, " sample"]]:
+    """Phases k/samples in every interval, to which its start belongs and its end does not."""
+    phases = np.arange(samples) / max(samples, 1)
+    ends = zip(np.asarray(schedule.start).tolist(), np.asarray(schedule.end).tolist(), strict=True)
+    return [phases[(phases >= start) & (phases < end)] for start, end in ends]
+
+
+def place_of(mesh: int, phase: Any, schedule: Schedule, interval: int) -> float:
+    """Phase of the reference at which a mesh stands at a phase of its own, in an interval."""
+    return float((phase - np.asarray(schedule.offset)[interval, mesh]) / np.asarray(schedule.rate)[mesh])

@@ -1,0 +1,204 @@
+"""What the dynamics are about: bodies, links and meshes, and where the state keeps their motion.
+
+Body 0 is the reference: the independent variable is its actual rotation, in cycles of mesh 0, which it
+drives, so that engagement in mesh 0 falls on exactly known values whatever the speed does. The state holds
+coordinates that stay small. Every body turns positively in its own nominal sense; its micro-rotation is its
+rotation less what the reference's actual rotation makes of it by the train's ratios, ϑ_b = θ_b − i_b θ_0. That
+of the reference is nothing, and in its place stands the time lag, time less nominal time at this phase.
+
+States in order: of every body that moves in the plane x and y (m) and ϑ (rad), of the others ϑ alone; their
+rates in the same order, in place of the lag's the reference's slip, its speed less the nominal one (rad/s);
+works since the start (J): by the drive, on the loads, lost to damping, done by the change of stiffness and
+geometry with phase, and for every mesh what is lost to tooth friction and what friction would take of bodies
+that only rotate.
+"""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.elementary import law
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.static import Fixed, Indices
+from tribodyn.tribology.contact import Surfaces
+
+#: Where the reference's lag stands; its slip stands as far behind the first of the rates.
+LAG = 2
+#: Works, counted from the first: those of the whole train, and from `OF_MESHES` on two of every mesh.
+IN, OUT, DAMPING, PARAMETRIC, OF_MESHES = range(5)
+FRICTION, SLIDING, WORKS_OF_MESH = 0, 1, 2
+#: A link's second end that stands still.
+GROUND = -1
+#: Directions of a link.
+X, Y, TURN = range(3)
+
+
+class Bodies(NamedTuple):
+    """Numbers of the bodies; first those that move in the plane, the reference first of all."""
+
+    mass: Float[Array, " planar"]  # kg; of those that move in the plane
+    inertia: Float[Array, " body"]  # kg m², about the axis of rotation
+    ratio: Float[Array, " body"]  # nominal speed over the reference's, > 0
+    load: Float[Array, " body"]  # constant torque against the motion, N m
+    load_damping: Float[Array, " body"]  # rise of it per speed above nominal, N m s/rad
+
+
+class Links(NamedTuple):
+    """Springs and dampers between two bodies, or a body and the ground: bearings, shafts, couplings.
+
+    They act on the difference of the ends' coordinates, in x and y where both ends move in the plane, and on
+    that of their rotations where both are bodies, which have one nominal speed then.
+    """
+
+    stiffness: Float[Array, "link direction"]  # N/m, N/m, N m/rad
+    damping: Float[Array, "link direction"]  # N s/m, N s/m, N m s/rad
+
+
+class Mesh(NamedTuple):
+    """Two gears in mesh: their table, their bodies' places, and the surfaces and laws of their contacts.
+
+    In the frame of the mesh `along` is the direction in which both flanks move at the pitch point, `across`
+    that from the driver's centre to the driven one's. Where the driver turns clockwise it is right-handed.
+    """
+
+    table: Any  # mesh.cycle.Polynomials
+    driver_radius: Any  # this and the next: of the pitch circles, m
+    driven_radius: Any
+    along_x: Any
+    along_y: Any
+    across_x: Any
+    across_y: Any
+    damping: Any  # 2 ζ √J_e', so that c_i = damping √k_i; √kg
+    surfaces: Surfaces
+    film: Any  # this and the next: parameters of the laws in use
+    friction: Any
+
+
+class Layout(NamedTuple):
+    """What the train consists of: static, hashable; numbers of bodies and states are compiled in."""
+
+    planar: Fixed  # bodies that move in the plane
+    bodies: Fixed
+    meshes: Fixed
+    half: Fixed  # coordinates; state half + i is the rate of state i
+    mechanical: Fixed  # states that the mechanics depend on; the rest are works
+    states: Fixed
+    driver: Indices  # this and the next: bodies at the ends of every mesh
+    driven: Indices
+    first: Indices  # this and the next: bodies at the ends of every link; `GROUND`
+    second: Indices
+    input: Fixed  # body that the drive acts on
+    output: Fixed  # body that bears the load that varies in time
+
+
+def layout_of(
+    planar: int,
+    bodies: int,
+    meshes: Sequence[tuple[int, int]],
+    links: Sequence[tuple[int, int]],
+    drives: int,
+    loaded: int,
+) -> Layout:
+    """The layout of so many bodies, with the ends of meshes (driver, driven) and links, and where power goes."""
+    half = 2 * planar + bodies
+    states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
+    numbers = (planar, bodies, len(meshes), half, 2 * half, states)
+    ends = [[pair[end] for pair in pairs] for pairs in (meshes, links) for end in (0, 1)]
+    return Layout(*map(Fixed, numbers), *map(Indices, ends), Fixed(drives), Fixed(loaded))
+
+
+@law
+def shift_of(body):
+    """Place of the x of a body that moves in the plane; its y is the next."""
+    return 3 * body
+
+
+@law
+def turn_of(body, layout):
+    """Place of a body's micro-rotation."""
+    return body + 2 * min(body + 1, layout.planar)
+
+
+@law
+def turned(body, y, layout):
+    """Micro-rotation of a body, rad."""
+    return y[turn_of(body, layout)] if body > 0 else 0.0 * y[0]
+
+
+@law
+def turning(body, y, layout):
+    """Rate of the micro-rotation of a body, rad/s."""
+    return y[layout.half + turn_of(body, layout)] if body > 0 else 0.0 * y[0]
+
+
+@law
+def slip_of(y, layout):
+    """Speed of the reference less nominal, rad/s."""
+    return y[layout.half + LAG]
+
+
+@law
+def speed_of(body, y, model):
+    """Speed of a body, rad/s, positive in its nominal sense."""
+    layout = model.options.layout
+    reference = model.operation.nominal_speed + slip_of(y, layout)
+    return model.bodies.ratio[body] * reference + turning(body, y, layout)
+
+
+@law
+def slip_of_body(body, y, model):
+    """Speed of a body less nominal, rad/s."""
+    layout = model.options.layout
+    return model.bodies.ratio[body] * slip_of(y, layout) + turning(body, y, layout)
+
+
+def displacements(layout: Layout) -> list[int]:
+    """Places of all coordinates but the lag."""
+    return [i for i in range(layout.half) if i != LAG]
+
+
+def velocities(layout: Layout) -> list[int]:
+    """Places of their rates."""
+    return [layout.half + i for i in displacements(layout)]
+
+
+def works(layout: Layout) -> list[int]:
+    """Places of all works."""
+    return list(range(layout.mechanical, layout.states))
+
+
+def work_of(layout: Layout, which: int) -> int:
+    """Place of a work of the whole train: `IN`, `OUT`, `DAMPING`, `PARAMETRIC`."""
+    return layout.mechanical + which
+
+
+def work_of_mesh(layout: Layout, mesh: int, which: int) -> int:
+    """Place of a work of a mesh: `FRICTION`, `SLIDING`."""
+    return layout.mechanical + OF_MESHES + WORKS_OF_MESH * mesh + which
+
+
+def works_of_meshes(layout: Layout, which: int) -> list[int]:
+    """Places of a work of all meshes."""
+    return [work_of_mesh(layout, mesh, which) for mesh in range(layout.meshes)]
+
+
+def rotational_error(states: Any, mesh: int, model: Any) -> Any:
+    """Rotational transmission error r_1 θ_1 − r_2 θ_2 of a mesh, of its driver and driven body, m.
+
+    `states` has the states along its last axis.
+    """
+    layout, part = model.options.layout, model.meshes[mesh]
+    y = np.moveaxis(np.asarray(states), -1, 0)
+    return part.driver_radius * turned(layout.driver[mesh], y, layout) - part.driven_radius * turned(
+        layout.driven[mesh], y, layout
+    )
+
+
+def rotational_error_rate(states: Any, mesh: int, model: Any) -> Any:
+    """Its rate, m/s."""
+    layout, part = model.options.layout, model.meshes[mesh]
+    y = np.moveaxis(np.asarray(states), -1, 0)
+    return part.driver_radius * turning(layout.driver[mesh], y, layout) - part.driven_radius * turning(
+        layout.driven[mesh], y, layout
+    )
