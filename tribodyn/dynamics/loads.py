@@ -31,7 +31,7 @@ def link_forces(y, model, dy):
     layout, links = model.options.layout, model.links
     half = layout.half
     power = 0.0 * y[0]
-    for k in range(links.stiffness.shape[0]):
+    for k in range(layout.links):
         first, second = layout.first[k], layout.second[k]
         if first < layout.planar and second < layout.planar:
             for direction in range(TURN):
@@ -64,7 +64,7 @@ def link_energy(y, model):
     """Strain energy of all links, J."""
     layout, links = model.options.layout, model.links
     energy = 0.0 * y[0]
-    for k in range(links.stiffness.shape[0]):
+    for k in range(layout.links):
         first, second = layout.first[k], layout.second[k]
         if first < layout.planar and second < layout.planar:
             for direction in range(TURN):

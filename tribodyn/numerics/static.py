@@ -1,8 +1,4 @@
-"""Whole numbers that structure gives: what a kernel is compiled for, and what it looks up."""
-
-from typing import Any, Self
-
-import numpy as np
+"""Whole numbers that structure gives and kernels are compiled for; hashable, as all that is static for JAX."""
 
 
 class Fixed(int):
@@ -10,15 +6,4 @@ class Fixed(int):
 
 
 class Indices(tuple[int, ...]):
-    """Whole numbers by place, which kernels read from memory: no other ones are compiled anew.
-
-    Hashable, as everything that is static for JAX.
-    """
-
-    array: Any  # (n,) int64, the same numbers
-
-    def __new__(cls, numbers: Any = ()) -> Self:
-        """Indices of whole numbers."""
-        made = super().__new__(cls, (int(number) for number in numbers))
-        made.array = np.array(made, dtype=np.int64)
-        return made
+    """Whole numbers by place, e.g. the bodies at the ends of links."""

@@ -81,6 +81,7 @@ class Layout(NamedTuple):
     planar: Fixed  # bodies that move in the plane
     bodies: Fixed
     meshes: Fixed
+    links: Fixed
     half: Fixed  # coordinates; state half + i is the rate of state i
     mechanical: Fixed  # states that the mechanics depend on; the rest are works
     states: Fixed
@@ -103,7 +104,7 @@ def layout_of(
     """The layout of so many bodies, with the ends of meshes (driver, driven) and links, and where power goes."""
     half = 2 * planar + bodies
     states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
-    numbers = (planar, bodies, len(meshes), half, 2 * half, states)
+    numbers = (planar, bodies, len(meshes), len(links), half, 2 * half, states)
     ends = [[pair[end] for pair in pairs] for pairs in (meshes, links) for end in (0, 1)]
     return Layout(*map(Fixed, numbers), *map(Indices, ends), Fixed(drives), Fixed(loaded))
 

@@ -2,8 +2,8 @@
 
 A number is a word; an array its address and lengths; a named tuple its fields one after the other, and a tuple
 its items, which are alike; a function and a fixed number no word at all. The layout says which of these a
-value is, and the machine code of a kernel depends on nothing else: functions and fixed numbers are compiled
-in, other numbers and lengths never.
+value is, and the machine code of a kernel depends on nothing else: functions, fixed numbers and indices are
+compiled in, other numbers and lengths never.
 
 A function that is handed to a kernel is compiled into it, with all that it calls and with the numbers that
 it takes from its module and from around it. Of functions it is the bytecode that counts, wherever they are
@@ -181,6 +181,13 @@ class FixedLayout(NamedTuple):
     words: int = 0
 
 
+class IndicesLayout(NamedTuple):
+    """Layout of whole numbers by place that are compiled in."""
+
+    values: tuple[int, ...]
+    words: int = 0
+
+
 class SeveralLayout(NamedTuple):
     """Layout of a tuple of so many items of one layout."""
 
@@ -237,7 +244,7 @@ def packed(value: Any) -> PackedValue:
     if isinstance(value, Fixed):
         return PackedValue(FixedLayout(int(value)), b"", value)
     if isinstance(value, Indices):
-        return _packed_array(value.array)
+        return PackedValue(IndicesLayout(tuple(value)), b"", value)
     if isinstance(value, (bool, np.bool_)):
         return PackedValue(BOOL, _int(value), value)
     if isinstance(value, (int, np.integer)):

@@ -17,6 +17,7 @@ from tribodyn.kernels.native.arguments import (
     Array,
     FixedLayout,
     FunctionLayout,
+    IndicesLayout,
     Numeric,
     RecordLayout,
     SeveralLayout,
@@ -53,6 +54,15 @@ class SeveralType(types.Type):
         super().__init__(name=f"{several.count} x {self.item.name}")
 
 
+class IndicesType(types.Type):
+    """Type of whole numbers by place, which are constants of the machine code."""
+
+    def __init__(self, values: tuple[int, ...]):
+        self.values = values
+        super().__init__(name=f"Indices{values}")
+
+
+@register_model(IndicesType)
 @register_model(RecordType)
 @register_model(SeveralType)
 class _RecordModel(models.OpaqueModel):
@@ -79,6 +89,8 @@ def type_of(layout: Any) -> Any:
         return SeveralType(layout)
     if isinstance(layout, FixedLayout):
         return types.literal(layout.value)
+    if isinstance(layout, IndicesLayout):
+        return IndicesType(layout.values)
     if isinstance(layout, Array):
         return types.Array(numba.from_dtype(np.dtype(layout.dtype)), layout.ndim, layout.order)
     if isinstance(layout, FunctionLayout):
@@ -90,7 +102,7 @@ def type_of(layout: Any) -> Any:
 
 def _read(context, builder, kind, block, word):
     """A field's value, from its first word on; blocks do not change while a kernel runs."""
-    if isinstance(kind, types.Function):
+    if isinstance(kind, (types.Function, IndicesType)):
         return context.get_dummy_value()  # its type says it all
     if isinstance(kind, types.IntegerLiteral):
         return _INT64(kind.literal_value)
@@ -142,6 +154,8 @@ class _Items(AbstractTemplate):
         several, index = args
         if isinstance(several, SeveralType) and isinstance(index, types.Integer):
             return signature(several.item, several, types.int64)
+        if isinstance(several, IndicesType) and isinstance(index, types.Integer):
+            return signature(types.int64, several, types.int64)
         return None
 
 
@@ -149,6 +163,13 @@ class _Items(AbstractTemplate):
 def _item(context, builder, signature, values):
     step = builder.mul(values[1], _INT64(WORD * signature.args[0].words))
     return builder.gep(values[0], [step])
+
+
+@lower_builtin(operator.getitem, IndicesType, types.int64)
+def _index(context, builder, signature, values):
+    table = ir.Constant(ir.ArrayType(_INT64, len(signature.args[0].values)), list(signature.args[0].values))
+    whole = cgutils.global_constant(builder, "indices", table)
+    return builder.load(builder.gep(whole, [_INT64(0), values[1]]))
 
 
 def _place(record, name, block):

@@ -165,7 +165,7 @@ def differentiate_links(y, model, jacobian):
     """Add what the links do to the forces, and to the power that damping takes."""
     layout, links = model.options.layout, model.links
     half, lost = layout.half, layout.mechanical + DAMPING
-    for k in range(links.stiffness.shape[0]):
+    for k in range(layout.links):
         first, second = layout.first[k], layout.second[k]
         for direction in range(TURN + 1):
             if direction == TURN:
