@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from typing import Self
 
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.studies.gears.recorded import DOF_SCALE, PAIR, SAMPLES
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
 from tribodyn.mesh.cycle import MESH_CYCLE
@@ -15,6 +14,7 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
+from tribodyn.studies.gears.recorded import DOF_SCALE, PAIR, SAMPLES
 from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.law import FilmData, FrictionData

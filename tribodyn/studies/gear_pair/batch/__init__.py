@@ -58,7 +58,9 @@ class GearPairs:
 
     def size_of_chunk(self, settings: SweepSettings, total: int, width: int) -> int:
         """Cases to be evaluated together, by the room that their windows take."""
-        by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * MOST_STATES * 8)))
+        by_room = max(
+            1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * MOST_STATES * 8))
+        )
         return max(width, min(by_room, max(MINIMUM_IN_CHUNK, total // CHUNKS)))
 
     def estimate(self, case: Case, settings: SweepSettings, total: int, width: int) -> Estimate:
