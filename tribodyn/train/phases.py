@@ -22,6 +22,7 @@ from tribodyn.errors import InputError
 #: Cycles by which teeth that close a loop may miss: the rounding of azimuths in degrees with two decimals
 #: moves them by a few thousandths, as vibration does.
 LOOP_TOLERANCE = 0.01
+_ROUNDING = 1e-12
 
 
 class ToothedShaft(NamedTuple):
@@ -88,7 +89,7 @@ def nominal_phases(gears: Sequence[ToothedShaft], meshes: Sequence[Engagement]) 
 def driver_phase(driver: ToothedShaft, mesh: Engagement, mark: float) -> float:
     """Phase of a mesh, 0 ≤ … < 1, by its driver, whose shaft's mark stands in this direction (rad)."""
     place = driver.sense * (mark + driver.tooth_angle - mesh.azimuth)
-    return driver.teeth * (place + mesh.half_angles[0] - mesh.entry) / (2.0 * pi) % 1.0
+    return _fraction(driver.teeth * (place + mesh.half_angles[0] - mesh.entry) / (2.0 * pi))
 
 
 def driven_phase(gears: Sequence[ToothedShaft], mesh: Engagement, mark: float) -> float:
@@ -96,7 +97,13 @@ def driven_phase(gears: Sequence[ToothedShaft], mesh: Engagement, mark: float) -
     driver, driven = (gears[end] for end in mesh.gears)
     place = driven.sense * (mark + driven.tooth_angle - mesh.azimuth - pi)
     turned = driven.teeth * (place - mesh.half_angles[1]) - driver.teeth * mesh.entry
-    return turned / (2.0 * pi) % 1.0
+    return _fraction(turned / (2.0 * pi))
+
+
+def _fraction(cycles: float) -> float:
+    """What is beyond whole cycles; 0 where that is rounding."""
+    fraction = cycles % 1.0
+    return fraction if _ROUNDING < fraction < 1.0 - _ROUNDING else 0.0
 
 
 def _driver_mark(gears: Sequence[ToothedShaft], mesh: Engagement, phase: float) -> float:
@@ -120,12 +127,17 @@ def _check_loop(
     missed = (phase - driven_phase(gears, mesh, marks[driven.shaft]) + 0.5) % 1.0 - 0.5
     if abs(missed) <= LOOP_TOLERANCE:
         return
-    pitch = 2.0 * pi / driven.teeth
-    other = driven.tooth_angle + driven.sense * missed * pitch
-    wanted = (other + pitch / 2.0) % pitch - pitch / 2.0
     rule = (
-        f"closes a loop whose teeth do not meet: those of {driven.name} stand {abs(missed):.3g} pitches beside "
-        "the gaps of its mate"
+        f"closes a loop whose teeth do not meet: those of {driven.name} stand {abs(missed):.3g} pitches "
+        "beside the gaps of its mate"
     )
-    remedy = f"turn it on its shaft, tooth_angle = {180.0 / pi * wanted:.6f} deg, or change an azimuth"
+    remedy = "change an azimuth"
+    for end, cycles in zip(mesh.gears, (-missed, missed), strict=True):
+        gear = gears[end]
+        if sum(other.shaft == gear.shaft for other in gears) > 1:
+            pitch = 2.0 * pi / gear.teeth
+            turned = gear.tooth_angle + gear.sense * cycles * pitch
+            wanted = (turned + pitch / 2.0) % pitch - pitch / 2.0
+            remedy += f', or turn {gear.name} on its shaft: tooth_angle = "{180.0 / pi * wanted:.6f} deg"'
+            break
     raise InputError(mesh.key, None, rule, remedy)
