@@ -7,7 +7,7 @@ from tribodyn.dynamics.data import BearingData
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.solve.methods import SolverData
-from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
+from tribodyn.studies.gears.case import LAYOUT, LubricatedCase, OutputData
 from tribodyn.studies.protocol import cost
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
@@ -19,13 +19,6 @@ STEADY_CYCLES = 60
 _MESH_STIFFNESS = 0.1
 #: How often the window's samples are held; share of a record that its summary and pictures read at once.
 _WINDOW_HELD, _READ = 2.0, 0.05
-
-
-@dataclass(frozen=True)
-class OutputData:
-    """What is recorded."""
-
-    samples_per_cycle: int = 200
 
 
 @dataclass(frozen=True, kw_only=True)
