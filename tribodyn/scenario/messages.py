@@ -59,17 +59,21 @@ def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
     """
     found = [dict(one) for one in error.errors(include_url=False)]
     errors = [_explain_one(one, model) for one in found]
-    refused = (_outside(one, error) for one, error in zip(found, errors, strict=True))
+    several = "stage" in model.model_fields
+    refused = (_outside(one, error, several) for one, error in zip(found, errors, strict=True))
     first = next(filter(None, refused), None)
     return errors if first is None else [first]
 
 
-def _outside(found: dict[str, Any], error: InputError) -> InputError | None:
-    """What to say of a key that describes gears which are not modelled; None where it does not."""
+def _outside(found: dict[str, Any], error: InputError, several: bool) -> InputError | None:
+    """What to say of a key that describes gears which are not modelled; None where it does not.
+
+    `several` says whether the scenario may have several stages.
+    """
     name, given = str(found["loc"][-1]), found["input"]
     if found["type"] == "extra_forbidden":
         named = given if isinstance(given, str) and len(given.split()) < 3 else ""  # type = "planetary"
-        return scope.outside(error, name, named)
+        return scope.outside(error, name, named, but=(scope.STAGES,) if several else ())
     fewest = found.get("ctx", {}).get("ge")  # a number of teeth that only the sign of internal gears excludes
     if name == "teeth" and fewest is not None and given <= -fewest:
         return scope.refusal(error, scope.INTERNAL)

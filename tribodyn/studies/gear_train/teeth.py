@@ -45,17 +45,14 @@ def check_same_teeth(key: str, name: str, seen: Sequence[tuple[Assembly, Side]])
     `seen` are the meshes with what the gear is in them, `key` and `name` the gear's.
     """
     first, side = seen[0]
-    for assembly, other in seen[1:]:
+    for other in seen[1:]:
+        both: list[tuple[Assembly, Side]] = [seen[0], other]
         bounds = [
-            (float(one.tooth(which).form_radius), float(tip_radius(one.drive, which)))
-            for one, which in ((first, side), (assembly, other))
+            (float(one.tooth(which).form_radius), float(tip_radius(one.drive, which))) for one, which in both
         ]
         low, high = max(below for below, _ in bounds), min(above for _, above in bounds)
         radii = np.linspace(low, high, _RADII)
-        halves = [
-            radii * np.asarray(thickness_half_angle(one.tooth(which), radii))
-            for one, which in ((first, side), (assembly, other))
-        ]
+        halves = [radii * np.asarray(thickness_half_angle(one.tooth(which), radii)) for one, which in both]
         apart = float(np.max(np.abs(halves[0] - halves[1])))
         apart = max(apart, abs(bounds[0][1] - bounds[1][1]))
         if not apart <= SAME_TOOTH:
