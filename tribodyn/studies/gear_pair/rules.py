@@ -8,7 +8,7 @@ from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
 from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_pair.scenario import Scenario
-from tribodyn.studies.gears.motion import Mesh, broken_mesh_rules, broken_source_rules
+from tribodyn.studies.gears.motion import broken_flank_rules, broken_mesh_rules, broken_source_rules
 from tribodyn.studies.gears.scenario import broken_gear_rules
 
 
@@ -31,36 +31,4 @@ def _load(scenario: Scenario) -> Iterator[InputError]:
         return
     torque = duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth).gear_torque
     back_flanks = mesh.backlash is not None or gives_backlash(drive)
-    if torque <= 0 and not back_flanks:
-        yield InputError(
-            "operating.gear_torque",
-            f"{torque:g} N*m",
-            "must be greater than zero: without backlash only the driving flanks can carry load",
-            'write a torque such as "500 N*m", or add mesh.backlash',
-        )
-    yield from _working_flanks(torque, back_flanks, mesh)
-
-
-def _working_flanks(torque: float, back_flanks: bool, mesh: Mesh) -> Iterator[InputError]:
-    """Refuse what a load on the back flanks leaves without effect, and no load where the mesh needs one."""
-    for name in ("harmonics", "table"):
-        if torque < 0 and getattr(mesh.transmission_error, name):
-            yield InputError(
-                f"mesh.transmission_error.{name}",
-                rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
-                remedy="leave it out, or reverse the load",
-            )
-    if torque < 0 and mesh.deviation_sample is not None:
-        yield InputError(
-            "mesh.deviation_sample",
-            mesh.deviation_sample,
-            "is of the driving flanks, but under a load that drives the gear the back flanks carry",
-            "leave it out, or reverse the load",
-        )
-    if torque == 0 and back_flanks and mesh.compliance == "fem":
-        yield InputError(
-            "operating.gear_torque",
-            "0 N*m",
-            'contradicts compliance = "fem", which is taken at this load',
-            'write a torque such as "500 N*m", or use compliance = "energy"',
-        )
+    yield from broken_flank_rules("operating.gear_torque", torque, back_flanks, mesh)

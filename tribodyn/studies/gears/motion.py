@@ -170,3 +170,38 @@ def broken_mesh_rules(mesh: Mesh) -> Iterator[InputError]:
             rule="contradicts mesh.transmission_error.harmonics",
             remedy="give the one or the other",
         )
+
+
+def broken_flank_rules(key: str, torque: float, back_flanks: bool, mesh: Mesh) -> Iterator[InputError]:
+    """Refuse a load that no flank can carry, what it leaves without effect, and no load where one is needed.
+
+    `torque` (N m) on the driven gear is what stands at `key`; `back_flanks` says whether they can touch.
+    """
+    if torque <= 0 and not back_flanks:
+        yield InputError(
+            key,
+            f"{torque:g} N*m",
+            "must be greater than zero: without backlash only the driving flanks can carry load",
+            'write a torque such as "500 N*m", or add mesh.backlash',
+        )
+    for name in ("harmonics", "table"):
+        if torque < 0 and getattr(mesh.transmission_error, name):
+            yield InputError(
+                f"mesh.transmission_error.{name}",
+                rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
+                remedy="leave it out, or reverse the load",
+            )
+    if torque < 0 and mesh.deviation_sample is not None:
+        yield InputError(
+            "mesh.deviation_sample",
+            mesh.deviation_sample,
+            "is of the driving flanks, but under a load that drives the gear the back flanks carry",
+            "leave it out, or reverse the load",
+        )
+    if torque == 0 and back_flanks and mesh.compliance == "fem":
+        yield InputError(
+            key,
+            "0 N*m",
+            'contradicts compliance = "fem", which is taken at this load',
+            'write a torque such as "500 N*m", or use compliance = "energy"',
+        )
