@@ -35,7 +35,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
 
 
 def _of_train(scenario: Scenario) -> Iterator[InputError]:
-    """What can be said once names and duty are sound: whether it is a train, then of its pairs, then of room."""
+    """What can be said once names and duty are sound: of the train, then of its pairs, then of room."""
     try:
         train = moving(scenario)
     except InputError as error:
