@@ -44,8 +44,8 @@ class Disc(NamedTuple):
 def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int, int]]) -> Places:
     """Place the axes of `count` bodies, body 0 at the origin.
 
-    A mesh without an azimuth that closes a loop has the one that follows; another one has 0. Raises
-    InputError where a loop does not close, by more than its mesh's tolerance.
+    A mesh without an azimuth that closes a loop has the one that follows; another one goes along x, away from
+    body 0. Raises InputError where a loop does not close, by more than its mesh's tolerance.
     """
     axes = _axes(count, couplings)
     centre = {axes[0]: (0.0, 0.0)}
@@ -74,10 +74,9 @@ def _place_one(
             one, two = (axes[end] for end in mesh.ends)
             if has is not wanted or (one in centre) == (two in centre):
                 continue
-            way = 1.0 if one in centre else -1.0
             x, y = centre[one if one in centre else two]
             azimuth = mesh.azimuth or 0.0
-            step = way * mesh.distance
+            step = mesh.distance if one in centre or mesh.azimuth is None else -mesh.distance
             centre[two if one in centre else one] = (x + step * cos(azimuth), y + step * sin(azimuth))
             return True
     return False
@@ -116,5 +115,5 @@ def check_room(
             if overlap > 0.0:
                 by = f"{1e3 * overlap:.3g} mm"
                 rule = f"its tip circle overlaps that of {other.name} by {by}, and they do not mesh"
-                remedy = "change an azimuth, or give the gears of one stage another plane: plane = 2"
+                remedy = "change an azimuth, or stand them in different planes: plane = 2"
                 raise InputError(gear.key, None, rule, remedy)

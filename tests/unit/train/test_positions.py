@@ -17,6 +17,9 @@ def mesh(ends: tuple[int, int], distance: float, degrees: float | None = None, t
 def test_a_chain_goes_along_x_unless_an_azimuth_says_otherwise():
     found = places(3, [mesh((0, 1), 0.1), mesh((1, 2), 0.2, 90.0)], [])
     np.testing.assert_allclose(found.centres, [[0, 0], [0.1, 0], [0.1, 0.2]], atol=1e-15)
+    backward = places(3, [mesh((1, 0), 0.1), mesh((2, 1), 0.2)], [])
+    np.testing.assert_allclose(backward.centres, [[0, 0], [0.1, 0], [0.3, 0]], atol=1e-15)
+    assert np.cos(backward.azimuths) == pytest.approx(-1.0)
 
 
 def test_an_azimuth_holds_for_the_order_in_which_the_gears_are_named():

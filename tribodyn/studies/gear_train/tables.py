@@ -80,7 +80,7 @@ class Stage(Table):
     azimuth: Azimuth | None = Field(
         None,
         description="direction from the first gear's axis to the second's, counter-clockwise from x; "
-        "default: as the other stages have it, else 0",
+        "default: as the other stages leave it, else along x away from the input",
     )
     backlash: Backlash | None = Field(
         None, description="normal backlash at the pitch point; default: that of [mesh], or of the teeth"
