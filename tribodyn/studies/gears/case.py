@@ -44,6 +44,13 @@ LAYOUT = Layout(
 )
 
 
+@dataclass(frozen=True)
+class OutputData:
+    """What is recorded of a motion over time."""
+
+    samples_per_cycle: int = 200
+
+
 @dataclass(frozen=True, kw_only=True)
 class GearCase(CaseHead):
     """Gears, their duty and their mesh."""

@@ -8,8 +8,9 @@ from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
 from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate, tabulated
 from tribodyn.studies.gear_pair.case import MOST_STATES, STEADY_CYCLES, Case, estimate_in_sweep
-from tribodyn.studies.gear_pair.prepare import prepare, table_key
+from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.report import layout_of, row_bytes
+from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Batch
 
