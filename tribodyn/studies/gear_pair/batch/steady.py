@@ -17,9 +17,10 @@ from tribodyn.solve.orbit.motions import FAILED
 from tribodyn.solve.orbit.periodic import WANDERING, SteadyMotion, refuse_time_dependent, steady_states
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import PreparedPair, Tabulated, prepare
+from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.report import UNKNOWN
 from tribodyn.studies.gears.same_table import table_key
+from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.studies.sweeping.batch import NeighbourWay, NothingBetween, case_between
 from tribodyn.train.structure import Layout, works
 
