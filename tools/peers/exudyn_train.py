@@ -6,8 +6,7 @@
     python -m tools.peers.exudyn_train --rigid     # both gears of the middle shaft on one body
     python -m tools.peers.exudyn_train --share 0.1 --radians-per-step 0.01
 
-EXUDYN (Gerstmayr 2023, doi:10.1007/s11044-023-09937-1; BSD-3-Clause, ``pip install exudyn``) is a multibody
-program. It gets masses and moments of inertia of rigid bodies in the plane, Cartesian and torsional springs,
+EXUDYN (Gerstmayr 2024, doi:10.1007/s11044-023-09937-1; ``pip install exudyn``) is a multibody program. It gets masses and moments of inertia of rigid bodies in the plane, Cartesian and torsional springs,
 and for every mesh the string that draws involutes: a rope over both base circles, crossed, fixed to either
 body. How the rope's length depends on displacements and rotations, which forces and moments follow and how
 the equations are integrated is EXUDYN's; no normal, moment or matrix is handed over. The
