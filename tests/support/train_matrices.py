@@ -143,6 +143,27 @@ def _assembled(train: Train, coefficient: str) -> Float[Array, "coordinate coord
     return matrix
 
 
+def senses(train: Train) -> list[int]:
+    """Sense of every body's nominal rotation, +1 counter-clockwise: along meshes, and shafts from them."""
+    found: dict[int, int] = {}
+    for mesh in train.meshes:
+        found[mesh.ends[0]], found[mesh.ends[1]] = mesh.sense, -mesh.sense
+    for shaft in train.shafts:
+        known = [found[end] for end in shaft.ends if end in found]
+        found |= {end: known[0] for end in shaft.ends if end != GROUND and known}
+    return [found[body] for body in range(len(train.bodies))]
+
+
+def in_own_senses(values: Float[Array, "time coordinate"], train: Train) -> Float[Array, "time body 3"]:
+    """Displacements or velocities with every rotation positive in its body's own sense, as records have them.
+
+    They stay those about uniform rotation.
+    """
+    found = np.array(values).reshape(len(values), -1, 3)
+    found[:, :, 2] *= senses(train)
+    return found
+
+
 def rotations(train: Train) -> list[int]:
     """Coordinates that are rotations: what is free on rigid bearings."""
     return list(range(2, 3 * len(train.bodies), 3))

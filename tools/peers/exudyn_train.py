@@ -6,12 +6,12 @@
     python -m tools.peers.exudyn_train --rigid     # both gears of the middle shaft on one body
     python -m tools.peers.exudyn_train --share 0.1 --radians-per-step 0.01
 
-EXUDYN (Gerstmayr 2024, doi:10.1007/s11044-023-09937-1; ``pip install exudyn``) is a multibody program. It gets masses and moments of inertia of rigid bodies in the plane, Cartesian and torsional springs,
-and for every mesh the string that draws involutes: a rope over both base circles, crossed, fixed to either
-body. How the rope's length depends on displacements and rotations, which forces and moments follow and how
-the equations are integrated is EXUDYN's; no normal, moment or matrix is handed over. The
-rope's geometry is exact, so that what linear equations leave out is in the differences: it is proportional to
-the load.
+EXUDYN (Gerstmayr 2024, doi:10.1007/s11044-023-09937-1; ``pip install exudyn``) is a multibody program. It
+gets masses and moments of inertia of rigid bodies in the plane, Cartesian and torsional springs, and for
+every mesh the string that draws involutes: a rope over both base circles, crossed, fixed to either body. How
+the rope's length depends on displacements and rotations, which forces and moments follow and how the
+equations are integrated is EXUDYN's; no normal, moment or matrix is handed over. The rope's geometry is
+exact, so that what linear equations leave out is in the differences: it is proportional to the load.
 
 The integration is by the trapezoidal rule: the error goes with the square of the step, nothing is damped by
 it.

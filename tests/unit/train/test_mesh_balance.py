@@ -17,6 +17,8 @@ from tests.support.train_matrices import (
     Mesh,
     Train,
     damping_matrix,
+    in_own_senses,
+    senses,
     stiffness_matrix,
 )
 from tests.support.two_stage_histories import LOAD, output_load, step_response, two_stage
@@ -31,22 +33,21 @@ class Motion(NamedTuple):
 
     train: Train
     record: dict[str, np.ndarray]
-    senses: np.ndarray
     others: np.ndarray
 
     def with_meshes(self, record=None):
-        actions = mesh_actions(record or self.record, self.train.meshes, self.senses)
-        return actions, forces_on_bodies(actions, self.train.meshes, len(self.senses)) + self.others
+        actions = mesh_actions(record or self.record, self.train.meshes, np.array(senses(self.train)))
+        return actions, forces_on_bodies(actions, self.train.meshes, len(self.train.bodies)) + self.others
 
     def momentum(self, record=None):
         _, forces = self.with_meshes(record)
-        return momentum_residuals(self.record, forces, self.train.bodies, self.senses)
+        return momentum_residuals(self.record, forces, self.train.bodies, np.array(senses(self.train)))
 
 
-def own_sense(velocity, senses, nominal):
-    """(time, coordinate) about uniform rotation to (time, body, 3) as recorded."""
-    found = velocity.reshape(len(velocity), -1, 3).copy()
-    found[:, :, 2] = found[:, :, 2] * senses + nominal
+def as_recorded(velocity, train, nominal):
+    """(time, coordinate) about uniform rotation to (time, body, 3) with it."""
+    found = in_own_senses(velocity, train)
+    found[:, :, 2] += nominal
     return found
 
 
@@ -60,16 +61,15 @@ def without_meshes(train, displacement, velocity):
 def reducer():
     """The load step of the two-stage reducer, without friction; contacts pass along the lines of action."""
     train = two_stage()
-    loads = [output_load(train, torque) for torque in LOAD]
-    history = step_response(train, *loads, np.linspace(0.0, 4e-3, 2001))
-    senses = np.array([-1, 1, 1, -1])
+    before, after = (output_load(train, torque) for torque in LOAD)
+    history = step_response(train, before, after, np.linspace(0.0, 4e-3, 2001))
     first, second = (mesh.radii[0] / mesh.radii[1] for mesh in train.meshes)
     count = len(history.time)
     distance = np.linspace(-2e-3, 2e-3, count)
     record = {
         "time": history.time,
-        "velocity": own_sense(
-            history.velocity, senses, SPEED * np.array([1.0, first, first, first * second])
+        "velocity": as_recorded(
+            history.velocity, train, SPEED * np.array([1.0, first, first, first * second])
         ),
         "normal_load": history.mesh_force[:, :, None],
         "friction_force": np.zeros((count, 2, 1)),
@@ -77,9 +77,9 @@ def reducer():
         "signed_distance": np.stack([distance, -distance], axis=1)[:, :, None],
     }
     others = without_meshes(train, history.displacement, history.velocity)
-    others += loads[1].reshape(4, 3)
+    others += after.reshape(4, 3)
     others[:, 0, 2] += history.held_torque[:, 0]
-    return Motion(train, record, senses, others)
+    return Motion(train, record, others)
 
 
 def idler(sense):
@@ -107,10 +107,10 @@ def idler(sense):
             for m in range(2)
         ),
     )
-    senses, ones = sense * np.array([1, -1, 1]), np.ones((len(times), 1, 1))
+    ones = np.ones((len(times), 1, 1))
     record = {
         "time": times,
-        "velocity": own_sense(velocity, senses, np.asarray(speeds(given, SPEED))),
+        "velocity": as_recorded(velocity, train, np.asarray(speeds(given, SPEED))),
         "normal_load": np.asarray(load)[:, :, None],
         "friction_force": given.friction[:, None] * ones,
         "pressure_angle": given.pressure_angle[:, None] * ones,
@@ -118,7 +118,7 @@ def idler(sense):
     }
     others = without_meshes(train, displacement, velocity)
     others[:, :, 2] += given.torque
-    return Motion(train, record, senses, others)
+    return Motion(train, record, others)
 
 
 @pytest.fixture(scope="module", params=["reducer", "idler", "idler, clockwise"])

@@ -5,7 +5,7 @@ from math import cos, gcd, pi, sin, sqrt
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 import tribodyn as td
 from tests.support.tooth_phases import (
@@ -40,7 +40,9 @@ class Pair:
         self.drawn = td.drive("liu-ni-involute-23-47", changes).outlines
         self.teeth, self.shifts = teeth, shifts
         spread = 2 * np.tan(ALPHA) * sum(shifts) / sum(teeth)
-        self.operating = brentq(lambda a: involute(a) - involute(ALPHA) - spread, 0.05, 0.8, xtol=1e-14)
+        self.operating = root_scalar(
+            lambda a: involute(a) - involute(ALPHA) - spread, bracket=(0.05, 0.8), xtol=1e-14
+        ).root
         self.radii = [0.5e-3 * z * cos(ALPHA) / cos(self.operating) for z in teeth]
 
     def outline(self, gear):

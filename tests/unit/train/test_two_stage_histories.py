@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from scipy.linalg import eigvals, expm
+from scipy.linalg import expm
 
 from tests.support.train_matrices import (
     damping_matrix,
     free_coordinates,
     mass_matrix,
+    senses,
     stiffness_matrix,
 )
 from tests.support.two_stage_histories import (
@@ -48,10 +49,8 @@ def test_before_and_long_after_the_step_the_meshes_carry_the_torque(rigid):
     train = two_stage(rigid)
     chosen = np.ix_(*2 * [free_coordinates(train, (0,))])
     mass, damping, stiffness = (of(train)[chosen] for of in (mass_matrix, damping_matrix, stiffness_matrix))
-    zero, one = np.zeros_like(mass), np.eye(len(mass))
-    decay = -eigvals(
-        np.block([[zero, one], [-stiffness, -damping]]), np.block([[one, zero], [zero, mass]])
-    ).real
+    zero, one, inverse = np.zeros_like(mass), np.eye(len(mass)), np.linalg.inv(mass)
+    decay = -np.linalg.eigvals(np.block([[zero, one], [-inverse @ stiffness, -inverse @ damping]])).real
     history = step_response(train, *loads(train), np.array([0.0, 13.0 / decay.min()]))
     (r_1, r_2), (r_3, r_4) = pitch_radii(0), pitch_radii(1)
     for sample, torque in enumerate(LOAD):
@@ -65,3 +64,8 @@ def test_a_history_in_which_flanks_part_is_refused():
     train = two_stage()
     with pytest.raises(ValueError, match="a mesh pulls"):
         step_response(train, *loads(train, (4.0, 0.05)), np.linspace(0.0, 3e-3, 301))
+
+
+def test_senses_follow_meshes_and_shafts():
+    assert senses(two_stage()) == [-1, 1, 1, -1]
+    assert senses(two_stage(rigid_shaft=True)) == [-1, 1, -1]
