@@ -37,7 +37,7 @@ def broken_duty_rules(scenario: Any) -> Iterator[InputError]:
         if not scenario.load:
             remedy = 'name a gear, a shaft or a body: output = "wheel"; or add a [[load]]'
             yield InputError("operating.output", None, "missing", remedy)
-        for name in (*_OF_OUTPUT, "input_torque", "power"):
+        for name in (*_OF_OUTPUT, "input_torque", "power") if scenario.load else ():
             if getattr(operating, name) and (name != "input_torque" or operating.source == "speed"):
                 rule = "is of the output, and there is none"
                 yield InputError(f"operating.{name}", None, rule, 'add output = "wheel", or leave it out')

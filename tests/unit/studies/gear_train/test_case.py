@@ -192,9 +192,6 @@ def test_a_train_of_two_ways_goes_together_with_the_angle_that_is_said(reduced):
     assert table_numbers(case) == (0, 0, 1, 1)
 
 
-DRIVE = Path("models/drives/spur-25-51.toml")
-
-
 def test_a_drive_is_a_train_of_one_stage(tmp_path: Path):
     """The same pair, oil, bearings and duty as of a gear pair, in the same axes."""
     pair = load_scenario("spur-25-51")
