@@ -102,6 +102,12 @@ def duty_of(scenario: Any, train: Moving) -> Duty:
     return Duty(speed, tuple(loads), tuple(inertias), torques._replace(driven=driven))
 
 
+def motor_torque(scenario: Any) -> float | None:
+    """Torque of the motor that a scenario gives beside the loads, N m; None: it balances them."""
+    _, output = ends_of(scenario)
+    return scenario.operating.motor_torque if output else scenario.operating.input_torque
+
+
 def _output_torque(
     operating: Operating, speed: float, at: int, others: list[LoadData], train: Moving
 ) -> float:

@@ -279,6 +279,17 @@ def test_a_flywheel_and_loads_of_several_bodies(reduced):
     assert case.source.torque == pytest.approx(1800 * 23 / 171 + 30 / 3)
 
 
+def test_loads_without_an_output(reduced):
+    operating = {key: value for key, value in REDUCER["operating"].items() if "output" not in key}
+    load = [{"at": "wheel-2", "torque": "1800 N*m", "inertia": "2 kg*m**2"}]
+    case = reduced(operating=operating, load=load)
+    assert case.loads == reduced().loads
+    assert case.source == reduced().source
+    assert case.bodies[2].inertia == 2.0
+    motor = {"source": "torque", "drive_inertia": "0.1 kg*m**2", "input_torque": "300 N*m"}
+    assert reduced(operating=operating | motor, load=load).source.torque == 300.0
+
+
 def test_a_motor_without_a_spring_is_part_of_the_input(reduced):
     given = {"operating.source": "torque", "operating.drive_inertia": "0.2 kg*m**2"}
     assert reduced(given).bodies[0].inertia == pytest.approx(0.2)
