@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from tribodyn.errors import InputErrors
 from tribodyn.scenario.messages import explain
-from tribodyn.scenario.resolve import resolve
+from tribodyn.scenario.resolve import resolve, unresolved_keys
 from tribodyn.studies.gear_train import STUDY
 from tribodyn.studies.gear_train.case import Case
 
@@ -23,8 +23,10 @@ def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> Case:
     try:
         scenario = table.model_validate(data)
     except ValidationError as error:
-        raise InputErrors([origins.locate(one) for one in (*errors, *explain(error, table))]) from None
-    if errors := [*errors, *STUDY.broken_rules(scenario)]:
+        known = unresolved_keys(errors)
+        found = [one for one in explain(error, table) if one.key not in known]
+        raise InputErrors([origins.locate(one) for one in (*errors, *found)]) from None
+    if errors := errors or [*STUDY.broken_rules(scenario)]:
         raise InputErrors([origins.locate(one) for one in errors])
     toml = tomli_w.dumps(data)
     return STUDY.case(scenario, toml, hashlib.sha256(toml.encode()).hexdigest())

@@ -11,6 +11,8 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import half_profile, tooth_outline
 from tribodyn.geometry.drive import Side, body_of
 from tribodyn.geometry.path import position
+from tribodyn.studies.gear_train.assembled import assemblies, phases
+from tribodyn.studies.gear_train.case import Case
 
 #: Chords of the outlines' points leave less, m.
 TOLERANCE = 0.1e-6
@@ -89,3 +91,21 @@ def assert_touching(mesh: Turning, turns: Sequence[float]) -> None:
             contact = radii[0] * across + x * along + y * across
             near = np.hypot(*(points - contact).T) < 0.01 * drive.module
             assert np.min(clearance[near]) == pytest.approx(0.0, abs=TOLERANCE), "no contact where it is due"
+
+
+def assert_teeth_touch(case: Case) -> None:
+    """Turn all outlines of a train in their places, by the same time."""
+    pairs = assemblies(case)
+    put = phases(case, pairs)
+    centres = np.array([body.centre for body in case.bodies])
+    for number, (mesh, pair) in enumerate(zip(case.meshes, pairs, strict=True)):
+        apart = centres[mesh.driven] - centres[mesh.driver]
+        assert np.hypot(*apart) == pytest.approx(pair.path.pinion_pitch_radius + pair.path.gear_pitch_radius)
+        assert np.cos(np.arctan2(*apart[::-1]) - mesh.azimuth) == pytest.approx(1.0)
+        driver = case.bodies[mesh.driver]
+        teeth = put.teeth[mesh.gears[0]], put.teeth[mesh.gears[1]]
+        ratio = float(driver.ratio)
+        turning = Turning(pair, mesh.azimuth, driver.sense, teeth, put.meshes[number])
+        assert_touching(turning, [ratio * turn for turn in (0.0, 0.07, 1.9)])
+        # after the common period every mesh is where it was
+        assert mesh.rate * case.period == int(mesh.rate * case.period)

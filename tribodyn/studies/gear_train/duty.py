@@ -37,7 +37,7 @@ def broken_duty_rules(scenario: Any) -> Iterator[InputError]:
         if not scenario.load:
             remedy = 'name a gear, a shaft or a body: output = "wheel"; or add a [[load]]'
             yield InputError("operating.output", None, "missing", remedy)
-        for name in (*_OF_OUTPUT, "input_torque", "power"):
+        for name in (*_OF_OUTPUT, "input_torque", "power") if scenario.load else ():
             if getattr(operating, name) and (name != "input_torque" or operating.source == "speed"):
                 rule = "is of the output, and there is none"
                 yield InputError(f"operating.{name}", None, rule, 'add output = "wheel", or leave it out')
@@ -100,6 +100,12 @@ def duty_of(scenario: Any, train: Moving) -> Duty:
     least = _NOTHING * max(map(abs, torques.driven))
     driven = tuple(0.0 if abs(torque) <= least else torque for torque in torques.driven)
     return Duty(speed, tuple(loads), tuple(inertias), torques._replace(driven=driven))
+
+
+def motor_torque(scenario: Any) -> float | None:
+    """Torque of the motor that a scenario gives beside the loads, N m; None: it balances them."""
+    _, output = ends_of(scenario)
+    return scenario.operating.motor_torque if output else scenario.operating.input_torque
 
 
 def _output_torque(

@@ -12,10 +12,7 @@ _DEFAULT = "default"
 
 
 def broken_names(scenario: Any) -> Iterator[InputError]:
-    """Go through what is wrong with the sort of train, and with its names."""
-    if mixed := list(_mixed(scenario)):
-        yield from mixed
-        return
+    """Go through what is wrong with the names of a scenario that is of one sort, see `broken_sort`."""
     gears: list[str] = list(scenario.gear) if scenario.drive is None else list(OF_DRIVE)
     known = list(_declared(scenario, gears))
     names = [name for name, _ in known]
@@ -36,20 +33,19 @@ def broken_names(scenario: Any) -> Iterator[InputError]:
     yield from _bearings(scenario, names)
 
 
-def _mixed(scenario: Any) -> Iterator[InputError]:
-    """Refuse a drive, stages and a bare model in one scenario."""
-    has = {"drive": scenario.drive is not None, "gear": bool(scenario.gear), "stage": bool(scenario.stage)}
-    shafts = bool(scenario.shaft)
-    if isinstance(scenario.mesh, tuple):
-        for name, given in {**has, "shaft": shafts}.items():
-            if given:
-                rule = "contradicts [[mesh]], a bare model: only [[body]] and [[link]] stand beside it"
-                yield InputError(name, None, rule, "leave it out, or write one table [mesh]")
-    elif scenario.drive is not None:
-        for name in ("gear", "stage"):
-            if has[name]:
-                rule = "contradicts drive, which is a train of one stage"
-                yield InputError(name, None, rule, "leave the one or the other out")
+def broken_sort(scenario: Any) -> Iterator[InputError]:
+    """Refuse a drive, stages and a bare model in one scenario, and none of them."""
+    bare = isinstance(scenario.mesh, tuple)
+    given = [name for name in ("drive", "gear", "stage", "shaft") if getattr(scenario, name)]
+    if bare and given:
+        rule = "contradicts [[mesh]], a bare model: only [[body]] and [[link]] stand beside it"
+        yield InputError(given[0], None, rule, "leave it out, or write one table [mesh]")
+    elif scenario.drive is not None and {"gear", "stage"} & set(given):
+        rule, remedy = "contradicts drive, which is a train of one stage", "leave the one or the other out"
+        yield InputError(given[1], None, rule, remedy)
+    elif not bare and scenario.drive is None and not scenario.stage:
+        remedy = 'add a [[stage]] with gears = ["pinion", "wheel"]'
+        yield InputError("stage", None, "missing: a train has a mesh at least", remedy)
 
 
 def _declared(scenario: Any, gears: list[str]) -> Iterator[tuple[str, str]]:

@@ -9,7 +9,7 @@ from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_train.drawn import Moving, drawn, in_terms_of_train, moving
 from tribodyn.studies.gear_train.duty import broken_duty_rules, duty_of
-from tribodyn.studies.gear_train.names import broken_names
+from tribodyn.studies.gear_train.names import broken_names, broken_sort
 from tribodyn.studies.gear_train.scenario import Scenario, pair_view
 from tribodyn.studies.gears.motion import broken_flank_rules, broken_mesh_rules, broken_source_rules
 from tribodyn.studies.gears.scenario import broken_gear_rules
@@ -17,8 +17,12 @@ from tribodyn.studies.gears.scenario import broken_gear_rules
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
+    if broken := list(broken_sort(scenario)):
+        yield from broken
+        return
     broken = [
         *broken_names(scenario),
+        *_of_all_gears(scenario),
         *_bearings(scenario),
         *broken_source_rules(scenario.operating, "input_torque"),
         *broken_duty_rules(scenario),
@@ -55,18 +59,36 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
 def _pairs(scenario: Scenario, train: Moving) -> Iterator[InputError]:
     """Rules of every mesh as a pair of gears, and of its load; what all meshes share is said once."""
     said: set[str] = set()
+    unloaded: set[str] = set()
     duty = duty_of(scenario, train)
     for mesh, torque in enumerate(duty.torques.driven):
         view = pair_view(scenario, train, mesh)
         part = train.parts.meshes[train.motion.meshes[mesh]]
         back = view.mesh.backlash is not None or gives_backlash(view.drive)
-        for error in (
-            *(in_terms_of_train(one, train, mesh) for one in broken_gear_rules(view, every_duty=True)),
-            *broken_flank_rules(part.key, torque, back, view.mesh),
-        ):
+        for error in broken_gear_rules(view, every_duty=True):
+            error = in_terms_of_train(error, train, mesh)
             if str(error) not in said:
                 said.add(str(error))
                 yield error
+        for error in broken_flank_rules(part.key, torque, back, view.mesh):
+            if error.rule not in unloaded:  # of all stages that are driven backwards the first
+                unloaded.add(error.rule)
+                yield error
+
+
+def _of_all_gears(scenario: Scenario) -> Iterator[InputError]:
+    """Name what no gear says of itself where it is said for all of them."""
+    tables = [*scenario.gear.values()]
+    bare = isinstance(scenario.mesh, tuple)
+    if scenario.drive is not None:
+        return
+    if scenario.material is None and (bare or all(gear.material is None for gear in tables)):
+        remedy = 'add material = "18CrNiMo7-6", of all gears that name none'
+        yield InputError("material", None, "missing", remedy)
+    flanks = any(gear.mean_roughness for gear in tables) or any(stage.roughness for stage in scenario.stage)
+    if scenario.mean_roughness is None and not flanks:
+        remedy = 'add mean_roughness = "0.6 um", Ra of the flanks of all gears that say none'
+        yield InputError("mean_roughness", None, "missing", remedy)
 
 
 def _bearings(scenario: Scenario) -> Iterator[InputError]:

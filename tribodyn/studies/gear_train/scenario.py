@@ -24,7 +24,7 @@ from tribodyn.studies.gear_train.case import (
     TrainMesh,
 )
 from tribodyn.studies.gear_train.drawn import Drawn, Moving, drawn, moving
-from tribodyn.studies.gear_train.duty import Duty, duty_of
+from tribodyn.studies.gear_train.duty import Duty, duty_of, motor_torque
 from tribodyn.studies.gear_train.structure import bearings_by_body, mesh_table
 from tribodyn.studies.gear_train.tables import (
     MOST_PARTS,
@@ -281,12 +281,12 @@ def _with_laws_of(pair: LubricatedCase, first: LubricatedCase) -> LubricatedCase
 
 
 def _source(scenario: Any, train: Moving, duty: Duty) -> SourceData:
-    operating = scenario.operating
+    operating, given = scenario.operating, motor_torque(scenario)
     return SourceData(
         operating.source,
         train.motion.input,
         duty.speed,
-        duty.torques.source if operating.motor_torque is None else operating.motor_torque,
+        duty.torques.source if given is None else given,
         operating.drive_inertia,
         operating.shaft_stiffness,
         operating.shaft_damping,
