@@ -4,6 +4,7 @@ import numpy as np
 
 from tests.support.states import recorded
 from tribodyn.solve.transient import TransientSettings
+from tribodyn.train.structure import TURN
 
 # statics knows no vibration, which sliding of the bodies themselves would follow
 SLOW = {"operating.pinion_speed": "0.01 rad/s", "friction.sliding": "kinematic"}
@@ -15,7 +16,7 @@ def creep(case, cycles=1, samples=100):
 
 def statics(case, phase, segment, friction):
     """Loads from the linear equations of statics, with the given friction coefficients; unknown x, y, ξ."""
-    cycle, m = case.cycle, case.model.mechanics
+    cycle, model = case.cycle, case.model
     slots = np.flatnonzero(cycle.in_contact[segment])
 
     def there(values):
@@ -40,8 +41,7 @@ def statics(case, phase, segment, friction):
         system[n + 2, k] = c + f * s
         system[n + 3, k] = s - f * c
         system[n + 4, k] = rg * c + f * (rg * s - r[k])
-    bearings = m.pinion_stiffness_x, m.pinion_stiffness_y, m.gear_stiffness_x, m.gear_stiffness_y
-    for row, k in enumerate(bearings):
+    for row, k in enumerate(model.links.stiffness[:2, :TURN].ravel()):
         system[n + row, n + row] = -k
-    right[n + 4] = m.load_torque
+    right[n + 4] = model.bodies.load[1]
     return slots, np.linalg.solve(system, right)[:n]

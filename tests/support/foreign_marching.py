@@ -5,13 +5,12 @@ side and the engagement of pairs.
 """
 
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from tribodyn.dynamics.parameters import STATES, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.native import packed
 from tribodyn.solve.right_hand_side import engage, rhs, work_array
 
@@ -77,22 +76,22 @@ def oscillator_march(
 
 
 def gear_march(model: Model, state: np.ndarray, cycles: int, atol: np.ndarray) -> np.ndarray:
-    """States (cycles, STATES) of a gear pair behind the engagement that ends every mesh cycle."""
-    place, rates, work = np.empty(STATES), np.empty(STATES), work_array(model)
+    """States (cycles, states) of a gear pair behind the engagement that ends every mesh cycle."""
+    place, rates, work = np.empty_like(state), np.empty_like(state), work_array(model)
     arguments = [packed(item) for item in (place, model, work, rates)]
 
-    def slope(phase, y, segment):
+    def slope(phase, y, interval):
         place[:] = y
-        rhs(phase, 0.0, segment, *arguments)
+        rhs(phase, 0.0, interval, *arguments)
         return rates.copy()
 
     y, found = state.copy(), []
-    boundary = np.asarray(model.table.boundary)
+    schedule = model.schedule
     for _ in range(cycles):
-        for segment, ends in enumerate(pairwise(boundary)):
-            if segment:
-                engage(segment, True, y, model, work, y)
-            y = solve_ivp(slope, ends, y, "DOP853", args=(segment,), rtol=1e-12, atol=atol).y[:, -1]
+        for interval, ends in enumerate(zip(schedule.start, schedule.end, strict=True)):
+            if interval:
+                engage(interval, True, y, model, work, y)
+            y = solve_ivp(slope, ends, y, "DOP853", args=(interval,), rtol=1e-12, atol=atol).y[:, -1]
         engage(0, True, y, model, work, y)
         found.append(y.copy())
     return np.array(found)

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.studies.gears.recorded import DOF, SAMPLES, scales_of
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.layout import Head
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.writer import RecordWriter
 from tribodyn.studies.gears.case import LAYOUT
+from tribodyn.studies.gears.recorded import DOF, SAMPLES, scales_of
 
 
 def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:

@@ -7,30 +7,29 @@ import jax.numpy as jnp
 import numpy as np
 
 from tests.support.compile_fast import ONE_CALL
-from tests.support.states import random_place, random_state
-from tribodyn.dynamics.contact_forces import QUANTITIES
+from tests.support.states import altered, random_place, random_state
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import STATES, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.kernels.native import kernel
 from tribodyn.solve.jax.integrator import right_hand_side
 from tribodyn.solve.lanes.batch import lane_model, pack
-from tribodyn.solve.right_hand_side import rhs
+from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
 
 #: Whole cycles before; the load may depend on time.
 CYCLE = 2.0
 
 
 @kernel
-def _lanes(phase, segment, y, model, work, dy):
-    derivatives(rows_of(phase)[0], CYCLE, segment, rows_of(y), model, rows_of(work), rows_of(dy))
+def _lanes(phase, interval, y, model, work, dy):
+    derivatives(rows_of(phase)[0], CYCLE, interval, rows_of(y), model, rows_of(work), rows_of(dy))
 
 
 @partial(jax.jit, static_argnames="options", compiler_options=ONE_CALL)
-def _traced(phase, y, segment, numbers, options):
-    return right_hand_side(phase, y, (CYCLE, segment, Model(**numbers, options=options)))
+def _traced(phase, y, interval, numbers, options):
+    return right_hand_side(phase, y, (CYCLE, interval, Model(*numbers, options=options)))
 
 
 def assert_right_hand_sides_agree(models: list[Model], rng: np.random.Generator, rtol: float) -> None:
@@ -38,34 +37,32 @@ def assert_right_hand_sides_agree(models: list[Model], rng: np.random.Generator,
 
     The models are of one kind and run in the lanes of the same vectors.
     """
-    pairs = models[0].table.side.shape[0]
+    options, count = models[0].options, models[0].layout.states
     packed = pack(models)
     lanes, numbers, addresses = lane_model(packed)
-    work, lane_work = np.zeros((QUANTITIES + pairs, pairs)), np.zeros((QUANTITIES + pairs, pairs, WIDTH))
-    options = models[0].options
-    fields = [name for name in Model._fields if name != "options"]
-    arrays = [jax.tree.map(jnp.asarray, {name: getattr(model, name) for name in fields}) for model in models]
-    for segment in range(len(models[0].table.boundary) - 1):
+    work = work_array(models[0])
+    lane_work = np.zeros((*work.shape, WIDTH))
+    arrays = [jax.tree.map(jnp.asarray, model.numbers) for model in models]
+    for interval in range(len(models[0].schedule.start)):
         for start in range(0, 2 * len(models), WIDTH):
             cases = [(start + lane) % len(models) for lane in range(WIDTH)]
             numbers[:], addresses[:] = packed.numbers[cases].T, packed.addresses[cases].T
-            phases, rates = np.empty((1, WIDTH)), np.empty((STATES, WIDTH))
-            states = np.stack([random_state(rng) for _ in range(WIDTH)], axis=1)
+            phases, rates = np.empty((1, WIDTH)), np.empty((count, WIDTH))
+            states = np.stack([random_state(rng, models[case]) for case in cases], axis=1)
             for lane, case in enumerate(cases):
-                boundary = models[case].table.boundary[segment : segment + 2]
-                phases[0, lane] = random_place(rng, boundary)[0]
-            _lanes(phases, segment, states, lanes, lane_work, rates)
+                phases[0, lane] = random_place(rng, models[case].schedule, interval)[0]
+            _lanes(phases, interval, states, lanes, lane_work, rates)
             for lane, case in enumerate(cases):
                 model, y, phase = models[case], states[:, lane].copy(), float(phases[0, lane])
                 plain: dict = {}
-                derivatives(phase, CYCLE, segment, y, model, {}, plain)
-                expected = np.array([plain[i] for i in range(STATES)])
-                native = np.empty(STATES)
-                rhs(phase, CYCLE, segment, y, model, work, native)
+                derivatives(phase, CYCLE, interval, y, model, contacts_of(model), plain)
+                expected = np.array([plain[i] for i in range(count)])
+                native = np.empty(count)
+                rhs(phase, CYCLE, interval, y, model, work, native)
                 found = {
                     "native": native,
                     "lanes": rates[:, lane],
-                    "jax": _traced(phase, y, segment, arrays[case], options),
+                    "jax": _traced(phase, y, interval, arrays[case], options),
                 }
                 scale = 1e-12 * np.abs(expected).max()
                 for name, values in found.items():
@@ -75,13 +72,13 @@ def assert_right_hand_sides_agree(models: list[Model], rng: np.random.Generator,
 def at_several_conditions(model: Model, count: int = WIDTH) -> list[Model]:
     """The model at other speeds, loads and dampings, so that no two lanes are alike."""
     share = 1.0 + 0.4 * np.arange(count) / count
+    speed, load, damping = model.operation.nominal_speed, model.bodies.load, model.meshes[0].damping
     return [
-        model._replace(
-            mechanics=model.mechanics._replace(
-                nominal_speed=model.mechanics.nominal_speed * s,
-                load_torque=model.mechanics.load_torque * s,
-                mesh_damping=model.mechanics.mesh_damping / s,
-            )
+        altered(
+            model,
+            operation={"nominal_speed": speed * s},
+            bodies={"load": load * s},
+            mesh={"damping": damping / s},
         )
         for s in share.tolist()
     ]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.support.states import altered
 from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH
@@ -96,7 +97,7 @@ def test_functions_at_the_ends_of_the_numbers():
 @kernel
 def _look_up(model, x, out):
     x, out = rows_of(x), rows_of(out)
-    times = model.mechanics.load_times
+    times = model.operation.load_times
     for i in range(x.shape[0]):
         place = elementary.last_at_or_below(times, x[i])
         out[0, i] = place
@@ -108,9 +109,7 @@ def test_every_lane_looks_up_its_own_table(prepared, rng):
     base = prepared("crc-23-47").model
     grids = np.sort(rng.uniform(0, 10, (WIDTH, 7)), axis=1)
     models = [
-        base._replace(
-            mechanics=base.mechanics._replace(load_times=grid, load_torques=grid, load_slopes=0 * grid)
-        )
+        altered(base, operation={"load_times": grid, "load_torques": grid, "load_slopes": 0 * grid})
         for grid in grids
     ]
     packed = pack(models)
@@ -130,12 +129,14 @@ def test_every_lane_looks_up_its_own_table(prepared, rng):
 
 def test_models_of_one_table_share_it(prepared):
     base = prepared("crc-23-47").model
-    models = [base._replace(mechanics=base.mechanics._replace(nominal_speed=10.0 + i)) for i in range(5)]
+    models = [altered(base, operation={"nominal_speed": 10.0 + i}) for i in range(5)]
     packed = pack(models)
     assert np.all(packed.addresses == packed.addresses[0])
     assert len(packed.kept) == packed.addresses.shape[1]
-    speed = next(field for group in packed.fields for field in group if field.name == "nominal_speed")
-    np.testing.assert_array_equal(packed.numbers[:, speed.row], 10.0 + np.arange(5))
+    operation = next(part for part in packed.fields if part.name == "operation")
+    speed = next(field for field in operation.fields if field.name == "nominal_speed")
+    column = operation.first.numbers + speed.row
+    np.testing.assert_array_equal(packed.numbers[:, column], 10.0 + np.arange(5))
 
 
 def test_options_and_contacts_make_the_kind(prepared):
@@ -143,5 +144,6 @@ def test_options_and_contacts_make_the_kind(prepared):
     assert shape_of(base) == shape_of(prepared("crc-23-47", **{"operating.pinion_speed": "300 rad/s"}).model)
     assert shape_of(base) != shape_of(prepared("crc-23-47", **{"friction.law": "none"}).model)
     assert shape_of(base) != shape_of(prepared("crc-23-47", **{"mesh.backlash": "12 um"}).model)
-    flipped = base.table._replace(in_contact=1.0 - base.table.in_contact)
-    assert shape_of(base) != shape_of(base._replace(table=flipped))
+    table = base.meshes[0].table
+    flipped = table._replace(in_contact=1.0 - table.in_contact)
+    assert shape_of(base) != shape_of(altered(base, mesh={"table": flipped}))
