@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError, quoted
 from tribodyn.studies.gear_train.case import LoadData
 from tribodyn.studies.gear_train.drawn import Moving, ends_of
-from tribodyn.studies.gear_train.tables import Load, Operating
+from tribodyn.studies.gear_train.tables import Load, TrainOperating
 from tribodyn.train.statics import Torques, nominal_torques
 
 _SPEEDS, _LOADS = ("input_speed", "output_speed"), ("output_torque", "input_torque", "power")
@@ -27,7 +27,7 @@ class Duty(NamedTuple):
 
 def broken_duty_rules(scenario: Any) -> Iterator[InputError]:
     """Go through what is missing or said twice of speed and load."""
-    operating: Operating = scenario.operating
+    operating: TrainOperating = scenario.operating
     source, output = ends_of(scenario)
     if not source:
         yield InputError(
@@ -67,7 +67,7 @@ def duty_of(scenario: Any, train: Moving) -> Duty:
 
     Torques balance without losses: T_out = (T_in − Σ T_l n_l)/n_out with speeds n over the input's.
     """
-    operating: Operating = scenario.operating
+    operating: TrainOperating = scenario.operating
     motion, parts = train.motion, train.parts
     new = {body: number for number, body in enumerate(motion.bodies)}
     _, output = ends_of(scenario)
@@ -109,7 +109,7 @@ def motor_torque(scenario: Any) -> float | None:
 
 
 def _output_torque(
-    operating: Operating, speed: float, at: int, others: list[LoadData], train: Moving
+    operating: TrainOperating, speed: float, at: int, others: list[LoadData], train: Moving
 ) -> float:
     if operating.output_torque is not None:
         return operating.output_torque

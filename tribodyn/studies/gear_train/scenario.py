@@ -32,12 +32,12 @@ from tribodyn.studies.gear_train.tables import (
     Body,
     Link,
     Load,
-    Operating,
     PartName,
     Shaft,
     Stage,
     TrainBearings,
     TrainGear,
+    TrainOperating,
 )
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.studies.gears.case import LubricatedCase, OutputData
@@ -66,7 +66,7 @@ class TrainSolver(Solver):
     )
 
 
-class Scenario(ScenarioHead):
+class GearTrainScenario(ScenarioHead):
     """A scenario file."""
 
     kind: Literal["gear-train"] = "gear-train"
@@ -83,7 +83,7 @@ class Scenario(ScenarioHead):
     quality: Grade | None = Field(None, description="tolerance class of all gears that say none")
     lubricant: Oil
     bearings: Annotated[TrainBearings, model_file("bearings")] = written("rigid-1e9")
-    operating: Operating
+    operating: TrainOperating
     load: tuple[Load, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
     mesh: Meshes = Field(description="of all stages; a list: the meshes of a bare model")
     temperature: TemperatureKeys = None
@@ -91,6 +91,9 @@ class Scenario(ScenarioHead):
     friction: Friction
     solver: TrainSolver = written({})
     output: Output = written({})
+
+
+Scenario = GearTrainScenario
 
 
 class PairView(NamedTuple):
@@ -101,7 +104,7 @@ class PairView(NamedTuple):
     kind: str
     drive: DriveTable
     mesh: Mesh
-    operating: Operating
+    operating: TrainOperating
     lubricant: Any
     film: Any
     friction: Friction

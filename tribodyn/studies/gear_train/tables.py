@@ -188,7 +188,7 @@ class Load(Table):
     torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), max_length=MOST_HARMONICS, description="added")
 
 
-class Operating(Table):
+class TrainOperating(Table):
     """Where power enters and leaves, at which speed and load, and how the train is driven."""
 
     input: Annotated[Text | None, BeforeValidator(_one_place)] = Field(
