@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from tests.support.states import recorded, sampled
-from tribodyn.studies.gear_pair.outputs import outputs
-from tribodyn.dynamics.parameters import XI
+from tests.support.states import PAIR, TURN_G, recorded, sampled
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.march.reversal import SHARES, stops
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
+from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.studies.gear_pair.summary import energy_residual
+from tribodyn.train.structure import IN, PARAMETRIC, work_of
 
 SAMPLES = 100
 
@@ -21,7 +21,7 @@ def solve(model, rtol=1e-9, cycles=4, method="dopri5", initial="static"):
 
 
 def error(states, reference):
-    return np.max(np.abs(states[:, XI] - reference[:, XI])) / np.ptp(reference[:, XI])
+    return np.max(np.abs(states[:, TURN_G] - reference[:, TURN_G])) / np.ptp(reference[:, TURN_G])
 
 
 def test_native_solver_converges_with_its_tolerance(prepared):
@@ -39,7 +39,7 @@ def test_native_solver_converges_with_its_tolerance(prepared):
 def test_steps_end_where_friction_reverses(prepared):
     """At the pitch point and beside it, against the table's own nodes."""
     case = prepared("crc-23-47")
-    width = case.model.mechanics.reversal_width
+    width = case.model.operation.reversal_width
     found = stops(case.model)
     boundary = np.asarray(case.cycle.boundary)
     np.testing.assert_array_equal(found[:, -1], boundary[1:])
@@ -56,7 +56,7 @@ def _closes(case, rtol, **options):
     cycles, states = solve(case.model, rtol, cycles=6, **options)
     found = outputs(cycles, states, case.model)
     stored = found["stored_energy"][-1] - found["stored_energy"][0]
-    return abs(energy_residual(states[0], states[-1], stored))
+    return abs(energy_residual(states[0], states[-1], stored, case.model.layout))
 
 
 DRIVES = [
@@ -168,12 +168,13 @@ def test_parametric_work_is_there_only_in_the_classical_formulation(prepared):
         case = prepared("crc-23-47", **{"mesh.formulation": formulation})
         _, states = solve(case.model, 1e-7)
         work[formulation] = states[-1] - states[0]
-    assert np.all(work["energy-consistent"][18] == 0.0)
-    per_cycle = work["classical"][18] / 4
+    given, parametric = work_of(PAIR, IN), work_of(PAIR, PARAMETRIC)
+    assert np.all(work["energy-consistent"][parametric] == 0.0)
+    per_cycle = work["classical"][parametric] / 4
     assert 0.01 < abs(per_cycle) < 0.1
     # the motion is the same, only the drive's work differs, by exactly that
-    assert work["energy-consistent"][14] - work["classical"][14] == pytest.approx(
-        work["classical"][18], rel=1e-6
+    assert work["energy-consistent"][given] - work["classical"][given] == pytest.approx(
+        work["classical"][parametric], rel=1e-6
     )
 
 

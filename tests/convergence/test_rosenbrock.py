@@ -3,18 +3,18 @@
 import numpy as np
 import pytest
 
-from tests.support.states import random_place, random_state
-from tribodyn.dynamics.contact_forces import QUANTITIES
-from tribodyn.dynamics.parameters import DRIVE_SPEED, MECHANICAL, MOTOR_SLIP, SLIP, STATES, TWIST, XI
+from tests.support.states import PAIR, TURN_G, random_place, random_state
+from tribodyn.dynamics.parameters import DRIVE_SPEED
 from tribodyn.solve.choice import STIFF, choose
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import Place
 from tribodyn.solve.methods.rodas4 import ALPHA, GAMMA, GAMMAS, STAGES, A, C
-from tribodyn.solve.right_hand_side import rhs
+from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
+from tribodyn.train.structure import works
 
 
 @pytest.fixture(scope="module")
@@ -81,21 +81,21 @@ def test_it_is_stable_for_every_step(tableau):
 def test_jacobian_is_the_derivative_of_the_right_hand_side(prepared, rng, overrides):
     """Against central differences of all columns, over random states, loaded or apart."""
     model = prepared("crc-23-47", **overrides).model
-    pairs = model.table.side.shape[0]
-    work, scale = np.zeros((QUANTITIES + pairs, pairs)), tolerances_from(model, np.zeros(STATES), 1.0, 1).atol
-    still = [SLIP, TWIST, MOTOR_SLIP] if model.options.drive == DRIVE_SPEED else []
-    columns = [i for i in range(MECHANICAL) if i not in still]
+    layout, states = model.layout, model.layout.states
+    work, scale = work_array(model), tolerances_from(model, np.zeros(states), 1.0, 1).atol
+    still = [layout.half + layout.lag] if model.options.drive == DRIVE_SPEED else []
+    columns = [i for i in range(layout.mechanical) if i not in still]
     # small against the width over which friction reverses, 3e-4 m/s
     steps = np.diag(np.minimum(1e-6 * scale, 3e-8))[columns]
     for _ in range(25):
-        y = random_state(rng)
+        y = random_state(rng, model)
         y[still] = 0.0
-        phase, segment = random_place(rng, model.table.boundary)
+        phase, segment = random_place(rng, model.schedule)
         f, trial, slope, jacobian = (
-            np.empty(STATES),
-            np.empty(STATES),
-            np.empty(STATES),
-            np.empty((STATES, STATES)),
+            np.empty(states),
+            np.empty(states),
+            np.empty(states),
+            np.empty((states, states)),
         )
         rhs(phase, 0.0, segment, y, model, work, f)
         before = y.copy()
@@ -120,7 +120,7 @@ def solve(model, method, rtol, cycles=2, samples=100):
 
 
 def error(result, exact):
-    return np.max(np.abs(result.samples[:, XI] - exact.samples[:, XI])) / np.ptp(exact.samples[:, XI])
+    return np.max(np.abs(result.samples[:, TURN_G] - exact.samples[:, TURN_G])) / np.ptp(exact.samples[:, TURN_G])
 
 
 @pytest.mark.parametrize("sliding", ["kinematic", "dynamic"])
@@ -134,10 +134,10 @@ def test_order_four(prepared, sliding):
     order = -np.polyfit(np.log([result.steps for result in results]), np.log(errors), 1)[0]
     assert 3.6 < order < 4.6
     assert errors[1] < 2e-5
-    works = np.max(np.abs(results[-1].samples - exact.samples), axis=0) / np.ptp(exact.samples, axis=0).clip(
+    apart = np.max(np.abs(results[-1].samples - exact.samples), axis=0) / np.ptp(exact.samples, axis=0).clip(
         1e-9
     )
-    assert np.all(works[MECHANICAL:] < 1e-5)
+    assert np.all(apart[works(PAIR)] < 1e-5)
 
 
 def test_samples_between_long_steps_are_within_the_tolerance_of_a_step(prepared):
@@ -145,7 +145,7 @@ def test_samples_between_long_steps_are_within_the_tolerance_of_a_step(prepared)
     model = prepared("crc-23-47", **{"operating.pinion_speed": "1 rad/s"}).model
     rtol = 1e-6
     found, exact = (
-        solve(model, method, tolerance, cycles=1).samples[25:50, XI]
+        solve(model, method, tolerance, cycles=1).samples[25:50, TURN_G]
         for method, tolerance in (("rodas4", rtol), ("dopri5", 1e-11))
     )
     assert np.max(np.abs(found - exact)) < 2.0 * rtol * np.max(np.abs(exact))

@@ -14,7 +14,6 @@ from tribodyn.solve.transient import make_integrator
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
-    LAG,
     OUT,
     displacements,
     slip_of_body,
@@ -214,7 +213,7 @@ def test_with_a_motor_the_speed_is_a_state(prepared):
         loss = np.sum(steady.end[lost]) / model.operation.pitch_angle
         mean = np.mean(slip_of_body(layout.input, steady.samples.T, model))
         assert mean == pytest.approx(-loss / 10.0, rel=2e-3)
-        assert steady.end[LAG] > 0.0
+        assert steady.end[layout.lag] > 0.0
         turned = 23 / 47 * model.operation.pitch_angle
         assert steady.end[work_of(layout, OUT)] == pytest.approx(300.0 * turned, rel=1e-4)
         end = by_another_solver(model, steady.state, 1)

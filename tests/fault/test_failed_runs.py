@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from tribodyn.studies.gear_pair.outputs import outputs
-from tribodyn.dynamics.parameters import SLIP
+from tests.support.states import SLIP, altered
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
-from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
+from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair import run as simulate
+from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.studies.protocol.load import load_scenario
 
 
@@ -61,7 +61,7 @@ def test_a_sample_at_rest_is_recorded(prepared):
     """An engagement may stop the pinion: rates with respect to the phase have no limit, powers do."""
     model = prepared("crc-23-47").model
     state = static_equilibrium(model)
-    state[SLIP] = -model.mechanics.nominal_speed
+    state[SLIP] = -model.operation.nominal_speed
     block = outputs(np.array([0.3]), state[None], model)
     assert block["power_in"][0] == 0.0
     for name in ("velocity", "normal_load", "power_out", "power_friction", "power_damping", "stored_energy"):
@@ -71,7 +71,7 @@ def test_a_sample_at_rest_is_recorded(prepared):
 def test_no_equilibrium_at_the_start(prepared):
     """A load that pulls the flanks apart, without back flanks to catch it."""
     model = prepared("crc-23-47").model
-    model = model._replace(mechanics=model.mechanics._replace(load_torque=-100.0))
+    model = altered(model, bodies={"load": np.array([0.0, -100.0])})
     with pytest.raises(SimulationError, match="equilibrium"):
         static_equilibrium(model)
 
@@ -89,8 +89,8 @@ def test_a_solution_that_stops_being_finite_is_told(prepared):
     """NaN must end the run, not pass the error control."""
     model = prepared("crc-23-47").model
     state = static_equilibrium(model)
-    broken = model._replace(mechanics=model.mechanics._replace(mesh_damping=float("nan")))
-    tolerances = StepTolerances(1e-6, absolute_tolerances(model, 1e-6, 3e-5), 100000)
+    broken = altered(model, mesh={"damping": float("nan")})
+    tolerances = tolerances_from(model, state, 1e-6, 100000)
     for method in ("dopri5", "rodas4", "radau"):
         part = make_integrator(method, broken, 50, tolerances).integrate(state, 0, 2)
         assert part.status == Status.NOT_FINITE

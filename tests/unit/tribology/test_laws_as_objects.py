@@ -7,7 +7,8 @@ import pytest
 
 from tests.support.closures import LIU_NI, POINT, known, under
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
-from tribodyn.dynamics.parameters import STATES, frictionless
+from tests.support.states import PAIR
+from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError
 from tribodyn.kernels.native import kernel, store
 from tribodyn.kernels.native.arguments import packed
@@ -95,7 +96,7 @@ def test_variants_share_their_machine_code():
 def test_without_friction_a_model_has_none(prepared):
     model = frictionless(prepared("crc-23-47").model)
     assert model.options.friction == FRICTION_LAWS["none"].functions
-    assert known(model.closure, **POINT).friction_coefficient == 0.0
+    assert known(model.closure(0), **POINT).friction_coefficient == 0.0
 
 
 @kernel
@@ -184,4 +185,4 @@ def test_a_law_that_cannot_be_compiled_says_why():
     case = with_laws(load_scenario("crc-23-47"), friction=FrictionLaw("unfinished", "", _unfinished))
     model = prepare(case).model
     with pytest.raises(InputError, match=r"law = _unfinished.*_asdict.*marked with its `law`"):
-        rhs(0.3, 0.0, 0, np.zeros(STATES), model, work_array(model), np.empty(STATES))
+        rhs(0.3, 0.0, 0, np.zeros(PAIR.states), model, work_array(model), np.empty(PAIR.states))
