@@ -17,8 +17,8 @@ import numpy as np
 from tools.bench_peers import problem
 from tools.marked_block import generate, measured_on, parser_of, spent, table
 from tools.peers.batch import models_at, threads, together
-from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.jax import ensemble as jax_ensemble
+from tribodyn.train.structure import rotational_error
 
 SIZES = (64, 256, 1024, 10_000, 100_000, 1_000_000)
 #: Largest batch of the slower engines where several are measured.
@@ -77,7 +77,7 @@ def measured(engine: str, cases: int, cycles: int, repeats: int) -> np.ndarray:
         given = {"cycles": cycles, "window": 1, "samples": SAMPLES, "rtol": rtol}
         seconds = spent(lambda: results.append(run(models, states, **given)))
         (result,) = results
-        swing[first : first + PART] = np.ptp(result.samples[..., XI], axis=1)
+        swing[first : first + PART] = np.ptp(rotational_error(result.samples, 0, posed.model), axis=1)
         return [*seconds, float(np.sum(result.evaluations)), float(np.sum(result.status != 0))]
 
     part(cases - 64)  # compiles

@@ -24,11 +24,11 @@ from tools.peers.batch import BATCHES, WINDOW, Batch, models_at, threads
 from tools.peers.batch import SAMPLES as IN_BATCH
 from tools.peers.numpy_model import MOVING, difference
 from tools.peers.single import Problem, Program, octave, octave_timed, peers, tribodyn_engine
-from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.train.structure import rotational_error
 
 Array = Any
 
@@ -175,7 +175,8 @@ def loosest(run: Callable[[float], Array], exact: Array) -> tuple[float, float]:
 def _marching(program: Batch, cases: tuple[list[Any], Array]) -> Callable[[float], Array]:
     """From a tolerance to samples of the transmission error of every case."""
     given = {"cycles": program.cycles, "window": WINDOW, "samples": IN_BATCH}
-    return lambda rtol: program.run(*cases, rtol=rtol, **given).samples[..., XI]
+    model = cases[0][0]
+    return lambda rtol: rotational_error(program.run(*cases, rtol=rtol, **given).samples, 0, model)
 
 
 def _cases(posed: Problem, count: int) -> tuple[list[Any], Array]:

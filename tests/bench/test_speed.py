@@ -10,14 +10,15 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from tests.support.states import PAIR, TURN_G
 from tools.peers import steady
-from tribodyn.dynamics.equations import derivatives, engagement
-from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE
+from tribodyn.dynamics.equations import derivatives
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
 from tribodyn.solve.orbit.motions import by_differences
-from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances, tolerances_from
+from tribodyn.solve.right_hand_side import contacts_of, engage
+from tribodyn.solve.tolerances import StepTolerances, tolerances_from
 from tribodyn.solve.transient import make_integrator
 
 pytestmark = pytest.mark.bench
@@ -31,7 +32,7 @@ NATIVE_RTOL = 1e-5
 def case(prepared):
     model = prepared("crc-23-47-300").model
     state = static_equilibrium(model)
-    return model, state, StepTolerances(RTOL, absolute_tolerances(model, RTOL, state[XI]), 10**6)
+    return model, state, tolerances_from(model, state, RTOL, 10**6)
 
 
 def native(model, state, tolerances, cycles):
@@ -47,36 +48,34 @@ def exactly(model, state, tolerances, cycles):
 
 def scipy_bdf(model, state, tolerances, cycles):
     """What a user would write: SciPy BDF, the right-hand side on NumPy numbers, restarted at engagement."""
-    boundary = np.asarray(model.table.boundary)
+    boundary, mechanical = np.asarray(model.meshes[0].table.boundary), PAIR.mechanical
     y = state.copy()
     found = []
     for cycle in range(cycles):
         for segment in range(len(boundary) - 1):
-            before = (segment - 1) % (len(boundary) - 1)
             if cycle or segment:
-                jumps = engagement(before, boundary[before + 1], segment, boundary[segment], y, model, {})
-                y[[SLIP, XI_RATE, WORK_IN, WORK_PARAMETRIC]] += jumps
+                engage(segment, True, y, model, contacts_of(model), y)
 
-            def fun(phase, mechanical, cycle=cycle, segment=segment):
-                full = np.zeros(STATES)
-                full[:MECHANICAL] = mechanical
+            def fun(phase, moving, cycle=cycle, segment=segment):
+                full = np.zeros(PAIR.states)
+                full[:mechanical] = moving
                 rates = {}
-                derivatives(phase, cycle, segment, full, model, {}, rates)
-                return np.array([rates[i] for i in range(MECHANICAL)])  # the audit costs it nothing
+                derivatives(phase, cycle, segment, full, model, contacts_of(model), rates)
+                return np.array([rates[i] for i in range(mechanical)])  # the audit costs it nothing
 
             at = np.arange(SAMPLES) / SAMPLES
             at = at[(at >= boundary[segment]) & (at < boundary[segment + 1])]
             solution = solve_ivp(
                 fun,
                 boundary[segment : segment + 2],
-                y[:MECHANICAL],
+                y[:mechanical],
                 method="BDF",
                 rtol=RTOL,
-                atol=tolerances.atol[:MECHANICAL],
+                atol=tolerances.atol[:mechanical],
                 t_eval=np.append(at, boundary[segment + 1]),
             )
             found.append(solution.y.T[:-1])
-            y[:MECHANICAL] = solution.y[:, -1]
+            y[:mechanical] = solution.y[:, -1]
     return np.concatenate(found)
 
 
@@ -91,10 +90,10 @@ def seconds(function, *arguments, repeats):
 
 def test_native_run_is_300_times_faster_than_scipy_bdf(case, record_property, capsys):
     """Both on 6 cycles; the peer once, since it takes seconds and the bound is far away."""
-    exact = exactly(*case, 6)[:, XI]
-    ours = native(*case, 6)[:, XI]
+    exact = exactly(*case, 6)[:, TURN_G]
+    ours = native(*case, 6)[:, TURN_G]
     begun = perf_counter()
-    theirs = scipy_bdf(*case, 6)[:, XI]
+    theirs = scipy_bdf(*case, 6)[:, TURN_G]
     peer = perf_counter() - begun
     own = seconds(native, *case, 6, repeats=9)
     errors = [float(np.max(np.abs(x - exact)) / np.ptp(exact)) for x in (ours, theirs)]
@@ -116,8 +115,8 @@ def test_native_run_is_faster_than_lsoda_on_the_compiled_right_hand_side(case, c
     def lsoda():
         return make_integrator("lsoda", model, SAMPLES, tolerances).integrate(state, 0, 20)
 
-    exact = exactly(*case, 20)[:, XI]
-    error = float(np.max(np.abs(lsoda().samples[:, XI] - exact)) / np.ptp(exact))
+    exact = exactly(*case, 20)[:, TURN_G]
+    error = float(np.max(np.abs(lsoda().samples[:, TURN_G] - exact)) / np.ptp(exact))
     ratio = seconds(lsoda, repeats=5) / seconds(native, *case, 20, repeats=9)
     with capsys.disabled():
         print(
@@ -195,7 +194,7 @@ def test_extremes_cost_a_run_at_most_a_tenth(prepared, name, overrides):
 def test_native_kernel(case, benchmark):
     """For comparison over time with pytest-benchmark; asserts nothing about the clock."""
     samples = benchmark(native, *case, 20)
-    assert samples.shape == (20 * SAMPLES, STATES)
+    assert samples.shape == (20 * SAMPLES, PAIR.states)
 
 
 @pytest.mark.parametrize("law", ["none", "masjedi-khonsari"])
@@ -204,7 +203,7 @@ def test_a_derivative_costs_less_than_the_marches_of_its_differences(prepared, c
     model = prepared("crc-23-47", **{"operating.pinion_speed": "400 rad/s", "friction.law": law}).model
     row, start = np.zeros(1, dtype=int), static_equilibrium(model)[None]
     settings = {"solver": "dopri5", "rtol": 1e-6, "fine_rtol": 1e-9, "max_steps": 10**6, "workers": 1}
-    period_map = GearMap([model], start, moving_states(model), **settings)
+    period_map = GearMap([model], start, moving_states(model).states, **settings)
     state = start[:, period_map.moving]
 
     def exact():

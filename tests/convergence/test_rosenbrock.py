@@ -120,7 +120,9 @@ def solve(model, method, rtol, cycles=2, samples=100):
 
 
 def error(result, exact):
-    return np.max(np.abs(result.samples[:, TURN_G] - exact.samples[:, TURN_G])) / np.ptp(exact.samples[:, TURN_G])
+    return np.max(np.abs(result.samples[:, TURN_G] - exact.samples[:, TURN_G])) / np.ptp(
+        exact.samples[:, TURN_G]
+    )
 
 
 @pytest.mark.parametrize("sliding", ["kinematic", "dynamic"])

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from tests.support.states import recorded
 from tribodyn.dynamics.extremes import LOWEST
-from tribodyn.studies.gear_pair.outputs import outputs_with_extremes
 from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
@@ -16,6 +15,7 @@ from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
 from tribodyn.studies.gear_pair.batch import BATCH
 from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate
+from tribodyn.studies.gear_pair.outputs import outputs_with_extremes
 from tribodyn.studies.gear_pair.summary import RECORDED, RunningExtremes
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run

@@ -10,7 +10,6 @@ from tests.support.states import recorded, sampled
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.slices import face_positions
-from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
@@ -23,6 +22,7 @@ from tribodyn.geometry.flanks.modification import (
 )
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import TransientSettings
+from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.train.schedule import interval_of
 from tribodyn.tribology.law import FrictionData

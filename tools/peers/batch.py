@@ -25,9 +25,9 @@ class Batch(NamedTuple):
 
 def models_at(posed: Problem, speeds: Array) -> list[Model]:
     """The problem's model at pinion speeds, rad/s."""
-    mechanics = posed.model.mechanics
+    operation = posed.model.operation
     return [
-        posed.model._replace(mechanics=mechanics._replace(nominal_speed=float(speed))) for speed in speeds
+        posed.model._replace(operation=operation._replace(nominal_speed=float(speed))) for speed in speeds
     ]
 
 

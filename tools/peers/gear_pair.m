@@ -19,8 +19,8 @@ function dy = gear_pair(phase, y, k, p, channel, stiffness, first, last)
   cosine = value(1, :)'; r = value(2, :)'; radius = value(3, :)'; speed = value(4, :)';
   compliance = value(5, :)'; gap = value(6, :)'; sine = value(7, :)';
 
-  towards = y(5) + y(1) - y(3); across = y(2) - y(4);
-  towards_rate = y(10) + y(6) - y(8); across_rate = y(7) - y(9);
+  towards = y(1) - y(3) - p.gear_radius * y(5); across = y(2) - y(4);
+  towards_rate = y(6) - y(8) - p.gear_radius * y(10); across_rate = y(7) - y(9);
   approach = towards * cosine + across * sine - gap;
   moved = (towards * slope(1, :)' + across * slope(7, :)' - slope(6, :)') * p.omega;
   approach_rate = towards_rate * cosine + across_rate * sine + moved;
@@ -30,7 +30,7 @@ function dy = gear_pair(phase, y, k, p, channel, stiffness, first, last)
   slip = p.omega * (1 + p.w) * r;
   u_g = u_p - slip;
   if p.dynamic
-    slip = slip + towards_rate * sine - across_rate * cosine - y(10) * r / p.gear_pitch_radius;
+    slip = slip + towards_rate * sine - across_rate * cosine + y(10) * r;
   end
   sliding = abs(slip);
 
@@ -59,13 +59,9 @@ function dy = gear_pair(phase, y, k, p, channel, stiffness, first, last)
   tangential = coefficient .* normal .* 0.5 .* turned .* (3 - turned.^2);
   force_x = -sum(normal .* cosine + tangential .* sine);
   force_y = sum(tangential .* cosine - normal .* sine);
-  moment = sum(normal .* p.gear_pitch_radius .* cosine + tangential .* (p.gear_pitch_radius * sine - r));
-  dy = p.rate * [y(6:10);
-    (force_x - p.pinion_stiffness_x * y(1) - p.pinion_damping_x * y(6)) / p.pinion_mass;
-    (force_y - p.pinion_stiffness_y * y(2) - p.pinion_damping_y * y(7)) / p.pinion_mass;
-    (-force_x - p.gear_stiffness_x * y(3) - p.gear_damping_x * y(8)) / p.gear_mass;
-    (-force_y - p.gear_stiffness_y * y(4) - p.gear_damping_y * y(9)) / p.gear_mass;
-    -p.gear_pitch_radius * (moment - p.load_torque) / p.gear_inertia];
+  moment = sum(normal .* p.gear_radius .* cosine + tangential .* (p.gear_radius * sine - r));
+  forces = [force_x; force_y; -force_x; -force_y] - p.springs .* y(1:4) - p.dampers .* y(6:9);
+  dy = p.rate * [y(6:10); forces ./ p.masses; (moment - p.load_torque) / p.gear_inertia];
 end
 
 folder = argv(){end};
@@ -92,7 +88,7 @@ for cycle = 1:cycles
     function_here = @(t, y) gear_pair(t, y, k, p, channel{k}, stiffness{k}, first, last);
     options = odeset("RelTol", rtol, "AbsTol", atol);
     [t, states] = ode15s(function_here, times, y, options);
-    xi = [xi; states(ismember(t, wanted), 5)];
+    xi = [xi; -p.gear_radius * states(ismember(t, wanted), 5)];
     y = states(end, :)';
   end
 end

@@ -2,7 +2,7 @@
 
 For one kind of case only, the one the comparison is made on: prescribed speed, constant load torque,
 friction by Masjedi & Khonsari with kinematic or dynamic sliding, a linear contact, pairs that stay in
-contact. Ten states: x and y of both gears, the rotational transmission error, and their rates. `difference`
+contact. Ten states: x and y of both gears, the gear's micro-rotation, and their rates. `difference`
 compares it with tribodyn's own right-hand side, so that what is timed is the same mathematics.
 """
 
@@ -12,12 +12,16 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIDING_DYNAMIC, STATES, VELOCITIES, Model
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, Model
 from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.solve.right_hand_side import contacts_of
+from tribodyn.train.structure import GROUND, TURN, displacements, layout_of, velocities
 
 Array = Any
 
-MOVING = [*DISPLACEMENTS, *VELOCITIES]
+#: A pair of gears on two bearings, and the places of the ten states among those of the model.
+PAIR = layout_of(2, 2, [(0, 1)], [(0, GROUND), (1, GROUND)], 0, 1)
+MOVING = [*displacements(PAIR), *velocities(PAIR)]
 
 #: Channels read, from the first; those that follow say how unevenly a face is loaded, and this one is evenly.
 NEEDED = CHANNELS.index("sine") + 1
@@ -27,8 +31,13 @@ class NumpyModel:
     """Right-hand side over mesh phase; `segment` says which pairs are in contact."""
 
     def __init__(self, model: Model):
-        self.m, self.t = model.mechanics, model.table
-        self.s, self.c = model.surfaces, model.friction
+        (mesh,) = model.meshes
+        self.t, self.s, self.c = mesh.table, mesh.surfaces, mesh.friction
+        self.gear_radius, self.mesh_damping = float(mesh.driven_radius), float(mesh.damping)
+        self.gear_inertia, self.load_torque = float(model.bodies.inertia[1]), float(model.bodies.load[1])
+        # of x and y of both gears
+        self.masses = np.repeat(model.bodies.mass, 2)
+        self.springs, self.dampers = (part[:, :TURN].ravel() for part in model.links)
         self.boundary = np.asarray(self.t.boundary)
         self.pairs = [np.flatnonzero(row) for row in np.asarray(self.t.in_contact)]
         self.cells = self.t.channel.shape[1]
@@ -39,15 +48,15 @@ class NumpyModel:
             self.channel.append(np.ascontiguousarray(coefficients.transpose(0, 3, 2, 1)))
             block = self.t.stiffness[segment][:, pairs][:, :, pairs]
             self.stiffness.append(np.ascontiguousarray(block.transpose(0, 3, 1, 2)))
-        self.w = float(self.t.pinion_pitch_radius) / float(self.t.gear_pitch_radius)
-        self.omega = float(self.m.nominal_speed)
+        self.w = float(mesh.driver_radius) / self.gear_radius
+        self.omega = float(model.operation.nominal_speed)
         self.rate = float(self.t.pitch_angle) / self.omega
         self.dynamic = model.options.sliding == SLIDING_DYNAMIC
-        self.reversed_at = self.omega * (1.0 + self.w) * float(self.m.reversal_width)
+        self.reversed_at = self.omega * (1.0 + self.w) * float(model.operation.reversal_width)
         modulus, roughness = self.s.effective_modulus, self.s.roughness
         self.material = self.s.pressure_viscosity * modulus
         self.hardness = self.s.hardness / modulus
-        factor = np.exp(model.film.log_asperity_factor)
+        factor = np.exp(mesh.film.log_asperity_factor)
         self.asperity = factor * roughness**6.015 * self.hardness**1.168 * self.material**-2.898
         self.rough = 0.2 * roughness**1.222 * self.hardness**0.223 * self.material**-0.842
 
@@ -57,7 +66,7 @@ class NumpyModel:
 
     def __call__(self, phase: float, y: Array, segment: int) -> Array:
         """Derivative of the ten states per mesh cycle."""
-        m, t = self.m, self.t
+        t, gear_radius = self.t, self.gear_radius
         start, end = self.boundary[segment], self.boundary[segment + 1]
         place = min(max((phase - start) / (end - start) * self.cells, 0.0), self.cells - 1e-9)
         cell = int(place)
@@ -68,19 +77,20 @@ class NumpyModel:
         k0, k1, k2, k3 = self.stiffness[segment][cell]
         stiffness = k0 + u * (k1 + u * (k2 + u * k3))
 
-        towards, across = y[4] + y[0] - y[2], y[1] - y[3]
-        towards_rate, across_rate = y[9] + y[5] - y[7], y[6] - y[8]
+        towards, across = y[0] - y[2] - gear_radius * y[4], y[1] - y[3]
+        towards_rate, across_rate = y[5] - y[7] - gear_radius * y[9], y[6] - y[8]
         approach = towards * cosine + across * sine - gap
         moved = (towards * slope[0] + across * slope[6] - slope[5]) * self.omega
         approach_rate = towards_rate * cosine + across_rate * sine + moved
-        normal = np.maximum(stiffness @ approach, 0.0) + m.mesh_damping * approach_rate / np.sqrt(compliance)
+        normal = np.maximum(stiffness @ approach, 0.0) + self.mesh_damping * approach_rate / np.sqrt(
+            compliance
+        )
         normal = np.maximum(normal, 0.0)
-        gear_radius = float(t.gear_pitch_radius)
         u_p = self.omega * speed
         sliding = self.omega * (1.0 + self.w) * r
         u_g = u_p - sliding
         if self.dynamic:
-            sliding = sliding + towards_rate * sine - across_rate * cosine - y[9] * r / gear_radius
+            sliding = sliding + towards_rate * sine - across_rate * cosine + y[9] * r
         turned = np.clip(sliding / self.reversed_at, -1.0, 1.0)
         tangential = self.friction(normal / t.face_width, radius, u_p, u_g, np.abs(sliding))
         tangential = tangential * normal * 0.5 * turned * (3.0 - turned * turned)
@@ -88,16 +98,11 @@ class NumpyModel:
         force_x = -np.sum(normal * cosine + tangential * sine)
         force_y = np.sum(tangential * cosine - normal * sine)
         moment = np.sum(normal * gear_radius * cosine + tangential * (gear_radius * sine - r))
-        acceleration = np.array(
-            [
-                (force_x - m.pinion_stiffness_x * y[0] - m.pinion_damping_x * y[5]) / m.pinion_mass,
-                (force_y - m.pinion_stiffness_y * y[1] - m.pinion_damping_y * y[6]) / m.pinion_mass,
-                (-force_x - m.gear_stiffness_x * y[2] - m.gear_damping_x * y[7]) / m.gear_mass,
-                (-force_y - m.gear_stiffness_y * y[3] - m.gear_damping_y * y[8]) / m.gear_mass,
-                -gear_radius * (moment - m.load_torque) / m.gear_inertia,
-            ]
+        forces = (
+            np.array([force_x, force_y, -force_x, -force_y]) - self.springs * y[:4] - self.dampers * y[5:9]
         )
-        return self.rate * np.concatenate([y[5:], acceleration])
+        turning = (moment - self.load_torque) / self.gear_inertia
+        return self.rate * np.concatenate([y[5:], forces / self.masses, [turning]])
 
     def friction(self, load: Array, radius: Array, u_p: Array, u_g: Array, sliding: Array) -> Array:
         """Friction coefficient of each pair, Masjedi & Khonsari."""
@@ -150,9 +155,9 @@ def difference(
     segment_at = NumpyModel(model).segment
     ours = []
     for phase, state in zip(phases, states, strict=True):
-        full, found = np.zeros(STATES), {}
+        full, found = np.zeros(PAIR.states), {}
         full[MOVING] = state
-        derivatives(float(phase), 0.0, segment_at(phase), full, model, {}, found)
+        derivatives(float(phase), 0.0, segment_at(phase), full, model, contacts_of(model), found)
         ours.append([found[i] for i in MOVING])
     expected = np.array(ours)
     return float(np.max(np.abs(rates(model, phases, states) - expected) / np.ptp(expected, axis=0)))

@@ -13,13 +13,14 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.io import loadmat, savemat
 
-from tools.peers.numpy_model import MOVING, NumpyModel, numpy_rates
-from tribodyn.dynamics.parameters import STATES, XI, Model
+from tools.peers.numpy_model import MOVING, PAIR, NumpyModel, numpy_rates
+from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.native import packed
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.right_hand_side import rhs, work_array
-from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
+from tribodyn.solve.tolerances import StepTolerances, tolerances_from
 from tribodyn.solve.transient import make_integrator
+from tribodyn.train.structure import rotational_error
 
 Array = Any
 
@@ -34,11 +35,11 @@ class Problem(NamedTuple):
 
     def tolerances(self, rtol: float) -> StepTolerances:
         """StepTolerances scaled to the case, the same for every program."""
-        return StepTolerances(rtol, absolute_tolerances(self.model, rtol, float(self.state[XI])), 10**6)
+        return tolerances_from(self.model, self.state, rtol, 10**6)
 
     def segments(self) -> list[tuple[int, float, float, Array]]:
         """Segments of one mesh cycle: number, both ends and the phases to sample."""
-        boundary = np.asarray(self.model.table.boundary)
+        boundary = np.asarray(self.model.meshes[0].table.boundary)
         at = np.arange(self.samples) / self.samples
         return [
             (k, float(a), float(b), at[(at >= a) & (at < b)]) for k, (a, b) in enumerate(pairwise(boundary))
@@ -67,7 +68,7 @@ def tribodyn_engine(method: str) -> Runner:
         part = integrator.integrate(problem.state, 0, problem.cycles)
         if part.status != Status.DONE:
             raise RuntimeError(f"{method}: {part.message or part.status}")
-        return part.samples[:, XI]
+        return rotational_error(part.samples, 0, problem.model)
 
     return run
 
@@ -86,7 +87,7 @@ def scipy_on_numpy(method: str) -> Runner:
                 solution = solve_ivp(function, (start, end), y, method=method, **given)
                 if not solution.success:
                     raise RuntimeError(f"{method}: {solution.message}")
-                samples.append(solution.y[4, :-1])
+                samples.append(-function.gear_radius * solution.y[4, :-1])
                 y = solution.y[:, -1]
         return np.concatenate(samples)
 
@@ -98,7 +99,7 @@ def cvode(problem: Problem, rtol: float) -> Array:
     from sksundae.cvode import CVODE  # pyright: ignore[reportMissingImports]
 
     model = problem.model
-    work = work_array(model)
+    work, radius = work_array(model), float(model.meshes[0].driven_radius)
     atol = problem.tolerances(rtol).atol[MOVING]
     y = problem.state[MOVING].copy()
     samples = []
@@ -111,13 +112,13 @@ def cvode(problem: Problem, rtol: float) -> Array:
             solution = solver.solve(times, y)
             if not solution.success:
                 raise RuntimeError(f"CVODE: {solution.message}")
-            samples.append(solution.y[np.isin(times, at), 4])
+            samples.append(-radius * solution.y[np.isin(times, at), 4])
             y = solution.y[-1].copy()
     return np.concatenate(samples)
 
 
 def _right_hand_side(model: Model, work: Array, cycle: float, segment: int) -> Callable[..., None]:
-    full, rates = np.zeros(STATES), np.zeros(STATES)
+    full, rates = np.zeros(PAIR.states), np.zeros(PAIR.states)
     items = [packed(item) for item in (full, model, work, rates)]
 
     def function(t: float, y: Array, out: Array) -> None:
@@ -156,14 +157,15 @@ def _in_octave(model: Model, given: dict[str, Any]) -> dict[str, Any]:
     numpy_model = NumpyModel(model)
     numbers = {
         name: np.asarray(value, dtype=float)
-        for part in (model.mechanics, model.surfaces, model.friction)
+        for part in (numpy_model.s, numpy_model.c)
         for name, value in part._asdict().items()
         if np.ndim(value) == 0
     }
-    tabulated = "face_width gear_pitch_radius pitch_angle"
-    numbers |= {name: float(getattr(model.table, name)) for name in tabulated.split()}
-    derived = "w omega rate dynamic reversed_at material asperity rough"
+    numbers |= {name: float(getattr(numpy_model.t, name)) for name in ("face_width", "pitch_angle")}
+    derived = "w omega rate dynamic reversed_at material asperity rough gear_radius mesh_damping"
+    derived += " gear_inertia load_torque"
     numbers |= {name: float(getattr(numpy_model, name)) for name in derived.split()}
+    numbers |= {name: getattr(numpy_model, name)[:, None] for name in ("masses", "springs", "dampers")}
     channel, stiffness = (np.empty(len(numpy_model.pairs), dtype=object) for _ in range(2))
     for segment in range(len(numpy_model.pairs)):
         channel[segment], stiffness[segment] = numpy_model.channel[segment], numpy_model.stiffness[segment]

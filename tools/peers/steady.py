@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tools.marked_block import table as table_of
-from tribodyn.dynamics.parameters import XI, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
-from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
+from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair.batch import MOST_CYCLES
 from tribodyn.studies.gear_pair.batch.evaluate import tabulated
@@ -26,6 +26,7 @@ from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
+from tribodyn.train.structure import rotational_error
 
 Array = Any
 
@@ -100,12 +101,12 @@ def lsoda(speeds: Grid, numbers: list[int], ours: Ours, target: float) -> Theirs
         """Transmission error over each last cycle, and processor seconds."""
         windows, seconds = [], []
         for model, start, cycles in zip(models, starts, map(int, marched), strict=True):
-            tolerances = StepTolerances(rtol, absolute_tolerances(model, rtol, float(start[XI])), 10**6)
+            tolerances = tolerances_from(model, start, rtol, 10**6)
             integrator = make_integrator(method, model, samples, tolerances)
             begun = process_time()
             part = integrator.integrate(start, 0, cycles)
             seconds.append(process_time() - begun)
-            windows.append(part.samples[-samples:, XI])
+            windows.append(rotational_error(part.samples[-samples:], 0, model))
         return np.array(windows), np.array(seconds)
 
     exact, _ = march("dopri5", 1e-11)
@@ -157,7 +158,7 @@ def table(repeats: int, target: float) -> str:
 
 def cycles_needed(models: list[Model], starts: Array) -> Array:
     """Mesh cycles after which each motion repeats within TOLERANCE, at most as many as the sweep takes."""
-    moving = moving_states(models[0])
+    moving = moving_states(models[0]).states
     period_map = GearMap(
         models, starts, moving, solver="dopri5", rtol=1e-9, fine_rtol=1e-9, max_steps=10**6, workers=None
     )

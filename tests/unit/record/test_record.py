@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from tests.support.record_samples import block, gear_pair_writer, geometry, mesh_cycle
-from tribodyn.studies.gears.recorded import DOF
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.record.writer import RecordWriter
+from tribodyn.studies.gears.recorded import DOF
 
 SCENARIO = 'title = "test"\n[operating]\ngear_torque = "500 N*m"\n'
 SUMMARY = {

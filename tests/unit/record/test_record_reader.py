@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from tests.support.record_samples import block, gear_pair_writer, geometry
-from tribodyn.studies.gears.recorded import SAMPLES
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
+from tribodyn.studies.gears.recorded import SAMPLES
 
 
 @pytest.fixture
