@@ -74,9 +74,8 @@ def test_a_single_mode_without_bearings_that_give_way(prepared):
         },
     )
     cosine = np.cos(float(case.cycle.pressure_angle[0, 0, 0]))
-    mass = (
-        case.model.bodies.inertia[1] / case.model.meshes[0].driven_radius ** 2
-    )  # the pinion's rotation is prescribed
+    # the pinion's rotation is prescribed
+    mass = case.model.bodies.inertia[1] / case.model.meshes[0].driven_radius ** 2
     mean = float(case.cycle.contact_ratio) * stiffness
     expected = np.sqrt(mean * cosine**2 / mass) / (2 * np.pi)
     assert natural_frequencies(case.model, [case.cycle])[0] == pytest.approx(expected, rel=1e-5)

@@ -149,9 +149,8 @@ def test_period_doubling_in_the_parametric_resonance(resonance):
     back = by_another_solver(case.model, double.state, 2)
     assert scaled(case.model, back - double.state) < 1e-5
     assert scaled(case.model, halfway - double.state) > 0.05
-    assert (
-        np.min(double.samples[:, TURN_G]) < 0.0 < np.max(double.samples[:, TURN_G])
-    )  # the flanks come apart
+    # the flanks come apart
+    assert np.min(double.samples[:, TURN_G]) < 0.0 < np.max(double.samples[:, TURN_G])
 
 
 def test_what_is_returned_is_the_motion_and_not_the_unstable_state_beside_it(resonance):

@@ -82,10 +82,8 @@ class NumpyModel:
         approach = towards * cosine + across * sine - gap
         moved = (towards * slope[0] + across * slope[6] - slope[5]) * self.omega
         approach_rate = towards_rate * cosine + across_rate * sine + moved
-        normal = np.maximum(stiffness @ approach, 0.0) + self.mesh_damping * approach_rate / np.sqrt(
-            compliance
-        )
-        normal = np.maximum(normal, 0.0)
+        damping = self.mesh_damping * approach_rate / np.sqrt(compliance)
+        normal = np.maximum(np.maximum(stiffness @ approach, 0.0) + damping, 0.0)
         u_p = self.omega * speed
         sliding = self.omega * (1.0 + self.w) * r
         u_g = u_p - sliding
@@ -98,9 +96,8 @@ class NumpyModel:
         force_x = -np.sum(normal * cosine + tangential * sine)
         force_y = np.sum(tangential * cosine - normal * sine)
         moment = np.sum(normal * gear_radius * cosine + tangential * (gear_radius * sine - r))
-        forces = (
-            np.array([force_x, force_y, -force_x, -force_y]) - self.springs * y[:4] - self.dampers * y[5:9]
-        )
+        forces = np.array([force_x, force_y, -force_x, -force_y])
+        forces = forces - self.springs * y[:4] - self.dampers * y[5:9]
         turning = (moment - self.load_torque) / self.gear_inertia
         return self.rate * np.concatenate([y[5:], forces / self.masses, [turning]])
 
