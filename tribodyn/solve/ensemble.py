@@ -18,11 +18,14 @@ from tribodyn.solve.integrator import MAX_STEPS, Ensemble, March, Status, nothin
 from tribodyn.solve.methods import AUTO, EXPLICIT, Runs, runs
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import cycles_at_once, make_integrator
+from tribodyn.train.structure import layout_of
 
 #: Explicit steps in one mesh cycle above which a case of a batch is taken out of the lanes and begun again by
 #: itself, with the method that `choice.choose` gives for it: the estimate costs as much as many cycles, so
 #: that it is made for few cases only.
 HANDED_OVER = 5000
+#: Layout of the models of a batch without cases.
+NOTHING = layout_of(0, 0, [], [], 0, 0)
 
 
 def march(
@@ -61,14 +64,15 @@ def march(
     """
     states = np.asarray(states, dtype=float)
     cases = len(models)
-    wanted = (cases, models[0].layout.states if cases else 0)
-    if states.shape != wanted and cases:
-        raise ValueError(f"states have shape {states.shape}, not {wanted} for {cases} models")
+    layout = models[0].layout if cases else NOTHING
+    if cases and states.shape != (cases, layout.states):
+        wanted = f"({cases}, {layout.states}) for {cases} models"
+        raise ValueError(f"states have shape {states.shape}, not {wanted}")
     if not 0 <= window <= cycles:
         raise ValueError(f"a window of {window} cycles does not fit into {cycles}")
     if cycles == 0 or cases == 0:
         # no kernel is made for it: they all do a cycle before they look
-        return nothing_yet(models[0].layout, states, window * samples, extremes)
+        return nothing_yet(layout, states, window * samples, extremes)
     count = workers or usable_cores()
     march = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps, extremes)
     if runs(method) is Runs.JAX:
@@ -101,6 +105,8 @@ def seek_again(models: Sequence[Model], result: Ensemble, plan: March, workers: 
     for cycle in range(plan.window):
         starts = result.samples[:, cycle * plan.samples]
         there = np.flatnonzero(np.all(np.isfinite(starts), axis=1))
+        if not there.size:
+            continue
         again = march(
             [models[case] for case in there.tolist()],
             starts[there],

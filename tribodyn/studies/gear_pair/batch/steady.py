@@ -209,7 +209,7 @@ def steady(
         if motion.kind == FAILED:
             outcomes[i] = failed(motion.last, motion.cycles, motion.message)
         elif motion.period:
-            outcomes[i] = _periodic(motion, samples)
+            outcomes[i] = _periodic(motion, samples, models[i].layout)
         else:
             wandering.append((i, motion))
     for part in range(0, len(wandering), AT_A_TIME):
@@ -228,15 +228,18 @@ def steady(
             outcomes[i] = _described(stretch, motion)
     for i, (_, arrival, continued) in zip(pending, followed, strict=False):
         outcomes[i] = outcomes[i]._replace(
-            state=without_audit(arrival.next_state), ends=arrival.ends, continued=tuple(continued)
+            state=without_audit(arrival.next_state, models[i].layout),
+            ends=arrival.ends,
+            continued=tuple(continued),
         )
     return [outcomes[i] for i in range(len(models))]
 
 
-def _periodic(motion: SteadyMotion, samples: int) -> Outcome:
+def _periodic(motion: SteadyMotion, samples: int, layout: Layout) -> Outcome:
     window = CaseWindow(0, motion.samples, motion.state, motion.end, motion.extremes)
     section = motion.samples[::samples]
-    outcome = Outcome(window, without_audit(motion.state), section, motion.kind, motion.period)
+    state = without_audit(motion.state, layout)
+    outcome = Outcome(window, state, section, motion.kind, motion.period)
     return _described(outcome, motion)._replace(period=motion.period)
 
 
