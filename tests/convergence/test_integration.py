@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from tests.support.states import PAIR, TURN_G, recorded, sampled
+from tests.support.states import TURN_G, WORK_IN, WORK_PARAMETRIC, recorded, sampled
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.march.reversal import SHARES, stops
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.studies.gear_pair.summary import energy_residual
-from tribodyn.train.structure import IN, PARAMETRIC, work_of
 
 SAMPLES = 100
 
@@ -168,13 +167,12 @@ def test_parametric_work_is_there_only_in_the_classical_formulation(prepared):
         case = prepared("crc-23-47", **{"mesh.formulation": formulation})
         _, states = solve(case.model, 1e-7)
         work[formulation] = states[-1] - states[0]
-    given, parametric = work_of(PAIR, IN), work_of(PAIR, PARAMETRIC)
-    assert np.all(work["energy-consistent"][parametric] == 0.0)
-    per_cycle = work["classical"][parametric] / 4
+    assert np.all(work["energy-consistent"][WORK_PARAMETRIC] == 0.0)
+    per_cycle = work["classical"][WORK_PARAMETRIC] / 4
     assert 0.01 < abs(per_cycle) < 0.1
     # the motion is the same, only the drive's work differs, by exactly that
-    assert work["energy-consistent"][given] - work["classical"][given] == pytest.approx(
-        work["classical"][parametric], rel=1e-6
+    assert work["energy-consistent"][WORK_IN] - work["classical"][WORK_IN] == pytest.approx(
+        work["classical"][WORK_PARAMETRIC], rel=1e-6
     )
 
 

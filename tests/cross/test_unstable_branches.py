@@ -13,7 +13,8 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import DOWN, UP, frequency_response
-from tribodyn.studies.gear_pair.prepare import prepare, tables
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.protocol.load import load_scenario
 
 #: Central differences of the state.

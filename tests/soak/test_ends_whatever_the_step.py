@@ -9,7 +9,8 @@ from tribodyn.solve.branch.gear_pairs import GearLines
 from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.orbit.shooting import shoot
-from tribodyn.studies.gear_pair.prepare import prepare, tables
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.protocol.load import load_scenario
 
 #: Lightly damped, at constant stiffness: its doubled motion ends where two multipliers leave the unit circle.

@@ -22,6 +22,7 @@ X_P, Y_P = shift_of(0), shift_of(0) + 1
 X_G, Y_G, TURN_G = shift_of(1), shift_of(1) + 1, turn_of(1, PAIR)
 TURN_M = turn_of(2, PAIR_WITH_MOTOR)
 VX_P, VY_P, VX_G, VY_G, SLIP, SPIN_G = (PAIR.half + i for i in (X_P, Y_P, X_G, Y_G, LAG, TURN_G))
+WORK_IN, WORK_OUT, WORK_DAMPING, WORK_PARAMETRIC, WORK_FRICTION, WORK_SLIDING = works(PAIR)
 
 
 def random_state(rng: np.random.Generator, model: Model, speed: float = 10.0) -> np.ndarray:

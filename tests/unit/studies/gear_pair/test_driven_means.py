@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.parameters import STATES, WORK_DAMPING, WORK_FRICTION, WORK_IN
+from tests.support.states import PAIR, WORK_DAMPING, WORK_FRICTION, WORK_IN
 from tribodyn.record.reader import Record
 from tribodyn.studies.gear_pair.summary import energy_residual
 from tribodyn.studies.protocol.load import load_scenario
@@ -44,8 +44,8 @@ def test_a_load_reversed_without_back_flanks(tmp_path):
 
 def test_energy_residual_without_load():
     """Friction that feeds the vibration and damping that takes it: the drive does next to nothing."""
-    first, last = np.zeros(STATES), np.zeros(STATES)
+    first, last = np.zeros(PAIR.states), np.zeros(PAIR.states)
     last[[WORK_IN, WORK_FRICTION, WORK_DAMPING]] = 1e-9, -2.0, 1.5
-    assert energy_residual(first, last, 0.5 + 1e-9 + 2e-7) == pytest.approx(-1e-7, rel=1e-6)
+    assert energy_residual(first, last, 0.5 + 1e-9 + 2e-7, PAIR) == pytest.approx(-1e-7, rel=1e-6)
     last[[WORK_IN, WORK_FRICTION]] = 3.0, 0.5
-    assert energy_residual(first, last, 1.0 - 3e-7) == pytest.approx(1e-7, rel=1e-6)
+    assert energy_residual(first, last, 1.0 - 3e-7, PAIR) == pytest.approx(1e-7, rel=1e-6)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.parameters import STATES, WORK_FRICTION, WORK_SLIDING
+from tests.support.states import PAIR, WORK_FRICTION, WORK_SLIDING
 from tribodyn.studies.gear_pair.summary import friction_work_on_vibration, warning_of
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -53,12 +53,12 @@ def test_a_warning_reaches_the_terminal(forked, tmp_path):
     ("nominal", "taken", "share"), [(10.0, 5.0, 0.5), (10.0, 12.0, -0.2), (-1.0, 2.0, -3.0)]
 )
 def test_the_share_is_of_the_rotations_loss(nominal, taken, share):
-    work = np.zeros(STATES)
+    work = np.zeros(PAIR.states)
     work[WORK_SLIDING], work[WORK_FRICTION] = nominal, taken
-    assert friction_work_on_vibration(work) == pytest.approx(share)
+    assert friction_work_on_vibration(work, PAIR) == pytest.approx(share)
     assert bool(warning_of(share, "dynamic")) == (share > 0.01)
 
 
 def test_without_friction_there_is_nothing_to_share():
-    assert friction_work_on_vibration(np.zeros(STATES)) is None
+    assert friction_work_on_vibration(np.zeros(PAIR.states), PAIR) is None
     assert warning_of(None, "kinematic") is None

@@ -1,4 +1,4 @@
-"""What a case is made into: the numbers of its mechanics, and enough sweeps over the coupled pairs."""
+"""What a case is made into: the numbers of its model, and enough sweeps over the coupled pairs."""
 
 import math
 from types import SimpleNamespace
@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.contact_forces import ELASTIC_LOAD, XI
+from tests.support.states import PAIR, PAIR_WITH_MOTOR, TURN_G
+from tribodyn.dynamics import parameters
+from tribodyn.dynamics.contact_forces import ELASTIC_LOAD
 from tribodyn.dynamics.data import BearingData, OperatingData
-from tribodyn.dynamics.equations import strain_energy
-from tribodyn.dynamics.parameters import STATES
+from tribodyn.dynamics.energy import strain_energy
 from tribodyn.mesh.cycle import polynomials
 from tribodyn.studies.gear_pair import prepare as preparing
-from tribodyn.studies.gear_pair.prepare import prepare, tables
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.gears.tabulated import tables
 
 PINION, GEAR = (1.7, 0.0021), (9.3, 0.047)
 RADII = 0.031, 0.083
@@ -28,14 +30,15 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
     tabulated = tables(given.case)._replace(cycle=lifted, table=polynomials(lifted))
     model = prepare(given.case, tabulated).model
     assert model.options.sweeps == sweeps
-    y = np.zeros(STATES)
+    (mesh,) = model.meshes
+    y = np.zeros(PAIR.states)
     separated = 0
-    for y[XI] in np.linspace(2e-6, 30e-6, 29):
+    for y[TURN_G] in -np.linspace(2e-6, 30e-6, 29) / mesh.driven_radius:
         loads = []
         for count in (sweeps, 100):
             work: dict = {}
             exact = model._replace(options=model.options._replace(sweeps=count))
-            strain_energy(0.5 * model.table.boundary[1], 0, y, exact, work)
+            strain_energy(0.5 * mesh.table.boundary[1], 0, 0, y, exact, work)
             loads.append([work[ELASTIC_LOAD, i] for i in range(2)])
         separated += min(loads[1]) == 0.0 < max(loads[1])
         np.testing.assert_allclose(loads[0], loads[1], rtol=0, atol=1e-4 * max(loads[1]))
@@ -43,8 +46,9 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
 
 
 def described(**operating: Any) -> Any:
-    """What the mechanics read of a case."""
+    """What a model takes from a case, but the tables and laws."""
     return SimpleNamespace(
+        drive=SimpleNamespace(pinion=SimpleNamespace(teeth=21)),
         operating=OperatingData(
             **{"source": "torque", "pinion_speed": 130.0, "gear_torque": 410.0} | operating
         ),
@@ -54,10 +58,15 @@ def described(**operating: Any) -> Any:
     )
 
 
-def cycle_of(**changed: Any) -> Any:
-    """What they read of a table."""
+def model_of(case: Any) -> parameters.Model:
+    """The model of a case, of tables and laws only what its numbers need."""
     radii = {"pinion_pitch_radius": RADII[0], "gear_pitch_radius": RADII[1]}
-    return SimpleNamespace(**radii | {"hertz_coefficient": 0.0, "pitch_point_length": 0.0} | changed)
+    numbers = {"hertz_coefficient": 0.0, "pitch_point_length": 0.0, "coupling": 0.0, "compliance": 1e-9}
+    cycle = SimpleNamespace(**radii, **numbers)
+    made: Any = SimpleNamespace(cycle=cycle, table=None, schedule=None)
+    law = SimpleNamespace(functions=None, parameters=None)
+    laws: Any = SimpleNamespace(surfaces=None, film=law, friction=law)
+    return preparing._model(case, made, laws, (PINION, GEAR))
 
 
 def slopes_by_hand(times: list[float], values: list[float]) -> list[float]:
@@ -82,48 +91,50 @@ RIGID = {"drive_inertia": 0.013, "speed_regulation": 0.3, "load_damping": 0.4, "
     [SHAFT, RIGID | {"torque_table": TABLE, "torque_harmonics": ((11.0, 300.0, 0.4), (7.0, 900.0, -0.2))}],
     ids=["shaft", "rigid"],
 )
-def test_numbers_of_the_mechanics(operating: dict[str, Any]):
+def test_numbers_of_the_model(operating: dict[str, Any]):
     """Every one of them from what is given, the mass along the path from both inertias."""
     case = described(**operating)
-    found = preparing._mechanics(case, PINION, GEAR, cycle_of())
-    given, (first, second) = case.operating, case.bearings
+    found = model_of(case)
+    given = case.operating
     shaft = "shaft_stiffness" in operating
     mass = 1.0 / (RADII[0] ** 2 / PINION[1] + RADII[1] ** 2 / GEAR[1])
     harmonics = given.torque_harmonics
     times, torques = given.torque_table or ((), ())
+    ratio = 0.031 / 0.083  # both forces along the path of contact are equal
+    # (ratio, stiffness, mass) of every direction
+    damped = (0.02, 3e8, 1.7), (0.03, 5e8, 1.7), (0.05, 7e8, 9.3), (0.07, 11e8, 9.3)
+    first_x, first_y, *second = (2.0 * share * math.sqrt(k * m) for share, k, m in damped)
     expected = {
-        "pinion_mass": 1.7,
-        "gear_mass": 9.3,
-        "pinion_inertia": 0.0021 if shaft else 0.0021 + 0.013,
-        "gear_inertia": 0.047 if shaft else 0.047 + 0.21,
-        "pinion_stiffness_x": 3e8,
-        "pinion_stiffness_y": 5e8,
-        "gear_stiffness_x": 7e8,
-        "gear_stiffness_y": 11e8,
-        "pinion_damping_x": 2.0 * first.damping_ratio_x * math.sqrt(3e8 * 1.7),
-        "pinion_damping_y": 2.0 * first.damping_ratio_y * math.sqrt(5e8 * 1.7),
-        "gear_damping_x": 2.0 * second.damping_ratio_x * math.sqrt(7e8 * 9.3),
-        "gear_damping_y": 2.0 * second.damping_ratio_y * math.sqrt(11e8 * 9.3),
-        # c = 2 ζ √(k m) of a stiffness k = 1
-        "mesh_damping": 2.0 * 0.06 * math.sqrt(mass),
-        "contact_width": 2e-7,
-        "reversal_width": 4e-5,
-        "nominal_speed": 130.0,
-        # both forces along the path of contact are equal
-        "drive_torque": 170.0 if shaft else 410.0 / 0.083 * 0.031,
-        "speed_regulation": 0.0 if shaft else 0.3,
-        "drive_inertia": 0.013,
-        "shaft_stiffness": 4100.0 if shaft else 0.0,
-        "shaft_damping": 0.9 if shaft else 0.0,
-        "load_torque": 410.0,
-        "load_damping": 0.0 if shaft else 0.4,
-        "load_times": times,
-        "load_torques": torques,
-        "load_slopes": [] if shaft else slopes_by_hand(*map(list, TABLE)),
-        "load_amplitudes": [harmonic[0] for harmonic in harmonics],
-        "load_frequencies": [harmonic[1] for harmonic in harmonics],
-        "load_phases": [harmonic[2] + 0.5 * math.pi for harmonic in harmonics],
+        "bodies": {
+            "mass": [1.7, 9.3],
+            "inertia": [0.0021, 0.047, 0.013] if shaft else [0.0021 + 0.013, 0.047 + 0.21],
+            "ratio": [1.0, ratio, 1.0] if shaft else [1.0, ratio],
+            "load": [0.0, 410.0, 0.0] if shaft else [0.0, 410.0],
+            "load_damping": [0.0, 0.0, 0.0] if shaft else [0.0, 0.4],
+        },
+        "links": {
+            "stiffness": [[3e8, 5e8, 0], [7e8, 11e8, 0], *([[0, 0, 4100.0]] if shaft else [])],
+            "damping": [[first_x, first_y, 0], [*second, 0], *([[0, 0, 0.9]] if shaft else [])],
+        },
+        "operation": {
+            "nominal_speed": 130.0,
+            "pitch_angle": 2.0 * math.pi / 21,
+            "drive_torque": 170.0 if shaft else 410.0 * ratio,
+            "speed_regulation": 0.0 if shaft else 0.3,
+            "contact_width": 2e-7,
+            "reversal_width": 4e-5,
+            "load_times": times,
+            "load_torques": torques,
+            "load_slopes": [] if shaft else slopes_by_hand(*map(list, TABLE)),
+            "load_amplitudes": [harmonic[0] for harmonic in harmonics],
+            "load_frequencies": [harmonic[1] for harmonic in harmonics],
+            "load_phases": [harmonic[2] + 0.5 * math.pi for harmonic in harmonics],
+        },
     }
-    assert set(expected) == set(found._fields)
-    for name, value in expected.items():
-        np.testing.assert_allclose(getattr(found, name), value, rtol=1e-12, err_msg=name)
+    for part, numbers in expected.items():
+        assert set(numbers) == set(getattr(found, part)._fields)
+        for name, value in numbers.items():
+            np.testing.assert_allclose(getattr(getattr(found, part), name), value, rtol=1e-12, err_msg=name)
+    # c = 2 ζ √(k m) of a stiffness k = 1
+    assert found.meshes[0].damping == pytest.approx(2.0 * 0.06 * math.sqrt(mass), rel=1e-12)
+    assert found.layout == (PAIR_WITH_MOTOR if shaft else PAIR)

@@ -6,9 +6,9 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.parameters import (
+from tests.support.states import (
     LAG,
-    STATES,
+    PAIR,
     WORK_DAMPING,
     WORK_FRICTION,
     WORK_IN,
@@ -38,6 +38,12 @@ CYCLE = cast(
         pitch_angle=PITCH,
     ),
 )
+MODEL = SimpleNamespace(
+    layout=PAIR,
+    options=SimpleNamespace(layout=PAIR),
+    meshes=[SimpleNamespace(driver_radius=CYCLE.pinion_pitch_radius, driven_radius=RADIUS)],
+)
+PREPARED = cast(Any, SimpleNamespace(cycle=CYCLE, model=MODEL))
 
 
 def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
@@ -52,7 +58,7 @@ def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
     sliding[:, own] = np.array([2.0, -1.0])
     error[:, own] = 2e-5 + 3e-6 * np.cos(2.0 * np.pi * phase)[:, None]
     error[:, own.stop - 1] += 1e-6
-    work = np.zeros(STATES)
+    work = np.zeros(PAIR.states)
     work[LAG] = TIME - CYCLES * PITCH / SPEED
     gear = way * torque * 40.0 * TIME
     work[WORK_OUT], work[WORK_FRICTION], work[WORK_SLIDING] = gear, 0.02 * torque, 0.025 * torque
@@ -79,7 +85,7 @@ def quantities_of(block, work):
     none = {name: np.full(count, np.nan) for name, _ in RECORDED.values() if name not in block}
     extremes = RunningExtremes(CYCLE)
     extremes.add(cycles, {**block, **none, "time": cycles})
-    return steady_quantities(block, work, CYCLE, SAMPLES, SPEED, extremes)
+    return steady_quantities(block, work, PREPARED, SAMPLES, SPEED, extremes)
 
 
 @pytest.mark.parametrize("way", [1, -1], ids=["pinion", "gear"])
@@ -180,9 +186,9 @@ def test_the_roll_angle_of_an_extreme_is_that_of_its_pair():
 
 
 def test_what_is_missing_in_the_balance_of_energy():
-    first, last = np.zeros(STATES), np.zeros(STATES)
+    first, last = np.zeros(PAIR.states), np.zeros(PAIR.states)
     last[[WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING]] = 100.0, 90.0, 4.0, 3.0
     last[WORK_PARAMETRIC] = 2.0
-    assert energy_residual(first, last, 5.0) == pytest.approx(0.0, abs=1e-15)
-    assert energy_residual(first, last, 3.0) == pytest.approx(0.02)
-    assert energy_residual(last, last, 0.0) == 0.0
+    assert energy_residual(first, last, 5.0, PAIR) == pytest.approx(0.0, abs=1e-15)
+    assert energy_residual(first, last, 3.0, PAIR) == pytest.approx(0.02)
+    assert energy_residual(last, last, 0.0, PAIR) == 0.0

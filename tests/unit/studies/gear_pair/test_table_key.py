@@ -5,8 +5,9 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tribodyn.studies.gear_pair.prepare import prepare, tables
+from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears.same_table import table_key
+from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.protocol.load import load_scenario
 
 #: Overrides that leave the table alone, and overrides that do not.
@@ -46,10 +47,11 @@ def test_equal_keys_mean_equal_tables(key: str):
     assert same.masses == made.masses
     for ours, theirs in zip(same.cycle, made.cycle, strict=True):
         np.testing.assert_array_equal(ours, theirs)
-    for ours, theirs in zip(same.model.table, made.model.table, strict=True):
+    for ours, theirs in zip(same.model.meshes[0].table, made.model.meshes[0].table, strict=True):
         np.testing.assert_array_equal(ours, theirs)
-    for ours, theirs in zip(same.model.mechanics, made.model.mechanics, strict=True):
-        np.testing.assert_array_equal(ours, theirs)
+    for part in ("bodies", "links", "schedule", "operation"):
+        for ours, theirs in zip(getattr(same.model, part), getattr(made.model, part), strict=True):
+            np.testing.assert_array_equal(ours, theirs)
 
 
 @pytest.mark.parametrize("key", INSIDE)

@@ -18,4 +18,4 @@ def test_a_place_on_the_way_has_its_own_speed(speed, prepared):
     assert prepared_at(0, 600.0) is at_target
     found = prepared_at(0, speed)
     assert found.case.operating.pinion_speed == pytest.approx(speed)
-    assert float(found.model.mechanics.nominal_speed) == pytest.approx(speed)
+    assert float(found.model.operation.nominal_speed) == pytest.approx(speed)
