@@ -5,8 +5,10 @@ import importlib
 import numpy as np
 import pytest
 
+from tribodyn.record.sweep_schema import FAILED
 from tribodyn.studies.gear_pair.batch import GearPairs
 from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.sweeping.batch import Chunk
 
 evaluate = importlib.import_module("tribodyn.studies.gear_pair.batch.evaluate")
 
@@ -29,3 +31,11 @@ def test_a_moving_error_does_not_carry_one_speed_over_to_another(torque: str):
 
     assert starts([0, 1]) == starts([1, 0]) == {**starts([0]), **starts([1])}
     assert np.all(np.isfinite(np.frombuffer(starts([1])[1])))
+
+
+def test_cases_that_all_fail_before_their_window_say_why():
+    case = load_scenario("crc-23-47", {"solver.max_steps": 10})
+    settings = GearPairs().settings([case], 4, "native")
+    rows = evaluate.evaluate(Chunk(np.arange(1), (case,)), settings)
+    assert rows["status"].tolist() == [FAILED]
+    assert "the limit of steps" in rows["message"][0]
