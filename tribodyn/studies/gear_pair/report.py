@@ -15,6 +15,7 @@ from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
 from tribodyn.studies.protocol.cost import variable_bytes
 from tribodyn.studies.sweeping import branches
+from tribodyn.train.structure import Layout
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
@@ -88,12 +89,20 @@ SAMPLE = Variable(("sample",), "1", "phase of the mesh in mesh cycles, from the 
 CYCLE = Variable(("cycle",), "1", "mesh cycle, counted from the first that was kept")
 MODE = Variable(("mode",), "1", "mode of vibration, lowest first")
 RETURN = Variable(("return",), "1", "mesh cycle of an unstable motion")
-STATE_VARIABLE = Variable(("state_variable",), "1", "state of the model, see tribodyn.dynamics.parameters")
+STATE_VARIABLE = Variable(("state_variable",), "1", "state of the model, see tribodyn.train.structure")
+#: Those of a pair with a motor behind a shaft, as `train.structure.Layout` has them.
 STATE_NAMES = (
-    *("x_p", "y_p", "x_g", "y_g", "lag", "xi", "twist"),
-    *("vx_p", "vy_p", "vx_g", "vy_g", "slip", "xi_rate", "motor_slip"),
-    *("work_in", "work_out", "work_friction", "work_damping", "work_parametric", "work_sliding"),
+    *("x_p", "y_p", "lag", "x_g", "y_g", "turn_g", "turn_m"),
+    *("vx_p", "vy_p", "slip", "vx_g", "vy_g", "spin_g", "spin_m"),
+    *("work_in", "work_out", "work_damping", "work_parametric", "work_friction", "work_sliding"),
 )
+_OF_MOTOR = ("turn_m", "spin_m")
+
+
+def state_places(layout: Layout) -> list[int]:
+    """Places of a pair's states among `STATE_NAMES`; without a shaft those of the motor are NaN."""
+    motor = layout.bodies > 2
+    return [i for i, name in enumerate(STATE_NAMES) if motor or name not in _OF_MOTOR]
 
 
 def row_bytes(settings: Any) -> float:

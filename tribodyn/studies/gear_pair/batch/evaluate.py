@@ -32,7 +32,7 @@ from tribodyn.studies.gear_pair.batch.steady import (
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.outputs import MESH, outputs_with_extremes
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
-from tribodyn.studies.gear_pair.report import SWEPT, UNSTABLE_QUANTITIES, layout_of
+from tribodyn.studies.gear_pair.report import SWEPT, UNSTABLE_QUANTITIES, layout_of, state_places
 from tribodyn.studies.gear_pair.summary import RunningExtremes, judge_block, steady_quantities, warning_of
 from tribodyn.studies.gears.check import remarks_in_brief
 from tribodyn.studies.gears.prepare import MOST_MOTIONS, at_own_temperature, thermal_quantities
@@ -164,7 +164,9 @@ def _evaluate(chunk: Chunk, settings: SweepSettings, workers: int | None) -> dic
         try:
             prepared = prepare(case, tabulated(case))
             given = None if chunk.states is None or np.isnan(chunk.states[i, 0]) else chunk.states[i]
-            start = _start(prepared, settings) if given is None else given[: prepared.model.layout.states]
+            start = (
+                _start(prepared, settings) if given is None else given[state_places(prepared.model.layout)]
+            )
             ready[i] = prepared, start
             frequencies = natural_frequencies(prepared.model, [prepared.cycle])
             rows["mode_frequency"][i, : len(frequencies)] = frequencies
@@ -242,7 +244,7 @@ def _fill(
     rows["transmission_error_rotational"][i, :whole] = np.resize(error, whole)
     rows["poincare_error"][i, : len(outcome.section)] = rotational_error(section, MESH, model)
     rows["poincare_rate"][i, : len(outcome.section)] = rotational_error_rate(section, MESH, model)
-    rows["state"][i, : len(outcome.state)] = outcome.state
+    rows["state"][i, state_places(model.layout)] = outcome.state
     if settings.followed:
         fill_ends(rows, i, outcome.ends)
     rows["status"][i] = DONE
