@@ -203,7 +203,7 @@ def test_a_derivative_costs_less_than_the_marches_of_its_differences(prepared, c
     model = prepared("crc-23-47", **{"operating.pinion_speed": "400 rad/s", "friction.law": law}).model
     row, start = np.zeros(1, dtype=int), static_equilibrium(model)[None]
     settings = {"solver": "dopri5", "rtol": 1e-6, "fine_rtol": 1e-9, "max_steps": 10**6, "workers": 1}
-    period_map = GearMap([model], start, moving_states(model).states, **settings)
+    period_map = GearMap([model], start, moving_states(model), **settings)
     state = start[:, period_map.moving]
 
     def exact():

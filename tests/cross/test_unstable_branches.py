@@ -6,10 +6,12 @@ from scipy.interpolate import CubicSpline
 
 from tests.support.foreign_marching import gear_march, oscillator_march
 from tests.support.harmonic_balance import HarmonicBalance, turning_points
+from tribodyn.errors import InputError
 from tribodyn.solve.branch.arclength import FOLD, MERGING, PERIOD_DOUBLING
 from tribodyn.solve.branch.continuation import Leg
-from tribodyn.solve.branch.gear_pairs import UnstableRange, followed_states
+from tribodyn.solve.branch.gear_pairs import GearLines, UnstableRange, followed_states
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import DOWN, UP, frequency_response
@@ -106,3 +108,16 @@ def test_round_the_fold_of_a_gear_pair():
         end = gear_march(model_at(0, value), steady.state, 1, 1e-10 * scale)[-1]
         moving = np.flatnonzero(steady.state)
         assert np.max(np.abs(end - steady.state)[moving] / scale[moving]) < 1e-5
+
+
+def test_where_no_line_has_a_gear_pair_nothing_is_marched(prepared):
+    def model_at(line, value):
+        raise InputError("drive.module", value, "no teeth", "take another")
+
+    model = prepared("crc-23-47").model
+    settings = {"solver": "dopri5", "rtol": 1e-6, "fine_rtol": 1e-9, "max_steps": 10**6, "workers": 1}
+    lines = GearLines(model_at, {0: static_equilibrium(model)}, moving_states(model), **settings)
+    period_map, (refusal,) = lines.at([0], [0.5])
+    assert "no teeth" in refusal
+    marched = period_map.march(np.empty((0, 10)), np.empty(0, dtype=int), 2, False)
+    assert marched.states.shape == (0, 2, 10)

@@ -33,7 +33,7 @@ FILM = {"friction.sliding": "kinematic"}
 def gear_map(model, **settings):
     start = static_equilibrium(model)
     given = {"solver": "dopri5", "rtol": 1e-6, "fine_rtol": 1e-9, "max_steps": 10**6, "workers": 1}
-    return GearMap([model], start[None], moving_states(model).states, **{**given, **settings})
+    return GearMap([model], start[None], moving_states(model), **{**given, **settings})
 
 
 def settled(model):

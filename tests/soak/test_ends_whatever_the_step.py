@@ -42,7 +42,7 @@ def test_a_neimark_sacker_point():
     family = GearLines(model_at, {0: begin.state}, moving, **settings)
     located, last = {}, None
     for name, values in WAYS.items():
-        leg = Leg(0, START, START, begin.state[list(moving)], 2, reach=START)
+        leg = Leg(0, START, START, begin.state[list(moving.states)], 2, reach=START)
         for value in values:
             leg = leg._replace(target=value)
             (arrival,) = follow(family, [leg])

@@ -13,6 +13,7 @@ from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_response
 from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.gear_pair.report import state_places
 from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.sweep.engines import LocalEngine
@@ -107,7 +108,8 @@ def test_a_gear_pair(number: int, tmp_path: Path):
         states, period, status = record["state"], record["period"], record["status"]
         located = [record["end_value"][:, way].ravel() for way in (0, 1)]
     model = model_at(first)
-    moving = moving_states(model)
+    moving = moving_states(model).states
+    states = states[..., state_places(model.layout)]
     scale = state_scales(model, states[0, 0])
 
     def march(value: float, state: np.ndarray, cycles: int) -> np.ndarray:

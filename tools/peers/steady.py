@@ -158,12 +158,12 @@ def table(repeats: int, target: float) -> str:
 
 def cycles_needed(models: list[Model], starts: Array) -> Array:
     """Mesh cycles after which each motion repeats within TOLERANCE, at most as many as the sweep takes."""
-    moving = moving_states(models[0]).states
+    moving = moving_states(models[0])
     period_map = GearMap(
         models, starts, moving, solver="dopri5", rtol=1e-9, fine_rtol=1e-9, max_steps=10**6, workers=None
     )
     needed = np.full(len(models), MOST_CYCLES)
-    way = starts[:, None, list(moving)]
+    way = starts[:, None, list(moving.states)]
     open_cases, before = np.arange(len(models)), 0
     while open_cases.size and before < MOST_CYCLES:
         on = period_map.march(way[:, -1], open_cases, 50, True).states

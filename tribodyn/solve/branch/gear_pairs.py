@@ -10,7 +10,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.solve.branch.continuation import Arrival, Leg, follow
 from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.choice import choose
-from tribodyn.solve.orbit.gear_map import GearMap, moving_states
+from tribodyn.solve.orbit.gear_map import GearMap, Moving, moving_states
 from tribodyn.solve.orbit.motions import PeriodMap
 from tribodyn.solve.orbit.periodic import FINE, SteadyMotion, sampled
 
@@ -44,9 +44,7 @@ class UnstableRange(NamedTuple):
 class GearLines:
     """Gear pairs on lines along a parameter, as `arclength.SystemFamily`; `starts` scale the states."""
 
-    def __init__(
-        self, model_at: ModelAt, starts: dict[int, np.ndarray], moving: tuple[int, ...], **settings: Any
-    ):
+    def __init__(self, model_at: ModelAt, starts: dict[int, np.ndarray], moving: Moving, **settings: Any):
         self.model_at, self.starts = model_at, starts
         self.moving, self.settings = moving, settings
 
@@ -94,7 +92,7 @@ def followed_states(
         rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
         starts = {legs[number].line: legs[number].state for number in numbers}
         settings = {"solver": method, "max_steps": max_steps, "workers": workers, **rtols}
-        family = GearLines(model_at, starts, moving.states, **settings)
+        family = GearLines(model_at, starts, moving, **settings)
         short = [legs[number]._replace(state=legs[number].state[list(moving.states)]) for number in numbers]
         most = max(1, max_cycles // moving.period)
         arrivals = follow(family, short, tolerance=tolerance, max_periods=most)

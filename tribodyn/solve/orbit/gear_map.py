@@ -53,7 +53,7 @@ class GearMap:
         self,
         models: Sequence[Model],
         starts: Float[Array, "case state"],
-        moving: tuple[int, ...],
+        moving: Moving,
         *,
         solver: str,
         rtol: float,
@@ -62,8 +62,8 @@ class GearMap:
         workers: int | None,
     ):
         self.models = models
-        self.layout, self.cycles = models[0].layout, models[0].schedule.period
-        self.moving = list(moving)
+        self.kind, self.layout, self.cycles = moving, moving.layout, moving.period
+        self.moving = list(moving.states)
         self.rtol = {False: rtol, True: min(rtol, fine_rtol)}
         self.settings: dict[str, Any] = {"max_steps": max_steps, "workers": workers}
         self.solvers = [choose(solver, m, y).method for m, y in zip(models, starts, strict=True)]

@@ -94,7 +94,7 @@ def steady_states(
     rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
     for moving, starts in groups.items():
         begin = np.array(list(starts.values()))
-        period_map = GearMap([models[case] for case in starts], begin, moving.states, **rtols, **settings)
+        period_map = GearMap([models[case] for case in starts], begin, moving, **rtols, **settings)
         most = max(1, max_cycles // period_map.cycles)
         limits: dict[str, Any] = {"tolerance": tolerance, "max_periods": most, "method": method}
         orbits = find(period_map, begin[:, list(moving.states)], progress=progress, **limits)
@@ -115,7 +115,7 @@ def _search_finely(before: GearMap, orbits: list[Orbit], tolerance: float, setti
         return
     models, begin = [before.models[i] for i in noisy], np.array([orbits[i].last for i in noisy])
     rtol = {"rtol": FINE * tolerance, "fine_rtol": FINE**2 * tolerance}
-    finest = GearMap(models, before.full(begin), tuple(before.moving), **rtol, **settings)
+    finest = GearMap(models, before.full(begin), before.kind, **rtol, **settings)
     finer = find(finest, begin, tolerance=tolerance, max_periods=ONCE_MORE)
     for i, orbit in zip(noisy, finer, strict=True):
         if orbit.period and orbit.stable:
