@@ -21,6 +21,7 @@ PAGE = DOCS / "licences.md"
 #: What is not installed with the tests, and what metadata say without naming the licence, read in its files.
 READ_BY_HAND = {
     "editables": "MIT",
+    "exudyn": "its own, in the words of BSD-3-Clause",
     "scikit-sundae": "BSD-3-Clause",
     "diffrax": "Apache-2.0",
     "equinox": "Apache-2.0",

@@ -8,7 +8,8 @@ import pytest
 from tests.support.closures import LIU_NI, MIXED, VECIANA, coulomb, under
 from tests.support.compile_fast import ONE_CALL
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
-from tribodyn.dynamics.parameters import STATES, Model
+from tests.support.states import PAIR
+from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.native import kernel
 from tribodyn.solve.jax.integrator import right_hand_side
 from tribodyn.tribology.contact import local_contact
@@ -152,5 +153,5 @@ def test_a_changed_number_compiles_nothing_again(prepared):
     ]
     for model in (base, *others):
         numbers = jax.tree.map(jnp.asarray, model.numbers)
-        f(jnp.zeros(STATES), numbers)
+        f(jnp.zeros(PAIR.states), numbers)
     assert traces == 1

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from tests.support.compilations import compilations
+from tests.support.feeding_bearing import fed_by_a_bearing
+from tests.support.states import TURN_G, X_G, X_P, Y_G, Y_P, altered
 from tests.support.verbs import invoke, sets
-from tribodyn.dynamics.parameters import XI
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE as RECORDED
 from tribodyn.record.sweep_schema import FAILED
@@ -43,12 +44,10 @@ def motors(prepared):
     balanced = 500.0 * 23 / 47
     base = prepared("crc-23-47-300", **MOTOR).model
     models = [
-        base._replace(
-            mechanics=base.mechanics._replace(
-                nominal_speed=speed,
-                drive_torque=torque,
-                load_torque=500.0 * torque / balanced if torque > 100 else 500.0,
-            )
+        altered(
+            base,
+            operation={"nominal_speed": speed, "drive_torque": torque},
+            bodies={"load": np.array([0.0, 500.0 * torque / balanced if torque > 100 else 500.0])},
         )
         for speed, torque in ((300.0, balanced), (420.0, 0.8 * balanced), (10.0, 20.0), (350.0, balanced))
     ]
@@ -71,9 +70,9 @@ def test_jax_and_lanes_agree_and_tell_the_same_failure(motors):
     assert 0 <= native.reached[2] - mapped.reached[2] < 1
     assert np.isnan(mapped.samples[2]).all()
     for case in (0, 1, 3):
-        ours, theirs = native.samples[case, :, XI], mapped.samples[case, :, XI]
+        ours, theirs = native.samples[case, :, TURN_G], mapped.samples[case, :, TURN_G]
         assert np.max(np.abs(ours - theirs)) < AGREE * np.ptp(ours)
-        assert mapped.state[case, XI] == pytest.approx(native.state[case, XI], rel=AGREE)
+        assert mapped.state[case, TURN_G] == pytest.approx(native.state[case, TURN_G], rel=AGREE)
 
 
 def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled):
@@ -87,13 +86,16 @@ def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled
     for name in set(whole._fields) - {"extremes"}:  # none are asked for
         np.testing.assert_array_equal(getattr(fewer, name), getattr(whole, name)[order], err_msg=name)
     heavier = [
-        model._replace(
-            mechanics=model.mechanics._replace(
-                load_torque=1.1 * model.mechanics.load_torque, mesh_damping=0.5 * model.mechanics.mesh_damping
-            ),
-            film=model.film._replace(log_inlet_viscosity=model.film.log_inlet_viscosity + np.log(2.0)),
+        altered(
+            model,
+            bodies={"load": 1.1 * model.bodies.load},
+            mesh={
+                "damping": 0.5 * mesh.damping,
+                "film": mesh.film._replace(log_inlet_viscosity=mesh.film.log_inlet_viscosity + np.log(2.0)),
+            },
         )
         for model in models
+        for mesh in model.meshes
     ]
     others = ensemble.march([*heavier, *models, *heavier], np.tile(states, (3, 1)), samples=17, **settings)
     assert np.sum(others.status == Status.DONE) == 9
@@ -105,15 +107,16 @@ def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled
 def test_a_motion_that_grows_without_bound_ends_alone(motors):
     """Of a bearing that feeds whatever moves in it, in JAX as in lanes."""
     models, states = motors
-    fed = models[0]._replace(mechanics=models[0].mechanics._replace(gear_damping_y=-2e5))
+    fed = fed_by_a_bearing(models[0])
     settings = {"cycles": 5, "window": 1, "samples": 12, "rtol": 1e-6}
     ended = {
         method: ensemble.march([fed, models[1]], states[:2], method=method, **settings)
         for method in ("auto", "tsit5")
     }
+    places = [X_P, Y_P, X_G, Y_G]
     for found in ended.values():
         assert found.status.tolist() == [Status.UNBOUNDED, Status.DONE]
-        assert np.max(np.abs(found.state[0, :4])) < 1.0
+        assert np.max(np.abs(found.state[0, places])) < 1.0
     assert 0 <= ended["auto"].reached[0] - ended["tsit5"].reached[0] < 1
 
 

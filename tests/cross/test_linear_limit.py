@@ -5,10 +5,10 @@ import pytest
 from scipy.linalg import expm
 
 from tests.support.linear_mesh import FREE, OVERRIDES, SEGMENTS, generator, matrices
-from tests.support.states import sampled
-from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES
+from tests.support.states import PAIR, SLIP, sampled
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.transient import TransientSettings
+from tribodyn.train.structure import displacements
 
 
 @pytest.fixture(scope="module")
@@ -22,12 +22,12 @@ def test_modes_are_the_eigenvalues_of_the_assembled_matrices(case):
         inverse = np.linalg.inv(mass)
         system = np.block([[np.zeros((5, 5)), np.eye(5)], [-inverse @ stiffness, -inverse @ damping]])
         expected = np.sort_complex(np.linalg.eigvals(system))
-        phase = float(np.mean(case.model.table.boundary[segment : segment + 2]))
+        phase = float(np.mean(case.model.meshes[0].table.boundary[segment : segment + 2]))
         y = static_equilibrium(case.model, phase, segment)
-        rate = case.model.table.pitch_angle / case.model.mechanics.nominal_speed
+        rate = case.model.operation.pitch_angle / case.model.operation.nominal_speed
         columns = []
         for i in FREE:
-            step = 1e-9 if i in DISPLACEMENTS else 1e-5
+            step = 1e-9 if i in displacements(PAIR) else 1e-5
             up, down = y.copy(), y.copy()
             up[i] += step
             down[i] -= step
@@ -47,7 +47,7 @@ def test_run_follows_the_matrix_exponential(case):
     samples = 100
     y = static_equilibrium(case.model)
     _, states = sampled(case.model, TransientSettings("dopri5", 1e-10, 2, 100000, samples), y)
-    boundary = np.asarray(case.model.table.boundary)
+    boundary = np.asarray(case.model.meshes[0].table.boundary)
     z = y[FREE]
     generators = {segment: generator(case, pairs) for segment, pairs in SEGMENTS}
     expected = []
@@ -64,4 +64,4 @@ def test_run_follows_the_matrix_exponential(case):
     scale = np.ptp(np.array(expected), axis=0)
     assert np.max(np.abs(ours - np.array(expected)) / scale) < 1e-7
     assert np.all(states[:, SLIP] == 0.0)
-    assert states.shape[1] == STATES
+    assert states.shape[1] == PAIR.states

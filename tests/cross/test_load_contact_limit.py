@@ -10,7 +10,7 @@ from tests.support.states import recorded, sampled
 from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.slices import face_positions
-from tribodyn.studies.gear_pair.outputs import outputs, segment_of
+from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
@@ -24,6 +24,7 @@ from tribodyn.geometry.flanks.modification import (
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import TransientSettings
 from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.train.schedule import interval_of
 from tribodyn.tribology.law import FrictionData
 
 SAMPLES = 100
@@ -75,7 +76,10 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
     run = prepare(dataclasses.replace(case, friction=FrictionData("masjedi-khonsari")))
     model, cycle = run.model, run.cycle
     phase = (np.arange(24) + 0.5) / 24
-    states = np.stack([static_equilibrium(model, at, int(segment_of(at, cycle.boundary))) for at in phase])
+    _, _, interval = interval_of(phase, model.schedule)
+    states = np.stack(
+        [static_equilibrium(model, at, number) for at, number in zip(phase, interval.tolist(), strict=True)]
+    )
     found = outputs(phase, states, model)
     # the creep's own flow has no share in the friction: nominal sliding
     power = np.abs(found["friction_force"] * np.nan_to_num(found["sliding_speed"]))
@@ -90,7 +94,7 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
     entrainment, sliding = found["entrainment_speed"][..., None], found["sliding_speed"][..., None]
     with np.errstate(under="ignore", over="ignore", invalid="ignore"):
         surface = known(
-            model.closure,
+            model.closure(0),
             np.maximum(shared.slice_load, 1e-3) * 11 / flexible.width,
             1.0 / radius,
             entrainment,

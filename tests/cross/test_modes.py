@@ -6,17 +6,9 @@ import numpy as np
 import pytest
 
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.parameters import (
-    DISPLACEMENTS,
-    DRIVE_SHAFT,
-    MOTOR_SLIP,
-    SLIP,
-    STATES,
-    TWIST,
-    VELOCITIES,
-    frictionless,
-)
+from tribodyn.dynamics.parameters import frictionless
 from tribodyn.solve.initial import accelerations, static_equilibrium
+from tribodyn.train.structure import displacements, velocities
 
 PHASES = 8
 
@@ -27,22 +19,17 @@ def by_differences(model) -> np.ndarray:
     At every phase about the state at which the loads there balance.
     """
     model = frictionless(model)
-    shaft = model.options.drive == DRIVE_SHAFT
-    free = [*DISPLACEMENTS, *([TWIST] if shaft else [])]
-    shift = np.zeros((len(free), STATES))
+    free = displacements(model.layout)
+    shift = np.zeros((len(free), model.layout.states))
     shift[range(len(free)), free] = 1e-9
-    boundary = np.asarray(model.table.boundary)
-    seconds = float(model.table.pitch_angle) / model.mechanics.nominal_speed
+    seconds = model.operation.pitch_angle / model.operation.nominal_speed
     mean = 0.0
-    for segment, (start, end) in enumerate(pairwise(boundary)):
+    for segment, (start, end) in enumerate(pairwise(model.meshes[0].table.boundary)):
         for phase in start + (end - start) * (np.arange(PHASES) + 0.5) / PHASES:
             at = static_equilibrium(model, phase, segment)
             up, down = (accelerations(at + sign * shift, phase, segment, model) for sign in (1, -1))
             slope = (up - down) / 2e-9 / seconds
-            rates = slope[:, list(VELOCITIES)]
-            if shaft:
-                rates = np.column_stack([rates, slope[:, MOTOR_SLIP] - slope[:, SLIP]])
-            mean = mean + rates.T * (end - start) / PHASES
+            mean = mean + slope[:, velocities(model.layout)].T * (end - start) / PHASES
     return np.sqrt(np.sort(np.linalg.eigvals(-mean).real)) / (2 * np.pi)
 
 
@@ -65,8 +52,8 @@ SOFT = {f"bearings.{side}.stiffness_y": "2e8 N/m" for side in ("pinion", "gear")
 def test_modes_are_those_of_the_right_hand_side(prepared, name, overrides):
     case = prepared(name, **overrides)
     model = case.model
-    found = natural_frequencies(model, case.cycle)
-    assert len(found) == (6 if model.options.drive == DRIVE_SHAFT else 5)
+    found = natural_frequencies(model, [case.cycle])
+    assert len(found) == (6 if "operating.shaft_stiffness" in overrides else 5)
     # the mean is over the nodes of the table here, over a few midpoints there
     np.testing.assert_allclose(found, by_differences(model), rtol=1e-3)
 
@@ -86,9 +73,8 @@ def test_a_single_mode_without_bearings_that_give_way(prepared):
             },
         },
     )
-    m, t = case.model.mechanics, case.model.table
     cosine = np.cos(float(case.cycle.pressure_angle[0, 0, 0]))
-    mass = m.gear_inertia / t.gear_pitch_radius**2  # the pinion's rotation is prescribed
+    mass = case.model.bodies.inertia[1] / case.model.meshes[0].driven_radius**2  # the pinion's rotation is prescribed
     mean = float(case.cycle.contact_ratio) * stiffness
     expected = np.sqrt(mean * cosine**2 / mass) / (2 * np.pi)
-    assert natural_frequencies(case.model, case.cycle)[0] == pytest.approx(expected, rel=1e-5)
+    assert natural_frequencies(case.model, [case.cycle])[0] == pytest.approx(expected, rel=1e-5)

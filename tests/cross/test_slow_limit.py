@@ -20,8 +20,8 @@ def test_loads_at_creep_equal_the_quasi_static_ones(prepared, name, samples, wit
     case = prepared(name, **SLOW, **({"friction.law": "none"} | law))
     assert case.cycle.front_pairs == max(compared)
     found = creep(case, samples=samples)
-    boundary = np.asarray(case.model.table.boundary)
-    width = 2 * case.model.mechanics.reversal_width
+    boundary = np.asarray(case.model.meshes[0].table.boundary)
+    width = 2 * case.model.operation.reversal_width
     count = dict.fromkeys(compared, 0)
     for k in range(samples):
         phase = k / samples

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.support.states import sampled
-from tribodyn.dynamics.parameters import XI
+from tests.support.states import TURN_G, sampled
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.methods import METHODS, Runs
@@ -37,7 +36,7 @@ QUICK = [name for name, entry in METHODS.items() if entry.runs is Runs.NATIVE]
 def test_dte_agrees_to_1e_4_of_its_range_at_rtol_1e_7(reference, method):
     model, exact = reference
     ours = solve(model, method, 1e-7)
-    error = np.max(np.abs(ours[:, XI] - exact[:, XI])) / np.ptp(exact[:, XI])
+    error = np.max(np.abs(ours[:, TURN_G] - exact[:, TURN_G])) / np.ptp(exact[:, TURN_G])
     assert error < 1e-4
 
 
@@ -46,7 +45,7 @@ def test_independent_codes_agree(method, prepared):
     """The short part of the same: the native method, SciPy's and diffrax's at a tight tolerance."""
     model = prepared("crc-23-47", **{"operating.pinion_speed": "300 rad/s"}).model
     native, other = solve(model, "dopri5", 1e-9), solve(model, method, 1e-9)
-    assert np.max(np.abs(native[:, XI] - other[:, XI])) / np.ptp(other[:, XI]) < 1e-6
+    assert np.max(np.abs(native[:, TURN_G] - other[:, TURN_G])) / np.ptp(other[:, TURN_G]) < 1e-6
 
 
 @pytest.mark.slow

@@ -4,22 +4,25 @@ import numpy as np
 import pytest
 
 from tests.support.linear_mesh import FREE, OVERRIDES, SEGMENTS, generator, over_a_cycle
-from tribodyn.dynamics.parameters import (
-    LAG,
-    MOTOR_SLIP,
-    SLIP,
-    WORK_DAMPING,
-    WORK_FRICTION,
-    WORK_OUT,
-    WORKS,
-    XI,
-)
+from tests.support.states import TURN_G
 from tribodyn.errors import InputError
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.orbit.periodic import WANDERING, steady_states
 from tribodyn.solve.right_hand_side import engage_next
-from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
+from tribodyn.solve.tolerances import MeshScales, absolute_tolerances, table_scales, tolerances_from
 from tribodyn.solve.transient import make_integrator
+from tribodyn.train.structure import (
+    DAMPING,
+    FRICTION,
+    LAG,
+    OUT,
+    displacements,
+    slip_of_body,
+    velocities,
+    work_of,
+    work_of_mesh,
+    works,
+)
 
 #: A lightly damped mesh in its parametric resonance, where the load of 100 N m is lost for part of the cycle.
 RESONANT = {
@@ -59,17 +62,19 @@ def models(cases):
 
 
 def scaled(model, difference):
-    scale = absolute_tolerances(model, 1.0, 3e-5)
-    return np.max(np.abs(difference[FREE]) / scale[FREE])
+    deflected = MeshScales([table_scales(mesh) for mesh in model.meshes], np.array([3e-5]), np.zeros(1))
+    scale = absolute_tolerances(model, 1.0, deflected)
+    free = [*displacements(model.layout), *velocities(model.layout)]
+    return np.max(np.abs(difference[free]) / scale[free])
 
 
 def by_another_solver(model, state, cycles):
     """State after some cycles by SciPy's DOP853, engaged into the next."""
-    tolerances = StepTolerances(1e-10, absolute_tolerances(model, 1e-10, abs(state[XI])), 10**6)
+    tolerances = tolerances_from(model, state, 1e-10, 10**6)
     part = make_integrator("dop853", model, 8, tolerances).integrate(state, 0, cycles)
     assert part.status == Status.DONE
     end = part.state.copy()
-    engage_next(end, model)
+    engage_next(end, cycles, model)
     return end
 
 
@@ -92,7 +97,7 @@ def test_a_linear_mesh_has_the_exact_steady_state_and_multipliers(linear, method
 
 def test_their_product_is_what_damping_takes_from_phase_space(linear):
     """Liouville's formula: the determinant of the monodromy is exp ∫ trace."""
-    boundary = np.asarray(linear[0].model.table.boundary)
+    boundary = np.asarray(linear[0].model.meshes[0].table.boundary)
     for case, steady in zip(linear, steady_states(models(linear), samples=1), strict=True):
         trace = sum(
             np.trace(generator(case, pairs)) * (boundary[segment + 1] - boundary[segment])
@@ -119,8 +124,8 @@ def test_another_solver_comes_back_to_the_state(film):
         np.testing.assert_allclose(steady.samples[0], steady.state, rtol=1e-12)
         assert steady.samples.shape[0] == 50
         whole = steady.end.copy()
-        engage_next(whole, case.model)
-        work_in, work_out, friction, damping, parametric, _ = whole[list(WORKS)]
+        engage_next(whole, 1, case.model)
+        work_in, work_out, damping, parametric, friction, _ = whole[works(case.model.layout)]
         # over a whole period nothing is stored: what goes in, the varying stiffness included, comes out
         assert work_in + parametric - work_out - friction - damping == pytest.approx(0.0, abs=1e-6 * work_in)
         assert friction > 0.0
@@ -145,7 +150,7 @@ def test_period_doubling_in_the_parametric_resonance(resonance):
     back = by_another_solver(case.model, double.state, 2)
     assert scaled(case.model, back - double.state) < 1e-5
     assert scaled(case.model, halfway - double.state) > 0.05
-    assert np.min(double.samples[:, XI]) < 0.0 < np.max(double.samples[:, XI])  # the flanks come apart
+    assert np.min(double.samples[:, TURN_G]) < 0.0 < np.max(double.samples[:, TURN_G])  # the flanks come apart
 
 
 def test_what_is_returned_is_the_motion_and_not_the_unstable_state_beside_it(resonance):
@@ -201,17 +206,19 @@ def test_with_a_motor_the_speed_is_a_state(prepared):
         prepared("crc-23-47", **with_shaft, **{"operating.shaft_damping": "2 N*m*s/rad"}),
     ]
     for case, steady, states in zip(cases, steady_states(models(cases), samples=1000), (11, 13), strict=True):
+        model, layout = case.model, case.model.layout
         assert steady.kind == "period-1"
         assert len(steady.multipliers) == states
         # the losses slow the motor down along its line: mean slip over the angle = loss torque / regulation
-        loss = (steady.end[WORK_FRICTION] + steady.end[WORK_DAMPING]) / float(case.model.table.pitch_angle)
-        mean = np.mean(steady.samples[:, MOTOR_SLIP if states == 13 else SLIP])
+        lost = [work_of_mesh(layout, 0, FRICTION), work_of(layout, DAMPING)]
+        loss = np.sum(steady.end[lost]) / model.operation.pitch_angle
+        mean = np.mean(slip_of_body(layout.input, steady.samples.T, model))
         assert mean == pytest.approx(-loss / 10.0, rel=2e-3)
         assert steady.end[LAG] > 0.0
-        turned = 23 / 47 * float(case.model.table.pitch_angle)
-        assert steady.end[WORK_OUT] == pytest.approx(300.0 * turned, rel=1e-4)
-        end = by_another_solver(case.model, steady.state, 1)
-        assert scaled(case.model, end - steady.state) < 1e-6
+        turned = 23 / 47 * model.operation.pitch_angle
+        assert steady.end[work_of(layout, OUT)] == pytest.approx(300.0 * turned, rel=1e-4)
+        end = by_another_solver(model, steady.state, 1)
+        assert scaled(model, end - steady.state) < 1e-6
 
 
 def test_a_case_that_fails_leaves_the_others_alone(prepared, linear):

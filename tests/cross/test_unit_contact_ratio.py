@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from tests.support.states import sampled
-from tribodyn.dynamics.parameters import XI
+from tests.support.states import TURN_G, sampled
 from tribodyn.geometry.drive import tip_radius
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.path import contact_limits, contact_ratio
@@ -45,4 +44,4 @@ def test_runs_at_a_contact_ratio_of_one(prepared, method):
     # the limit of contact ratios a little above one, once the start (two pairs loaded there) is forgotten
     _, above = run(prepared, float(exact) + 1e-7, method)
     late = slice(CYCLES * SAMPLES // 2, None)
-    assert np.max(np.abs(at_one[late, XI] - above[late, XI])) < 1e-3 * np.ptp(at_one[late, XI])
+    assert np.max(np.abs(at_one[late, TURN_G] - above[late, TURN_G])) < 1e-3 * np.ptp(at_one[late, TURN_G])

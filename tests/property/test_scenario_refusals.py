@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from tools.fuzz.inputs import keys_of
 from tribodyn.errors import InputError, InputErrors
-from tribodyn.scenario.quantity import references
+from tribodyn.scenario.schema import references
 from tribodyn.studies.gear_pair.scenario import Scenario
 from tribodyn.studies.protocol.load import load_scenario
 

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 from tools.fuzz import corpus
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.quantity import Table, references
+from tribodyn.scenario.quantity import Table
+from tribodyn.scenario.schema import references
 from tribodyn.scenario.sources import shipped
 from tribodyn.studies import STUDIES, study_of
 

@@ -28,7 +28,6 @@ from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
     IN,
-    LAG,
     OF_MESHES,
     OUT,
     PARAMETRIC,
@@ -100,14 +99,19 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         place = place_in_mesh(m, phase, interval, model)
         reversals = reversals_per_velocity(bodies.ratio[driver], mesh, model)
         contact_forces(place, motion_of(m, y, model), reversals, mesh, model, work[m])
-        along, across, resisting, driving, friction, sliding, damping = resultants(place, mesh, model, work[m])
+        along, across, resisting, driving, friction, sliding, damping = resultants(
+            place, mesh, model, work[m]
+        )
         x = mesh.along_x * along + mesh.across_x * across
         z = mesh.along_y * along + mesh.across_y * across
-        a, b = half + shift_of(driver), half + shift_of(driven)
-        dy[a] = dy[a] + x
-        dy[a + 1] = dy[a + 1] + z
-        dy[b] = dy[b] - x
-        dy[b + 1] = dy[b + 1] - z
+        if driver < layout.planar:
+            a = half + shift_of(driver)
+            dy[a] = dy[a] + x
+            dy[a + 1] = dy[a + 1] + z
+        if driven < layout.planar:
+            b = half + shift_of(driven)
+            dy[b] = dy[b] - x
+            dy[b + 1] = dy[b + 1] - z
         a, b = half + turn_of(driver, layout), half + turn_of(driven, layout)
         dy[a] = dy[a] - resisting
         dy[b] = dy[b] + driving
@@ -120,7 +124,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         dy[of_mesh + WORK_SLIDING] = rate * sliding
     damping_power = damping_power + link_forces(y, model, dy)
 
-    time = (cycle + phase) * nominal_time + y[LAG]
+    time = (cycle + phase) * nominal_time + y[layout.lag]
     power_out = zero
     for b in range(layout.bodies):
         slip = slip_of_body(b, y, model)
@@ -132,12 +136,12 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         power_out = power_out + resisting * speed_of(b, y, model)
 
     if options.formulation == ENERGY_CONSISTENT:
-        dy[half + LAG] = dy[half + LAG] - parametric
+        dy[half + layout.lag] = dy[half + layout.lag] - parametric
         parametric = 0.0 * parametric
     parametric_power = parametric * reference_speed
 
     if options.drive == DRIVE_SPEED:
-        drive_torque = -dy[half + LAG]
+        drive_torque = -dy[half + layout.lag]
         acceleration = zero  # of the reference, rad/s²
         power_in = drive_torque * reference_speed
     else:
@@ -146,7 +150,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         drive_torque = operation.drive_torque - operation.speed_regulation * slip
         place_of_torque = half + turn_of(driven_body, layout)
         dy[place_of_torque] = dy[place_of_torque] + drive_torque
-        acceleration = dy[half + LAG] / bodies.inertia[0]
+        acceleration = dy[half + layout.lag] / bodies.inertia[0]
         power_in = drive_torque * speed_of(driven_body, y, model)
 
     for b in range(layout.bodies):

@@ -22,7 +22,7 @@ from tribodyn.dynamics.contact_forces import (
     out_of_reach,
 )
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC
-from tribodyn.dynamics.places import motion_of, place_in_mesh
+from tribodyn.dynamics.places import place_in_mesh
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, skippable, truncate, where
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.train.structure import Layout, turned

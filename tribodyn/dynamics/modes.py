@@ -10,7 +10,7 @@ from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.flow import flow
-from tribodyn.train.structure import LAG, TURN, shift_of, turn_of
+from tribodyn.train.structure import TURN, shift_of, turn_of
 
 
 class Modes(NamedTuple):
@@ -57,7 +57,7 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
     for m, cycle in enumerate(cycles):
         rows = _directions(model, m)
         stiffness += rows.T @ _mean_stiffness(model, m, cycle, float(torques[m])) @ rows
-    free = np.arange(layout.half) if model.options.drive else np.delete(np.arange(layout.half), LAG)
+    free = np.arange(layout.half) if model.options.drive else np.delete(np.arange(layout.half), layout.lag)
     root = 1.0 / np.sqrt(mass[free])
     squared, vectors = np.linalg.eigh(root[:, None] * stiffness[np.ix_(free, free)] * root)
     if model.options.drive:
@@ -84,9 +84,10 @@ def _directions(model: Model, m: int) -> Float[Array, "2 coordinate"]:
         (1.0, layout.driver[m], mesh.driver_radius),
         (-1.0, layout.driven[m], mesh.driven_radius),
     ):
-        place = shift_of(body)
-        rows[0, place : place + 2] = sign * np.array([mesh.along_x, mesh.along_y])
-        rows[1, place : place + 2] = sign * np.array([mesh.across_x, mesh.across_y])
+        if body < layout.planar:
+            place = shift_of(body)
+            rows[0, place : place + 2] = sign * np.array([mesh.along_x, mesh.along_y])
+            rows[1, place : place + 2] = sign * np.array([mesh.across_x, mesh.across_y])
         rows[0, turn_of(body, layout)] = sign * float(radius)
     return rows
 
@@ -97,7 +98,11 @@ def _support(model: Model, m: int) -> float:
     stiffness = np.asarray(model.links.stiffness)
     total = 0.0
     for body in (layout.driver[m], layout.driven[m]):
-        own = [k for k, (a, b) in enumerate(zip(layout.first, layout.second, strict=True)) if (a, b) == (body, -1)]
+        own = [
+            k
+            for k, (a, b) in enumerate(zip(layout.first, layout.second, strict=True))
+            if (a, b) == (body, -1)
+        ]
         held = np.sum(stiffness[own, :TURN], axis=0)
         across = np.array([mesh.across_x, mesh.across_y], dtype=float)
         total += float(np.sum(across[held > 0.0] ** 2 / held[held > 0.0]))

@@ -16,7 +16,6 @@ from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import (
     DAMPING,
     IN,
-    LAG,
     OUT,
     PARAMETRIC,
     rotational_error,
@@ -75,9 +74,7 @@ def evaluated(
     # rates with respect to the phase have no limit where the reference comes to rest; they are not recorded
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
         powers = derivatives(phase, whole, interval, y, model, work, {})
-    named = {
-        name: np.broadcast_to(power, len(cycles)) for name, power in zip(POWERS, powers, strict=True)
-    }
+    named = {name: np.broadcast_to(power, len(cycles)) for name, power in zip(POWERS, powers, strict=True)}
     return Evaluated(cycles, phase, interval, y, work, named, model)
 
 
@@ -162,7 +159,7 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         return np.stack([np.broadcast_to(values, samples.count) for values in places], axis=-1)
 
     return {
-        "time": samples.cycles * operation.pitch_angle / operation.nominal_speed + y[LAG],
+        "time": samples.cycles * operation.pitch_angle / operation.nominal_speed + y[layout.lag],
         "reference_angle": angle,
         "x": over(y[shift_of(b)] for b in planar),
         "y": over(y[shift_of(b) + 1] for b in planar),

@@ -3,7 +3,7 @@
 from tribodyn.dynamics.contact_forces import Motion, Place
 from tribodyn.numerics.elementary import law, maximum, minimum, truncate
 from tribodyn.train.schedule import phase_of
-from tribodyn.train.structure import shift_of, slip_of, speed_of, turned, turning
+from tribodyn.train.structure import shifted, shifting, slip_of, speed_of, turned, turning
 
 
 @law
@@ -31,10 +31,10 @@ def motion_of(m, y, model):
     layout = model.options.layout
     mesh = model.meshes[m]
     driver, driven = layout.driver[m], layout.driven[m]
-    a, b = shift_of(driver), shift_of(driven)
-    c, d = layout.half + a, layout.half + b
-    x, x_rate = y[a] - y[b], y[c] - y[d]
-    z, z_rate = y[a + 1] - y[b + 1], y[c + 1] - y[d + 1]
+    x = shifted(driver, 0, y, layout) - shifted(driven, 0, y, layout)
+    z = shifted(driver, 1, y, layout) - shifted(driven, 1, y, layout)
+    x_rate = shifting(driver, 0, y, layout) - shifting(driven, 0, y, layout)
+    z_rate = shifting(driver, 1, y, layout) - shifting(driven, 1, y, layout)
     turn = mesh.driver_radius * turned(driver, y, layout) - mesh.driven_radius * turned(driven, y, layout)
     turning_rate = mesh.driver_radius * turning(driver, y, layout)
     turning_rate = turning_rate - mesh.driven_radius * turning(driven, y, layout)

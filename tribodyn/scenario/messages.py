@@ -9,6 +9,7 @@ from pydantic import BaseModel, ValidationError
 from tribodyn.errors import InputError, InputErrors, near_name, printable, quoted
 from tribodyn.scenario import scope
 from tribodyn.scenario.quantity import Reference
+from tribodyn.scenario.schema import holds_by_name, inner_tables, table_at
 from tribodyn.scenario.unit_grammar import range_for_one
 
 Key = tuple[str | int, ...]
@@ -58,17 +59,21 @@ def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
     """
     found = [dict(one) for one in error.errors(include_url=False)]
     errors = [_explain_one(one, model) for one in found]
-    refused = (_outside(one, error) for one, error in zip(found, errors, strict=True))
+    several = "stage" in model.model_fields
+    refused = (_outside(one, error, several) for one, error in zip(found, errors, strict=True))
     first = next(filter(None, refused), None)
     return errors if first is None else [first]
 
 
-def _outside(found: dict[str, Any], error: InputError) -> InputError | None:
-    """What to say of a key that describes gears which are not modelled; None where it does not."""
+def _outside(found: dict[str, Any], error: InputError, several: bool) -> InputError | None:
+    """What to say of a key that describes gears which are not modelled; None where it does not.
+
+    `several` says whether the scenario may have several stages.
+    """
     name, given = str(found["loc"][-1]), found["input"]
     if found["type"] == "extra_forbidden":
         named = given if isinstance(given, str) and len(given.split()) < 3 else ""  # type = "planetary"
-        return scope.outside(error, name, named)
+        return scope.outside(error, name, named, but=(scope.STAGES,) if several else ())
     fewest = found.get("ctx", {}).get("ge")  # a number of teeth that only the sign of internal gears excludes
     if name == "teeth" and fewest is not None and given <= -fewest:
         return scope.refusal(error, scope.INTERNAL)
@@ -123,40 +128,19 @@ _PLAIN = {
 }
 
 
-def _table_at(model: type[BaseModel], key: Iterable[str | int]) -> type[BaseModel] | None:
-    """Return the table type that `key` leads to."""
-    for part in key:
-        if isinstance(part, int):
-            continue
-        field = model.model_fields.get(part)
-        inner = _table_in(field.annotation) if field else None
-        if inner is None:
-            return None
-        model = inner
-    return model
-
-
-def _table_in(annotation: Any) -> type[BaseModel] | None:
-    """Return the table type inside an annotation such as ``Table | None`` or ``tuple[Table, ...]``."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return annotation
-    inner = (_table_in(part) for part in getattr(annotation, "__args__", ()))
-    return next((table for table in inner if table), None)
-
-
 def keys_in(model: type[BaseModel], key: Iterable[str]) -> list[str]:
     """Return the keys of the table that `key` leads to, dotted and whole; those of tables end in a dot."""
     above = tuple(key)
-    table = _table_at(model, above)
+    table = None if above and holds_by_name(model, above) else table_at(model, above)
     fields = table.model_fields if table else {}
     return [
-        ".".join((*above, name)) + ("." if _table_in(field.annotation) else "")
+        ".".join((*above, name)) + ("." if any(inner_tables(field.annotation)) else "")
         for name, field in fields.items()
     ]
 
 
 def _near_key(model: type[BaseModel], key: Key) -> str:
-    table = _table_at(model, key[:-1])
+    table = table_at(model, key[:-1])
     described = {
         name: field.description or "" for name, field in (table.model_fields if table else {}).items()
     }
@@ -168,12 +152,12 @@ def _near_key(model: type[BaseModel], key: Key) -> str:
 
 def _how_to_write(model: type[BaseModel], key: Key) -> str:
     """Return how to write the missing `key`, from its example in the schema."""
-    table = _table_at(model, key[:-1])
+    table = table_at(model, key[:-1])
     field = table.model_fields.get(str(key[-1])) if table else None
     if table is None or field is None:
         return "write it"
     named = any(isinstance(mark, Reference) for mark in field.metadata)
-    if _table_in(field.annotation) and not named:
+    if any(inner_tables(field.annotation)) and not named:
         return f"add the table [{'.'.join(map(str, key))}]"
     shape = table.model_json_schema()["properties"][str(key[-1])]
     if named:

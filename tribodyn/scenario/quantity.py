@@ -5,11 +5,10 @@ how much the rounding to their last digit may have moved them.
 """
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable
 from decimal import Decimal
-from functools import lru_cache
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, cast
+from typing import Annotated, Any, NamedTuple, cast, get_args, get_origin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,6 +94,10 @@ def csv_file(*columns: str, as_list: bool = False, record: RecordReader | None =
     counted = ("columns " if len(columns) > 1 else "a column ") + " and ".join(columns)
     what = f"CSV file with {counted}{', or a record' if record else ''}"
     return Reference(what, columns=columns, as_list=as_list, record=record)
+
+
+class FamilyShape:
+    """Marks a field with what the family of teeth named beside it needs: its points may name a file."""
 
 
 class Draws:
@@ -198,32 +201,18 @@ def defaults_written_out(raw: dict[str, Any], table: type[Table]) -> dict[str, A
         inner = field.annotation
         if isinstance(inner, type) and issubclass(inner, Table) and isinstance(full.get(key), dict):
             full[key] = defaults_written_out(full[key], inner)
+        elif (held := _held_by_name(inner)) and isinstance(full.get(key), dict):
+            full[key] = {
+                name: defaults_written_out(value, held) if isinstance(value, dict) else value
+                for name, value in full[key].items()
+            }
     return full
 
 
-@lru_cache(maxsize=256)
-def references(table: type[BaseModel]) -> Mapping[tuple[str, ...], Reference]:
-    """Return the keys of a table, and of the tables in it, that may name files; from the outside in."""
-    found: dict[tuple[str, ...], Reference] = {}
-    for name, field in table.model_fields.items():
-        marks = list(parts_of(field))
-        found.update(((name,), mark) for mark in marks if isinstance(mark, Reference))
-        inner = next((mark for mark in marks if isinstance(mark, type) and issubclass(mark, BaseModel)), None)
-        if inner is not None:
-            found |= {(name, *key): mark for key, mark in references(inner).items()}
-    return found
-
-
-def parts_of(field: Any) -> Iterator[Any]:
-    """Go through everything that stands in a field's annotation, metadata included."""
-
-    def parts(annotation: Any) -> Iterator[Any]:
-        yield annotation
-        for part in (*getattr(annotation, "__args__", ()), *getattr(annotation, "__metadata__", ())):
-            yield from parts(part)
-
-    yield from field.metadata
-    yield from parts(field.annotation)
+def _held_by_name(annotation: Any) -> type[Table] | None:
+    """The table that a dictionary of tables holds; None for what is no such dictionary."""
+    held = get_args(annotation)[1] if get_origin(annotation) is dict else None
+    return held if isinstance(held, type) and issubclass(held, Table) else None
 
 
 _DIGITS = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)", re.ASCII)

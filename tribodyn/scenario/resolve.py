@@ -14,7 +14,8 @@ from tribodyn.errors import InputError, printable_path, quoted
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario import bounds, sources
 from tribodyn.scenario.messages import Key, Origins
-from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out, references
+from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out
+from tribodyn.scenario.schema import expanded, family_shapes, matches, references
 
 #: In the table of a model: the name of a file that says everything which the table does not.
 LIKE = "like"
@@ -48,7 +49,7 @@ def resolve_table(
     """Return a scenario's data as `resolve` does; what it names is looked for as from a file at `path`."""
     data = defaults_written_out(written, table_of(written))
     origins = Origins(str(path))
-    known = _References(data, origins, path, {})
+    known = _References(data, origins, path, {}, ())
     try:
         known = _marked(known, table_of)
         for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):
@@ -75,38 +76,43 @@ class _References(NamedTuple):
     data: dict[str, Any]
     origins: Origins
     path: Path
-    marks: Mapping[tuple[str, ...], Reference]
+    marks: Mapping[tuple[str, ...], Reference]  # by pattern of a key, see `schema.expanded`
+    shapes: tuple[tuple[str, ...], ...]  # likewise, of what families of teeth need
 
     def keys(self) -> Iterator[Key]:
         """Go through the keys that may name files; those of a family last, when its name is known."""
-        yield from self.marks
+        for pattern in self.marks:
+            yield from expanded(pattern, self.data)
         yield from self._of_family()
 
     def at(self, key: Key) -> Reference | None:
         """What the value at a key may name."""
-        return self.marks.get(tuple(map(str, key))) or self._of_family().get(key)
+        named = (mark for pattern, mark in self.marks.items() if matches(pattern, key))
+        return next(named, None) or self._of_family().get(key)
 
     def _of_family(self) -> dict[Key, Reference]:
-        """The points that the family of each drive needs; a scenario within this one has a drive as well."""
+        """The points that the family of each pair of gears needs."""
         found: dict[Key, Reference] = {}
-        named = [key for key, mark in self.marks.items() if mark.folder == sources.DRIVES]
-        for drive in {("drive",), *named}:  # a drive file read alone has its own table there
-            name = _at(self.data, (*drive, "family"))
+        for shape in (key for pattern in self.shapes for key in expanded(pattern, self.data)):
+            name = _at(self.data, (*shape[:-1], "family"))
             if isinstance(name, str) and name in FAMILIES:
                 paths = [own.name for own in FAMILIES[name].parameters if own.kind == "path"]
-                found |= {(*drive, "shape", path): csv_file("x", "y") for path in paths}
+                found |= {(*shape, path): csv_file("x", "y") for path in paths}
         return found
 
 
 def _marked(known: _References, table_of: TableOf) -> _References:
     """Say which keys may name files; a scenario within this one is opened first, for it has such keys too."""
-    marks = references(table_of(known.data))
+    known = _read_off(known, table_of(known.data))
+    marks = known.marks
     inner = [key for key, mark in marks.items() if mark.folder == sources.SCENARIOS]
-    if not inner:
-        return known._replace(marks=marks)
     for key in inner:
-        _put_content(known._replace(marks=marks), key)
-    return known._replace(marks=references(table_of(known.data)))
+        _put_content(known, key)
+    return _read_off(known, table_of(known.data)) if inner else known
+
+
+def _read_off(known: _References, table: type[Table]) -> _References:
+    return known._replace(marks=references(table), shapes=family_shapes(table))
 
 
 def unresolved_keys(errors: Iterable[InputError]) -> set[str]:
@@ -225,5 +231,8 @@ def _leaves(table: Mapping[str, Any], above: Key = ()) -> list[Key]:
 def _at(data: Any, key: Iterable[str | int]) -> Any:
     """Return what stands at `key`, or None."""
     for part in key:
-        data = data.get(part) if isinstance(data, dict) else None
+        if isinstance(data, list) and isinstance(part, int):
+            data = data[part] if part < len(data) else None
+        else:
+            data = data.get(part) if isinstance(data, dict) else None
     return data

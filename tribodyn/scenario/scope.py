@@ -4,7 +4,7 @@ import re
 
 from tribodyn.errors import InputError
 
-INTERNAL = "internal gears"
+INTERNAL, STAGES = "internal gears", "several stages"
 #: What is asked for -> the keys and names that ask for it, and what to do about it.
 _OUTSIDE = {
     "helical gears": (r"helix|helical|herringbone|^beta(_|$)", "omit it"),
@@ -13,7 +13,7 @@ _OUTSIDE = {
         r"planet|epicyclic|^(sun|carrier)s?(_|$)",
         "describe an external mesh of it, sun and planet, as [drive.pinion] and [drive.gear]",
     ),
-    "several stages": (
+    STAGES: (
         r"multi_?stage|^((n|number_of)_)?(stage|shaft|gearbox|gear_?train|train|idler|gears|mesh(es)?|"
         r"((pinion|gear|wheel)_?\d+))(e?s)?(_?\d+)?$",
         "describe one stage as [drive.pinion] and [drive.gear]",
@@ -22,14 +22,15 @@ _OUTSIDE = {
 }
 
 
-def outside(error: InputError, *names: str, remedy: str = "") -> InputError | None:
+def outside(error: InputError, *names: str, remedy: str = "", but: tuple[str, ...] = ()) -> InputError | None:
     """What to say in place of an unknown key or name that asks for other gears; None where it does not.
 
-    `names` are the key's last part, or the name, and others that may ask for them.
+    `names` are the key's last part, or the name, and others that may ask for them; `but` is what the scenario
+    may ask for.
     """
     plain = [re.sub(r"[\s-]+", "_", name.strip().lower()) for name in names]
     for what, (pattern, _) in _OUTSIDE.items():
-        if any(re.search(pattern, name) for name in plain):
+        if what not in but and any(re.search(pattern, name) for name in plain):
             return refusal(error, what, remedy)
     return None
 

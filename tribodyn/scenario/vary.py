@@ -13,8 +13,9 @@ from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.bounds import LONGEST_KEY, broken_bounds
-from tribodyn.scenario.quantity import Draws, InUnit, Reference, Weighed, parts_of
+from tribodyn.scenario.quantity import Draws, InUnit, Reference, Weighed
 from tribodyn.scenario.resolve import toml_value
+from tribodyn.scenario.schema import parts_of, table_at
 from tribodyn.scenario.unit_grammar import is_unit, two_ends
 from tribodyn.scenario.units import Kind, NotAQuantity, registry, scaled, to_si
 
@@ -206,17 +207,13 @@ def kind_at(table: type[BaseModel], key: str) -> Any:
 
 def _marks(table: type[BaseModel], key: str) -> list[Any]:
     """Everything that stands in the annotation of the field at a key, or of the list whose place it is."""
-    place: Any = table
-    marks: list[Any] = []
-    for part in key.split("."):
-        if part.isdecimal():
-            continue
-        fields = getattr(place, "model_fields", {})
-        if part not in fields:
-            return []
-        marks = list(parts_of(fields[part]))
-        place = next(filter(_is_table, marks), None)
-    return marks
+    parts = [int(part) if part.isdecimal() else part for part in key.split(".")]
+    named = [place for place, part in enumerate(parts) if isinstance(part, str)]
+    if not named:
+        return []
+    holder = table_at(table, parts[: named[-1]])
+    field = holder.model_fields.get(str(parts[named[-1]])) if holder else None
+    return list(parts_of(field)) if field else []
 
 
 def _is_table(mark: Any) -> bool:

@@ -49,7 +49,9 @@ def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
     shift[:, :mechanical] = SHARE * np.diag(scale)
     shape = (len(phases), mechanical, states)
     up, down = (
-        accelerations(np.broadcast_to(state + sign * shift, shape), phases[:, None], intervals[:, None], model)
+        accelerations(
+            np.broadcast_to(state + sign * shift, shape), phases[:, None], intervals[:, None], model
+        )
         for sign in (1, -1)
     )
     jacobians = np.swapaxes((up - down)[..., :mechanical] / (2.0 * SHARE * scale[:, None]), 1, 2)

@@ -52,7 +52,9 @@ def accelerations(
     """Derivatives of states per reference cycle, many at once, without compiled code, each at its place."""
     rates: dict[int, Any] = {}
     derivatives(phase, 0.0, interval, np.moveaxis(states, -1, 0), model, contacts_of(model), rates)
-    return np.stack([np.broadcast_to(rates[i], states.shape[:-1]) for i in range(model.layout.states)], axis=-1)
+    return np.stack(
+        [np.broadcast_to(rates[i], states.shape[:-1]) for i in range(model.layout.states)], axis=-1
+    )
 
 
 def static_deflection(mesh: Mesh, torque: float) -> float:
@@ -147,8 +149,9 @@ def _scales(model: Model, deflection: Float[Array, " mesh"]) -> Float[Array, " s
     ends = [(layout.driver, "driver_radius"), (layout.driven, "driven_radius")]
     for bodies, radius in ends:
         for m, body in enumerate(bodies):
-            place = shift_of(body)
-            scale[place : place + 2] = np.maximum(scale[place : place + 2], deflection[m])
+            if body < layout.planar:
+                place = shift_of(body)
+                scale[place : place + 2] = np.maximum(scale[place : place + 2], deflection[m])
             i = turn_of(body, layout)
             scale[i] = max(scale[i], deflection[m] / float(getattr(model.meshes[m], radius)))
     # of what no mesh moves: as large as any

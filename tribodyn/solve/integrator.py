@@ -122,4 +122,3 @@ def nothing_yet(
         np.zeros(count, dtype=int),
         no_extremes(layout, count if extremes else 0),
     )
-

@@ -14,7 +14,7 @@ from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import law, truncate, where
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.structure import IN, LAG, PARAMETRIC, turn_of
+from tribodyn.train.structure import IN, PARAMETRIC, turn_of
 
 
 @law
@@ -28,7 +28,7 @@ def engage(interval, applies, y, model, work, behind):
     layout = model.options.layout
     half, works = layout.half, layout.mechanical
     slip, work_in, parametric = engagement(interval, y, model, work)
-    behind[half + LAG] = where(applies, y[half + LAG] + slip, y[half + LAG])
+    behind[half + layout.lag] = where(applies, y[half + layout.lag] + slip, y[half + layout.lag])
     for body in range(1, layout.bodies):
         i = half + turn_of(body, layout)
         behind[i] = where(applies, y[i] - model.bodies.ratio[body] * slip, y[i])

@@ -14,7 +14,7 @@ from tribodyn.solve.march.step_control import STANDSTILL, unbounded
 from tribodyn.solve.right_hand_side import engage, rhs, work_array
 from tribodyn.solve.tolerances import StepTolerances
 from tribodyn.train.schedule import intervals, sample_phases
-from tribodyn.train.structure import LAG, Layout, displacements
+from tribodyn.train.structure import Layout, displacements
 
 #: SciPy's class of each method.
 SOLVERS: dict[str, Any] = {"radau": Radau, "bdf": BDF, "lsoda": LSODA, "dop853": DOP853}
@@ -100,7 +100,7 @@ class _Walk:
         """Integrate over an interval; raises `_Ended` where that cannot be done."""
         rtol, atol, max_steps = self.integrator.tolerances
         model = self.integrator.model
-        nominal_speed, slip = model.operation.nominal_speed, model.layout.half + LAG
+        nominal_speed, slip = model.operation.nominal_speed, model.layout.half + model.layout.lag
         slowest = (SLOWEST - 1.0) * nominal_speed
 
         def slope(phase: float, y: Float[Array, " state"]) -> Float[Array, " state"]:

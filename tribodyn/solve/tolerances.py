@@ -11,7 +11,7 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
 from tribodyn.train.flow import flow, tree
-from tribodyn.train.structure import LAG, TURN, Mesh, displacements, shift_of, turn_of, works
+from tribodyn.train.structure import TURN, Mesh, displacements, shift_of, turn_of, works
 
 _COMPLIANCE = CHANNELS.index("compliance")
 _COSINE, _SINE, _GAP = CHANNELS.index("cosine"), CHANNELS.index("sine"), CHANNELS.index("gap")
@@ -106,7 +106,7 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
         if body < layout.planar:
             place = shift_of(body)
             scale[place : place + 2], scale[half + place : half + place + 2] = shift[body], shift_rate[body]
-    scale[LAG] = turn[0] / float(model.operation.nominal_speed)
+    scale[layout.lag] = turn[0] / float(model.operation.nominal_speed)
     scale[works(layout)] = SHARE_OF_WORKS * np.max(scales.energy)
     return rtol * scale
 

@@ -14,7 +14,6 @@ from tribodyn.solve.march.marching import NativeIntegrator
 from tribodyn.solve.methods import AUTO, Runs, integrator_class, runs
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import StepTolerances, tolerances_from
-from tribodyn.train.structure import LAG
 
 #: Of a native run between two writes, at most: mesh cycles, samples, and steps, judged by those before.
 MAXIMUM_CYCLES, MAXIMUM_SAMPLES, MAXIMUM_STEPS = 250, 20_000, 50_000
@@ -139,11 +138,18 @@ def transient(
             reason = REASONS[Status.NOT_FINITE if part.status == Status.DONE else part.status]
             reason = f"{reason} ({part.message})" if part.message else reason
             last = part.samples[kept - 1] if kept else state
-            yield Stop(last, reached, steps, evaluations, reason, reached * cycle_time + float(last[LAG]))
+            yield Stop(
+                last,
+                reached,
+                steps,
+                evaluations,
+                reason,
+                reached * cycle_time + float(last[model.layout.lag]),
+            )
             return
         state = part.state
         done += count
     state = state.copy()
     engage_next(state, done, model)
     yield SampledStates(np.array([float(done)]), state[None], 0, 0)
-    yield Stop(state, float(done), steps, evaluations, "", done * cycle_time + float(state[LAG]))
+    yield Stop(state, float(done), steps, evaluations, "", done * cycle_time + float(state[model.layout.lag]))

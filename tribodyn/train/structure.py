@@ -23,8 +23,6 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.static import Fixed, Indices
 from tribodyn.tribology.contact import Surfaces
 
-#: Where the reference's lag stands; its slip stands as far behind the first of the rates.
-LAG = 2
 #: Works, counted from the first: those of the whole train, and from `OF_MESHES` on two of every mesh.
 IN, OUT, DAMPING, PARAMETRIC, OF_MESHES = range(5)
 FRICTION, SLIDING, WORKS_OF_MESH = 0, 1, 2
@@ -83,6 +81,7 @@ class Layout(NamedTuple):
     meshes: Fixed
     links: Fixed
     half: Fixed  # coordinates; state half + i is the rate of state i
+    lag: Fixed  # place of the reference's lag, among the rates that of its slip
     mechanical: Fixed  # states that the mechanics depend on; the rest are works
     states: Fixed
     driver: Indices  # this and the next: bodies at the ends of every mesh
@@ -104,7 +103,8 @@ def layout_of(
     """The layout of so many bodies, with the ends of meshes (driver, driven) and links, and where power goes."""
     half = 2 * planar + bodies
     states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
-    numbers = (planar, bodies, len(meshes), len(links), half, 2 * half, states)
+    lag = 2 if planar else 0
+    numbers = (planar, bodies, len(meshes), len(links), half, lag, 2 * half, states)
     ends = [[pair[end] for pair in pairs] for pairs in (meshes, links) for end in (0, 1)]
     return Layout(*map(Fixed, numbers), *map(Indices, ends), Fixed(drives), Fixed(loaded))
 
@@ -122,6 +122,18 @@ def turn_of(body, layout):
 
 
 @law
+def shifted(body, direction, y, layout):
+    """Displacement of a body in x (0) or y (1), m."""
+    return y[shift_of(body) + direction] if body < layout.planar else 0.0 * y[0]
+
+
+@law
+def shifting(body, direction, y, layout):
+    """Rate of the displacement of a body in x (0) or y (1), m/s."""
+    return y[layout.half + shift_of(body) + direction] if body < layout.planar else 0.0 * y[0]
+
+
+@law
 def turned(body, y, layout):
     """Micro-rotation of a body, rad."""
     return y[turn_of(body, layout)] if body > 0 else 0.0 * y[0]
@@ -136,7 +148,7 @@ def turning(body, y, layout):
 @law
 def slip_of(y, layout):
     """Speed of the reference less nominal, rad/s."""
-    return y[layout.half + LAG]
+    return y[layout.half + layout.lag]
 
 
 @law
@@ -156,7 +168,7 @@ def slip_of_body(body, y, model):
 
 def displacements(layout: Layout) -> list[int]:
     """Places of all coordinates but the lag."""
-    return [i for i in range(layout.half) if i != LAG]
+    return [i for i in range(layout.half) if i != layout.lag]
 
 
 def velocities(layout: Layout) -> list[int]:

@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.short_studies import SHORT, written_template
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.quantity import references
+from tribodyn.scenario.schema import references
 from tribodyn.scenario.sources import DRIVES, shipped
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario

@@ -53,10 +53,11 @@ class Bearings(Described):
 
 def bearings_of(bearings: Bearings) -> tuple[BearingData, BearingData]:
     """Return stiffness and damping of both gears' bearings."""
-    return _bearing_of(bearings.pinion), _bearing_of(bearings.gear)
+    return bearing_of(bearings.pinion), bearing_of(bearings.gear)
 
 
-def _bearing_of(bearing: Bearing) -> BearingData:
+def bearing_of(bearing: Bearing) -> BearingData:
+    """Return stiffness and damping of one bearing that breaks no rule."""
     ratio_x = bearing.damping_ratio if bearing.damping_ratio_x is None else bearing.damping_ratio_x
     ratio_y = bearing.damping_ratio if bearing.damping_ratio_y is None else bearing.damping_ratio_y
     stiffness_x, stiffness_y = bearing.stiffness_x, bearing.stiffness_y
@@ -70,10 +71,11 @@ def _bearing_of(bearing: Bearing) -> BearingData:
 def broken_bearing_rules(bearings: Bearings) -> Iterator[InputError]:
     """Go through what is missing in the bearings of both gears, or given twice."""
     for side in ("pinion", "gear"):
-        yield from _broken_bearing(f"bearings.{side}", getattr(bearings, side))
+        yield from broken_bearing(f"bearings.{side}", getattr(bearings, side))
 
 
-def _broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
+def broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
+    """Go through what is missing in the bearing at a key, or given twice."""
     for name in ("stiffness_x", "stiffness_y"):
         given = getattr(bearing, name)
         if bearing.rolling is None and given is None:

@@ -185,7 +185,9 @@ class DriveTable(Described):
     rack: Annotated[quantity.Text, quantity.Names(PROFILES)] | None = Field(
         None, description="basic rack, for what the pressure angle and the gears do not say themselves"
     )
-    shape: dict[str, Any] | None = Field(None, description="what else the family needs, see `tribodyn list`")
+    shape: Annotated[dict[str, Any] | None, quantity.FamilyShape()] = Field(
+        None, description="what else the family needs, see `tribodyn list`"
+    )
     roughness: Roughness | None = Field(
         None, description="composite rms roughness of the flanks; default: from the mean roughness of both"
     )

@@ -30,7 +30,6 @@ from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_STEP, relative
 from tribodyn.solve.right_hand_side import contacts_of, engaged
 from tribodyn.solve.tolerances import StepTolerances
 from tribodyn.train.schedule import Schedule, intervals, sample_phases
-from tribodyn.train.structure import LAG
 
 jax.config.update("jax_enable_x64", True)
 
@@ -123,7 +122,7 @@ def over_cycle(
     """
     model = Model(*numbers, options=options)
     schedule, layout = model.schedule, options.layout
-    slip = layout.half + LAG
+    slip = layout.half + layout.lag
     relative = np.array([relative_factor(i, layout) for i in range(layout.states)])
     pid: Any = diffrax.PIDController(
         control.rtol * relative,
@@ -196,9 +195,7 @@ def over_cycle(
         cost = jnp.where(dead, 0, solution.stats["num_steps"] * method.stages)
         return went_on, IntervalResult(states[:-1], status, jnp.where(dead, 0, taken), cost)
 
-    return jax.lax.scan(
-        over_interval, carried._replace(steps=jnp.zeros_like(carried.steps)), control.within
-    )
+    return jax.lax.scan(over_interval, carried._replace(steps=jnp.zeros_like(carried.steps)), control.within)
 
 
 over_one_cycle = jax.jit(over_cycle, static_argnames=("method", "options"))
@@ -275,7 +272,9 @@ class DiffraxIntegrator:
             samples += [sampled[k, : self.counts[numbers[k]]] for k in range(whole)]
             steps += int(np.sum(found.steps))
             evaluations += int(np.sum(found.evaluations))
-            reached += 1.0 if whole == len(numbers) else float(np.asarray(self.schedule.start)[numbers[whole]])
+            reached += (
+                1.0 if whole == len(numbers) else float(np.asarray(self.schedule.start)[numbers[whole]])
+            )
             if whole < len(numbers):
                 break
         self.step = float(carried.step)

@@ -43,7 +43,6 @@ from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Place
 from tribodyn.solve.methods import dopri5
 from tribodyn.solve.right_hand_side import engage, interval_at
-from tribodyn.train.structure import LAG
 
 METHOD = dopri5.METHOD
 
@@ -119,7 +118,8 @@ def open_interval(interval, model, block, queue, march):
 def choose_step(model, block, queue, march):
     """Let a step that comes near the next stop end on it, and give up where no step is possible any more."""
     rows = rows_of(block.rows)
-    nominal_speed, slip = model.operation.nominal_speed, model.options.layout.half + LAG
+    layout = model.options.layout
+    nominal_speed, slip = model.operation.nominal_speed, layout.half + layout.lag
     running = rows[PHASE] < rows[END]
     rows[UNCUT_STEP] = rows[STEP]
     cut, step = rules.cut_at_stop(rows[PHASE], rows[STEP], rows[LIMIT])

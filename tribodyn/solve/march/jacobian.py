@@ -22,7 +22,6 @@ from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
     IN,
-    LAG,
     OF_MESHES,
     OUT,
     PARAMETRIC,
@@ -136,21 +135,23 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
         first = 0 if which <= ACROSS else half
         for k in range(6):
             if k == 0:
-                j, share = first + x_1, by_x
-            elif k == 1:
-                j, share = first + x_1 + 1, by_z
-            elif k == 2:
-                j, share = first + x_2, -by_x
-            elif k == 3:
-                j, share = first + x_2 + 1, -by_z
-            elif k == 4:
                 j, share = first + turn_1, by_1 if driver > 0 else 0.0
-            else:
+            elif k == 1:
                 j, share = first + turn_2, by_2
-            jacobian[half + x_1, j] += share * x
-            jacobian[half + x_1 + 1, j] += share * z
-            jacobian[half + x_2, j] -= share * x
-            jacobian[half + x_2 + 1, j] -= share * z
+            elif k <= 3:
+                if driver >= layout.planar:
+                    continue
+                j, share = first + x_1 + k - 2, by_x if k == 2 else by_z
+            else:
+                if driven >= layout.planar:
+                    continue
+                j, share = first + x_2 + k - 4, -by_x if k == 4 else -by_z
+            if driver < layout.planar:
+                jacobian[half + x_1, j] += share * x
+                jacobian[half + x_1 + 1, j] += share * z
+            if driven < layout.planar:
+                jacobian[half + x_2, j] -= share * x
+                jacobian[half + x_2 + 1, j] -= share * z
             jacobian[half + turn_1, j] -= share * resisting
             jacobian[half + turn_2, j] += share * driving
             jacobian[works + DAMPING, j] += share * damping
@@ -210,7 +211,7 @@ def differentiate(place, y, f, scale, model, work, into):
     jacobian = into.jacobian
     reference_speed = operation.nominal_speed + slip_of(y, layout)
     rate = operation.pitch_angle / reference_speed
-    time = (place.cycle + place.phase) * operation.pitch_angle / operation.nominal_speed + y[LAG]
+    time = (place.cycle + place.phase) * operation.pitch_angle / operation.nominal_speed + y[layout.lag]
     for i in range(states):
         for j in range(works):
             jacobian[i, j] = 0.0
@@ -233,7 +234,7 @@ def differentiate(place, y, f, scale, model, work, into):
             jacobian[i, i] -= operation.speed_regulation
             jacobian[works + IN, i] += torque - operation.speed_regulation * speed_of(b, y, model)
     for j in range(works):
-        on_reference = jacobian[half + LAG, j]
+        on_reference = jacobian[half + layout.lag, j]
         if consistent:
             on_reference -= jacobian[works + PARAMETRIC, j]
             jacobian[works + PARAMETRIC, j] = 0.0
@@ -242,7 +243,7 @@ def differentiate(place, y, f, scale, model, work, into):
             acceleration = 0.0
         else:
             acceleration = on_reference / bodies.inertia[0]
-        jacobian[half + LAG, j] = rate * acceleration
+        jacobian[half + layout.lag, j] = rate * acceleration
         jacobian[works + PARAMETRIC, j] *= reference_speed
         for b in range(layout.bodies):
             if b > 0:
@@ -255,14 +256,14 @@ def differentiate(place, y, f, scale, model, work, into):
         for i in range(works, states):
             jacobian[i, j] *= rate
     for i in range(half):
-        if i != LAG:
+        if i != layout.lag:
             jacobian[i, half + i] = rate
 
     if not prescribed:
-        difference = min(SHARE * scale[half + LAG], SHARE * operation.nominal_speed)
-        evaluations += column(half + LAG, difference, place, y, f, model, work, into)
+        difference = min(SHARE * scale[half + layout.lag], SHARE * operation.nominal_speed)
+        evaluations += column(half + layout.lag, difference, place, y, f, model, work, into)
     if operation.load_amplitudes.shape[0] > 0 or operation.load_times.shape[0] > 1:
-        evaluations += column(LAG, SHARE * scale[LAG], place, y, f, model, work, into)
+        evaluations += column(layout.lag, SHARE * scale[layout.lag], place, y, f, model, work, into)
     difference = PHASE_DIFFERENCE if place.phase + PHASE_DIFFERENCE < place.end else -PHASE_DIFFERENCE
     moved = place.phase + difference
     rhs(moved, place.cycle, place.interval, y, model, work, into.trial)

@@ -20,7 +20,7 @@ from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.reversal import stops
 from tribodyn.solve.right_hand_side import engage, interval_at, work_array
 from tribodyn.solve.tolerances import StepTolerances
-from tribodyn.train.structure import LAG, Layout
+from tribodyn.train.structure import Layout
 
 #: Rows of a method's buffer: the new state and its error; the method's own rows follow.
 STATE, ERROR, SCRATCH = 0, 1, 2
@@ -112,7 +112,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                 limit = control.stops[interval, stop]
                 uncut_step = step
                 cut, step = rules.cut_at_stop(phase, step, limit)
-                taken, speed = steps - steps_before, nominal_speed + y[layout.half + LAG]
+                taken, speed = steps - steps_before, nominal_speed + y[layout.half + layout.lag]
                 failure = rules.refusal(taken, march.max_steps, step, speed, nominal_speed)
                 if failure > 0.0:
                     return int(failure), cycle + phase, step, last_error, steps, evaluations, written

@@ -58,7 +58,9 @@ def stops(model: Model) -> Float[Array, "interval stop"]:
         for m, mesh in enumerate(model.meshes):
             key = id(mesh.table), int(segment[interval, m])
             if key not in known:
-                known[key] = [phase for share in shares for phase in passages(mesh.table, key[1], share * width)]
+                known[key] = [
+                    phase for share in shares for phase in passages(mesh.table, key[1], share * width)
+                ]
             inside += [place_of(m, phase, schedule, interval) for phase in known[key]]
         first, last = float(start[interval]), float(end[interval])
         near = 1e-9 * (last - first)

@@ -15,7 +15,7 @@ from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, truncate, where
 from tribodyn.solve.integrator import Status
-from tribodyn.train.structure import LAG, shift_of, turn_of, turned
+from tribodyn.train.structure import shifted, turn_of, turned
 
 #: First step to try and the smallest one, mesh cycles; a step is the last if it ends this close to the end.
 FIRST_STEP, MINIMUM_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
@@ -62,7 +62,7 @@ def relative_factor(state, layout):
     Displacements have none: on soft bearings they are many times the deflection of the mesh, on which all
     forces depend. Nor have works, which grow with the run.
     """
-    return 1.0 if state == LAG or layout.half <= state < layout.mechanical else 0.0
+    return 1.0 if state == layout.lag or layout.half <= state < layout.mechanical else 0.0
 
 
 @law
@@ -106,7 +106,7 @@ def step_outcome(error, step, after, model):
     accepted = error <= 1.0
     undefined = (error != error) | (error >= INFINITE)
     layout = model.options.layout
-    at_rest = accepted & (model.operation.nominal_speed + after[layout.half + LAG] <= 0.0)
+    at_rest = accepted & (model.operation.nominal_speed + after[layout.half + layout.lag] <= 0.0)
     runaway = accepted & unbounded(after, model)
     failure = 0.0 * step
     if anywhere(undefined | at_rest | runaway):
@@ -132,13 +132,18 @@ def unbounded(state, model):
 
 
 @law
+def shift_size(body, state, layout):
+    """Largest magnitude of a body's displacements, m."""
+    x, y = plain(shifted(body, 0, state, layout)), plain(shifted(body, 1, state, layout))
+    return maximum(absolute(x), absolute(y))
+
+
+@law
 def largest_displacement(m, state, model):
     """Largest magnitude of the displacements of a mesh's bodies and of its transmission error, m."""
     layout, mesh = model.options.layout, model.meshes[m]
     driver, driven = layout.driver[m], layout.driven[m]
-    a, b = shift_of(driver), shift_of(driven)
-    first = maximum(absolute(plain(state[a])), absolute(plain(state[a + 1])))
-    second = maximum(absolute(plain(state[b])), absolute(plain(state[b + 1])))
+    first, second = shift_size(driver, state, layout), shift_size(driven, state, layout)
     error = mesh.driver_radius * plain(turned(driver, state, layout))
     error = error - mesh.driven_radius * plain(turned(driven, state, layout))
     return maximum(maximum(first, second), absolute(error))

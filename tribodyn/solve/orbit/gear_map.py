@@ -22,7 +22,7 @@ from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import DIFFERENCE, Marched, Tangent, by_differences
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales
-from tribodyn.train.structure import LAG, Layout, displacements, velocities
+from tribodyn.train.structure import Layout, displacements, velocities
 
 
 class Moving(NamedTuple):
@@ -38,7 +38,7 @@ def moving_states(model: Model) -> Moving:
     layout = model.layout
     free = {*displacements(layout), *velocities(layout)}
     if model.options.drive != DRIVE_SPEED:
-        free |= {layout.half + LAG}
+        free |= {layout.half + layout.lag}
     return Moving(tuple(sorted(free)), layout, model.schedule.period)
 
 

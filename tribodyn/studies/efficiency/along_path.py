@@ -11,12 +11,12 @@ import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.slices import friction_ratio, peak_ratio
-from tribodyn.studies.gears.recorded import SAMPLES
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, contacts, settled
 from tribodyn.mesh.quasi_static import efficiency, quasi_static
 from tribodyn.studies.efficiency.places import Array, Places, Sharing, piecewise, places
+from tribodyn.studies.gears.recorded import SAMPLES
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import range_shares
 

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, effective_contact_ratio
-from tribodyn.studies.gears.recorded import scales_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.families import family
@@ -43,6 +42,7 @@ from tribodyn.studies.gears.prepare import (
     contact_quantities,
     thermal_quantities,
 )
+from tribodyn.studies.gears.recorded import scales_of
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities

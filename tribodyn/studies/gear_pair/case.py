@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from tribodyn.dynamics.data import BearingData
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.solve.methods import SolverData
-from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
+from tribodyn.studies.gears.case import LAYOUT, LubricatedCase, OutputData
 from tribodyn.studies.protocol import cost
 from tribodyn.train.structure import layout_of
 
@@ -21,13 +21,6 @@ STEADY_CYCLES = 60
 _MESH_STIFFNESS = 0.1
 #: How often the window's samples are held; share of a record that its summary and pictures read at once.
 _WINDOW_HELD, _READ = 2.0, 0.05
-
-
-@dataclass(frozen=True)
-class OutputData:
-    """What is recorded."""
-
-    samples_per_cycle: int = 200
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,7 +7,8 @@ from tribodyn.scenario.tables.bearings import broken_bearing_rules
 from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
 from tribodyn.solve.methods import SOLVERS
-from tribodyn.studies.gear_pair.scenario import Mesh, Operating, Scenario
+from tribodyn.studies.gear_pair.scenario import Scenario
+from tribodyn.studies.gears.motion import broken_flank_rules, broken_mesh_rules, broken_source_rules
 from tribodyn.studies.gears.scenario import broken_gear_rules
 
 
@@ -15,39 +16,11 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
     yield from broken_gear_rules(scenario)
     yield from broken_bearing_rules(scenario.bearings)
-    yield from _operating(scenario.operating)
-    yield from _mesh(scenario.mesh)
+    yield from broken_source_rules(scenario.operating, "pinion_torque")
+    yield from broken_mesh_rules(scenario.mesh)
     yield from _load(scenario)
     if scenario.solver.method not in SOLVERS:
         yield unknown_name("solver.method", scenario.solver.method, SOLVERS, "solver")
-
-
-def _operating(operating: Operating) -> Iterator[InputError]:
-    if operating.source == "speed":
-        of_motor = ("drive_inertia", "shaft_stiffness", "shaft_damping", "speed_regulation")
-        given = {name: getattr(operating, name) for name in of_motor}
-        for name, value in {"pinion_torque": operating.motor_torque, **given}.items():
-            if value:
-                yield InputError(
-                    f"operating.{name}",
-                    f"{value:g} (SI)",
-                    'contradicts source = "speed": a prescribed rotation needs no motor',
-                    f'leave {name} out, or write source = "torque"',
-                )
-    elif operating.shaft_stiffness is None and operating.shaft_damping:
-        yield InputError(
-            "operating.shaft_damping",
-            f"{operating.shaft_damping:g} N*m*s/rad",
-            "a rigid shaft has no damping",
-            "add shaft_stiffness, or leave shaft_damping out",
-        )
-    elif operating.shaft_stiffness is not None and operating.drive_inertia == 0:
-        yield InputError(
-            "operating.drive_inertia",
-            "0 kg*m**2",
-            "a compliant shaft needs a motor with inertia at its end",
-            'add drive_inertia = "0.01 kg*m**2", or leave shaft_stiffness out',
-        )
 
 
 def _load(scenario: Scenario) -> Iterator[InputError]:
@@ -58,56 +31,4 @@ def _load(scenario: Scenario) -> Iterator[InputError]:
         return
     torque = duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth).gear_torque
     back_flanks = mesh.backlash is not None or gives_backlash(drive)
-    if torque <= 0 and not back_flanks:
-        yield InputError(
-            "operating.gear_torque",
-            f"{torque:g} N*m",
-            "must be greater than zero: without backlash only the driving flanks can carry load",
-            'write a torque such as "500 N*m", or add mesh.backlash',
-        )
-    yield from _working_flanks(torque, back_flanks, mesh)
-
-
-def _working_flanks(torque: float, back_flanks: bool, mesh: Mesh) -> Iterator[InputError]:
-    """Refuse what a load on the back flanks leaves without effect, and no load where the mesh needs one."""
-    for name in ("harmonics", "table"):
-        if torque < 0 and getattr(mesh.transmission_error, name):
-            yield InputError(
-                f"mesh.transmission_error.{name}",
-                rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
-                remedy="leave it out, or reverse the load",
-            )
-    if torque < 0 and mesh.deviation_sample is not None:
-        yield InputError(
-            "mesh.deviation_sample",
-            mesh.deviation_sample,
-            "is of the driving flanks, but under a load that drives the gear the back flanks carry",
-            "leave it out, or reverse the load",
-        )
-    if torque == 0 and back_flanks and mesh.compliance == "fem":
-        yield InputError(
-            "operating.gear_torque",
-            "0 N*m",
-            'contradicts compliance = "fem", which is taken at this load',
-            'write a torque such as "500 N*m", or use compliance = "energy"',
-        )
-
-
-def _mesh(mesh: Mesh) -> Iterator[InputError]:
-    table = '"stiffness.csv", columns roll_angle and stiffness'
-    for choice, name, example in (("constant", "stiffness", '"2.8e8 N/m"'), ("table", "table", table)):
-        given = getattr(mesh, name) is not None
-        if mesh.compliance == choice and not given:
-            rule = f'missing: compliance = "{choice}" needs it'
-            yield InputError(f"mesh.{name}", rule=rule, remedy=f"add {name} = {example}")
-        if mesh.compliance != choice and given:
-            rule = f'contradicts compliance = "{mesh.compliance}"'
-            remedy = f'leave {name} out, or write compliance = "{choice}"'
-            yield InputError(f"mesh.{name}", rule=rule, remedy=remedy)
-    error = mesh.transmission_error
-    if error.harmonics and error.table is not None:
-        yield InputError(
-            "mesh.transmission_error.table",
-            rule="contradicts mesh.transmission_error.harmonics",
-            remedy="give the one or the other",
-        )
+    yield from broken_flank_rules("operating.gear_torque", torque, back_flanks, mesh)

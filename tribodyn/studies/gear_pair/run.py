@@ -8,8 +8,6 @@ import numpy as np
 
 from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.outputs import UNRECORDED
-from tribodyn.studies.gear_pair.outputs import MESH, outputs_with_extremes
-from tribodyn.studies.gears.recorded import scales_of
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
@@ -20,6 +18,7 @@ from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 from tribodyn.studies.gear_pair.case import Case, window_of
+from tribodyn.studies.gear_pair.outputs import MESH, outputs_with_extremes
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.summary import (
     RunningExtremes,
@@ -38,6 +37,7 @@ from tribodyn.studies.gears.prepare import (
     contact_quantities,
     thermal_quantities,
 )
+from tribodyn.studies.gears.recorded import scales_of
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import exceeded_limits, law_quantities
@@ -214,7 +214,9 @@ class RunStatistics:
         shown = self.in_window if complete else self.extremes
         return shown.values() | {
             "extremes": {"run": self.extremes.described(), "last_cycles": self.in_window.described()},
-            "energy_residual": energy_residual(first, last, stored_last - stored_first, self.prepared.model.layout),
+            "energy_residual": energy_residual(
+                first, last, stored_last - stored_first, self.prepared.model.layout
+            ),
         }
 
     def window_work(self) -> np.ndarray:

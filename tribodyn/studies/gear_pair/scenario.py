@@ -9,54 +9,33 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.mesh.table import MeshData
 from tribodyn.scenario import fields, units
-from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, Text, csv_file, model_file, written
-from tribodyn.scenario.tables.bearings import Bearings, Stiffness, bearings_of
-from tribodyn.scenario.tables.drive_data import backlash_of
+from tribodyn.scenario.quantity import InUnit, csv_file, model_file, written
+from tribodyn.scenario.tables.bearings import Bearings, bearings_of
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
-from tribodyn.scenario.tables.laws import FrictionTable
-from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.solve.methods import SolverData
-from tribodyn.studies.gear_pair.case import Case, OutputData
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.gears.case import OutputData
+from tribodyn.studies.gears.motion import (
+    MOST_HARMONICS,
+    Friction,
+    Mesh,
+    Output,
+    Solver,
+    TorqueHarmonic,
+    moving_mesh_of,
+)
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
-    FaceSlices,
     FilmKeys,
-    FoundationCoupling,
     GearScenario,
     LossKeys,
     Oil,
-    SampleNumber,
-    SliceCoupling,
     TemperatureKeys,
     gear_fields,
-    mesh_of,
     oil_fields,
 )
-
-#: Cosines in a load or an error: a curve is given by points.
-MOST_HARMONICS = 1000
-
-Smoothing = Annotated[float, InUnit(units.positive(units.LENGTH), "0.1 um")]
-
-
-class TorqueHarmonic(Table):
-    """A cosine in the load torque."""
-
-    amplitude: fields.Torque
-    frequency: Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY))]
-    phase: fields.Angle = written("0 deg")
-
-
-class ErrorHarmonic(Table):
-    """A cosine in the static transmission error, over the mesh cycle."""
-
-    order: Count = Field(description="1: mesh frequency, 2: twice that, …")
-    amplitude: fields.Error
-    phase: fields.Angle = written("0 deg")
 
 
 class Operating(OiledOperatingTable):
@@ -96,71 +75,6 @@ class Operating(OiledOperatingTable):
         return self if self.motor_torque is None else self.model_copy(update={"pinion_torque": None})
 
 
-class TransmissionError(Table):
-    """Static transmission error e of a pair, positive where material is missing."""
-
-    harmonics: tuple[ErrorHarmonic, ...] = Field((), max_length=MOST_HARMONICS)
-    table: Annotated[fields.ErrorCurve, csv_file("roll_angle", "error")] | None = None
-
-
-class Mesh(Table):
-    """How the teeth in contact deflect, damp, separate and err."""
-
-    damping_ratio: NotNegative
-    compliance: Literal["energy", "fem", "constant", "table"] = "energy"
-    hertz: Literal["linear", "load-dependent"] = Field(
-        "linear", description="contact part of the energy method's compliance"
-    )
-    foundation: Foundation = Field(
-        "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
-    )
-    foundation_coupling: FoundationCoupling = True
-    stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
-    table: Annotated[fields.StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = Field(
-        None, description='of a single pair, with compliance = "table"'
-    )
-    formulation: Literal["classical", "energy-consistent"] = Field(
-        "classical", description="whether the varying stiffness acts on the rotations"
-    )
-    contact_width: Smoothing = written("0.1 um", description="deflection over which contact sets in")
-    backlash: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.1 mm")] | None = Field(
-        None, description="normal backlash at the pitch point; default: the drive's, see there"
-    )
-    points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
-    transmission_error: TransmissionError = written({})
-    deviation_sample: SampleNumber = None
-    misalignment: MisalignmentTable = written({})
-    slices: FaceSlices = None
-    slice_coupling: SliceCoupling = True
-
-
-class Friction(FrictionTable):
-    """Which law acts between the flanks, and the law's own keys."""
-
-    sliding: Literal["kinematic", "dynamic"] = Field(
-        "dynamic", description="sliding speed from nominal rotation or from the vibrating bodies"
-    )
-    reversal_width: Smoothing = written("20 um", description="along the path, over which friction turns at P")
-
-
-class Solver(Table):
-    """How the equations are solved."""
-
-    method: Text = "auto"
-    rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
-    cycles: Count = Field(20, description="mesh cycles to run")
-    max_steps: Annotated[int, Field(strict=True, gt=0, le=10**9)] = Field(
-        1_000_000, description="steps allowed in one mesh cycle"
-    )
-    initial: Literal["static", "unloaded"] = Field("static", description="state at the start")
-
-
-class Output(Table):
-    """What is recorded."""
-
-    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
-
-
 class GearPairScenario(GearScenario):
     """A scenario file."""
 
@@ -182,7 +96,7 @@ Scenario = GearPairScenario
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
     """Return the case of a scenario that has passed schema and rules."""
-    own: dict[str, Any] = {"operating": _operating(scenario), "mesh": _mesh(scenario)}
+    own: dict[str, Any] = {"operating": _operating(scenario), "mesh": moving_mesh_of(scenario)}
     case = Case(
         **gear_fields(scenario, toml, sha256) | own,
         **oil_fields(scenario),
@@ -206,15 +120,4 @@ def _operating(scenario: Scenario) -> OperatingData:
         **operating.model_dump(
             exclude={"gear_torque_table", "gear_torque_harmonics", *OiledOperatingTable.model_fields}
         ),
-    )
-
-
-def _mesh(scenario: Scenario) -> MeshData:
-    mesh, error = scenario.mesh, scenario.mesh.transmission_error
-    return mesh_of(
-        scenario,
-        error=error.table.in_si() if error.table else None,
-        table=mesh.table.in_si() if mesh.table else None,
-        error_harmonics=tuple((cosine.order, cosine.amplitude, cosine.phase) for cosine in error.harmonics),
-        backlash=backlash_of(scenario.drive, mesh.backlash),
     )

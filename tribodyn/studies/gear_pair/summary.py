@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.studies.gears.recorded import pair_numbers
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in, total_stiffness
@@ -16,11 +15,11 @@ from tribodyn.post.cycles import amplitude_spectrum
 from tribodyn.record.trust import Judge, heat_of
 from tribodyn.studies.gear_pair.outputs import MESH
 from tribodyn.studies.gear_pair.prepare import PreparedPair
+from tribodyn.studies.gears.recorded import pair_numbers
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
     IN,
-    LAG,
     OUT,
     PARAMETRIC,
     SLIDING,
@@ -187,10 +186,12 @@ def steady_quantities(
     touching = load > 0.0
     # by the actual rotation: a driven pinion need not turn at its nominal speed
     cycles = len(error) / samples
-    duration = float(cycles * cycle.pitch_angle / nominal_speed + work[LAG])
+    duration = float(cycles * cycle.pitch_angle / nominal_speed + work[layout.lag])
     frequency = cycles / duration
     orders, amplitudes = spectrum = amplitude_spectrum(error, samples)
-    power_in, power_out, power_damping = (work[work_of(layout, which)] / duration for which in (IN, OUT, DAMPING))
+    power_in, power_out, power_damping = (
+        work[work_of(layout, which)] / duration for which in (IN, OUT, DAMPING)
+    )
     power_friction = np.sum(work[works_of_meshes(layout, FRICTION)]) / duration
     stiffness = total_stiffness(window["mesh_stiffness"], window["pressure_angle"])
     # the mean load by its work over the gear's rotation: neither depends on the sampling

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from typing import Self
 
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.studies.gears.recorded import DOF_SCALE, PAIR, SAMPLES
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
 from tribodyn.mesh.cycle import MESH_CYCLE
@@ -15,6 +14,7 @@ from tribodyn.mesh.table import MeshData
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
+from tribodyn.studies.gears.recorded import DOF_SCALE, PAIR, SAMPLES
 from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.law import FilmData, FrictionData
@@ -42,6 +42,13 @@ TEMPERATURE_SWEPT = quantities("bulk_temperature", "power_load_independent", "ef
 LAYOUT = Layout(
     TIME, SAMPLES, {"pair": PAIR, "dof": DOF_SCALE}, groups={"mesh_cycle": MESH_CYCLE, "geometry": GEOMETRY}
 )
+
+
+@dataclass(frozen=True)
+class OutputData:
+    """What is recorded of a motion over time."""
+
+    samples_per_cycle: int = 200
 
 
 @dataclass(frozen=True, kw_only=True)

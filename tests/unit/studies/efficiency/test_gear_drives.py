@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.closures import LOCAL_LAWS, VECIANA, coulomb, of_case, under
-from tribodyn.studies.gear_pair.outputs import outputs, segment_of
+from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
@@ -76,7 +76,11 @@ def test_the_running_model_at_rest_has_the_same_loads_and_friction(prepared):
     case = prepared("crc-23-47", **same, **stiff, **{"mesh.backlash": "0.05 mm"})
     cycle = case.cycle
     phase = np.random.default_rng(3).uniform(0.0, 1.0, 12)
-    states = [static_equilibrium(case.model, at, int(segment_of(at, cycle.boundary))) for at in phase]
+    _, _, interval = interval_of(phase, case.model.schedule)
+    states = [
+        static_equilibrium(case.model, at, number)
+        for at, number in zip(phase, interval.tolist(), strict=True)
+    ]
     found = outputs(phase, np.stack(states), case.model)
     study = prepare(load_scenario("efficiency-crc-23-47", same))
     mesh = places(study.cycle, study.path, np.linspace(0.0, 1.0, 801))

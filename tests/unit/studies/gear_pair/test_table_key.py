@@ -5,7 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tribodyn.studies.gear_pair.prepare import prepare, table_key, tables
+from tribodyn.studies.gear_pair.prepare import prepare, tables
+from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.protocol.load import load_scenario
 
 #: Overrides that leave the table alone, and overrides that do not.

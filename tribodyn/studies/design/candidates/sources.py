@@ -12,7 +12,8 @@ from pydantic import ValidationError, create_model
 
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.scenario.messages import explain
-from tribodyn.scenario.quantity import Table, parts_of
+from tribodyn.scenario.quantity import Table
+from tribodyn.scenario.schema import parts_of
 from tribodyn.scenario.vary import base_units
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import evaluated_quantities

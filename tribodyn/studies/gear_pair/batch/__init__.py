@@ -8,8 +8,9 @@ from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
 from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate, tabulated
 from tribodyn.studies.gear_pair.case import MOST_STATES, STEADY_CYCLES, Case, estimate_in_sweep
-from tribodyn.studies.gear_pair.prepare import prepare, table_key
+from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.report import layout_of, row_bytes
+from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Batch
 
@@ -58,7 +59,9 @@ class GearPairs:
 
     def size_of_chunk(self, settings: SweepSettings, total: int, width: int) -> int:
         """Cases to be evaluated together, by the room that their windows take."""
-        by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * MOST_STATES * 8)))
+        by_room = max(
+            1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * MOST_STATES * 8))
+        )
         return max(width, min(by_room, max(MINIMUM_IN_CHUNK, total // CHUNKS)))
 
     def estimate(self, case: Case, settings: SweepSettings, total: int, width: int) -> Estimate:

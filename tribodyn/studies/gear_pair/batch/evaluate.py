@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.studies.gear_pair.outputs import MESH, outputs_with_extremes
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED
@@ -31,11 +30,14 @@ from tribodyn.studies.gear_pair.batch.steady import (
     steady,
 )
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import PreparedPair, Tabulated, prepare, table_key, tables
+from tribodyn.studies.gear_pair.outputs import MESH, outputs_with_extremes
+from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.report import SWEPT, UNSTABLE_QUANTITIES, layout_of
 from tribodyn.studies.gear_pair.summary import RunningExtremes, judge_block, steady_quantities, warning_of
 from tribodyn.studies.gears.check import remarks_in_brief
 from tribodyn.studies.gears.prepare import MOST_MOTIONS, at_own_temperature, thermal_quantities
+from tribodyn.studies.gears.same_table import table_key
+from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
 from tribodyn.train.structure import rotational_error, rotational_error_rate

@@ -17,10 +17,12 @@ from tribodyn.solve.orbit.motions import FAILED
 from tribodyn.solve.orbit.periodic import WANDERING, SteadyMotion, refuse_time_dependent, steady_states
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import PreparedPair, Tabulated, prepare, table_key
+from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.report import UNKNOWN
+from tribodyn.studies.gears.same_table import table_key
+from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.studies.sweeping.batch import NeighbourWay, NothingBetween, case_between
-from tribodyn.train.structure import LAG, Layout, works
+from tribodyn.train.structure import Layout, works
 
 if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch
@@ -64,7 +66,7 @@ def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:
 def without_audit(state: np.ndarray, layout: Layout) -> np.ndarray:
     """The state with its clock and its audit at zero."""
     state = state.copy()
-    state[[LAG, *works(layout)]] = 0.0
+    state[[layout.lag, *works(layout)]] = 0.0
     return state
 
 
@@ -107,12 +109,16 @@ def marched(
             reason = f"stopped after {reached:.4g} mesh cycles: {REASONS[Status(int(part.status[row]))]}"
             outcomes.append(failed(part.state[row], reached, reason))
             continue
-        section = np.concatenate([led.samples[i], ran.samples[row, ::samples]]).reshape(-1, model.layout.states)
+        section = np.concatenate([led.samples[i], ran.samples[row, ::samples]]).reshape(
+            -1, model.layout.states
+        )
         state = ran.state[row].copy()
         engage_next(state, cycles, model)
         extremes = extremes_of(ran.extremes, row)
         kept = CaseWindow(before, ran.samples[row], led.state[i], ran.state[row], extremes)
-        outcomes.append(Outcome(kept, without_audit(state, model.layout), section[-points:], "transient", int(reached)))
+        outcomes.append(
+            Outcome(kept, without_audit(state, model.layout), section[-points:], "transient", int(reached))
+        )
     return outcomes
 
 

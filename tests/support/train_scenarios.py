@@ -1,0 +1,70 @@
+"""Scenarios of trains, read as `load_scenario` reads them: references, schema, rules, case."""
+
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+from pydantic import ValidationError
+
+from tribodyn.errors import InputErrors
+from tribodyn.scenario.messages import explain
+from tribodyn.scenario.resolve import resolve, unresolved_keys
+from tribodyn.studies.gear_train import STUDY
+from tribodyn.studies.gear_train.case import Case
+
+
+def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> Case:
+    """The case of a train's scenario; InputErrors with every mistake."""
+    data, origins, errors = resolve(path, overrides or {}, STUDY.table)
+    data.setdefault("name", path.stem)
+    table = STUDY.table(data)
+    try:
+        scenario = table.model_validate(data)
+    except ValidationError as error:
+        known = unresolved_keys(errors)
+        found = [one for one in explain(error, table) if one.key not in known]
+        raise InputErrors([origins.locate(one) for one in (*errors, *found)]) from None
+    if errors := errors or [*STUDY.broken_rules(scenario)]:
+        raise InputErrors([origins.locate(one) for one in errors])
+    toml = tomli_w.dumps(data)
+    return STUDY.case(scenario, toml, hashlib.sha256(toml.encode()).hexdigest())
+
+
+def _gear(teeth: int, width: str, shift: float) -> dict[str, Any]:
+    return {"teeth": teeth, "face_width": width, "profile_shift": shift}
+
+
+def _stage(one: str, two: str, module: str, azimuth: str) -> dict[str, Any]:
+    return {"gears": [one, two], "module": module, "pressure_angle": "20 deg", "azimuth": azimuth}
+
+
+#: A two-stage reducer as TOML has it.
+REDUCER: dict[str, Any] = {
+    "title": "A reducer",
+    "kind": "gear-train",
+    "lubricant": "iso-vg-220-mineral",
+    "material": "18CrNiMo7-6",
+    "mean_roughness": "0.6 um",
+    "gear": {
+        "pinion-1": _gear(23, "42 mm", 0.25),
+        "wheel-1": _gear(69, "40 mm", -0.1),
+        "pinion-2": _gear(23, "62 mm", 0.25),
+        "wheel-2": _gear(57, "60 mm", 0.1),
+    },
+    "stage": [
+        _stage("pinion-1", "wheel-1", "3 mm", "0 deg"),
+        _stage("pinion-2", "wheel-2", "4 mm", "30 deg"),
+    ],
+    "shaft": [{"name": "middle", "gears": ["wheel-1", "pinion-2"]}],
+    "operating": {
+        "input": "pinion-1",
+        "output": "wheel-2",
+        "input_speed": "1480 rpm",
+        "output_torque": "1800 N*m",
+        "oil_temperature": "70 degC",
+    },
+    "mesh": {"compliance": "energy", "damping_ratio": 0.05},
+    "friction": {"law": "none"},
+}

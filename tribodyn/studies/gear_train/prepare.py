@@ -1,0 +1,175 @@
+"""From a case of a train to a model ready to integrate: pairs tabulated, numbers of the train assembled."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import cos, pi, sin
+
+import numpy as np
+
+from tribodyn.dynamics import parameters
+from tribodyn.errors import InputError
+from tribodyn.studies.gear_train.assembled import (
+    BodyInertia,
+    body_inertias,
+    link_damping,
+    phases,
+    table_numbers,
+)
+from tribodyn.studies.gear_train.case import HOUSING, Case, LoadData
+from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.gears.model import Frame, mesh_of, options_of, varying_load
+from tribodyn.studies.gears.prepare import Thermal, at_tooth_temperature
+from tribodyn.studies.gears.tabulated import Tabulated, quasi_static_loss, tables
+from tribodyn.train.phases import Phases
+from tribodyn.train.schedule import schedule_of
+from tribodyn.train.structure import GROUND, Bodies, Layout, Links, layout_of
+from tribodyn.tribology.closure import closure_of
+
+
+@dataclass(frozen=True)
+class PreparedTrain:
+    """A case made ready to integrate; bodies of the model in its own order."""
+
+    case: Case
+    model: parameters.Model
+    made: tuple[Tabulated, ...]  # of every mesh; equal meshes share one
+    pairs: tuple[LubricatedCase, ...]  # of every mesh, with the oil at its teeth's temperature
+    thermal: tuple[Thermal | None, ...]
+    phases: Phases
+    order: tuple[int, ...]  # bodies of the case as the model has them; behind these the motor
+    inertias: tuple[BodyInertia, ...]  # of the case's bodies
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the model's bodies."""
+        own = tuple(self.case.bodies[body].name for body in self.order)
+        return own if len(own) == self.model.layout.bodies else (*own, "motor")
+
+
+def frame_of(azimuth: float, sense: int) -> Frame:
+    """Directions along and across of a mesh whose driver turns in a sense, +1 counter-clockwise."""
+    return (-sense * sin(azimuth), sense * cos(azimuth)), (cos(azimuth), sin(azimuth))
+
+
+def tabulated(case: Case) -> tuple[Tabulated, ...]:
+    """The tables of every mesh; equal meshes share one. Raises InputError as `gears.tabulated.tables` does."""
+    known: dict[int, Tabulated] = {}
+    for number, mesh in zip(table_numbers(case), case.meshes, strict=True):
+        if number not in known:
+            known[number] = tables(mesh.pair)
+    return tuple(known[number] for number in table_numbers(case))
+
+
+def prepare(case: Case, made: tuple[Tabulated, ...] | None = None) -> PreparedTrain:
+    """Check the geometry, tabulate the meshes and assemble the model; `made` is of equal tables, if known."""
+    made = made or tabulated(case)
+    inertias = body_inertias(case, [each.assembly for each in made])
+    warm, thermal = [], []
+    for mesh, each in zip(case.meshes, made, strict=True):
+        pair, heat = at_tooth_temperature(mesh.pair, each.assembly, quasi_static_loss(each))
+        warm.append(pair)
+        thermal.append(heat)
+    found = phases(case, [each.assembly for each in made], [float(each.cycle.roll_start) for each in made])
+    order = _order(case)
+    model = _model(case, made, warm, inertias, found, order)
+    return PreparedTrain(case, model, made, tuple(warm), tuple(thermal), found, order, inertias)
+
+
+def _held(case: Case, body: int) -> bool:
+    """Whether bearings hold a body, which then moves in the plane; another one only turns."""
+    return any(body in link.ends and min(link.stiffness[:2]) > 0.0 for link in case.links)
+
+
+def _order(case: Case) -> tuple[int, ...]:
+    """Bodies of the case as the model has them: first those that bearings hold, the reference first of all."""
+    numbers = range(len(case.bodies))
+    held = [body for body in numbers if _held(case, body)]
+    if held and 0 not in held:
+        rule = "the body that drives the reference mesh has no bearing, but others have"
+        raise InputError(case.bodies[0].key, case.bodies[0].name, rule, "give it a bearing, or none to any")
+    return (*held, *(body for body in numbers if body not in held))
+
+
+def _model(
+    case: Case,
+    made: Sequence[Tabulated],
+    pairs: Sequence[LubricatedCase],
+    inertias: Sequence[BodyInertia],
+    found: Phases,
+    order: Sequence[int],
+) -> parameters.Model:
+    source, new = case.source, {body: number for number, body in enumerate(order)}
+    closures = [closure_of(pair) for pair in pairs]
+    layout = _layout(case, new)
+    motor = [source.inertia] if layout.bodies > len(order) else []
+    bodies = Bodies(
+        mass=np.array([inertias[body].mass for body in order[: layout.planar]]),
+        inertia=np.array([*(inertias[body].inertia for body in order), *motor]),
+        ratio=np.array([*(float(case.bodies[body].ratio) for body in order), *_of_motor(case, motor)]),
+        load=np.zeros(layout.bodies),
+        load_damping=np.zeros(layout.bodies),
+    )
+    for load in case.loads:
+        bodies.load[new[load.body]] += load.torque
+        bodies.load_damping[new[load.body]] += load.damping
+    stiffness = [link.stiffness for link in case.links]
+    damping = [link_damping(link, inertias) for link in case.links]
+    if motor:
+        stiffness.append((0.0, 0.0, source.shaft_stiffness or 0.0))
+        damping.append((0.0, 0.0, source.shaft_damping))
+    meshes = []
+    for mesh, each, pair, closure in zip(case.meshes, made, pairs, closures, strict=True):
+        ends = inertias[mesh.driver].inertia, inertias[mesh.driven].inertia
+        frame = frame_of(mesh.azimuth, case.bodies[mesh.driver].sense)
+        meshes.append(mesh_of(pair, each, closure, ends, frame))
+    drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
+    varying = _varying(case)
+    first = case.meshes[0].pair
+    return parameters.Model(
+        tuple(meshes),
+        bodies,
+        Links(np.array(stiffness).reshape(-1, 3), np.array(damping).reshape(-1, 3)),
+        schedule_of(
+            [np.asarray(each.table.boundary) for each in made],
+            [mesh.rate for mesh in case.meshes],
+            [float(phase) for phase in found.meshes],
+        ),
+        parameters.Operation(
+            nominal_speed=source.speed / float(case.bodies[source.body].ratio),
+            pitch_angle=2.0 * pi / float(first.drive.pinion.teeth),
+            drive_torque=source.torque,
+            speed_regulation=source.speed_regulation,
+            contact_width=first.mesh.contact_width,
+            reversal_width=first.friction.reversal_width,
+            **varying_load(varying.table, varying.harmonics),
+        ),
+        options_of(first, [each.cycle for each in made], closures[0], layout, drive),
+    )
+
+
+def _of_motor(case: Case, motor: Sequence[float]) -> list[float]:
+    return [float(case.bodies[case.source.body].ratio) for _ in motor]
+
+
+def _varying(case: Case) -> LoadData:
+    """The load that varies over time, or the first one."""
+    varying = [number for number, load in enumerate(case.loads) if load.table or load.harmonics]
+    if len(varying) > 1:
+        rule = "two loads vary over time"
+        raise InputError(f"load.{varying[1]}.torque_table", None, rule, "let one of them be constant")
+    return case.loads[varying[0] if varying else 0] if case.loads else LoadData(0, 0.0)
+
+
+def _layout(case: Case, new: dict[int, int]) -> Layout:
+    ends = [
+        (new[link.ends[0]], GROUND if link.ends[1] == HOUSING else new[link.ends[1]]) for link in case.links
+    ]
+    source = new[case.source.body]
+    count, planar = len(new), sum(_held(case, body) for body in new)
+    shaft = case.source.kind == "torque" and case.source.shaft_stiffness is not None
+    if shaft:
+        ends.append((count, source))
+    meshes = [(new[mesh.driver], new[mesh.driven]) for mesh in case.meshes]
+    return layout_of(
+        planar, count + shaft, meshes, ends, count if shaft else source, new[_varying(case).body]
+    )

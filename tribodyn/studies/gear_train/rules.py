@@ -1,0 +1,106 @@
+"""Rules that tie several keys of a train's scenario together: whether it is a train that can be made."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from tribodyn.errors import InputError, InputErrors, unknown_name
+from tribodyn.scenario.tables.bearings import broken_bearing
+from tribodyn.scenario.tables.drive_data import gives_backlash
+from tribodyn.solve.methods import SOLVERS
+from tribodyn.studies.gear_train.drawn import Moving, drawn, in_terms_of_train, moving
+from tribodyn.studies.gear_train.duty import broken_duty_rules, duty_of
+from tribodyn.studies.gear_train.names import broken_names, broken_sort
+from tribodyn.studies.gear_train.scenario import Scenario, pair_view
+from tribodyn.studies.gears.motion import broken_flank_rules, broken_mesh_rules, broken_source_rules
+from tribodyn.studies.gears.scenario import broken_gear_rules
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that the scenario breaks; none: it is consistent."""
+    if broken := list(broken_sort(scenario)):
+        yield from broken
+        return
+    broken = [
+        *broken_names(scenario),
+        *_of_all_gears(scenario),
+        *_bearings(scenario),
+        *broken_source_rules(scenario.operating, "input_torque"),
+        *broken_duty_rules(scenario),
+    ]
+    if not isinstance(scenario.mesh, tuple):
+        broken += broken_mesh_rules(scenario.mesh)
+    else:
+        broken += _bare_meshes(scenario.mesh)
+    if scenario.solver.method not in SOLVERS:
+        broken.append(unknown_name("solver.method", scenario.solver.method, SOLVERS, "solver"))
+    yield from broken
+    if not broken:
+        yield from _of_train(scenario)
+
+
+def _of_train(scenario: Scenario) -> Iterator[InputError]:
+    """What can be said once names and duty are sound: of the train, then of its pairs, then of room."""
+    try:
+        train = moving(scenario)
+    except InputError as error:
+        yield error
+        return
+    if broken := list(_pairs(scenario, train)):
+        yield from broken
+        return
+    try:
+        drawn(train)
+    except InputErrors as error:
+        yield from error.errors
+    except InputError as error:
+        yield error
+
+
+def _pairs(scenario: Scenario, train: Moving) -> Iterator[InputError]:
+    """Rules of every mesh as a pair of gears, and of its load; what all meshes share is said once."""
+    said: set[str] = set()
+    unloaded: set[str] = set()
+    duty = duty_of(scenario, train)
+    for mesh, torque in enumerate(duty.torques.driven):
+        view = pair_view(scenario, train, mesh)
+        part = train.parts.meshes[train.motion.meshes[mesh]]
+        back = view.mesh.backlash is not None or gives_backlash(view.drive)
+        for error in broken_gear_rules(view, every_duty=True):
+            error = in_terms_of_train(error, train, mesh)
+            if str(error) not in said:
+                said.add(str(error))
+                yield error
+        for error in broken_flank_rules(part.key, torque, back, view.mesh):
+            if error.rule not in unloaded:  # of all stages that are driven backwards the first
+                unloaded.add(error.rule)
+                yield error
+
+
+def _of_all_gears(scenario: Scenario) -> Iterator[InputError]:
+    """Name what no gear says of itself where it is said for all of them."""
+    tables = [*scenario.gear.values()]
+    bare = isinstance(scenario.mesh, tuple)
+    if scenario.drive is not None:
+        return
+    if scenario.material is None and (bare or all(gear.material is None for gear in tables)):
+        remedy = 'add material = "18CrNiMo7-6", of all gears that name none'
+        yield InputError("material", None, "missing", remedy)
+    flanks = any(gear.mean_roughness for gear in tables) or any(stage.roughness for stage in scenario.stage)
+    if scenario.mean_roughness is None and not flanks:
+        remedy = 'add mean_roughness = "0.6 um", Ra of the flanks of all gears that say none'
+        yield InputError("mean_roughness", None, "missing", remedy)
+
+
+def _bearings(scenario: Scenario) -> Iterator[InputError]:
+    for name, bearing in scenario.bearings.by_name.items():
+        yield from broken_bearing(f"bearings.{name}", bearing)
+
+
+def _bare_meshes(meshes: Any) -> Iterator[InputError]:
+    for number, mesh in enumerate(meshes):
+        key = f"mesh.{number}.stiffness"
+        if mesh.stiffness is None and mesh.table is None:
+            yield InputError(key, None, "missing", 'add stiffness = "2.8e8 N/m", or a table')
+        if mesh.stiffness is not None and mesh.table is not None:
+            rule = "contradicts table, which gives it over the roll angle"
+            yield InputError(key, f"{mesh.stiffness:g} N/m", rule, "give the one or the other")

@@ -1,0 +1,297 @@
+"""The scenario of a train, and the case that is made of it."""
+
+from dataclasses import replace
+from typing import Annotated, Any, Literal, NamedTuple
+
+from pydantic import Discriminator, Field, Tag
+
+from tribodyn.dynamics.data import BearingData, OperatingData
+from tribodyn.geometry.drive import SIDES, BodyMass, Side
+from tribodyn.scenario.fields import ScenarioHead, head_of
+from tribodyn.scenario.quantity import Count, model_file, written
+from tribodyn.scenario.tables.bearings import bearing_of
+from tribodyn.scenario.tables.drive_data import masses_of, materials_of, teeth_of
+from tribodyn.scenario.tables.model_files import DriveTable, Grade, MaterialReference, Roughness
+from tribodyn.scenario.tables.quality import grade_of, tolerances_of
+from tribodyn.solve.methods import SolverData
+from tribodyn.studies.gear_train.case import (
+    HOUSING,
+    BodyData,
+    Case,
+    GearData,
+    LinkData,
+    SourceData,
+    TrainMesh,
+)
+from tribodyn.studies.gear_train.drawn import Drawn, Moving, drawn, moving
+from tribodyn.studies.gear_train.duty import Duty, duty_of, motor_torque
+from tribodyn.studies.gear_train.structure import bearings_by_body, mesh_table
+from tribodyn.studies.gear_train.tables import (
+    MOST_PARTS,
+    BareMesh,
+    Body,
+    Link,
+    Load,
+    PartName,
+    Shaft,
+    Stage,
+    TrainBearings,
+    TrainGear,
+    TrainOperating,
+)
+from tribodyn.studies.gears.by_standard import quality_of
+from tribodyn.studies.gears.case import LubricatedCase, OutputData
+from tribodyn.studies.gears.motion import Friction, Mesh, Output, Solver, moving_mesh_of
+from tribodyn.studies.gears.prepare import with_chosen_laws
+from tribodyn.studies.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
+
+
+def _sort(mesh: Any) -> str:
+    """Whether [mesh] is written, or [[mesh]] of a bare model."""
+    return "(list)" if isinstance(mesh, (list, tuple)) else "(table)"
+
+
+Meshes = Annotated[
+    Annotated[Mesh, Tag("(table)")]
+    | Annotated[tuple[BareMesh, ...], Tag("(list)"), Field(max_length=MOST_PARTS)],
+    Discriminator(_sort),
+]
+
+
+class TrainSolver(Solver):
+    """How the equations are solved."""
+
+    max_period: Count = Field(
+        200, description="cycles of the reference mesh that steady states may last, at most"
+    )
+
+
+class GearTrainScenario(ScenarioHead):
+    """A scenario file."""
+
+    kind: Literal["gear-train"] = "gear-train"
+    drive: Annotated[DriveTable | None, model_file("drives")] = Field(
+        None, description="a pair of gears, in place of [gear] and [[stage]]: a train of one stage"
+    )
+    gear: dict[PartName, TrainGear] = written({}, description="gears by name")
+    stage: tuple[Stage, ...] = Field((), max_length=MOST_PARTS, description="which gears mesh")
+    shaft: tuple[Shaft, ...] = Field((), max_length=MOST_PARTS, description="which gears turn together")
+    body: tuple[Body, ...] = Field((), max_length=MOST_PARTS, description="bodies without teeth")
+    link: tuple[Link, ...] = Field((), max_length=MOST_PARTS, description="springs between bodies")
+    material: MaterialReference | None = Field(None, description="of all gears that name none")
+    mean_roughness: Roughness | None = Field(None, description="Ra of the flanks of all gears that say none")
+    quality: Grade | None = Field(None, description="tolerance class of all gears that say none")
+    lubricant: Oil
+    bearings: Annotated[TrainBearings, model_file("bearings")] = written("rigid-1e9")
+    operating: TrainOperating
+    load: tuple[Load, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
+    mesh: Meshes = Field(description="of all stages; a list: the meshes of a bare model")
+    temperature: TemperatureKeys = None
+    film: FilmKeys = None
+    friction: Friction
+    solver: TrainSolver = written({})
+    output: Output = written({})
+
+
+Scenario = GearTrainScenario
+
+
+class PairView(NamedTuple):
+    """A mesh as a scenario of one pair of gears, for what those share; its pinion drives."""
+
+    title: str
+    name: str
+    kind: str
+    drive: DriveTable
+    mesh: Mesh
+    operating: TrainOperating
+    lubricant: Any
+    film: Any
+    friction: Friction
+    temperature: Any
+
+
+def pair_view(scenario: Any, train: Moving, mesh: int) -> PairView:
+    """Look at a mesh, by its number in the train's order, as at a pair of gears."""
+    part = train.parts.meshes[train.motion.meshes[mesh]]
+    return PairView(
+        scenario.title,
+        scenario.name or "scenario",
+        scenario.kind,
+        train.drives[mesh],
+        mesh_table(scenario, part),
+        scenario.operating,
+        scenario.lubricant,
+        scenario.film,
+        scenario.friction,
+        scenario.temperature,
+    )
+
+
+def case_of(scenario: Any, toml: str, sha256: str) -> Case:
+    """Return the case of a scenario that has passed schema and rules."""
+    train = moving(scenario)
+    figure = drawn(train)
+    duty = duty_of(scenario, train)
+    head = head_of(scenario, toml, sha256)
+    gears = _gears(train, figure)
+    solver = scenario.solver.model_dump()
+    max_period = solver.pop("max_period")
+    return Case(
+        **head,
+        gears=gears,
+        bodies=_bodies(scenario, train, figure, duty),
+        links=_links(scenario, train),
+        meshes=_meshes(scenario, train, figure, duty, head),
+        source=_source(scenario, train, duty),
+        loads=duty.loads,
+        period=train.motion.period,
+        max_period=max_period,
+        solver=SolverData(**solver),
+        output=OutputData(**scenario.output.model_dump()),
+    )
+
+
+def _numbers(train: Moving) -> dict[int, int]:
+    """Number of each body of the structure in the train's order."""
+    return {body: number for number, body in enumerate(train.motion.bodies)}
+
+
+def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:
+    new, found = _numbers(train), []
+    for number, gear in enumerate(train.parts.gears):
+        meshes: tuple[tuple[int, Side], ...] = tuple(
+            (mesh, side)
+            for mesh, both in enumerate(train.motion.gears)
+            for side, one in zip(SIDES, both, strict=True)
+            if one == number
+        )
+        mesh, side = meshes[0]
+        material = materials_of(train.drives[mesh])[SIDES.index(side)]
+        found.append(
+            GearData(
+                gear.name,
+                gear.key,
+                new[gear.body],
+                figure.shafts[number],
+                gear.table.teeth,
+                figure.planes[number],
+                gear.tooth_angle,
+                _given_mass(train, number),
+                material.density,
+                meshes,
+            )
+        )
+    return tuple(found)
+
+
+def _given_mass(train: Moving, number: int) -> BodyMass:
+    """Mass and inertia of a gear; gears of a bare model have none, for their bodies have it."""
+    gear = train.parts.gears[number]
+    if gear.key.startswith("mesh."):
+        return BodyMass(0.0, 0.0)
+    return BodyMass(gear.table.mass, gear.table.inertia)
+
+
+def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: Duty) -> tuple[BodyData, ...]:
+    motion, operating, found = train.motion, scenario.operating, []
+    for number, body in enumerate(motion.bodies):
+        part = train.parts.bodies[body]
+        inertia = part.inertia + sum(own for at, own in duty.inertias if at == number)
+        if number == motion.input and operating.shaft_stiffness is None:
+            inertia += operating.drive_inertia
+        x, y = figure.places.centres[number]
+        gears = tuple(place for place, gear in enumerate(train.parts.gears) if gear.body == body)
+        found.append(
+            BodyData(
+                part.name,
+                part.key,
+                gears,
+                part.mass,
+                inertia,
+                motion.ratio[number],
+                motion.sense[number],
+                (float(x), float(y)),
+            )
+        )
+    return tuple(found)
+
+
+def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
+    new, found = _numbers(train), []
+    bearings = bearings_by_body(scenario, train.parts)
+    for number, body in enumerate(train.motion.bodies):
+        bearing = bearings[body]
+        if bearing is not None:
+            data: BearingData = bearing_of(bearing)
+            found.append(
+                LinkData(
+                    f"bearing-{train.parts.bodies[body].name}",
+                    "bearings",
+                    (number, HOUSING),
+                    (data.stiffness_x, data.stiffness_y, 0.0),
+                    (0.0, 0.0, 0.0),
+                    (data.damping_ratio_x, data.damping_ratio_y, 0.0),
+                )
+            )
+    for link in train.parts.links:
+        one, two = (HOUSING if end < 0 else new[end] for end in link.ends)
+        ends = (two, one) if one == HOUSING else (one, two)
+        found.append(LinkData(link.name, link.key, ends, link.stiffness, link.damping, link.damping_ratio))
+    return tuple(found)
+
+
+def _meshes(
+    scenario: Any, train: Moving, figure: Drawn, duty: Duty, head: dict[str, str]
+) -> tuple[TrainMesh, ...]:
+    motion, found = train.motion, []
+    first: LubricatedCase | None = None
+    for mesh, place in enumerate(motion.meshes):
+        view = pair_view(scenario, train, mesh)
+        speed = duty.speed * float(motion.ratio[motion.driver[mesh]])
+        pair = LubricatedCase(
+            **head,
+            **teeth_of(view.drive),
+            masses=masses_of(view.drive),
+            operating=OperatingData("speed", speed, duty.torques.driven[mesh]),
+            mesh=moving_mesh_of(view),
+            quality=quality_of(
+                [grade_of(view.drive, gear) for gear in (view.drive.pinion, view.drive.gear)],
+                tolerances_of(view.drive),
+            ),
+            **oil_fields(view),
+        )
+        first = first or with_chosen_laws(pair)
+        part = train.parts.meshes[place]
+        found.append(
+            TrainMesh(
+                part.name,
+                part.key,
+                motion.driver[mesh],
+                motion.driven[mesh],
+                motion.gears[mesh],
+                figure.places.azimuths[mesh],
+                motion.rate[mesh],
+                _with_laws_of(pair, first),
+            )
+        )
+    return tuple(found)
+
+
+def _with_laws_of(pair: LubricatedCase, first: LubricatedCase) -> LubricatedCase:
+    """One film and one friction law hold in the whole train: where "auto" chooses, for its first mesh."""
+    return replace(pair, film=first.film, friction=first.friction)
+
+
+def _source(scenario: Any, train: Moving, duty: Duty) -> SourceData:
+    operating, given = scenario.operating, motor_torque(scenario)
+    return SourceData(
+        operating.source,
+        train.motion.input,
+        duty.speed,
+        duty.torques.source if given is None else given,
+        operating.drive_inertia,
+        operating.shaft_stiffness,
+        operating.shaft_damping,
+        operating.speed_regulation,
+    )

@@ -1,0 +1,239 @@
+"""Tables of a train: gears, stages, shafts; bodies, links and meshes of a bare model; bearings, duty."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field
+
+from tribodyn.errors import quoted
+from tribodyn.geometry.drive import PROFILES
+from tribodyn.geometry.families import FAMILIES
+from tribodyn.scenario import fields, quantity, units
+from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Number, Table, Text, csv_file, written
+from tribodyn.scenario.tables.bearings import Bearing, Stiffness
+from tribodyn.scenario.tables.duty import Power, Speed
+from tribodyn.scenario.tables.model_files import (
+    Angle,
+    Described,
+    FaceWidth,
+    Gear,
+    Inertia,
+    Length,
+    Mass,
+    Roughness,
+)
+from tribodyn.studies.gears.motion import MOST_HARMONICS, TorqueHarmonic
+
+#: Stages, shafts, bodies, links, meshes and loads, each: as many as any train has.
+MOST_PARTS = 100
+#: The other end of a link that holds a body in the housing.
+GROUND = "ground"
+
+Backlash = Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.1 mm")]
+Azimuth = Annotated[float, InUnit(units.ANGLE_KIND, "30 deg")]
+NotNegativeMass = Annotated[float, InUnit(units.not_negative(units.MASS))]
+SpringStiffness = Annotated[float, InUnit(units.not_negative(units.STIFFNESS))]
+Damping = Annotated[float, InUnit(units.not_negative(units.DAMPING))]
+TorsionalStiffness = Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))]
+PartName = Annotated[str, Field(strict=True, pattern=r"^\w[\w-]*$")]
+"""Name of a gear, a shaft or a body: keys are made of it."""
+
+
+def _one_place(value: Any) -> Any:
+    """Refuse several inputs, or what is no name."""
+    if isinstance(value, (list, tuple)) and len(value) != 1:
+        raise quantity.broken(
+            "a train has one input", "name one gear, shaft or body; others may be a [[load]]"
+        )
+    if value is not None and not isinstance(value, str):
+        raise quantity.broken(
+            "not the name of a gear, a shaft or a body", f"write it like {quoted('pinion')}"
+        )
+    return value
+
+
+class TrainGear(Gear):
+    """One gear of a train; what it does not say of material and flanks is said for all gears."""
+
+    plane: Count | None = Field(
+        None, description="axial plane; default: one for all gears that stages join, another for others"
+    )
+    tooth_angle: Azimuth = written(
+        "0 deg", description="of one of its teeth from the mark of its shaft, counter-clockwise"
+    )
+
+
+class Stage(Table):
+    """Two gears that mesh: what a drive file says of both; its pinion is the gear that drives."""
+
+    name: PartName | None = Field(None, description="default: the names of its gears")
+    gears: tuple[Text, ...] = Field(min_length=2, max_length=2, description="that mesh, in either order")
+    family: Annotated[Text, quantity.Names(FAMILIES)] = Field(
+        "involute", description="family of the path of contact"
+    )
+    module: Length
+    pressure_angle: Angle | None = Field(
+        None, description="of the rack for involutes; at the pitch point for other families, if they take one"
+    )
+    centre_distance: (
+        Annotated[quantity.Printed, quantity.PrintedQuantity(units.positive(units.LENGTH))] | None
+    ) = Field(None, description="of involutes; default: that of nominal teeth in mesh without backlash")
+    azimuth: Azimuth | None = Field(
+        None,
+        description="direction from the first gear's axis to the second's, counter-clockwise from x; "
+        "default: as the other stages leave it, else along x away from the input",
+    )
+    backlash: Backlash | None = Field(
+        None, description="normal backlash at the pitch point; default: that of [mesh], or of the teeth"
+    )
+    rack: Annotated[Text, quantity.Names(PROFILES)] | None = Field(
+        None, description="basic rack, for what the pressure angle and the gears do not say themselves"
+    )
+    shape: Annotated[dict[str, Any] | None, quantity.FamilyShape()] = Field(
+        None, description="what else the family needs, see `tribodyn list`"
+    )
+    roughness: Roughness | None = Field(
+        None, description="composite rms roughness of the flanks; default: from the mean roughness of both"
+    )
+    damping_ratio: NotNegative | None = Field(None, description="default: that of [mesh]")
+
+
+class Shaft(Table):
+    """Gears that turn together: one rigid body, or two bodies with a torsional spring between them."""
+
+    name: PartName
+    gears: tuple[Text, ...] = Field(min_length=2, description="that turn together; two on a compliant shaft")
+    stiffness: TorsionalStiffness | None = Field(None, description="torsional; default: rigid")
+    damping: fields.TorsionalDamping = written("0 N*m*s/rad", description="of a compliant shaft")
+    damping_ratio: NotNegative = Field(0.0, description="of a compliant shaft, of its two gears against it")
+    mass: NotNegativeMass = written("0 kg", description="of the shaft; a compliant one's is halved")
+    inertia: fields.Inertia = written("0 kg*m**2", description="of the shaft; a compliant one's is halved")
+
+
+class Body(Table):
+    """A body without teeth, such as a flywheel or a motor, or any body of a bare model."""
+
+    name: PartName
+    mass: Mass
+    inertia: Inertia = Field(description="polar")
+
+
+class Link(Table):
+    """Springs and dampers between two bodies, or between a body and the housing."""
+
+    name: PartName | None = Field(None, description="default: the names of its ends")
+    ends: tuple[Text, ...] = Field(
+        min_length=2, max_length=2, description=f'gears, shafts or bodies; "{GROUND}": the housing'
+    )
+    stiffness_x: SpringStiffness = written("0 N/m")
+    stiffness_y: SpringStiffness = written("0 N/m")
+    damping_x: Damping = written("0 N*s/m")
+    damping_y: Damping = written("0 N*s/m")
+    stiffness: TorsionalStiffness | None = Field(
+        None, description="torsional; bodies that it joins share an axis; default: none"
+    )
+    damping: fields.TorsionalDamping = written("0 N*m*s/rad", description="torsional")
+    damping_ratio: NotNegative = Field(0.0, description="of every direction that has a stiffness, added")
+
+
+class BareMesh(Table):
+    """A mesh of two bodies, whose stiffness is given: involutes of standard height."""
+
+    name: PartName | None = Field(None, description="default: the names of its bodies")
+    bodies: tuple[Text, ...] = Field(min_length=2, max_length=2, description="in either order")
+    teeth: tuple[Annotated[int, Field(strict=True, ge=4, le=10_000)], ...] = Field(
+        min_length=2, max_length=2, description="of both, in the order of the bodies"
+    )
+    module: Length
+    pressure_angle: Angle
+    face_width: FaceWidth
+    profile_shift: tuple[Number, ...] = Field(
+        (0.0, 0.0), min_length=2, max_length=2, description="x of both, times the module"
+    )
+    azimuth: Azimuth | None = Field(
+        None, description="direction from the first body's axis to the second's; default: as for a stage"
+    )
+    stiffness: Stiffness | None = Field(None, description="of a single pair of teeth")
+    table: Annotated[fields.StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = Field(
+        None, description="in its place: over the driver's roll angle from the pitch point"
+    )
+    damping_ratio: NotNegative
+    backlash: Backlash | None = Field(
+        None, description="normal backlash at the pitch point; default: back flanks never touch"
+    )
+
+
+class TrainBearings(Described, extra="allow"):
+    """Bearings by what they carry: a gear, a shaft or a body, or "default"; x and y are the train's."""
+
+    __pydantic_extra__: dict[str, Bearing]  # pyright: ignore[reportIncompatibleVariableOverride]
+
+    @property
+    def by_name(self) -> dict[str, Bearing]:
+        """The bearings by the names under which they stand."""
+        return dict(self.__pydantic_extra__ or {})
+
+
+class Load(Table):
+    """What a gear, a shaft or a body drives beside the output."""
+
+    at: Text = Field(description="gear, shaft or body")
+    torque: fields.Torque = Field(description="against its motion; negative where it drives")
+    inertia: fields.Inertia = written("0 kg*m**2")
+    damping: fields.TorsionalDamping = written(
+        "0 N*m*s/rad", description="torque that grows with speed above nominal"
+    )
+    torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
+        None, description="over time, added"
+    )
+    torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), max_length=MOST_HARMONICS, description="added")
+
+
+class TrainOperating(Table):
+    """Where power enters and leaves, at which speed and load, and how the train is driven."""
+
+    input: Annotated[Text | None, BeforeValidator(_one_place)] = Field(
+        None, description='gear, shaft or body at which power enters; with [drive]: default "pinion"'
+    )
+    output: Text | None = Field(
+        None, description='at which it leaves; several: [[load]]; with [drive]: default "gear"'
+    )
+    sense: Literal["clockwise", "counter-clockwise"] = Field(
+        "clockwise", description="of the input's rotation, seen from +z"
+    )
+    input_speed: Speed | None = Field(None, description="of the input")
+    output_speed: Speed | None = Field(None, description="of the output, in place of the input's")
+    output_torque: fields.Torque | None = Field(
+        None, description="against the output's motion; negative where it drives"
+    )
+    input_torque: fields.Torque | None = Field(None, description="on the input, in place of the output's")
+    power: Power | None = Field(None, description="put in, in place of a torque")
+    oil_temperature: fields.Temperature | None = Field(
+        None, description="where the oil enters the meshes; for a lubricant given by its data sheet"
+    )
+    source: Literal["speed", "torque"] = Field(
+        "speed", description="speed: the input's rotation is prescribed; torque: a motor with inertia"
+    )
+    output_torque_table: Annotated[fields.TorqueCurve, csv_file("time", "torque")] | None = Field(
+        None, description="over time, added to the output's torque"
+    )
+    output_torque_harmonics: tuple[TorqueHarmonic, ...] = Field(
+        (), max_length=MOST_HARMONICS, description="added to the output's torque"
+    )
+    load_inertia: fields.Inertia = written("0 kg*m**2", description="of what the output drives")
+    load_damping: fields.TorsionalDamping = written(
+        "0 N*m*s/rad", description="output torque that grows with speed above nominal"
+    )
+    drive_inertia: fields.Inertia = written("0 kg*m**2", description="of the motor")
+    shaft_stiffness: TorsionalStiffness | None = Field(
+        None, description="between motor and input; default: rigid"
+    )
+    shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")
+    speed_regulation: fields.TorsionalDamping = written(
+        "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
+    )
+
+    @property
+    def motor_torque(self) -> float | None:
+        """Torque of the motor, given beside the load; None: it balances the load without losses."""
+        beside = self.output_torque is not None or self.power is not None
+        return self.input_torque if beside else None

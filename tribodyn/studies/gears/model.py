@@ -1,0 +1,102 @@
+"""Parts of a model that are the same for every train of gears: a mesh, what is switched, the varying load."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics import parameters
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.numerics.curve import Table, monotone_slopes
+from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.gears.tabulated import Tabulated
+from tribodyn.train.structure import Layout, Mesh
+from tribodyn.tribology.closure import Closure
+
+#: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
+#: reduces the error by the square of the coupling between two pairs over what each deflects alone.
+SWEEPS, SWEEPS_STRONGLY_COUPLED = 4, 8
+#: That square, from which two pairs are strongly coupled: 0.02 to 0.08 of usual gears, 0.2 on thin rims.
+STRONGLY_COUPLED = 0.1
+#: With a load-dependent Hertz contact the inverse is no more than a guess, wrong by about a tenth.
+SWEEPS_NONLINEAR = 12
+
+#: Directions (x, y) of a mesh, see `train.structure.Mesh`: along the pitch tangent, across.
+Frame = tuple[tuple[float, float], tuple[float, float]]
+
+
+def mesh_of(
+    case: LubricatedCase, made: Tabulated, closure: Closure, inertias: tuple[float, float], frame: Frame
+) -> Mesh:
+    """A mesh of two bodies with so much inertia each, kg m²."""
+    cycle = made.cycle
+    radius_1, radius_2 = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
+    first, second = inertias
+    equivalent_mass = first * second / (first * radius_2**2 + second * radius_1**2)
+    return Mesh(
+        made.table,
+        cycle.pinion_pitch_radius,
+        cycle.gear_pitch_radius,
+        *frame[0],
+        *frame[1],
+        damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass)),
+        surfaces=closure.surfaces,
+        film=closure.film.parameters,
+        friction=closure.friction.parameters,
+    )
+
+
+def options_of(
+    case: LubricatedCase, cycles: Sequence[MeshCycle], closure: Closure, layout: Layout, drive: int
+) -> parameters.Options:
+    """What a case of a pair switches, the same in all meshes of a train; `closure` has the laws in use."""
+    linear = all(float(cycle.hertz_coefficient) == 0.0 for cycle in cycles)
+    sliding = case.friction.sliding == "dynamic"
+    consistent = case.mesh.formulation == "energy-consistent"
+    return parameters.Options(
+        film=closure.film.functions,
+        friction=closure.friction.functions,
+        layout=layout,
+        sliding=parameters.SLIDING_DYNAMIC if sliding else parameters.SLIDING_KINEMATIC,
+        formulation=parameters.ENERGY_CONSISTENT if consistent else parameters.CLASSICAL,
+        drive=drive,
+        hertz=parameters.HERTZ_IN_TABLE if linear else parameters.HERTZ_POWER_LAW,
+        sweeps=max(_sweeps(cycle) for cycle in cycles),
+        averaged=int(any(float(cycle.pitch_point_length) > 0.0 for cycle in cycles)),
+    )
+
+
+def _sweeps(cycle: MeshCycle) -> int:
+    coupling, alone = np.asarray(cycle.coupling), np.asarray(cycle.compliance)
+    if not np.any(coupling):
+        return 1
+    if float(cycle.hertz_coefficient) != 0.0:
+        return SWEEPS_NONLINEAR
+    share = coupling**2 / (alone[..., :, None] * alone[..., None, :])
+    both = np.asarray(cycle.in_contact)[:, None, :, None] * np.asarray(cycle.in_contact)[:, None, None, :]
+    return SWEEPS_STRONGLY_COUPLED if np.max(both * share) > STRONGLY_COUPLED else SWEEPS
+
+
+def varying_load(
+    table: Table | None, harmonics: Sequence[tuple[float, float, float]]
+) -> dict[str, np.ndarray]:
+    """Fields of `parameters.Operation`: a torque over time, and cosines (amplitude, frequency, phase)."""
+    times, torques = (np.asarray(values, dtype=float) for values in table or ((), ()))
+    rows: Any = np.array(harmonics, dtype=float).reshape(-1, 3)
+    return {
+        "load_times": times,
+        "load_torques": torques,
+        "load_slopes": _monotone_slopes(times, torques),
+        "load_amplitudes": np.ascontiguousarray(rows[:, 0]),
+        "load_frequencies": np.ascontiguousarray(rows[:, 1]),
+        "load_phases": np.ascontiguousarray(rows[:, 2]) + np.pi / 2.0,  # cosines, as a scenario gives them
+    }
+
+
+def _monotone_slopes(times: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Slopes of the C1 curve through the points that never overshoots; flat at both ends."""
+    if len(times) < 2:
+        return np.zeros_like(times)
+    slopes = monotone_slopes(times, values)
+    slopes[[0, -1]] = 0.0  # the torque is constant outside the table
+    return slopes

@@ -1,0 +1,207 @@
+"""Tables of scenarios that run gears over time: mesh, friction, solver, output, what drives; their rules."""
+
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from tribodyn.compliance.foundation import Foundation
+from tribodyn.errors import InputError
+from tribodyn.mesh.table import MeshData
+from tribodyn.scenario import fields, units
+from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, Text, csv_file, written
+from tribodyn.scenario.tables.bearings import Stiffness
+from tribodyn.scenario.tables.drive_data import backlash_of
+from tribodyn.scenario.tables.laws import FrictionTable
+from tribodyn.scenario.tables.model_files import MisalignmentTable
+from tribodyn.studies.gears.scenario import (
+    FaceSlices,
+    FoundationCoupling,
+    SampleNumber,
+    SliceCoupling,
+    mesh_of,
+)
+
+#: Cosines in a load or an error: a curve is given by points.
+MOST_HARMONICS = 1000
+
+Smoothing = Annotated[float, InUnit(units.positive(units.LENGTH), "0.1 um")]
+
+
+class TorqueHarmonic(Table):
+    """A cosine in the load torque."""
+
+    amplitude: fields.Torque
+    frequency: Annotated[float, InUnit(units.positive(units.ANGULAR_FREQUENCY))]
+    phase: fields.Angle = written("0 deg")
+
+
+class ErrorHarmonic(Table):
+    """A cosine in the static transmission error, over the mesh cycle."""
+
+    order: Count = Field(description="1: mesh frequency, 2: twice that, …")
+    amplitude: fields.Error
+    phase: fields.Angle = written("0 deg")
+
+
+class TransmissionError(Table):
+    """Static transmission error e of a pair, positive where material is missing."""
+
+    harmonics: tuple[ErrorHarmonic, ...] = Field((), max_length=MOST_HARMONICS)
+    table: Annotated[fields.ErrorCurve, csv_file("roll_angle", "error")] | None = None
+
+
+class Mesh(Table):
+    """How the teeth in contact deflect, damp, separate and err."""
+
+    damping_ratio: NotNegative
+    compliance: Literal["energy", "fem", "constant", "table"] = "energy"
+    hertz: Literal["linear", "load-dependent"] = Field(
+        "linear", description="contact part of the energy method's compliance"
+    )
+    foundation: Foundation = Field(
+        "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
+    )
+    foundation_coupling: FoundationCoupling = True
+    stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
+    table: Annotated[fields.StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = Field(
+        None, description='of a single pair, with compliance = "table"'
+    )
+    formulation: Literal["classical", "energy-consistent"] = Field(
+        "classical", description="whether the varying stiffness acts on the rotations"
+    )
+    contact_width: Smoothing = written("0.1 um", description="deflection over which contact sets in")
+    backlash: Annotated[float, InUnit(units.not_negative(units.LENGTH), "0.1 mm")] | None = Field(
+        None, description="normal backlash at the pitch point; default: the drive's, see there"
+    )
+    points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
+    transmission_error: TransmissionError = written({})
+    deviation_sample: SampleNumber = None
+    misalignment: MisalignmentTable = written({})
+    slices: FaceSlices = None
+    slice_coupling: SliceCoupling = True
+
+
+class Friction(FrictionTable):
+    """Which law acts between the flanks, and the law's own keys."""
+
+    sliding: Literal["kinematic", "dynamic"] = Field(
+        "dynamic", description="sliding speed from nominal rotation or from the vibrating bodies"
+    )
+    reversal_width: Smoothing = written("20 um", description="along the path, over which friction turns at P")
+
+
+class Solver(Table):
+    """How the equations are solved."""
+
+    method: Text = "auto"
+    rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
+    cycles: Count = Field(20, description="mesh cycles to run")
+    max_steps: Annotated[int, Field(strict=True, gt=0, le=10**9)] = Field(
+        1_000_000, description="steps allowed in one mesh cycle"
+    )
+    initial: Literal["static", "unloaded"] = Field("static", description="state at the start")
+
+
+class Output(Table):
+    """What is recorded."""
+
+    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
+
+
+def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
+    """Return what a scenario's `drive` and its table `mesh`, a `Mesh`, say of the mesh; see `mesh_of`."""
+    mesh, error = scenario.mesh, scenario.mesh.transmission_error
+    return mesh_of(
+        scenario,
+        error=error.table.in_si() if error.table else None,
+        table=mesh.table.in_si() if mesh.table else None,
+        error_harmonics=tuple((cosine.order, cosine.amplitude, cosine.phase) for cosine in error.harmonics),
+        backlash=backlash_of(scenario.drive, mesh.backlash),
+        **own,
+    )
+
+
+def broken_source_rules(operating: Any, motor_torque: str) -> Iterator[InputError]:
+    """Go through what contradicts in how a drive is driven; `motor_torque` is the key of its torque."""
+    if operating.source == "speed":
+        of_motor = ("drive_inertia", "shaft_stiffness", "shaft_damping", "speed_regulation")
+        given = {name: getattr(operating, name) for name in of_motor}
+        for name, value in {motor_torque: operating.motor_torque, **given}.items():
+            if value:
+                yield InputError(
+                    f"operating.{name}",
+                    f"{value:g} (SI)",
+                    'contradicts source = "speed": a prescribed rotation needs no motor',
+                    f'leave {name} out, or write source = "torque"',
+                )
+    elif operating.shaft_stiffness is None and operating.shaft_damping:
+        yield InputError(
+            "operating.shaft_damping",
+            f"{operating.shaft_damping:g} N*m*s/rad",
+            "a rigid shaft has no damping",
+            "add shaft_stiffness, or leave shaft_damping out",
+        )
+    elif operating.shaft_stiffness is not None and operating.drive_inertia == 0:
+        yield InputError(
+            "operating.drive_inertia",
+            "0 kg*m**2",
+            "a compliant shaft needs a motor with inertia at its end",
+            'add drive_inertia = "0.01 kg*m**2", or leave shaft_stiffness out',
+        )
+
+
+def broken_mesh_rules(mesh: Mesh) -> Iterator[InputError]:
+    """Go through what a table [mesh] lacks, or says twice, of its compliance and its error."""
+    table = '"stiffness.csv", columns roll_angle and stiffness'
+    for choice, name, example in (("constant", "stiffness", '"2.8e8 N/m"'), ("table", "table", table)):
+        given = getattr(mesh, name) is not None
+        if mesh.compliance == choice and not given:
+            rule = f'missing: compliance = "{choice}" needs it'
+            yield InputError(f"mesh.{name}", rule=rule, remedy=f"add {name} = {example}")
+        if mesh.compliance != choice and given:
+            rule = f'contradicts compliance = "{mesh.compliance}"'
+            remedy = f'leave {name} out, or write compliance = "{choice}"'
+            yield InputError(f"mesh.{name}", rule=rule, remedy=remedy)
+    error = mesh.transmission_error
+    if error.harmonics and error.table is not None:
+        yield InputError(
+            "mesh.transmission_error.table",
+            rule="contradicts mesh.transmission_error.harmonics",
+            remedy="give the one or the other",
+        )
+
+
+def broken_flank_rules(key: str, torque: float, back_flanks: bool, mesh: Mesh) -> Iterator[InputError]:
+    """Refuse a load that no flank can carry, what it leaves without effect, and no load where one is needed.
+
+    `torque` (N m) on the driven gear is what stands at `key`; `back_flanks` says whether they can touch.
+    """
+    if torque <= 0 and not back_flanks:
+        yield InputError(
+            key,
+            f"{torque:g} N*m",
+            "must be greater than zero: without backlash only the driving flanks can carry load",
+            'write a torque such as "500 N*m", or add mesh.backlash',
+        )
+    for name in ("harmonics", "table"):
+        if torque < 0 and getattr(mesh.transmission_error, name):
+            yield InputError(
+                f"mesh.transmission_error.{name}",
+                rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
+                remedy="leave it out, or reverse the load",
+            )
+    if torque < 0 and mesh.deviation_sample is not None:
+        yield InputError(
+            "mesh.deviation_sample",
+            mesh.deviation_sample,
+            "is of the driving flanks, but under a load that drives the gear the back flanks carry",
+            "leave it out, or reverse the load",
+        )
+    if torque == 0 and back_flanks and mesh.compliance == "fem":
+        yield InputError(
+            key,
+            "0 N*m",
+            'contradicts compliance = "fem", which is taken at this load',
+            'write a torque such as "500 N*m", or use compliance = "energy"',
+        )

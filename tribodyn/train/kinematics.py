@@ -1,0 +1,223 @@
+"""Speeds and senses of rotation of a train of external gears, in whole numbers.
+
+A mesh turns its gears against each other, at speeds in the inverse ratio of their teeth. A coupling (a shaft,
+rigid or compliant) turns its bodies alike. Power flows outward from the input: of a mesh's two bodies the one
+that is fewer meshes away from the input drives.
+
+Body 0 of the result is the *reference body*: it drives mesh 0, the *reference mesh*, the first one that the
+input's power meets. Speeds are given over that body's; turns are measured in cycles of that mesh.
+"""
+
+from collections import deque
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import lcm
+from typing import NamedTuple
+
+from tribodyn.errors import InputError
+
+
+class Named(NamedTuple):
+    """A body, or whatever else a message may have to name."""
+
+    name: str
+    key: str  # where it stands in the scenario, dotted
+
+
+class Toothed(NamedTuple):
+    """A gear on a body."""
+
+    name: str
+    key: str
+    body: int
+    teeth: int
+
+
+class Joint(NamedTuple):
+    """A mesh of two gears, or a coupling of two bodies, by their indices, in either order."""
+
+    key: str
+    ends: tuple[int, int]
+
+
+class Kinematics(NamedTuple):
+    """Motion of a train; indices are those given but for `driver` and `driven`.
+
+    Turns and rates count cycles of the reference mesh.
+    """
+
+    bodies: tuple[int, ...]  # in their new order: the reference body first, the others as given
+    meshes: tuple[int, ...]  # in their new order: the reference mesh first, the others as given
+    input: int  # new index of the body at which power enters
+    ratio: tuple[Fraction, ...]  # of each body in the new order: |speed| over the reference body's
+    sense: tuple[int, ...]  # likewise: +1 counter-clockwise seen from +z, −1 clockwise
+    #: driver, driven: new indices of the bodies of each mesh in the new order
+    driver: tuple[int, ...]
+    driven: tuple[int, ...]
+    gears: tuple[tuple[int, int], ...]  # driving and driven gear of each mesh in the new order
+    rate: tuple[Fraction, ...]  # cycles of each mesh, in the new order, per cycle of the reference mesh
+    period: int  # fewest reference cycles after which every mesh is at the phase it began at
+
+
+def kinematics(
+    bodies: Sequence[Named],
+    gears: Sequence[Toothed],
+    meshes: Sequence[Joint],
+    couplings: Sequence[Joint],
+    source: int,
+    sense: int,
+) -> Kinematics:
+    """Work out which end of each mesh drives, and how fast and which way every body turns.
+
+    `source` is the body at which power enters, `sense` its sense of rotation (+1: counter-clockwise seen from
+    +z). Raises InputError for a gear without a mesh, a mesh of gears that turn together, loops whose ratios
+    or senses contradict each other, bodies that the input does not turn, and a train without a mesh.
+    """
+    _refuse_idle_gears(gears, meshes)
+    joints = [_by_bodies(gears, mesh) for mesh in meshes]
+    found = _spread(len(bodies), gears, meshes, joints, couplings, source, sense)
+    _refuse_unreached(bodies, gears, found)
+    for place, mesh in enumerate(meshes):
+        _check_mesh(bodies, gears, mesh, joints[place], found)
+    for coupling in couplings:
+        _check_coupling(bodies, coupling, found)
+
+    away = [min(found[end].away for end in joint) for joint in joints]
+    reference = away.index(min(away))
+    order = (reference, *(place for place in range(len(meshes)) if place != reference))
+    ends = [meshes[place].ends for place in order]
+    driving = [
+        (one, two) if found[gears[one].body].away < found[gears[two].body].away else (two, one)
+        for one, two in ends
+    ]
+    first = gears[driving[0][0]]
+    numbers = (first.body, *(body for body in range(len(bodies)) if body != first.body))
+    new = {body: index for index, body in enumerate(numbers)}
+    scale = found[first.body].speed
+    ratio = tuple(found[body].speed / scale for body in numbers)
+    rate = tuple(
+        Fraction(gears[driver].teeth, first.teeth) * ratio[new[gears[driver].body]] for driver, _ in driving
+    )
+    return Kinematics(
+        bodies=numbers,
+        meshes=order,
+        input=new[source],
+        ratio=ratio,
+        sense=tuple(found[body].sense for body in numbers),
+        driver=tuple(new[gears[driver].body] for driver, _ in driving),
+        driven=tuple(new[gears[driven].body] for _, driven in driving),
+        gears=tuple(driving),
+        rate=rate,
+        period=lcm(*(one.denominator for one in rate)),
+    )
+
+
+class _Turning(NamedTuple):
+    """A body as it was reached."""
+
+    speed: Fraction  # over the input's
+    sense: int
+    away: int  # meshes between it and the input
+
+
+def _by_bodies(gears: Sequence[Toothed], mesh: Joint) -> tuple[int, int]:
+    one, two = (gears[end].body for end in mesh.ends)
+    if one == two:
+        names = " and ".join(gears[end].name for end in mesh.ends)
+        raise InputError(mesh.key, None, f"{names} turn together and cannot mesh", "mesh gears of two shafts")
+    return one, two
+
+
+def _refuse_idle_gears(gears: Sequence[Toothed], meshes: Sequence[Joint]) -> None:
+    if not meshes:
+        remedy = 'add a [[stage]] with gears = ["pinion", "wheel"]'
+        raise InputError("stage", None, "missing: a train has a mesh at least", remedy)
+    meshing = {end for mesh in meshes for end in mesh.ends}
+    for place, gear in enumerate(gears):
+        if place not in meshing:
+            remedy = "name it in a [[stage]], or leave it out"
+            raise InputError(gear.key, None, "meshes with no other gear", remedy)
+
+
+def _spread(
+    count: int,
+    gears: Sequence[Toothed],
+    meshes: Sequence[Joint],
+    joints: Sequence[tuple[int, int]],
+    couplings: Iterable[Joint],
+    source: int,
+    sense: int,
+) -> dict[int, _Turning]:
+    """Go outward from the input, over couplings first, so that every body is reached by fewest meshes."""
+    coupled: list[list[int]] = [[] for _ in range(count)]
+    for coupling in couplings:
+        one, two = coupling.ends
+        coupled[one].append(two)
+        coupled[two].append(one)
+    meshing: list[list[tuple[int, Fraction]]] = [[] for _ in range(count)]
+    for mesh, (one, two) in zip(meshes, joints, strict=True):
+        ratio = Fraction(gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth)
+        meshing[one].append((two, ratio))
+        meshing[two].append((one, 1 / ratio))
+    found = {source: _Turning(Fraction(1), sense, 0)}
+    waiting = deque([source])
+    done: set[int] = set()
+    while waiting:
+        body = waiting.popleft()
+        if body in done:
+            continue
+        done.add(body)
+        speed, way, away = found[body]
+        for other in coupled[body]:
+            if other not in found or found[other].away > away:
+                found[other] = _Turning(speed, way, away)
+                waiting.appendleft(other)
+        for other, ratio in meshing[body]:
+            if other not in found:
+                found[other] = _Turning(speed * ratio, -way, away + 1)
+                waiting.append(other)
+    return found
+
+
+def _refuse_unreached(bodies: Sequence[Named], gears: Sequence[Toothed], found: dict[int, _Turning]) -> None:
+    for place, body in enumerate(bodies):
+        if place in found:
+            continue
+        gear = next((gear for gear in gears if gear.body == place), None)
+        key = body.key if gear is None else gear.key
+        rule = "is not connected to the input by meshes and shafts"
+        raise InputError(key, None, rule, "add the [[stage]] or [[shaft]] that turns it, or leave it out")
+
+
+def _check_mesh(
+    bodies: Sequence[Named],
+    gears: Sequence[Toothed],
+    mesh: Joint,
+    joint: tuple[int, int],
+    found: dict[int, _Turning],
+) -> None:
+    one, two = (found[body] for body in joint)
+    names = [bodies[body].name for body in joint]
+    if one.sense == two.sense:
+        rule = f"closes a loop in which {names[0]} and {names[1]} turn the same way, and cannot mesh"
+        remedy = "a loop of external gears needs an even number of meshes"
+        raise InputError(mesh.key, None, rule, remedy)
+    by_mesh = one.speed * gears[mesh.ends[0]].teeth / gears[mesh.ends[1]].teeth
+    if by_mesh != two.speed:
+        rule = (
+            f"closes a loop whose ratios contradict each other: by this mesh {names[1]} turns at {by_mesh} "
+            f"of the input's speed, by the others at {two.speed}"
+        )
+        raise InputError(mesh.key, None, rule, "change numbers of teeth, or open the loop")
+
+
+def _check_coupling(bodies: Sequence[Named], coupling: Joint, found: dict[int, _Turning]) -> None:
+    one, two = (found[body] for body in coupling.ends)
+    names = [bodies[body].name for body in coupling.ends]
+    if one.sense != two.sense or one.speed != two.speed:
+        speeds = [f"{turning.sense * turning.speed}" for turning in (one, two)]
+        rule = (
+            f"closes a loop whose ratios contradict each other: {names[0]} and {names[1]} turn at "
+            f"{speeds[0]} and {speeds[1]} of the input's speed"
+        )
+        raise InputError(coupling.key, None, rule, "change numbers of teeth, or open the loop")

@@ -1,0 +1,119 @@
+"""Where the axes of a train stand, in the plane across them, and whether its gears have room.
+
+Right-handed x, y, seen from +z; the reference body's axis is the origin. Bodies that a coupling joins share
+an axis. Azimuths are counter-clockwise from x.
+"""
+
+from collections.abc import Sequence
+from math import atan2, cos, hypot, nan, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.numerics.shapes import Array, Float
+
+
+class Distance(NamedTuple):
+    """A mesh as it holds two axes apart."""
+
+    key: str  # where it stands in the scenario, dotted
+    ends: tuple[int, int]  # bodies
+    distance: float  # between their axes, m
+    azimuth: float | None  # of the second axis as seen from the first, rad; None: not given
+    tolerance: float  # by how much a loop that it closes may miss, m
+
+
+class Places(NamedTuple):
+    """Axes of a train."""
+
+    centres: Float[Array, "body 2"]  # m
+    azimuths: tuple[float, ...]  # of each mesh, from its first to its second axis, rad
+
+
+class Disc(NamedTuple):
+    """A gear, as it needs room."""
+
+    name: str
+    key: str
+    body: int
+    plane: int  # gears in the same plane must not touch unless they mesh
+    tip_radius: float  # m
+
+
+def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int, int]]) -> Places:
+    """Place the axes of `count` bodies, body 0 at the origin.
+
+    A mesh without an azimuth that closes a loop has the one that follows; another one goes along x, away from
+    body 0. Raises InputError where a loop does not close, by more than its mesh's tolerance.
+    """
+    axes = _axes(count, couplings)
+    centre = {axes[0]: (0.0, 0.0)}
+    given = [mesh.azimuth is not None for mesh in meshes]
+    while _place_one(meshes, given, axes, centre):
+        pass
+    azimuths = tuple(_azimuth(mesh, *(centre[axes[end]] for end in mesh.ends)) for mesh in meshes)
+    return Places(np.array([centre[axes[body]] for body in range(count)]), azimuths)
+
+
+def _axes(count: int, couplings: Sequence[tuple[int, int]]) -> list[int]:
+    """Number of the axis of every body: the lowest of those on it."""
+    axes = list(range(count))
+    for one, two in couplings:
+        low, high = sorted((axes[one], axes[two]))
+        axes = [low if axis == high else axis for axis in axes]
+    return axes
+
+
+def _place_one(
+    meshes: Sequence[Distance], given: Sequence[bool], axes: Sequence[int], centre: dict[int, tuple]
+) -> bool:
+    """Place one more axis, by a mesh with an azimuth where there is one; False: there is none to place."""
+    for wanted in (True, False):
+        for mesh, has in zip(meshes, given, strict=True):
+            one, two = (axes[end] for end in mesh.ends)
+            if has is not wanted or (one in centre) == (two in centre):
+                continue
+            x, y = centre[one if one in centre else two]
+            azimuth = mesh.azimuth or 0.0
+            step = mesh.distance if one in centre or mesh.azimuth is None else -mesh.distance
+            centre[two if one in centre else one] = (x + step * cos(azimuth), y + step * sin(azimuth))
+            return True
+    return False
+
+
+def _azimuth(mesh: Distance, first: tuple[float, float], second: tuple[float, float]) -> float:
+    """Azimuth of a mesh between two axes; InputError where these are not where it needs them."""
+    x, y = second[0] - first[0], second[1] - first[1]
+    apart = hypot(x, y)
+    if mesh.azimuth is None:
+        missed = abs(apart - mesh.distance)
+    else:
+        missed = hypot(x - mesh.distance * cos(mesh.azimuth), y - mesh.distance * sin(mesh.azimuth))
+    if missed > mesh.tolerance:
+        needed = f"its gears stand {1e3 * mesh.distance:.6g} mm apart"
+        rule = f"closes a loop that does not close, by {1e3 * missed:.3g} mm: {needed}"
+        turned = np.degrees(atan2(y, x)) if apart else nan
+        remedy = (
+            f"the other meshes leave {1e3 * apart:.6g} mm at {turned:.6g} deg; change azimuths or distances"
+        )
+        raise InputError(mesh.key, None, rule, remedy)
+    return atan2(y, x) if mesh.azimuth is None else mesh.azimuth
+
+
+def check_room(
+    gears: Sequence[Disc], centres: Float[Array, "body 2"], meshing: Sequence[tuple[int, int]]
+) -> None:
+    """Raise InputError where tip circles of gears in one plane overlap that do not mesh with each other."""
+    pairs = {frozenset(pair) for pair in meshing}
+    for later, gear in enumerate(gears):
+        for earlier, other in enumerate(gears[:later]):
+            if gear.plane != other.plane or frozenset((earlier, later)) in pairs:
+                continue
+            apart = float(np.hypot(*(centres[gear.body] - centres[other.body])))
+            overlap = gear.tip_radius + other.tip_radius - apart
+            if overlap > 0.0:
+                by = f"{1e3 * overlap:.3g} mm"
+                rule = f"its tip circle overlaps that of {other.name} by {by}, and they do not mesh"
+                remedy = "change an azimuth, or stand them in different planes: plane = 2"
+                raise InputError(gear.key, None, rule, remedy)
