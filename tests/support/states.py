@@ -10,13 +10,14 @@ from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, tra
 from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.train.flow import tree
 from tribodyn.train.schedule import Schedule
-from tribodyn.train.structure import GROUND, LAG, TURN, layout_of, shift_of, turn_of, works
+from tribodyn.train.structure import GROUND, TURN, layout_of, shift_of, turn_of, works
 
 #: Ends of the bearings of pinion and gear, and layouts of a pair: alone, and with a motor behind a shaft.
 _BEARINGS = [(0, GROUND), (1, GROUND)]
 PAIR = layout_of(2, 2, [(0, 1)], _BEARINGS, 0, 1)
 PAIR_WITH_MOTOR = layout_of(2, 3, [(0, 1)], [*_BEARINGS, (2, 0)], 2, 1)
 #: Coordinates of a pair; the rate of one stands `half` behind it, e.g. SLIP = PAIR.half + LAG.
+LAG = PAIR.lag
 X_P, Y_P = shift_of(0), shift_of(0) + 1
 X_G, Y_G, TURN_G = shift_of(1), shift_of(1) + 1, turn_of(1, PAIR)
 TURN_M = turn_of(2, PAIR_WITH_MOTOR)
@@ -31,8 +32,8 @@ def random_state(rng: np.random.Generator, model: Model, speed: float = 10.0) ->
         x = shift_of(body)
         y[x : x + 2] = rng.uniform(-8e-6, 8e-6, 2)
         y[layout.half + x : layout.half + x + 2] = rng.uniform(-0.05, 0.05, 2)
-    y[LAG] = rng.uniform(-1e-6, 1e-6)
-    y[layout.half + LAG] = rng.uniform(-0.05, 0.05) * speed
+    y[layout.lag] = rng.uniform(-1e-6, 1e-6)
+    y[layout.half + layout.lag] = rng.uniform(-0.05, 0.05) * speed
     for body, nearer, m, _ in tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0)):
         turn, start = turn_of(body, layout), turn_of(nearer, layout)
         near, near_rate = (y[start], y[layout.half + start]) if nearer else (0.0, 0.0)

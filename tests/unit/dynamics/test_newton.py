@@ -12,6 +12,7 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from tests.support.states import (
+    LAG,
     PAIR_WITH_MOTOR,
     TURN_G,
     TURN_M,
@@ -30,7 +31,6 @@ from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DRIVE_SPEED, DRIVE_TORQUE, SLIDING_DYNAMIC, SLIDING_KINEMATIC
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.solve.right_hand_side import contacts_of
-from tribodyn.train.structure import LAG
 
 #: Masses and inertias of pinion and gear, springs and dampers of the bearings along x and y, the shaft.
 MASS, INERTIA = np.array([1.3, 4.1]), np.array([1.1e-3, 0.017])

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from tests.support.states import TURN_G, TURN_M, X_G, X_P, Y_G, Y_P, random_state
+from tests.support.states import LAG, TURN_G, TURN_M, X_G, X_P, Y_G, Y_P, random_state
 from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.train.schedule import interval_of, of_one_mesh
-from tribodyn.train.structure import DAMPING, FRICTION, IN, LAG, OUT, PARAMETRIC, work_of, work_of_mesh
+from tribodyn.train.structure import DAMPING, FRICTION, IN, OUT, PARAMETRIC, work_of, work_of_mesh
 
 SHAFT = {
     "operating.source": "torque",
