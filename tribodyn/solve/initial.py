@@ -23,6 +23,8 @@ _COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compl
 Trials = Float[Array, "*trial unknown"]
 #: Share of all torques of a model below which what is left of them presses no flanks together.
 _NO_LOAD = 1e-12
+#: Share of an error by which the first flanks to touch stay apart, so that no rounding presses them.
+_APART = 1e-15
 #: Shares of the damping, from none to all of it, over which an equilibrium is followed that is not found at
 #: once.
 DAMPING_STEPS = 33
@@ -211,7 +213,8 @@ def _first_touch(model: Model, phase: float, interval: int) -> Float[Array, " me
         segment = int(np.asarray(model.schedule.segment)[interval, m])
         there = (np.asarray(mesh.table.side) > 0) & (np.asarray(mesh.table.in_contact)[segment] > 0)
         gaps = [float(-work[m][APPROACH, i] / work[m][COS, i]) for i in map(int, np.flatnonzero(there))]
-        found.append(min(gaps) + 0.0)  # not −0
+        touch = min(gaps)
+        found.append(touch - _APART * abs(touch) + 0.0)  # not −0
     return np.array(found)
 
 

@@ -16,16 +16,15 @@ WIDTH, COEFFICIENT, COMPLIANCE = 2e-6, 4e-9, 2.5e-9
 
 
 def loaded(hertz, free, compliance):
-    """A model of one pair and what `elastic_loads` leaves of an approach above or within the width."""
+    """A mesh of one pair, its model, and what `elastic_loads` leaves of an approach in or above the width."""
+    mesh = SimpleNamespace(table=SimpleNamespace(hertz_coefficient=COEFFICIENT, side=np.ones(1)))
     model = SimpleNamespace(
-        mechanics=SimpleNamespace(contact_width=WIDTH),
-        options=SimpleNamespace(hertz=hertz, sweeps=1),
-        table=SimpleNamespace(hertz_coefficient=COEFFICIENT, side=np.ones(1)),
+        operation=SimpleNamespace(contact_width=WIDTH), options=SimpleNamespace(hertz=hertz, sweeps=1)
     )
     work = {(contact.EFFECTIVE_APPROACH, 0): free, (contact.COMPLIANCE, 0): compliance}
     work[contact.ELASTIC_LOAD, 0] = load_of(hertz, free, compliance)
     work[contact.STIFFNESS, 0] = 1.0 / compliance
-    return model, work
+    return mesh, model, work
 
 
 def load_of(hertz, free, compliance):
@@ -47,11 +46,11 @@ def load_of(hertz, free, compliance):
 @pytest.mark.parametrize("hertz", [HERTZ_IN_TABLE, HERTZ_POWER_LAW])
 @pytest.mark.parametrize("free", [-1e-6, 0.4e-6, 1.7e-6, 2.5e-6, 3e-5])
 def test_energy_is_the_work_of_the_load(hertz, free):
-    model, work = loaded(hertz, free, COMPLIANCE)
+    arguments = loaded(hertz, free, COMPLIANCE)
     parts = [(0.0, min(free, WIDTH)), (WIDTH, free)] if free > WIDTH else [(0.0, max(free, 0.0))]
     energy = sum(quad(lambda x: load_of(hertz, x, COMPLIANCE), *part, epsrel=1e-11)[0] for part in parts)
-    assert pair_energy(0, model, work) == pytest.approx(energy, rel=1e-8, abs=1e-15)
-    assert mesh_energy(model, work) == pytest.approx(energy, rel=1e-8, abs=1e-15)
+    assert pair_energy(0, *arguments) == pytest.approx(energy, rel=1e-8, abs=1e-15)
+    assert mesh_energy(*arguments) == pytest.approx(energy, rel=1e-8, abs=1e-15)
 
 
 @pytest.mark.parametrize("hertz", [HERTZ_IN_TABLE, HERTZ_POWER_LAW])

@@ -1,17 +1,17 @@
 import numpy as np
 import pytest
 
-from tests.support.states import random_place, random_state
+from tests.support.states import PAIR, TURN_G, altered, random_place, random_state
 from tribodyn.dynamics.contact_forces import (
-    GEAR_SPEED,
+    DRIVEN_SPEED,
+    DRIVER_SPEED,
     PEAK,
-    PINION_SPEED,
     RADIUS,
     RELATIVE_VELOCITY,
     SLIDING,
     contact_forces,
+    reversals_per_velocity,
 )
-from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.extremes import (
     BACK,
     COUNT,
@@ -48,11 +48,11 @@ from tribodyn.dynamics.extremes import (
     take_in,
     vertex,
 )
-from tribodyn.studies.gear_pair.outputs import outputs, outputs_with_extremes
-from tribodyn.dynamics.parameters import STATES, XI
+from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of, worthwhile
-from tribodyn.solve.right_hand_side import work_array
+from tribodyn.solve.right_hand_side import contacts_of, work_array
+from tribodyn.studies.gear_pair.outputs import outputs, outputs_with_extremes
 
 OVERRIDES = [
     {},
@@ -62,16 +62,25 @@ OVERRIDES = [
 ]
 
 
+def fill(phase, interval, y, model, work):
+    """Contacts of the only mesh."""
+    mesh = model.meshes[0]
+    place, motion = place_in_mesh(0, phase, interval, model), motion_of(0, y, model)
+    contact_forces(place, motion, reversals_per_velocity(1.0, mesh, model), mesh, model, work[0])
+    return place
+
+
 @pytest.mark.parametrize("overrides", OVERRIDES)
 def test_measures_are_what_is_recorded(overrides, prepared, rng):
     """So that where a measure is largest the recorded quantity is extreme."""
     model = prepared("crc-23-47", **overrides).model
-    slots = {side: np.flatnonzero(model.table.side * sign > 0) for side, sign in ((DRIVING, 1), (BACK, -1))}
+    sides = model.meshes[0].table.side
+    slots = {side: np.flatnonzero(sides * sign > 0) for side, sign in ((DRIVING, 1), (BACK, -1))}
     for _ in range(20):
-        y = random_state(rng)
-        phase, segment = random_place(rng, model.table.boundary)
-        work, found = {}, {}
-        contact_forces(segment, *locate(phase, segment, model.table), y, model, work)
+        y = random_state(rng, model)
+        phase, segment = random_place(rng, model.schedule)
+        work, found = contacts_of(model), np.full(measures_of(len(sides)), LOWEST)
+        fill(phase, segment, y, model, work)
         measure(phase, segment, y, model, work, found)
         recorded = {name: values[0] for name, values in outputs(np.array([phase]), y[None], model).items()}
         assert found[ERROR_UP] == -found[ERROR_DOWN] == recorded["transmission_error_rotational"]
@@ -90,7 +99,7 @@ def test_measures_are_what_is_recorded(overrides, prepared, rng):
                 (TEMPERATURE, 1, "flash_temperature_rise"),
             ):
                 np.testing.assert_allclose(sign * found[first + row], recorded[name][pair], rtol=1e-12)
-            squared = found[first + PRESSURE] * model.surfaces.effective_modulus / (2.0 * np.pi)
+            squared = found[first + PRESSURE] * model.meshes[0].surfaces.effective_modulus / (2.0 * np.pi)
             np.testing.assert_allclose(np.sqrt(squared), recorded["hertz_pressure"][pair], rtol=1e-12)
 
 
@@ -98,37 +107,41 @@ def test_measures_are_what_is_recorded(overrides, prepared, rng):
 def test_surfaces_are_those_of_the_highest_line_load(sliding, prepared, rng):
     """Of a face on which the highest line load is 1.3 times the mean."""
     even = prepared("crc-23-47", **{"friction.sliding": sliding}).model
-    channel = np.array(even.table.channel)
+    table = even.meshes[0].table
+    channel = np.array(table.channel)
     channel[..., PEAK, :] = [1.3, 0.0, 0.0, 0.0]
-    model = even._replace(table=even.table._replace(channel=channel))
+    model = altered(even, mesh={"table": table._replace(channel=channel)})
+    mesh = model.meshes[0]
     loaded = 0
     for _ in range(3):
-        y = random_state(rng)
-        phase, segment = random_place(rng, model.table.boundary)
-        place = locate(phase, segment, model.table)
-        work: dict = {}
-        contact_forces(segment, *place, y, model, work)
+        y = random_state(rng, model)
+        phase, segment = random_place(rng, model.schedule)
+        works = contacts_of(model)
+        place, work = fill(phase, segment, y, model, works), works[0]
         recorded = {name: values[0] for name, values in outputs(np.array([phase]), y[None], model).items()}
         for i in np.flatnonzero(recorded["normal_load"] > 0.0):
-            contact = highest_loaded(i, segment, *place[:2], model, work)
-            line_load = 1.3 * recorded["normal_load"][i] / model.table.face_width
+            contact = highest_loaded(i, place, mesh, model, work)
+            line_load = 1.3 * recorded["normal_load"][i] / table.face_width
             assert contact.line_load == pytest.approx(line_load, rel=1e-12)
             assert 1.0 / contact.curvature == pytest.approx(work[RADIUS, i], rel=1e-12)
-            speeds = work[PINION_SPEED, i], work[GEAR_SPEED, i]
+            speeds = work[DRIVER_SPEED, i], work[DRIVEN_SPEED, i]
             assert contact.entrainment == pytest.approx(np.mean(speeds), rel=1e-12)
             assert (contact.pinion_speed, contact.gear_speed) == speeds
             assert contact.sliding == work[RELATIVE_VELOCITY if sliding == "dynamic" else SLIDING, i]
-            pressure = np.sqrt(line_load * model.surfaces.effective_modulus / (2 * np.pi * work[RADIUS, i]))
+            pressure = np.sqrt(line_load * mesh.surfaces.effective_modulus / (2 * np.pi * work[RADIUS, i]))
             assert recorded["hertz_pressure"][i] == pytest.approx(pressure, rel=1e-12)
             loaded += 1
     assert loaded > 1
 
 
 def test_every_measure_has_its_extreme():
-    of = [extreme_of(row) for row in range(measures_of(3))]
-    assert of == [*range(OF_MESH), *(3 * list(range(OF_MESH, EXTREMES)))]
+    """Of two meshes, those of the second behind those of the first."""
+    of_mesh = measures_of(3)
+    of = [extreme_of(row, of_mesh) for row in range(2 * of_mesh)]
+    of_one = [*range(OF_MESH), *(3 * list(range(OF_MESH, EXTREMES)))]
+    assert of == [*of_one, *(EXTREMES + which for which in of_one)]
     for row, its_own in enumerate(of):
-        assert list(alike(row, len(of))) == [other for other in range(len(of)) if of[other] == its_own]
+        assert list(alike(row, of_mesh)) == [other for other in range(len(of)) if of[other] == its_own]
 
 
 def test_vertex_of_a_parabola_is_exact(rng):
@@ -162,8 +175,8 @@ def loaded_search(prepared, **overrides):
     """A model at rest in its static equilibrium, and a search that has just begun there; phase, segment."""
     model = prepared("crc-23-47", **overrides).model
     measures, work = np.full((ROWS, measures_of(2)), LOWEST), work_array(model)
-    y, place = static_equilibrium(model), (0.3 * float(model.table.boundary[1]), 0)
-    contact_forces(place[1], *locate(*place, model.table), y, model, work)
+    y, place = static_equilibrium(model), (0.3 * float(model.meshes[0].table.boundary[1]), 0)
+    fill(*place, y, model, work)
     measure(*place, y, model, work, measures[START])
     measures[EXTREME], measures[SEEN, COUNT] = 1e100, 0.0
     begin_surfaces(*place, model, measures)
@@ -255,7 +268,7 @@ def test_at_the_start_of_a_segment_measures_are_as_fast_as_any_alike_were():
     extreme[FORCE] = LOWEST
     measures[RATE, [ERROR_UP, FORCE, first, second]] = [-3.0, 5.0, UNKNOWN, -2.0]
     measures[RATE, [first + FILM, second + FILM]] = UNKNOWN
-    begin_rates(measures, extreme, measures.shape[1])
+    begin_rates(measures, extreme, measures.shape[1], PAIR)
     assert measures[RATE, [ERROR_UP, ERROR_DOWN, FORCE]].tolist() == [6.0, 0.0, UNKNOWN]
     assert measures[RATE, [first, second]].tolist() == [4.0, 4.0]
     assert measures[RATE, [first + FILM, second + FILM]].tolist() == [UNKNOWN, UNKNOWN]
@@ -270,13 +283,13 @@ def test_nothing_is_looked_into_where_an_end_is_not_known():
 def test_each_side_of_a_boundary_is_recorded_as_its_segment_has_it(prepared, rng):
     """Also at the end of a mesh cycle, whose phase is 0 in the next one."""
     model = prepared("crc-23-47").model
-    boundary = np.asarray(model.table.boundary)
+    boundary = np.asarray(model.meshes[0].table.boundary)
     last = len(boundary) - 2
     for _ in range(5):
-        y = random_state(rng)
-        extremes = no_extremes()
+        y = random_state(rng, model)
+        extremes = no_extremes(PAIR)
         for row, (cycles, segment) in enumerate([(4.0, last), (4.0, 0), (3.0 + boundary[1], 0)]):
-            extremes.measure[row], extremes.cycles[row], extremes.segment[row] = 0.0, cycles, segment
+            extremes.measure[row], extremes.cycles[row], extremes.interval[row] = 0.0, cycles, segment
             extremes.state[row] = y
         near = 1e-9
         beside = np.array([4.0 - near, 4.0 + near, 3.0 + boundary[1] - near])
@@ -288,10 +301,10 @@ def test_each_side_of_a_boundary_is_recorded_as_its_segment_has_it(prepared, rng
 
 
 def test_the_more_extreme_is_taken():
-    ours, theirs = no_extremes(), no_extremes()
+    ours, theirs = no_extremes(PAIR), no_extremes(PAIR)
     ours.measure[:2], theirs.measure[:2] = [1.0, 4.0], [2.0, 3.0]
-    theirs.state[:, XI] = 7.0
+    theirs.state[:, TURN_G] = 7.0
     take_in(ours, theirs)
     assert ours.measure[:3].tolist() == [2.0, 4.0, LOWEST]
-    assert ours.state[:3, XI].tolist() == [7.0, 0.0, 0.0]
-    assert ours.state.shape == (EXTREMES, STATES)
+    assert ours.state[:3, TURN_G].tolist() == [7.0, 0.0, 0.0]
+    assert ours.state.shape == (EXTREMES, PAIR.states)

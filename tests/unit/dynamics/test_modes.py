@@ -5,7 +5,8 @@ import pytest
 from scipy.linalg import eigh
 
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.parameters import DRIVE_SHAFT, DRIVE_SPEED
+from tribodyn.dynamics.parameters import DRIVE_SPEED
+from tribodyn.train.structure import TURN, Y
 
 BEARINGS = {
     "bearings.pinion.stiffness_x": "3e8 N/m",
@@ -35,9 +36,9 @@ def loads(compliance, hertz, cosine, sine, give, force):
 
 def mesh_stiffness(case):
     """Mean over the mesh cycle, trapezoid by trapezoid; N/m along x and y."""
-    cycle, m = case.cycle, case.model.mechanics
-    give = 1.0 / m.pinion_stiffness_y + 1.0 / m.gear_stiffness_y
-    force = abs(m.load_torque) / cycle.gear_pitch_radius
+    cycle = case.cycle
+    give = float(np.sum(1.0 / case.model.links.stiffness[:2, Y]))
+    force = abs(case.model.bodies.load[1]) / cycle.gear_pitch_radius
     total = np.zeros((2, 2))
     for segment in range(len(cycle.boundary) - 1):
         inside = np.flatnonzero((cycle.in_contact[segment] > 0) & (cycle.side > 0))
@@ -67,24 +68,24 @@ def mesh_stiffness(case):
 )
 def test_frequencies_are_those_of_gears_shafts_and_bearings(prepared, name, overrides):
     case = prepared(name, **BEARINGS, **overrides)
-    model, m = case.model, case.model.mechanics
-    r_p, r_g = float(model.table.pinion_pitch_radius), float(model.table.gear_pitch_radius)
+    model, links = case.model, case.model.links
+    r_p, r_g = float(case.cycle.pinion_pitch_radius), float(case.cycle.gear_pitch_radius)
     # x_p, y_p, φ_p, x_g, y_g, φ_g and the motor's φ
     stretch = np.array([[1, 0, r_p, -1, 0, -r_g, 0], [0, 1, 0, 0, -1, 0, 0]])
-    springs = [m.pinion_stiffness_x, m.pinion_stiffness_y, 0, m.gear_stiffness_x, m.gear_stiffness_y, 0, 0]
-    stiffness = stretch.T @ mesh_stiffness(case) @ stretch + np.diag(np.array(springs, dtype=float))
-    inertia = [m.pinion_mass] * 2 + [m.pinion_inertia] + [m.gear_mass] * 2 + [m.gear_inertia, 1.0]
-    drive, free = model.options.drive, [0, 1, 2, 3, 4, 5]
+    springs = [*links.stiffness[0], *links.stiffness[1], 0.0]
+    stiffness = stretch.T @ mesh_stiffness(case) @ stretch + np.diag(springs)
+    (m_p, m_g), (j_p, j_g, *motor) = model.bodies.mass, model.bodies.inertia
+    inertia = [m_p, m_p, j_p, m_g, m_g, j_g, *motor]
+    drive, free = model.options.drive, list(range(len(inertia)))
     if drive == DRIVE_SPEED:
-        free = [0, 1, 3, 4, 5]
-    elif drive == DRIVE_SHAFT:
-        free, inertia[6] = [0, 1, 2, 3, 4, 5, 6], m.drive_inertia
-        stiffness[np.ix_([2, 6], [2, 6])] += m.shaft_stiffness * np.array([[1, -1], [-1, 1]])
+        free.remove(2)
+    elif motor:
+        stiffness[np.ix_([2, 6], [2, 6])] += links.stiffness[2, TURN] * np.array([[1, -1], [-1, 1]])
     values = eigh(
         stiffness[np.ix_(free, free)], np.diag(np.array(inertia, dtype=float)[free]), eigvals_only=True
     )
     expected = np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi)
     # all gears may turn together where no speed is held
     rigid = 0 if drive == DRIVE_SPEED else 1
-    found = natural_frequencies(model, case.cycle)
+    found = natural_frequencies(model, [case.cycle])
     np.testing.assert_allclose(found, expected[rigid:], rtol=1e-6)

@@ -3,22 +3,13 @@
 import numpy as np
 import pytest
 
-from tests.support.states import random_state
+from tests.support.states import LAG, TURN_G, TURN_M, X_G, X_P, Y_G, Y_P, random_state
 from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.studies.gear_pair.outputs import outputs, segment_of
-from tribodyn.dynamics.parameters import (
-    LAG,
-    MOTOR_SLIP,
-    SLIP,
-    WORK_DAMPING,
-    WORK_FRICTION,
-    WORK_IN,
-    WORK_OUT,
-    WORK_PARAMETRIC,
-    XI,
-    XI_RATE,
-)
+from tribodyn.solve.right_hand_side import contacts_of
+from tribodyn.studies.gear_pair.outputs import outputs
+from tribodyn.train.schedule import interval_of, of_one_mesh
+from tribodyn.train.structure import DAMPING, FRICTION, IN, OUT, PARAMETRIC, work_of, work_of_mesh
 
 SHAFT = {
     "operating.source": "torque",
@@ -30,45 +21,49 @@ SHAFT = {
 
 def test_a_boundary_belongs_to_the_segment_that_begins_there():
     boundary = np.array([0.0, 0.25, 0.5, 1.0])
-    found = segment_of(np.array([0.0, 0.1, 0.25, 0.499, 0.5, 0.999, 1.0]), boundary)
-    np.testing.assert_array_equal(found, [0, 0, 1, 1, 2, 2, 2])
+    cycles = np.array([0.0, 0.1, 0.25, 0.499, 0.5, 0.999, 1.0])
+    whole, phase, found = interval_of(cycles, of_one_mesh(boundary))
+    np.testing.assert_array_equal(found, [0, 0, 1, 1, 2, 2, 0])
+    np.testing.assert_array_equal(whole + phase, cycles)
+    np.testing.assert_array_equal(whole, cycles == 1.0)
 
 
 @pytest.mark.parametrize("overrides", [{}, SHAFT], ids=["speed", "shaft"])
 def test_every_sample_is_what_its_name_says(prepared, rng, overrides):
     case = prepared("crc-23-47", **overrides)
-    model, table, mechanics = case.model, case.model.table, case.model.mechanics
-    states = np.stack([random_state(rng, mechanics.nominal_speed) for _ in range(7)])
+    model, table, operation = case.model, case.model.meshes[0].table, case.model.operation
+    layout = model.layout
+    states = np.stack([random_state(rng, model, operation.nominal_speed) for _ in range(7)])
+    places, rates = states[:, : layout.half], states[:, layout.half : layout.mechanical]
     cycles = rng.uniform(0.0, 5.0, 7)
     found = outputs(cycles, states, model)
-    pitch, r_p, r_g = (
-        float(table.pitch_angle),
-        float(table.pinion_pitch_radius),
-        float(table.gear_pitch_radius),
-    )
-    angle = cycles * pitch
-    speed = mechanics.nominal_speed + states[:, SLIP]
-    gear_speed = (r_p * speed - states[:, XI_RATE]) / r_g
+    r_p, r_g = float(case.cycle.pinion_pitch_radius), float(case.cycle.gear_pitch_radius)
+    angle = cycles * float(table.pitch_angle)
+    speed = operation.nominal_speed + rates[:, LAG]
+    gear_speed = r_p * speed / r_g + rates[:, TURN_G]
     np.testing.assert_allclose(found["pinion_angle"], angle, rtol=1e-14)
-    np.testing.assert_allclose(found["time"], angle / mechanics.nominal_speed + states[:, LAG], rtol=1e-12)
-    turned = np.stack([angle, (r_p * angle - states[:, XI]) / r_g], axis=-1)
-    np.testing.assert_allclose(found["displacement"], np.hstack([states[:, :4], turned]), rtol=1e-13)
-    rates = np.stack([speed, gear_speed], axis=-1)
-    np.testing.assert_allclose(found["velocity"], np.hstack([states[:, 7:11], rates]), rtol=1e-13)
-    np.testing.assert_array_equal(found["transmission_error_rotational"], states[:, XI])
-    works = {"in": WORK_IN, "out": WORK_OUT, "friction": WORK_FRICTION, "damping": WORK_DAMPING}
-    for name, state in {**works, "parametric": WORK_PARAMETRIC}.items():
+    np.testing.assert_allclose(found["time"], angle / operation.nominal_speed + places[:, LAG], rtol=1e-12)
+    shifts = [X_P, Y_P, X_G, Y_G]
+    turned = np.stack([angle, r_p * angle / r_g + places[:, TURN_G]], axis=-1)
+    np.testing.assert_allclose(found["displacement"], np.hstack([places[:, shifts], turned]), rtol=1e-13)
+    speeds = np.stack([speed, gear_speed], axis=-1)
+    np.testing.assert_allclose(found["velocity"], np.hstack([rates[:, shifts], speeds]), rtol=1e-13)
+    error = -r_g * places[:, TURN_G]
+    np.testing.assert_allclose(found["transmission_error_rotational"], error, rtol=1e-15)
+    works = {"in": IN, "out": OUT, "damping": DAMPING, "parametric": PARAMETRIC}
+    works = {name: work_of(layout, which) for name, which in works.items()}
+    for name, state in {**works, "friction": work_of_mesh(layout, 0, FRICTION)}.items():
         np.testing.assert_array_equal(found[f"work_{name}"], states[:, state])
-    driven = speed if not overrides else mechanics.nominal_speed + states[:, MOTOR_SLIP]
+    driven = speed + rates[:, TURN_M] if overrides else speed
     np.testing.assert_allclose(found["power_in"], found["drive_torque"] * driven, rtol=1e-12)
-    np.testing.assert_allclose(found["power_out"], mechanics.load_torque * gear_speed, rtol=1e-12)
-    film = found["central_film_thickness"] / model.surfaces.roughness
+    np.testing.assert_allclose(found["power_out"], model.bodies.load[1] * gear_speed, rtol=1e-12)
+    film = found["central_film_thickness"] / model.meshes[0].surfaces.roughness
     np.testing.assert_array_equal(found["film_parameter"], film)
     for k in range(7):
         phase, whole = cycles[k] % 1.0, np.floor(cycles[k])
-        segment = int(segment_of(np.array([phase]), table.boundary)[0])
-        work = {}
-        derivatives(phase, whole, segment, states[k], model, work, {})
+        segment = int(np.searchsorted(table.boundary, phase, side="right")) - 1
+        (work,) = work_of_all = contacts_of(model)
+        derivatives(phase, whole, segment, states[k], model, work_of_all, {})
         for i in range(case.cycle.pairs):
             inside = table.in_contact[segment, i] > 0
             load = float(work[contact.NORMAL_LOAD, i]) if inside else 0.0
@@ -81,7 +76,7 @@ def test_every_sample_is_what_its_name_says(prepared, rng, overrides):
                 force, sliding = (float(work[row, i]) for row in (contact.FRICTION_FORCE, contact.SLIDING))
                 assert found["friction_force"][k, i] == pytest.approx(force, rel=1e-8, abs=1e-9)
                 assert found["sliding_speed"][k, i] == pytest.approx(sliding, rel=1e-9)
-                mean = (float(work[contact.PINION_SPEED, i]) + float(work[contact.GEAR_SPEED, i])) / 2.0
+                mean = (float(work[contact.DRIVER_SPEED, i]) + float(work[contact.DRIVEN_SPEED, i])) / 2.0
                 assert found["entrainment_speed"][k, i] == pytest.approx(mean, rel=1e-9)
                 radius = float(work[contact.RADIUS, i])
                 assert found["equivalent_radius"][k, i] == pytest.approx(radius, rel=1e-9)
@@ -92,8 +87,8 @@ def test_every_sample_is_what_its_name_says(prepared, rng, overrides):
 def test_the_smallest_load_is_a_contact(prepared):
     """A flank that presses with less than a newton has a film and a stiffness; one that is apart has none."""
     case = prepared("crc-23-47")
-    states = np.zeros((2, random_state(np.random.default_rng(1)).size))
-    states[:, XI] = 1e-9, -1e-9
+    states = np.zeros((2, case.model.layout.states))
+    states[:, TURN_G] = np.array([-1e-9, 1e-9]) / case.cycle.gear_pitch_radius
     found = outputs(np.full(2, 0.6), states, case.model)
     inside = np.isfinite(found["transmission_error_normal"][0])
     assert np.all((found["normal_load"][0, inside] > 0.0) & (found["normal_load"][0, inside] < 1.0))

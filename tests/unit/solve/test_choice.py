@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.contact_forces import TURNED, contact_forces
-from tribodyn.dynamics.equations import locate
-from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIDING_KINEMATIC
+from tribodyn.dynamics.contact_forces import TURNED
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIDING_KINEMATIC
 from tribodyn.solve import choice
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF, SWITCHING
+from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.solve.tolerances import state_scales
 
 
@@ -20,11 +21,11 @@ def test_places_lie_closely_where_friction_reverses(prepared):
     """The outermost of those about the pitch point at the stated share of the width of reversal."""
     model = prepared("crc-23-47", **{"friction.sliding": "kinematic"}).model
     state = static_equilibrium(model)
-    phases, segments = choice._places(model)
+    _, phases, segments = choice._places(model)
     turned = []
     for phase, segment in zip(phases, segments, strict=True):
-        work = {}
-        contact_forces(segment, *locate(phase, segment, model.table), state, model, work)
+        (work,) = works = contacts_of(model)
+        derivatives(phase, 0.0, segment, state, model, works, {})
         turned.append(min(abs(work[TURNED, i]) for i in range(2) if (TURNED, i) in work))
     close = np.sort(turned)[: choice.REVERSAL_PHASES]
     assert close[0] == pytest.approx(0.0, abs=0.02)
@@ -35,16 +36,17 @@ def test_steps_are_those_of_the_largest_eigenvalue_at_every_place(prepared):
     """Jacobians column by column, the radius integrated over the cycle by trapezoids."""
     model = prepared("crc-23-47", **{"friction.sliding": "kinematic", "mesh.points": 5}).model
     state = static_equilibrium(model)
-    phases, segments = choice._places(model)
+    _, phases, segments = choice._places(model)
+    mechanical = model.layout.mechanical
     scale = state_scales(model, state)
     radii = []
     for phase, segment in zip(phases[::12], segments[::12], strict=True):
         columns = []
-        for i in range(MECHANICAL):
+        for i in range(mechanical):
             shift = np.zeros_like(state)
             shift[i] = 1e-3 * scale[i]
             up, down = (accelerations(state + by, phase, segment, model) for by in (shift, -shift))
-            columns.append((up - down)[:MECHANICAL] / (2.0 * shift[i]))
+            columns.append((up - down)[:mechanical] / (2.0 * shift[i]))
         radii.append(np.max(np.abs(np.linalg.eigvals(np.array(columns).T))))
     steps = np.sum(0.5 * np.diff(phases[::12]) * (np.array(radii)[1:] + np.array(radii)[:-1])) / 3.3
     last = phases[::12][-1]

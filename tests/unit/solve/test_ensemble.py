@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.parameters import LAG, SLIP, STATES, XI
+from tests.support.states import LAG, PAIR, SLIP, TURN_G, altered
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
@@ -17,13 +17,12 @@ RTOL, SAMPLES = 1e-6, 40
 def cases(prepared):
     """Eleven speeds of one drive, its inertia and its load: models and states."""
     model = prepared("crc-23-47-300").model
-    base = float(model.mechanics.nominal_speed)
+    base = float(model.operation.nominal_speed)
     models = [
-        model._replace(
-            mechanics=model.mechanics._replace(
-                nominal_speed=base * (0.4 + 0.17 * i),
-                load_torque=model.mechanics.load_torque * (1 + 0.03 * i),
-            )
+        altered(
+            model,
+            operation={"nominal_speed": base * (0.4 + 0.17 * i)},
+            bodies={"load": model.bodies.load * (1 + 0.03 * i)},
         )
         for i in range(11)
     ]
@@ -32,7 +31,7 @@ def cases(prepared):
 
 def test_a_batch_agrees_with_single_runs(cases, prepared):
     high = prepared("high-contact-ratio").model
-    assert high.table.in_contact.shape == (2, 3)  # three pairs in two segments
+    assert high.meshes[0].table.in_contact.shape == (2, 3)  # three pairs in two segments
     models, states = [*cases[0], high], np.vstack([cases[1], static_equilibrium(high)])
     found = march(models, states, cycles=7, window=2, samples=SAMPLES, rtol=RTOL)
     assert np.all(found.status == Status.DONE)
@@ -41,9 +40,9 @@ def test_a_batch_agrees_with_single_runs(cases, prepared):
         # exact to five orders more: the difference is the batch's own error
         tolerances = tolerances_from(model, states[case], 1e-11, 10**6)
         part = make_integrator("dopri5", model, SAMPLES, tolerances).integrate(states[case], 0, 7)
-        xi = found.samples[case, :, XI]
-        assert np.max(np.abs(xi - part.samples[-2 * SAMPLES :, XI])) < 2e-4 * np.ptp(xi)
-        assert found.state[case, XI] == pytest.approx(part.state[XI], rel=1e-4)
+        turn = found.samples[case, :, TURN_G]
+        assert np.max(np.abs(turn - part.samples[-2 * SAMPLES :, TURN_G])) < 2e-4 * np.ptp(turn)
+        assert found.state[case, TURN_G] == pytest.approx(part.state[TURN_G], rel=1e-4)
         assert found.state[case, LAG] == pytest.approx(part.state[LAG], abs=1e-9)
 
 
@@ -71,16 +70,16 @@ def test_a_march_goes_on_where_it_stopped(cases):
     whole = march(models, states, cycles=6, window=3, **settings)
     first = march(models, states, cycles=3, window=0, **settings)
     second = march(models, first.state, cycles=3, window=3, started=True, first_cycle=3, **settings)
-    assert first.samples.shape == (11, 0, STATES)
-    scale = np.ptp(whole.samples[..., XI], axis=1).max()
-    assert np.max(np.abs(second.samples - whole.samples)[..., XI]) < 1e-6 * scale
+    assert first.samples.shape == (11, 0, PAIR.states)
+    scale = np.ptp(whole.samples[..., TURN_G], axis=1).max()
+    assert np.max(np.abs(second.samples - whole.samples)[..., TURN_G]) < 1e-6 * scale
 
 
 @pytest.mark.parametrize("method", ["dopri5", "rodas4"])
 def test_extremes_are_those_of_the_window(cases, method: str):
     """The start from rest, whose loads are higher than those of the window, has no part in them."""
     models, states = cases[0][:2], cases[1][:2] + 0.0
-    states[:, XI] *= 1.5
+    states[:, TURN_G] *= 1.5
     settings = {"samples": SAMPLES, "rtol": 1e-9, "method": method}
     whole = march(models, states, cycles=6, window=1, extremes=True, **settings)
     before = march(models, states, cycles=5, window=0, **settings)
@@ -99,7 +98,7 @@ def test_a_march_over_no_cycle_leaves_everything_as_it_is(cases):
     for method in ("auto", "rodas4", "tsit5"):
         still = march(models, states, cycles=0, window=0, samples=16, rtol=1e-6, method=method)
         np.testing.assert_array_equal(still.state, states)
-        assert still.samples.shape == (len(models), 0, STATES)
+        assert still.samples.shape == (len(models), 0, PAIR.states)
         assert (still.status == Status.DONE).all()
         assert (still.reached == 0.0).all()
 
@@ -115,8 +114,8 @@ def test_a_failed_case_says_why_and_leaves_the_others_alone(cases, prepared):
     found = march(models, states, **settings)
     assert found.status[4] == Status.STALLED
     assert 0 < found.reached[4] < 3
-    assert weak.mechanics.nominal_speed + found.state[4, SLIP] > 0
-    kept = np.isfinite(found.samples[4, :, XI])
+    assert weak.operation.nominal_speed + found.state[4, SLIP] > 0
+    kept = np.isfinite(found.samples[4, :, TURN_G])
     assert kept.sum() == np.floor(found.reached[4] * SAMPLES) + 1
     assert kept[: kept.sum()].all()
     others = [i for i in range(11) if i != 4]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.parameters import SLIP
+from tests.support.states import SLIP
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.march.step_control import MINIMUM_STEP, STANDSTILL
@@ -27,7 +27,7 @@ def test_steps_that_vanish_are_told_from_a_pinion_that_stops(prepared, method):
     at_speed = ended(model, state, method, step=tiny)
     assert at_speed.status == Status.STEP_TOO_SMALL
     slow = state.copy()
-    slow[SLIP] = -(1.0 - 0.5 * STANDSTILL) * model.mechanics.nominal_speed
+    slow[SLIP] = -(1.0 - 0.5 * STANDSTILL) * model.operation.nominal_speed
     stopping = ended(model, slow, method, step=tiny)
     assert stopping.status == Status.STALLED
     for found in (at_speed, stopping):
@@ -53,7 +53,7 @@ def test_a_stage_that_turns_the_pinion_back_is_no_standstill(prepared):
     overrides = {"operating.source": "torque", "operating.pinion_torque": "500 N*m", "friction.law": "none"}
     model = prepared("crc-23-47", **overrides).model
     state = static_equilibrium(model)
-    state[SLIP] = -0.97 * model.mechanics.nominal_speed
+    state[SLIP] = -0.97 * model.operation.nominal_speed
     found = {method: ended(model, state, method, 100000) for method in ("dopri5", "dop853")}
     for result in found.values():
         assert result.status == Status.DONE

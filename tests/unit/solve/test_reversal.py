@@ -10,6 +10,7 @@ from numpy.polynomial import Polynomial
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIDING_KINEMATIC
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.solve.march.reversal import SHARES, filled_up, passages, stops, stops_of_many
+from tribodyn.train.schedule import of_one_mesh
 
 DISTANCE = CHANNELS.index("signed_distance")
 BOUNDARY = np.array([0.0, 0.37, 1.0])
@@ -28,11 +29,13 @@ def model(in_contact=((1, 1, 1), (1, 0, 1)), width=0.05, sliding=SLIDING_KINEMAT
             for slot, pair in enumerate(PAIRS):
                 place = Polynomial(pair)(Polynomial([left, size])).coef
                 channel[segment, cell, slot, DISTANCE, : len(place)] = place
+    table = SimpleNamespace(boundary=BOUNDARY, channel=channel, in_contact=np.array(in_contact))
     return cast(
         Any,
         SimpleNamespace(
-            table=SimpleNamespace(boundary=BOUNDARY, channel=channel, in_contact=np.array(in_contact)),
-            mechanics=SimpleNamespace(reversal_width=width),
+            meshes=(SimpleNamespace(table=table),),
+            schedule=of_one_mesh(BOUNDARY),
+            operation=SimpleNamespace(reversal_width=width),
             options=SimpleNamespace(sliding=sliding),
         ),
     )
@@ -45,11 +48,12 @@ def roots(pair, distance, low, high):
 
 @pytest.mark.parametrize("distance", [-0.35, 0.0, 0.02, 0.31])
 def test_passages_are_the_roots_of_the_distance(distance):
+    table = model().meshes[0].table
     for segment in range(2):
         low, high = BOUNDARY[segment : segment + 2]
-        touching = [pair for pair in range(3) if model().table.in_contact[segment][pair]]
+        touching = np.flatnonzero(table.in_contact[segment])
         expected = sorted(phase for pair in touching for phase in roots(pair, distance, low, high))
-        assert sorted(passages(model(), segment, distance)) == pytest.approx(expected, abs=1e-12)
+        assert sorted(passages(table, segment, distance)) == pytest.approx(expected, abs=1e-12)
 
 
 def test_steps_end_on_every_share_of_the_width_and_on_the_segments_end():
@@ -57,7 +61,7 @@ def test_steps_end_on_every_share_of_the_width_and_on_the_segments_end():
     rows = []
     for segment in range(2):
         low, high = BOUNDARY[segment : segment + 2]
-        touching = [pair for pair in range(3) if model().table.in_contact[segment][pair]]
+        touching = [pair for pair in range(3) if model().meshes[0].table.in_contact[segment][pair]]
         inside = [phase for pair in touching for s in SHARES for phase in roots(pair, 0.05 * s, low, high)]
         rows.append([*sorted(inside), high])
     assert len(rows[0]) != len(rows[1])
@@ -75,8 +79,8 @@ def test_with_the_bodies_own_sliding_steps_end_on_segments_only():
 def test_stops_of_many_cases_are_those_of_each():
     wide, narrow = model(), model(width=0.01)
     moving = model(sliding=SLIDING_DYNAMIC)
-    same = SimpleNamespace(table=wide.table, mechanics=wide.mechanics, options=wide.options)
-    other = SimpleNamespace(table=wide.table, mechanics=narrow.mechanics, options=wide.options)
+    same, other = SimpleNamespace(**vars(wide)), SimpleNamespace(**vars(wide))
+    other.operation = narrow.operation
     found = stops_of_many(cast(Any, [wide, moving, same, other]))
     count = found.shape[2]
     assert count == max(stops(case).shape[1] for case in (wide, moving, narrow))
@@ -89,16 +93,10 @@ def test_stops_of_many_cases_are_those_of_each():
 def test_stops_of_cases_with_more_segments_than_others():
     """A deviation of one case's flanks may end its contact elsewhere, and make another number of segments."""
     double, single = model(), model()
-    single = SimpleNamespace(
-        table=SimpleNamespace(
-            boundary=double.table.boundary[:2],
-            in_contact=double.table.in_contact[:1],
-            channel=double.table.channel[:1],
-        ),
-        mechanics=double.mechanics,
-        options=double.options,
-    )
-    found = stops_of_many(cast(Any, [double, single]))
+    table = single.meshes[0].table
+    table.boundary, table.in_contact, table.channel = BOUNDARY[:2], table.in_contact[:1], table.channel[:1]
+    single.schedule = of_one_mesh(BOUNDARY[:2])
+    found = stops_of_many([double, single])
     count = found.shape[2]
     np.testing.assert_array_equal(found[0], filled_up(stops(double), count))
-    np.testing.assert_array_equal(found[1, :1], filled_up(stops(cast(Any, single)), count))
+    np.testing.assert_array_equal(found[1, :1], filled_up(stops(single), count))

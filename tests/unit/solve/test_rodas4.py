@@ -8,11 +8,12 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tests.support.plain_kernels import make_plain, plain
-from tribodyn.dynamics.parameters import MECHANICAL, STATES
+from tests.support.states import PAIR
 from tribodyn.solve.march.marching import ERROR, STATE, Place
 from tribodyn.solve.methods import rodas4
 
-HALF = MECHANICAL // 2
+STATES, MECHANICAL, HALF = PAIR.states, PAIR.mechanical, PAIR.half
+MODEL = cast(Any, SimpleNamespace(options=SimpleNamespace(layout=PAIR)))
 
 
 @pytest.fixture
@@ -28,10 +29,10 @@ def test_the_equations_of_a_stage_are_solved(jacobian, rng):
     shift, right = 1.7, rng.normal(size=STATES)
     matrix, order, solution = np.zeros((HALF, STATES)), np.zeros(STATES), np.zeros(STATES)
     jacobian[HALF, HALF] = shift  # a first pivot near zero: rows must be exchanged
-    plain(rodas4.factorise)(shift, jacobian, matrix, order)
+    plain(rodas4.factorise)(shift, jacobian, matrix, order, PAIR)
     whole = shift * np.eye(STATES)
     whole[:, :MECHANICAL] -= jacobian
-    plain(rodas4.resolve)(shift, jacobian, matrix, order, right, solution)
+    plain(rodas4.resolve)(shift, jacobian, matrix, order, right, solution, PAIR)
     np.testing.assert_allclose(solution, np.linalg.solve(whole, right), rtol=1e-9)
     assert np.any(order[:HALF] != np.arange(HALF))
     reduced = shift * np.eye(HALF) - jacobian[HALF:MECHANICAL, HALF:]
@@ -68,10 +69,10 @@ def test_a_step_is_of_fourth_order_also_where_the_phase_drives(monkeypatch, rng,
 
     ends, insides, embedded = [], [], []
     for step in (0.08, 0.04):
-        buffer = rodas4.buffer()
+        buffer = rodas4.buffer(PAIR)
         control = cast(Any, SimpleNamespace(scale=np.ones(STATES)))
         place = Place(first, 0.0, 0, 1.0)
-        count = rodas4.attempt(True, step, place, start, control, cast(Any, None), cast(Any, None), buffer)
+        count = rodas4.attempt(True, step, place, start, control, MODEL, cast(Any, None), buffer)
         assert count == 5 + 1 + 17
         exact = solve_ivp(
             slope, (first, first + step), start, "DOP853", [first + 0.4 * step, first + step], rtol=1e-12,
@@ -80,27 +81,27 @@ def test_a_step_is_of_fourth_order_also_where_the_phase_drives(monkeypatch, rng,
         ends.append(np.abs(buffer[STATE] - exact[:, 1]).max())
         embedded.append(np.abs(buffer[ERROR]).max())
         inside = np.zeros(STATES)
-        rodas4.sample(0.4, step, start, buffer, inside)
+        rodas4.sample(0.4, step, start, buffer, inside, PAIR)
         insides.append(np.abs(inside - exact[:, 0]).max())
         again = buffer.copy()
-        count = rodas4.attempt(False, step, place, start, control, cast(Any, None), cast(Any, None), buffer)
+        count = rodas4.attempt(False, step, place, start, control, MODEL, cast(Any, None), buffer)
         assert count == 5
         np.testing.assert_array_equal(buffer[STATE], again[STATE])
     for errors, order in ((ends, 5.0), (insides, 4.0), (embedded, 4.0)):
         assert np.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.6)
     assert ends[1] < 1e-5
-    assert rodas4.accept(buffer)
+    assert rodas4.accept(buffer, PAIR)
 
 
 def test_stiffness_is_the_step_over_the_shortest_time(monkeypatch):
     """Of one fast oscillator: its angular frequency; of a strongly damped motion: its rate of decay."""
-    buffer = rodas4.buffer()
-    matrix = buffer[rodas4._JACOBIAN : rodas4._MATRIX]
+    buffer = rodas4.buffer(PAIR)
+    matrix = buffer[rodas4._JACOBIAN :]
     matrix[2, HALF + 2], matrix[HALF + 2, 2] = 1.0, -400.0
-    assert plain(rodas4.stiffness)(0.3, buffer) == pytest.approx(0.3 * 20.0)
+    assert plain(rodas4.stiffness)(0.3, buffer, PAIR) == pytest.approx(0.3 * 20.0)
     matrix[HALF + 2, 2] = 0.0
     matrix[HALF + 4, HALF + 4] = -70.0
-    assert plain(rodas4.stiffness)(0.3, buffer) == pytest.approx(0.3 * 70.0)
+    assert plain(rodas4.stiffness)(0.3, buffer, PAIR) == pytest.approx(0.3 * 70.0)
 
 
 def test_steps_stay_below_the_longest():

@@ -5,9 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES
+from tests.support.states import PAIR, TURN_G
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.march.step_control import MINIMUM_STEP, refusal, unbounded
+from tribodyn.train.structure import displacements
 
 SMALL, USUAL, LIMIT = MINIMUM_STEP / 2, 1e-3, 10
 
@@ -30,11 +31,13 @@ def test_no_step_is_taken(steps, step, speed, status):
     assert refusal(steps, LIMIT, step, speed, 1.0) == status
 
 
-@pytest.mark.parametrize("place", range(STATES))
+@pytest.mark.parametrize("place", range(PAIR.states))
 def test_only_displacements_beyond_the_centre_distance_are_unbounded(place):
-    """Of either sign; speeds, the lag of time and the works have no bound."""
-    table = SimpleNamespace(pinion_pitch_radius=0.05, gear_pitch_radius=0.1)
+    """Of either sign, rotations at the pitch circle; speeds, the lag of time and the works have no bound."""
+    mesh = SimpleNamespace(driver_radius=0.05, driven_radius=0.1)
+    model = SimpleNamespace(meshes=(mesh,), options=SimpleNamespace(layout=PAIR))
+    per_length = 10.0 if place == TURN_G else 1.0
     for value in (0.149, -0.149, 0.151, -0.151, 1e20):
-        state = np.zeros(STATES)
-        state[place] = value
-        assert unbounded(state, table) == (place in DISPLACEMENTS and abs(value) > 0.15)
+        state = np.zeros(PAIR.states)
+        state[place] = per_length * value
+        assert unbounded(state, model) == (place in displacements(PAIR) and abs(value) > 0.15)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from tests.support.plain_kernels import make_plain, plain
-from tribodyn.dynamics.parameters import MECHANICAL, STATES
+from tests.support.states import PAIR
 from tribodyn.solve.march.marching import SCRATCH
 from tribodyn.solve.methods import dopri5, rodas4, switching
-from tribodyn.solve.methods.switching import COUNT, EXPLICIT_RUN, MODE, STIFFNESS, WHICH
+from tribodyn.solve.methods.switching import COUNT, EXPLICIT_RUN, STIFFNESS, WHICH
 
 
 @pytest.fixture(autouse=True)
@@ -17,11 +17,11 @@ def plainly(monkeypatch):
 
 def stages(rates, step):
     """Rates of the stages of an explicit step of y' = f(y) from ones."""
-    y, k, stage = np.ones(STATES), np.zeros((7, STATES)), np.ones(STATES)
+    y, k, stage = np.ones(PAIR.states), np.zeros((7, PAIR.states)), np.ones(PAIR.states)
     k[0] = rates(y)
     for s in range(1, 7):
-        dopri5.stage_state(s, step, y, k, stage)
-        stage[MECHANICAL:] = 0.0
+        dopri5.stage_state(s, step, y, k, stage, PAIR)
+        stage[PAIR.mechanical :] = 0.0
         k[s] = rates(stage)
     return k
 
@@ -29,25 +29,25 @@ def stages(rates, step):
 @pytest.mark.parametrize("fastest", [7.0, 40.0])
 def test_stiffness_of_one_decay_is_its_rate_times_the_step(fastest):
     """All velocities decay alike: the last two stages tell it exactly; displacements say nothing."""
-    decay = np.zeros(STATES)
-    decay[MECHANICAL // 2 : MECHANICAL] = -fastest
+    decay = np.zeros(PAIR.states)
+    decay[PAIR.half : PAIR.mechanical] = -fastest
     k = stages(lambda y: decay * y, 0.2)
     # both stages stand at the same phase: f(y7) − f(y6) = −λ (y7 − y6), and y7 − y6 = h Σ (a7 − a6) k
-    assert np.sqrt(switching.explicit_stiffness(k)) == pytest.approx(0.2 * fastest, rel=1e-9)
-    k[:, : MECHANICAL // 2] = 1e9
-    assert np.sqrt(switching.explicit_stiffness(k)) == pytest.approx(0.2 * fastest, rel=1e-9)
-    assert switching.explicit_stiffness(np.zeros((7, STATES))) == 0.0
+    assert np.sqrt(switching.explicit_stiffness(k, PAIR)) == pytest.approx(0.2 * fastest, rel=1e-9)
+    k[:, : PAIR.half] = 1e9
+    assert np.sqrt(switching.explicit_stiffness(k, PAIR)) == pytest.approx(0.2 * fastest, rel=1e-9)
+    assert switching.explicit_stiffness(np.zeros((7, PAIR.states)), PAIR) == 0.0
 
 
 def after(steps, stiffness, which=0.0):
     """Row of the choice after so many accepted steps, and whether the last begins fresh."""
-    buffer = switching.buffer()
-    buffer[MODE, WHICH] = which
+    buffer = switching.buffer(PAIR)
+    buffer[-1, WHICH] = which
     fresh = None
     for value in np.broadcast_to(stiffness, steps):
-        buffer[MODE, STIFFNESS] = value
-        fresh = switching.accept(buffer)
-    return buffer[MODE], fresh
+        buffer[-1, STIFFNESS] = value
+        fresh = switching.accept(buffer, PAIR)
+    return buffer[-1], fresh
 
 
 def test_twelve_stiff_steps_in_a_row_hand_over():
@@ -79,9 +79,9 @@ def test_three_steps_that_are_not_stiff_hand_back():
 
 
 def test_the_explicit_methods_last_rates_are_the_next_steps_first(rng):
-    buffer = dopri5.buffer()
+    buffer = dopri5.buffer(PAIR)
     buffer[:] = rng.normal(size=buffer.shape)
     last = buffer[SCRATCH + 6].copy()
-    assert dopri5.accept(buffer) is False
+    assert dopri5.accept(buffer, PAIR) is False
     np.testing.assert_array_equal(buffer[SCRATCH], last)
-    assert plain(rodas4.METHOD.accept)(buffer) is True
+    assert plain(rodas4.METHOD.accept)(buffer, PAIR) is True

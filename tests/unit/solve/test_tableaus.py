@@ -6,7 +6,7 @@ from scipy.integrate import RK45, solve_ivp
 from scipy.integrate._ivp import dop853_coefficients as reference_8
 from scipy.optimize import approx_fprime
 
-from tribodyn.dynamics.parameters import MECHANICAL, STATES
+from tests.support.states import PAIR
 from tribodyn.solve.march import explicit_8 as triple
 from tribodyn.solve.methods import dopri5 as pair
 from tribodyn.solve.methods import rodas4 as rosenbrock
@@ -39,27 +39,27 @@ def test_the_triple_has_the_coefficients_of_scipy():
 
 def test_a_step_of_the_pair_is_that_of_scipy(rng):
     """Stages, error and dense output of y' = sin(M y), written out in the laws."""
-    matrix = rng.normal(size=(STATES, STATES))
-    matrix[:, MECHANICAL:] = 0.0  # nothing depends on the works
-    before, step = rng.normal(size=STATES), 0.3
+    matrix = rng.normal(size=(PAIR.states, PAIR.states))
+    matrix[:, PAIR.mechanical :] = 0.0  # nothing depends on the works
+    before, step = rng.normal(size=PAIR.states), 0.3
 
     def slope(_, y):
         return np.sin(matrix @ y)
 
-    k = np.zeros((pair.STAGES, STATES))
+    k = np.zeros((pair.STAGES, PAIR.states))
     k[0] = slope(0.0, before)
     stage = before.copy()
     for s in range(1, pair.STAGES):
-        pair.stage_state(s, step, before, k, stage)
+        pair.stage_state(s, step, before, k, stage, PAIR)
         k[s] = slope(0.0, stage)
     theirs = RK45(slope, 0.0, before, 1.0, first_step=step, rtol=1e3, atol=1e3)
     theirs.step()
     assert theirs.t == step
     np.testing.assert_allclose(stage, theirs.y, rtol=1e-13)
-    error = np.array([pair.embedded_difference(k, i) for i in range(STATES)])
+    error = np.array([pair.embedded_difference(k, i) for i in range(PAIR.states)])
     np.testing.assert_allclose(error * step, -theirs._estimate_error(theirs.K, step), rtol=1e-9, atol=1e-14)
     for theta in (0.0, 0.25, 0.6, 1.0):
-        ours = [pair.dense_output(theta, step, before[i], stage[i], k, i) for i in range(STATES)]
+        ours = [pair.dense_output(theta, step, before[i], stage[i], k, i) for i in range(PAIR.states)]
         np.testing.assert_allclose(ours, theirs.dense_output()(theta * step), rtol=1e-11)
 
 
