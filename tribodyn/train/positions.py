@@ -24,7 +24,7 @@ class Distance(NamedTuple):
     tolerance: float  # by how much a loop that it closes may miss, m
 
 
-class Places(NamedTuple):
+class Centres(NamedTuple):
     """Axes of a train."""
 
     centres: Float[Array, "body 2"]  # m
@@ -41,7 +41,7 @@ class Disc(NamedTuple):
     tip_radius: float  # m
 
 
-def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int, int]]) -> Places:
+def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int, int]]) -> Centres:
     """Place the axes of `count` bodies, body 0 at the origin.
 
     A mesh without an azimuth that closes a loop has the one that follows; another one goes along x, away from
@@ -53,7 +53,7 @@ def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int
     while _place_one(meshes, given, axes, centre):
         pass
     azimuths = tuple(_azimuth(mesh, *(centre[axes[end]] for end in mesh.ends)) for mesh in meshes)
-    return Places(np.array([centre[axes[body]] for body in range(count)]), azimuths)
+    return Centres(np.array([centre[axes[body]] for body in range(count)]), azimuths)
 
 
 def _axes(count: int, couplings: Sequence[tuple[int, int]]) -> list[int]:

@@ -13,9 +13,9 @@ from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable
 from tribodyn.studies.gear_train.structure import OF_DRIVE, Structure, drive_table, motion_of, structure
 from tribodyn.studies.gear_train.teeth import check_same_teeth, engagement
-from tribodyn.train.kinematics import Kinematics
+from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.phases import ToothedShaft, nominal_phases
-from tribodyn.train.positions import Disc, Distance, Places, check_room, places
+from tribodyn.train.positions import Centres, Disc, Distance, check_room, places
 
 #: Modules by which a loop of meshes may not close, a choice: the rounding of azimuths in degrees with two
 #: decimals moves axes less, and backlash changes by 0.7 of it.
@@ -27,7 +27,7 @@ class Moving(NamedTuple):
     """A train that is known to turn; meshes and bodies in the order of `motion`."""
 
     parts: Structure
-    motion: Kinematics
+    motion: TrainSpeeds
     drives: tuple[DriveTable, ...]  # of every mesh; its pinion drives
 
 
@@ -35,7 +35,7 @@ class Drawn(NamedTuple):
     """A train that can be made and has room."""
 
     assemblies: tuple[Assembly, ...]  # of every mesh
-    places: Places  # azimuths from driver to driven axis
+    places: Centres  # azimuths from driver to driven axis
     planes: tuple[int, ...]  # of every gear
     shafts: tuple[int, ...]  # of every gear: bodies that couplings join have one
 
@@ -123,7 +123,7 @@ def in_terms_of_train(error: InputError, train: Moving, mesh: int) -> InputError
     return InputError(key, error.value, error.rule, remedy, error.file)
 
 
-def _placed(train: Moving, assemblies: tuple[Assembly, ...], couplings: list[tuple[int, int]]) -> Places:
+def _placed(train: Moving, assemblies: tuple[Assembly, ...], couplings: list[tuple[int, int]]) -> Centres:
     """Axes, with azimuths from driver to driven."""
     parts, motion, _ = train
     new = {body: number for number, body in enumerate(motion.bodies)}

@@ -17,27 +17,27 @@ from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gear_train.case import (
     HOUSING,
     BodyData,
-    Case,
     GearData,
     LinkData,
     SourceData,
+    TrainCase,
     TrainMesh,
 )
 from tribodyn.studies.gear_train.drawn import Drawn, Moving, drawn, moving
-from tribodyn.studies.gear_train.duty import Duty, duty_of, motor_torque
+from tribodyn.studies.gear_train.duty import TrainDuty, duty_of, motor_torque
 from tribodyn.studies.gear_train.structure import bearings_by_body, mesh_table
 from tribodyn.studies.gear_train.tables import (
     MOST_PARTS,
+    BareBody,
     BareMesh,
-    Body,
     Link,
-    Load,
-    Operating,
+    LoadTable,
     PartName,
     Shaft,
     Stage,
     TrainBearings,
     TrainGear,
+    TrainOperating,
 )
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.studies.gears.case import LubricatedCase, OutputData
@@ -76,15 +76,15 @@ class Scenario(ScenarioHead):
     gear: dict[PartName, TrainGear] = written({}, description="gears by name")
     stage: tuple[Stage, ...] = Field((), max_length=MOST_PARTS, description="which gears mesh")
     shaft: tuple[Shaft, ...] = Field((), max_length=MOST_PARTS, description="which gears turn together")
-    body: tuple[Body, ...] = Field((), max_length=MOST_PARTS, description="bodies without teeth")
+    body: tuple[BareBody, ...] = Field((), max_length=MOST_PARTS, description="bodies without teeth")
     link: tuple[Link, ...] = Field((), max_length=MOST_PARTS, description="springs between bodies")
     material: MaterialReference | None = Field(None, description="of all gears that name none")
     mean_roughness: Roughness | None = Field(None, description="Ra of the flanks of all gears that say none")
     quality: Grade | None = Field(None, description="tolerance class of all gears that say none")
     lubricant: Oil
     bearings: Annotated[TrainBearings, model_file("bearings")] = written("rigid-1e9")
-    operating: Operating
-    load: tuple[Load, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
+    operating: TrainOperating
+    load: tuple[LoadTable, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
     mesh: Meshes = Field(description="of all stages; a list: the meshes of a bare model")
     temperature: TemperatureKeys = None
     film: FilmKeys = None
@@ -101,7 +101,7 @@ class PairView(NamedTuple):
     kind: str
     drive: DriveTable
     mesh: Mesh
-    operating: Operating
+    operating: TrainOperating
     lubricant: Any
     film: Any
     friction: Friction
@@ -125,7 +125,7 @@ def pair_view(scenario: Any, train: Moving, mesh: int) -> PairView:
     )
 
 
-def case_of(scenario: Any, toml: str, sha256: str) -> Case:
+def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
     """Return the case of a scenario that has passed schema and rules."""
     train = moving(scenario)
     figure = drawn(train)
@@ -134,7 +134,7 @@ def case_of(scenario: Any, toml: str, sha256: str) -> Case:
     gears = _gears(train, figure)
     solver = scenario.solver.model_dump()
     max_period = solver.pop("max_period")
-    return Case(
+    return TrainCase(
         **head,
         gears=gears,
         bodies=_bodies(scenario, train, figure, duty),
@@ -190,7 +190,7 @@ def _given_mass(train: Moving, number: int) -> BodyMass:
     return BodyMass(gear.table.mass, gear.table.inertia)
 
 
-def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: Duty) -> tuple[BodyData, ...]:
+def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tuple[BodyData, ...]:
     motion, operating, found = train.motion, scenario.operating, []
     for number, body in enumerate(motion.bodies):
         part = train.parts.bodies[body]
@@ -239,7 +239,7 @@ def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
 
 
 def _meshes(
-    scenario: Any, train: Moving, figure: Drawn, duty: Duty, head: dict[str, str]
+    scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty, head: dict[str, str]
 ) -> tuple[TrainMesh, ...]:
     motion, found = train.motion, []
     first: LubricatedCase | None = None
@@ -280,7 +280,7 @@ def _with_laws_of(pair: LubricatedCase, first: LubricatedCase) -> LubricatedCase
     return replace(pair, film=first.film, friction=first.friction)
 
 
-def _source(scenario: Any, train: Moving, duty: Duty) -> SourceData:
+def _source(scenario: Any, train: Moving, duty: TrainDuty) -> SourceData:
     operating, given = scenario.operating, motor_torque(scenario)
     return SourceData(
         operating.source,

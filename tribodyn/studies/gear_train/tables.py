@@ -109,7 +109,7 @@ class Shaft(Table):
     inertia: fields.Inertia = written("0 kg*m**2", description="of the shaft; a compliant one's is halved")
 
 
-class Body(Table):
+class BareBody(Table):
     """A body without teeth, such as a flywheel or a motor, or any body of a bare model."""
 
     name: PartName
@@ -173,7 +173,7 @@ class TrainBearings(Described, extra="allow"):
         return dict(self.__pydantic_extra__ or {})
 
 
-class Load(Table):
+class LoadTable(Table):
     """What a gear, a shaft or a body drives beside the output."""
 
     at: Text = Field(description="gear, shaft or body")
@@ -188,7 +188,7 @@ class Load(Table):
     torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), max_length=MOST_HARMONICS, description="added")
 
 
-class Operating(Table):
+class TrainOperating(Table):
     """Where power enters and leaves, at which speed and load, and how the train is driven."""
 
     input: Annotated[Text | None, BeforeValidator(_one_place)] = Field(
