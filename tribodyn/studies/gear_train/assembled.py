@@ -32,11 +32,12 @@ def assemblies(case: TrainCase) -> tuple[Assembly, ...]:
     Raises InputError, in the terms of a drive file, where teeth cannot be made; the rules of a scenario have
     found that before.
     """
+    numbers = table_numbers(case)
     made: dict[int, Assembly] = {}
-    for number, mesh in zip(table_numbers(case), case.meshes, strict=True):
+    for number, mesh in zip(numbers, case.meshes, strict=True):
         if number not in made:
             made[number] = assembled(mesh.pair)
-    return tuple(made[number] for number in table_numbers(case))
+    return tuple(made[number] for number in numbers)
 
 
 def body_inertias(case: TrainCase, pairs: Sequence[Assembly]) -> tuple[BodyInertia, ...]:

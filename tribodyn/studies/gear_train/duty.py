@@ -68,8 +68,7 @@ def duty_of(scenario: Any, train: Moving) -> TrainDuty:
     Torques balance without losses: T_out = (T_in − Σ T_l n_l)/n_out with speeds n over the input's.
     """
     operating: TrainOperating = scenario.operating
-    motion, parts = train.motion, train.parts
-    new = {body: number for number, body in enumerate(motion.bodies)}
+    motion, parts, new = train.motion, train.parts, train.numbers
     _, output = ends_of(scenario)
     at = None if output is None else new[parts.body(output)]
     loads = [_load(load, new[parts.body(load.at)]) for load in scenario.load]
@@ -95,8 +94,7 @@ def duty_of(scenario: Any, train: Moving) -> TrainDuty:
     for load in loads:
         against[load.body] += load.torque
     teeth = [(parts.gears[one].table.teeth, parts.gears[two].table.teeth) for one, two in motion.gears]
-    couplings = [(new[one], new[two]) for _, (one, two) in parts.couplings()]
-    torques = nominal_torques(motion, teeth, couplings, against)
+    torques = nominal_torques(motion, teeth, train.couplings, against)
     least = _NOTHING * max(map(abs, torques.driven))
     driven = tuple(0.0 if abs(torque) <= least else torque for torque in torques.driven)
     return TrainDuty(speed, tuple(loads), tuple(inertias), torques._replace(driven=driven))

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import Discriminator, Field, Tag
 
 from tribodyn.dynamics.data import BearingData, OperatingData
-from tribodyn.geometry.drive import SIDES, BodyMass, Side
+from tribodyn.geometry.drive import SIDES, BodyMass
 from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Count, model_file, written
 from tribodyn.scenario.tables.bearings import bearing_of
@@ -149,20 +149,10 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
     )
 
 
-def _numbers(train: Moving) -> dict[int, int]:
-    """Number of each body of the structure in the train's order."""
-    return {body: number for number, body in enumerate(train.motion.bodies)}
-
-
 def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:
-    new, found = _numbers(train), []
+    new, found = train.numbers, []
     for number, gear in enumerate(train.parts.gears):
-        meshes: tuple[tuple[int, Side], ...] = tuple(
-            (mesh, side)
-            for mesh, both in enumerate(train.motion.gears)
-            for side, one in zip(SIDES, both, strict=True)
-            if one == number
-        )
+        meshes = train.meshes_of(number)
         mesh, side = meshes[0]
         material = materials_of(train.drives[mesh])[SIDES.index(side)]
         found.append(
@@ -215,7 +205,7 @@ def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tup
 
 
 def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
-    new, found = _numbers(train), []
+    new, found = train.numbers, []
     bearings = bearings_by_body(scenario, train.parts)
     for number, body in enumerate(train.motion.bodies):
         bearing = bearings[body]
