@@ -12,10 +12,10 @@ from tribodyn.errors import InputErrors
 from tribodyn.scenario.messages import explain
 from tribodyn.scenario.resolve import resolve, unresolved_keys
 from tribodyn.studies.gear_train import STUDY
-from tribodyn.studies.gear_train.case import Case
+from tribodyn.studies.gear_train.case import TrainCase
 
 
-def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> Case:
+def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> TrainCase:
     """The case of a train's scenario; InputErrors with every mistake."""
     data, origins, errors = resolve(path, overrides or {}, STUDY.table)
     data.setdefault("name", path.stem)

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections import Counter
 from functools import cache
 from pathlib import Path
 
@@ -187,6 +188,16 @@ def test_modules_named_by_a_string_lie_beside_who_names_them():
 
 def test_a_file_is_one_idea():
     assert {name: lines(path) for name, path in FILES.items() if lines(path) > LONGEST_FILE} == {}
+
+
+def test_a_class_name_means_one_class():
+    classes = [
+        node.name
+        for path in FILES.values()
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+    ]
+    assert [name for name, count in Counter(classes).items() if count > 1] == []
 
 
 def test_no_function_takes_more_than_nine_positional_arguments():

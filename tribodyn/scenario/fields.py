@@ -9,6 +9,7 @@ from tribodyn.scenario.quantity import Column, CurveTable, InUnit, Table, Text
 
 Torque = Annotated[float, InUnit(units.TORQUE)]
 Inertia = Annotated[float, InUnit(units.not_negative(units.INERTIA))]
+TorsionalStiffness = Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))]
 TorsionalDamping = Annotated[float, InUnit(units.not_negative(units.TORSIONAL_DAMPING))]
 Angle = Annotated[float, InUnit(units.ANGLE_KIND)]
 Error = Annotated[float, InUnit(units.LENGTH, "2 um")]

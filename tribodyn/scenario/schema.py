@@ -50,7 +50,9 @@ def table_at(model: type[BaseModel], key: Iterable[str | int]) -> type[BaseModel
 def holds_by_name(model: type[BaseModel], key: Iterable[str | int]) -> bool:
     """Whether a key leads to tables that are held by name, and not to one of them."""
     *above, last = key
-    table = table_at(model, above) if not isinstance(last, int) else None
+    if isinstance(last, int):
+        return False
+    table = table_at(model, above)
     field = table.model_fields.get(last) if table else None
     return field is not None and any(inner.held is dict for inner in inner_tables(field.annotation))
 

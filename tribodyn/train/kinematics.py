@@ -40,7 +40,7 @@ class Joint(NamedTuple):
     ends: tuple[int, int]
 
 
-class Kinematics(NamedTuple):
+class TrainSpeeds(NamedTuple):
     """Motion of a train; indices are those given but for `driver` and `driven`.
 
     Turns and rates count cycles of the reference mesh.
@@ -66,7 +66,7 @@ def kinematics(
     couplings: Sequence[Joint],
     source: int,
     sense: int,
-) -> Kinematics:
+) -> TrainSpeeds:
     """Work out which end of each mesh drives, and how fast and which way every body turns.
 
     `source` is the body at which power enters, `sense` its sense of rotation (+1: counter-clockwise seen from
@@ -98,7 +98,7 @@ def kinematics(
     rate = tuple(
         Fraction(gears[driver].teeth, first.teeth) * ratio[new[gears[driver].body]] for driver, _ in driving
     )
-    return Kinematics(
+    return TrainSpeeds(
         bodies=numbers,
         meshes=order,
         input=new[source],

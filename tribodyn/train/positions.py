@@ -24,7 +24,7 @@ class Distance(NamedTuple):
     tolerance: float  # by how much a loop that it closes may miss, m
 
 
-class Places(NamedTuple):
+class Centres(NamedTuple):
     """Axes of a train."""
 
     centres: Float[Array, "body 2"]  # m
@@ -41,28 +41,28 @@ class Disc(NamedTuple):
     tip_radius: float  # m
 
 
-def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int, int]]) -> Places:
+def places(count: int, meshes: Sequence[Distance], couplings: Sequence[tuple[int, int]]) -> Centres:
     """Place the axes of `count` bodies, body 0 at the origin.
 
     A mesh without an azimuth that closes a loop has the one that follows; another one goes along x, away from
     body 0. Raises InputError where a loop does not close, by more than its mesh's tolerance.
     """
-    axes = _axes(count, couplings)
+    axes = joined(count, couplings)  # the axis of every body
     centre = {axes[0]: (0.0, 0.0)}
     given = [mesh.azimuth is not None for mesh in meshes]
     while _place_one(meshes, given, axes, centre):
         pass
     azimuths = tuple(_azimuth(mesh, *(centre[axes[end]] for end in mesh.ends)) for mesh in meshes)
-    return Places(np.array([centre[axes[body]] for body in range(count)]), azimuths)
+    return Centres(np.array([centre[axes[body]] for body in range(count)]), azimuths)
 
 
-def _axes(count: int, couplings: Sequence[tuple[int, int]]) -> list[int]:
-    """Number of the axis of every body: the lowest of those on it."""
-    axes = list(range(count))
-    for one, two in couplings:
-        low, high = sorted((axes[one], axes[two]))
-        axes = [low if axis == high else axis for axis in axes]
-    return axes
+def joined(count: int, pairs: Sequence[tuple[int, int]]) -> list[int]:
+    """Number alike what pairs join, directly or by others, of so many: each by the lowest in its group."""
+    groups = list(range(count))
+    for one, two in pairs:
+        low, high = sorted((groups[one], groups[two]))
+        groups = [low if group == high else group for group in groups]
+    return groups
 
 
 def _place_one(

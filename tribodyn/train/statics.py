@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.train.kinematics import Kinematics
+from tribodyn.train.kinematics import TrainSpeeds
 
 
 class Torques(NamedTuple):
@@ -18,7 +18,7 @@ class Torques(NamedTuple):
 
 
 def nominal_torques(
-    motion: Kinematics,
+    motion: TrainSpeeds,
     teeth: Sequence[tuple[int, int]],
     couplings: Sequence[tuple[int, int]],
     loads: Sequence[float],

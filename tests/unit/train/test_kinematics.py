@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.train.kinematics import Joint, Kinematics, Named, Toothed, kinematics
+from tribodyn.train.kinematics import Joint, Named, Toothed, TrainSpeeds, kinematics
 
 
 def train(
@@ -15,7 +15,7 @@ def train(
     source: str = "",
     sense: int = -1,
     bodies: tuple[str, ...] = (),
-) -> Kinematics:
+) -> TrainSpeeds:
     """Gears by name as (body, teeth); the input is the first gear's body."""
     names = list(dict.fromkeys([*(body for body, _ in gears.values()), *bodies]))
     places = list(gears)
@@ -77,7 +77,7 @@ def test_a_motor_before_the_train_is_the_input_and_not_the_reference():
     assert found.sense[2] == found.sense[0] == -1
 
 
-def split(z: int = 30, *, meshed: bool = True) -> Kinematics:
+def split(z: int = 30, *, meshed: bool = True) -> TrainSpeeds:
     """One pinion drives two compound shafts, which drive one bull gear."""
     gears = {
         "p": ("in", 20),

@@ -2,11 +2,11 @@
 
 import pytest
 
-from tribodyn.train.kinematics import Joint, Kinematics, Named, Toothed, kinematics
+from tribodyn.train.kinematics import Joint, Named, Toothed, TrainSpeeds, kinematics
 from tribodyn.train.statics import nominal_torques
 
 
-def motion(bodies: list[tuple[int, ...]], meshes: list[tuple[int, int]], source: int = 0) -> Kinematics:
+def motion(bodies: list[tuple[int, ...]], meshes: list[tuple[int, int]], source: int = 0) -> TrainSpeeds:
     """Gears by their teeth in the order of the bodies; meshes by the numbers of their gears."""
     gears = [
         Toothed(f"{body}{place}", "", body, teeth)

@@ -169,6 +169,30 @@ class Gear(quantity.Table):
     modification: Modification = quantity.written({})
 
 
+#: Keys of a pair of gears, in a drive file and in a stage of a train.
+PressureAngle = Annotated[
+    Angle | None,
+    Field(description="of the rack for involutes; at the pitch point for other families, if they take one"),
+]
+CentreDistance = Annotated[
+    Annotated[quantity.Printed, quantity.PrintedQuantity(units.positive(units.LENGTH))] | None,
+    Field(description="of involutes; default: that of nominal teeth in mesh without backlash"),
+]
+Rack = Annotated[
+    Annotated[quantity.Text, quantity.Names(PROFILES)] | None,
+    Field(description="basic rack, for what the pressure angle and the gears do not say themselves"),
+]
+FamilyKeys = Annotated[
+    dict[str, Any] | None,
+    quantity.FamilyShape(),
+    Field(description="what else the family needs, see `tribodyn list`"),
+]
+CompositeRoughness = Annotated[
+    Roughness | None,
+    Field(description="composite rms roughness of the flanks; default: from the mean roughness of both"),
+]
+
+
 class DriveTable(Described):
     """A gear pair (`models/drives/`)."""
 
@@ -176,21 +200,11 @@ class DriveTable(Described):
         description="family of the path of contact"
     )
     module: Length
-    pressure_angle: Angle | None = Field(
-        None, description="of the rack for involutes; at the pitch point for other families, if they take one"
-    )
-    centre_distance: (
-        Annotated[quantity.Printed, quantity.PrintedQuantity(units.positive(units.LENGTH))] | None
-    ) = Field(None, description="of involutes; default: that of nominal teeth in mesh without backlash")
-    rack: Annotated[quantity.Text, quantity.Names(PROFILES)] | None = Field(
-        None, description="basic rack, for what the pressure angle and the gears do not say themselves"
-    )
-    shape: Annotated[dict[str, Any] | None, quantity.FamilyShape()] = Field(
-        None, description="what else the family needs, see `tribodyn list`"
-    )
-    roughness: Roughness | None = Field(
-        None, description="composite rms roughness of the flanks; default: from the mean roughness of both"
-    )
+    pressure_angle: PressureAngle = None
+    centre_distance: CentreDistance = None
+    rack: Rack = None
+    shape: FamilyKeys = None
+    roughness: CompositeRoughness = None
     mean_roughness: Roughness | None = Field(
         None, description="Ra of the flanks; default: the gears' own, or roughness/sqrt(pi)"
     )

@@ -10,8 +10,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.scenario import fields, units
-from tribodyn.scenario.quantity import InUnit, csv_file, model_file, written
+from tribodyn.scenario import fields
+from tribodyn.scenario.quantity import csv_file, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings, bearings_of
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
 from tribodyn.solve.methods import SolverData
@@ -55,7 +55,7 @@ class Operating(OiledOperatingTable):
         "0 N*m*s/rad", description="load that grows with speed above nominal"
     )
     drive_inertia: fields.Inertia = written("0 kg*m**2", description="of the motor")
-    shaft_stiffness: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
+    shaft_stiffness: fields.TorsionalStiffness | None = Field(
         None, description="between motor and pinion; default: rigid"
     )
     shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")

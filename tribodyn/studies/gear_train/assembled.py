@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import mass_and_inertia
-from tribodyn.studies.gear_train.case import HOUSING, Case, LinkData
+from tribodyn.studies.gear_train.case import HOUSING, LinkData, TrainCase
 from tribodyn.studies.gear_train.teeth import engagement
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.same_table import table_key
@@ -20,26 +20,27 @@ class BodyInertia(NamedTuple):
     inertia: float
 
 
-def table_numbers(case: Case) -> tuple[int, ...]:
+def table_numbers(case: TrainCase) -> tuple[int, ...]:
     """Number of the table of every mesh: equal meshes share one; the first mesh's is 0."""
     known: dict[object, int] = {}
     return tuple(known.setdefault(table_key(mesh.pair), len(known)) for mesh in case.meshes)
 
 
-def assemblies(case: Case) -> tuple[Assembly, ...]:
+def assemblies(case: TrainCase) -> tuple[Assembly, ...]:
     """The pair of every mesh put together, its pinion the driver; meshes with one table share it.
 
     Raises InputError, in the terms of a drive file, where teeth cannot be made; the rules of a scenario have
     found that before.
     """
+    numbers = table_numbers(case)
     made: dict[int, Assembly] = {}
-    for number, mesh in zip(table_numbers(case), case.meshes, strict=True):
+    for number, mesh in zip(numbers, case.meshes, strict=True):
         if number not in made:
             made[number] = assembled(mesh.pair)
-    return tuple(made[number] for number in table_numbers(case))
+    return tuple(made[number] for number in numbers)
 
 
-def body_inertias(case: Case, pairs: Sequence[Assembly]) -> tuple[BodyInertia, ...]:
+def body_inertias(case: TrainCase, pairs: Sequence[Assembly]) -> tuple[BodyInertia, ...]:
     """Mass and inertia of every body; those of a gear that gives none follow from its outline and bore."""
     found = []
     for body in case.bodies:
@@ -56,7 +57,7 @@ def body_inertias(case: Case, pairs: Sequence[Assembly]) -> tuple[BodyInertia, .
     return tuple(found)
 
 
-def phases(case: Case, pairs: Sequence[Assembly], entries: Sequence[float] | None = None) -> Phases:
+def phases(case: TrainCase, pairs: Sequence[Assembly], entries: Sequence[float] | None = None) -> Phases:
     """Phase of every mesh while the reference mesh begins its cycle, and where the teeth of all gears stand.
 
     `entries` are the pinions' angles at which the meshes' cycles begin, `roll_start` of their tables; None:

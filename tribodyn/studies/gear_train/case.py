@@ -113,7 +113,7 @@ class SourceData:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Case(CaseHead):
+class TrainCase(CaseHead):
     """One simulation of a train, complete."""
 
     gears: tuple[GearData, ...]
@@ -140,7 +140,7 @@ class Case(CaseHead):
         )
 
 
-def refuse_long_period(case: Case) -> None:
+def refuse_long_period(case: TrainCase) -> None:
     """Raise InputError where a steady state would last longer than is allowed."""
     if case.period > case.max_period:
         mesh = case.meshes[0]

@@ -13,9 +13,9 @@ from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable
 from tribodyn.studies.gear_train.structure import OF_DRIVE, Structure, drive_table, motion_of, structure
 from tribodyn.studies.gear_train.teeth import check_same_teeth, engagement
-from tribodyn.train.kinematics import Kinematics
+from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.phases import ToothedShaft, nominal_phases
-from tribodyn.train.positions import Disc, Distance, Places, check_room, places
+from tribodyn.train.positions import Centres, Disc, Distance, check_room, joined, places
 
 #: Modules by which a loop of meshes may not close, a choice: the rounding of azimuths in degrees with two
 #: decimals moves axes less, and backlash changes by 0.7 of it.
@@ -27,15 +27,35 @@ class Moving(NamedTuple):
     """A train that is known to turn; meshes and bodies in the order of `motion`."""
 
     parts: Structure
-    motion: Kinematics
+    motion: TrainSpeeds
     drives: tuple[DriveTable, ...]  # of every mesh; its pinion drives
+
+    @property
+    def numbers(self) -> dict[int, int]:
+        """Body as the scenario writes it -> its number in the train's order."""
+        return {body: number for number, body in enumerate(self.motion.bodies)}
+
+    @property
+    def couplings(self) -> list[tuple[int, int]]:
+        """Bodies, by their numbers, that turn alike."""
+        new = self.numbers
+        return [(new[one], new[two]) for _, (one, two) in self.parts.couplings()]
+
+    def meshes_of(self, gear: int) -> tuple[tuple[int, Side], ...]:
+        """The meshes that a gear belongs to, and what it is in the pair of each."""
+        return tuple(
+            (mesh, side)
+            for mesh, gears in enumerate(self.motion.gears)
+            for side, one in zip(SIDES, gears, strict=True)
+            if one == gear
+        )
 
 
 class Drawn(NamedTuple):
     """A train that can be made and has room."""
 
     assemblies: tuple[Assembly, ...]  # of every mesh
-    places: Places  # azimuths from driver to driven axis
+    places: Centres  # azimuths from driver to driven axis
     planes: tuple[int, ...]  # of every gear
     shafts: tuple[int, ...]  # of every gear: bodies that couplings join have one
 
@@ -68,18 +88,14 @@ def drawn(train: Moving) -> Drawn:
     Raises InputError where teeth cannot be made or differ between the meshes of one gear, loops do not close,
     or gears have no room.
     """
-    parts, motion, _ = train
+    parts = train.parts
     assemblies = _assemblies(train)
     for number, gear in enumerate(parts.gears):
         seen: list[tuple[Assembly, Side]] = [
-            (assemblies[mesh], side)
-            for mesh, gears in enumerate(motion.gears)
-            for side, one in zip(SIDES, gears, strict=True)
-            if one == number
+            (assemblies[mesh], side) for mesh, side in train.meshes_of(number)
         ]
         check_same_teeth(gear.key, gear.name, seen)
-    new = {body: number for number, body in enumerate(motion.bodies)}
-    couplings = [(new[one], new[two]) for _, (one, two) in parts.couplings()]
+    new, couplings = train.numbers, train.couplings
     axes = _placed(train, assemblies, couplings)
     planes = _planes(parts)
     discs = [
@@ -87,7 +103,7 @@ def drawn(train: Moving) -> Drawn:
         for number, (gear, plane) in enumerate(zip(parts.gears, planes, strict=True))
     ]
     check_room(discs, axes.centres, [mesh.gears for mesh in parts.meshes])
-    shafts = _joined(len(parts.bodies), couplings)
+    shafts = joined(len(parts.bodies), couplings)
     found = Drawn(assemblies, axes, planes, tuple(shafts[new[gear.body]] for gear in parts.gears))
     _check_phases(train, found)
     return found
@@ -123,10 +139,9 @@ def in_terms_of_train(error: InputError, train: Moving, mesh: int) -> InputError
     return InputError(key, error.value, error.rule, remedy, error.file)
 
 
-def _placed(train: Moving, assemblies: tuple[Assembly, ...], couplings: list[tuple[int, int]]) -> Places:
+def _placed(train: Moving, assemblies: tuple[Assembly, ...], couplings: list[tuple[int, int]]) -> Centres:
     """Axes, with azimuths from driver to driven."""
-    parts, motion, _ = train
-    new = {body: number for number, body in enumerate(motion.bodies)}
+    parts, motion, new = train.parts, train.motion, train.numbers
     distances, turned = [], []
     for number, assembly in zip(motion.meshes, assemblies, strict=True):
         mesh = parts.meshes[number]
@@ -145,25 +160,13 @@ def _placed(train: Moving, assemblies: tuple[Assembly, ...], couplings: list[tup
 
 
 def _tip(train: Moving, assemblies: tuple[Assembly, ...], gear: int) -> float:
-    for mesh, gears in enumerate(train.motion.gears):
-        for side, one in zip(SIDES, gears, strict=True):
-            if one == gear:
-                return float(tip_circle_radius(assemblies[mesh].drive, side))
-    raise ValueError("a gear without a mesh")
-
-
-def _joined(parts: int, pairs: list[tuple[int, int]]) -> list[int]:
-    """Number what the pairs join alike."""
-    numbers = list(range(parts))
-    for one, two in pairs:
-        low, high = sorted((numbers[one], numbers[two]))
-        numbers = [low if number == high else number for number in numbers]
-    return numbers
+    mesh, side = train.meshes_of(gear)[0]
+    return float(tip_circle_radius(assemblies[mesh].drive, side))
 
 
 def _planes(parts: Structure) -> tuple[int, ...]:
     """Axial plane of every gear; gears that stages join stand in one, by default in one of their own."""
-    groups = _joined(len(parts.gears), [mesh.gears for mesh in parts.meshes])
+    groups = joined(len(parts.gears), [mesh.gears for mesh in parts.meshes])
     given: dict[int, int] = {}
     for gear, group in zip(parts.gears, groups, strict=True):
         if gear.plane is None:
@@ -178,8 +181,7 @@ def _planes(parts: Structure) -> tuple[int, ...]:
 
 def _check_phases(train: Moving, found: Drawn) -> None:
     """Raise InputError where the teeth of a loop do not meet."""
-    parts, motion, _ = train
-    new = {body: number for number, body in enumerate(motion.bodies)}
+    parts, motion, new = train.parts, train.motion, train.numbers
     shafts = [
         ToothedShaft(gear.name, shaft, gear.table.teeth, motion.sense[new[gear.body]], gear.tooth_angle)
         for gear, shaft in zip(parts.gears, found.shafts, strict=True)

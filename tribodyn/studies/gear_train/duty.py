@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError, quoted
 from tribodyn.studies.gear_train.case import LoadData
 from tribodyn.studies.gear_train.drawn import Moving, ends_of
-from tribodyn.studies.gear_train.tables import Load, TrainOperating
+from tribodyn.studies.gear_train.tables import LoadTable, TrainOperating
 from tribodyn.train.statics import Torques, nominal_torques
 
 _SPEEDS, _LOADS = ("input_speed", "output_speed"), ("output_torque", "input_torque", "power")
@@ -16,7 +16,7 @@ _OF_OUTPUT = ("output_speed", "output_torque", "output_torque_table", "output_to
 _NOTHING = 1e-12
 
 
-class Duty(NamedTuple):
+class TrainDuty(NamedTuple):
     """Nominal speed and load of a train; bodies in its order."""
 
     speed: float  # of the input and of the reference body, rad/s
@@ -62,14 +62,13 @@ def broken_duty_rules(scenario: Any) -> Iterator[InputError]:
         yield InputError("operating.power", shown, "gives no torque without a speed", "add input_speed")
 
 
-def duty_of(scenario: Any, train: Moving) -> Duty:
+def duty_of(scenario: Any, train: Moving) -> TrainDuty:
     """Return speed and load of a scenario that breaks no rule.
 
     Torques balance without losses: T_out = (T_in − Σ T_l n_l)/n_out with speeds n over the input's.
     """
     operating: TrainOperating = scenario.operating
-    motion, parts = train.motion, train.parts
-    new = {body: number for number, body in enumerate(motion.bodies)}
+    motion, parts, new = train.motion, train.parts, train.numbers
     _, output = ends_of(scenario)
     at = None if output is None else new[parts.body(output)]
     loads = [_load(load, new[parts.body(load.at)]) for load in scenario.load]
@@ -95,11 +94,10 @@ def duty_of(scenario: Any, train: Moving) -> Duty:
     for load in loads:
         against[load.body] += load.torque
     teeth = [(parts.gears[one].table.teeth, parts.gears[two].table.teeth) for one, two in motion.gears]
-    couplings = [(new[one], new[two]) for _, (one, two) in parts.couplings()]
-    torques = nominal_torques(motion, teeth, couplings, against)
+    torques = nominal_torques(motion, teeth, train.couplings, against)
     least = _NOTHING * max(map(abs, torques.driven))
     driven = tuple(0.0 if abs(torque) <= least else torque for torque in torques.driven)
-    return Duty(speed, tuple(loads), tuple(inertias), torques._replace(driven=driven))
+    return TrainDuty(speed, tuple(loads), tuple(inertias), torques._replace(driven=driven))
 
 
 def motor_torque(scenario: Any) -> float | None:
@@ -119,7 +117,7 @@ def _output_torque(
     return ((put_in or 0.0) - taken) / float(ratio[at])
 
 
-def _load(load: Load, body: int) -> LoadData:
+def _load(load: LoadTable, body: int) -> LoadData:
     curve = load.torque_table
     return LoadData(
         body,

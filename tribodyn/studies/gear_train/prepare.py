@@ -15,7 +15,7 @@ from tribodyn.studies.gear_train.assembled import (
     phases,
     table_numbers,
 )
-from tribodyn.studies.gear_train.case import HOUSING, Case, LoadData
+from tribodyn.studies.gear_train.case import HOUSING, LoadData, TrainCase
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.model import Frame, mesh_of, options_of, varying_load
 from tribodyn.studies.gears.prepare import Thermal, at_tooth_temperature
@@ -30,7 +30,7 @@ from tribodyn.tribology.closure import closure_of
 class PreparedTrain:
     """A case made ready to integrate; bodies of the model in its own order."""
 
-    case: Case
+    case: TrainCase
     model: parameters.Model
     made: tuple[Tabulated, ...]  # of every mesh; equal meshes share one
     pairs: tuple[LubricatedCase, ...]  # of every mesh, with the oil at its teeth's temperature
@@ -51,7 +51,7 @@ def frame_of(azimuth: float, sense: int) -> Frame:
     return (-sense * sin(azimuth), sense * cos(azimuth)), (cos(azimuth), sin(azimuth))
 
 
-def tabulated(case: Case) -> tuple[Tabulated, ...]:
+def tabulated(case: TrainCase) -> tuple[Tabulated, ...]:
     """The tables of every mesh; equal meshes share one. Raises InputError as `gears.tabulated.tables` does."""
     known: dict[int, Tabulated] = {}
     for number, mesh in zip(table_numbers(case), case.meshes, strict=True):
@@ -60,7 +60,7 @@ def tabulated(case: Case) -> tuple[Tabulated, ...]:
     return tuple(known[number] for number in table_numbers(case))
 
 
-def prepare(case: Case, made: tuple[Tabulated, ...] | None = None) -> PreparedTrain:
+def prepare(case: TrainCase, made: tuple[Tabulated, ...] | None = None) -> PreparedTrain:
     """Check the geometry, tabulate the meshes and assemble the model; `made` is of equal tables, if known."""
     made = made or tabulated(case)
     inertias = body_inertias(case, [each.assembly for each in made])
@@ -75,12 +75,12 @@ def prepare(case: Case, made: tuple[Tabulated, ...] | None = None) -> PreparedTr
     return PreparedTrain(case, model, made, tuple(warm), tuple(thermal), found, order, inertias)
 
 
-def _held(case: Case, body: int) -> bool:
+def _held(case: TrainCase, body: int) -> bool:
     """Whether bearings hold a body, which then moves in the plane; another one only turns."""
     return any(body in link.ends and min(link.stiffness[:2]) > 0.0 for link in case.links)
 
 
-def _order(case: Case) -> tuple[int, ...]:
+def _order(case: TrainCase) -> tuple[int, ...]:
     """Bodies of the case as the model has them: first those that bearings hold, the reference first of all."""
     numbers = range(len(case.bodies))
     held = [body for body in numbers if _held(case, body)]
@@ -91,7 +91,7 @@ def _order(case: Case) -> tuple[int, ...]:
 
 
 def _model(
-    case: Case,
+    case: TrainCase,
     made: Sequence[Tabulated],
     pairs: Sequence[LubricatedCase],
     inertias: Sequence[BodyInertia],
@@ -147,11 +147,11 @@ def _model(
     )
 
 
-def _of_motor(case: Case, motor: Sequence[float]) -> list[float]:
+def _of_motor(case: TrainCase, motor: Sequence[float]) -> list[float]:
     return [float(case.bodies[case.source.body].ratio) for _ in motor]
 
 
-def _varying(case: Case) -> LoadData:
+def _varying(case: TrainCase) -> LoadData:
     """The load that varies over time, or the first one."""
     varying = [number for number, load in enumerate(case.loads) if load.table or load.harmonics]
     if len(varying) > 1:
@@ -160,7 +160,7 @@ def _varying(case: Case) -> LoadData:
     return case.loads[varying[0] if varying else 0] if case.loads else LoadData(0, 0.0)
 
 
-def _layout(case: Case, new: dict[int, int]) -> Layout:
+def _layout(case: TrainCase, new: dict[int, int]) -> Layout:
     ends = [
         (new[link.ends[0]], GROUND if link.ends[1] == HOUSING else new[link.ends[1]]) for link in case.links
     ]

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import Discriminator, Field, Tag
 
 from tribodyn.dynamics.data import BearingData, OperatingData
-from tribodyn.geometry.drive import SIDES, BodyMass, Side
+from tribodyn.geometry.drive import SIDES, BodyMass
 from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Count, model_file, written
 from tribodyn.scenario.tables.bearings import bearing_of
@@ -17,21 +17,21 @@ from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gear_train.case import (
     HOUSING,
     BodyData,
-    Case,
     GearData,
     LinkData,
     SourceData,
+    TrainCase,
     TrainMesh,
 )
 from tribodyn.studies.gear_train.drawn import Drawn, Moving, drawn, moving
-from tribodyn.studies.gear_train.duty import Duty, duty_of, motor_torque
+from tribodyn.studies.gear_train.duty import TrainDuty, duty_of, motor_torque
 from tribodyn.studies.gear_train.structure import bearings_by_body, mesh_table
 from tribodyn.studies.gear_train.tables import (
     MOST_PARTS,
+    BareBody,
     BareMesh,
-    Body,
     Link,
-    Load,
+    LoadTable,
     PartName,
     Shaft,
     Stage,
@@ -66,7 +66,7 @@ class TrainSolver(Solver):
     )
 
 
-class GearTrainScenario(ScenarioHead):
+class Scenario(ScenarioHead):
     """A scenario file."""
 
     kind: Literal["gear-train"] = "gear-train"
@@ -76,7 +76,7 @@ class GearTrainScenario(ScenarioHead):
     gear: dict[PartName, TrainGear] = written({}, description="gears by name")
     stage: tuple[Stage, ...] = Field((), max_length=MOST_PARTS, description="which gears mesh")
     shaft: tuple[Shaft, ...] = Field((), max_length=MOST_PARTS, description="which gears turn together")
-    body: tuple[Body, ...] = Field((), max_length=MOST_PARTS, description="bodies without teeth")
+    body: tuple[BareBody, ...] = Field((), max_length=MOST_PARTS, description="bodies without teeth")
     link: tuple[Link, ...] = Field((), max_length=MOST_PARTS, description="springs between bodies")
     material: MaterialReference | None = Field(None, description="of all gears that name none")
     mean_roughness: Roughness | None = Field(None, description="Ra of the flanks of all gears that say none")
@@ -84,16 +84,13 @@ class GearTrainScenario(ScenarioHead):
     lubricant: Oil
     bearings: Annotated[TrainBearings, model_file("bearings")] = written("rigid-1e9")
     operating: TrainOperating
-    load: tuple[Load, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
+    load: tuple[LoadTable, ...] = Field((), max_length=MOST_PARTS, description="beside the output")
     mesh: Meshes = Field(description="of all stages; a list: the meshes of a bare model")
     temperature: TemperatureKeys = None
     film: FilmKeys = None
     friction: Friction
     solver: TrainSolver = written({})
     output: Output = written({})
-
-
-Scenario = GearTrainScenario
 
 
 class PairView(NamedTuple):
@@ -128,7 +125,7 @@ def pair_view(scenario: Any, train: Moving, mesh: int) -> PairView:
     )
 
 
-def case_of(scenario: Any, toml: str, sha256: str) -> Case:
+def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
     """Return the case of a scenario that has passed schema and rules."""
     train = moving(scenario)
     figure = drawn(train)
@@ -137,7 +134,7 @@ def case_of(scenario: Any, toml: str, sha256: str) -> Case:
     gears = _gears(train, figure)
     solver = scenario.solver.model_dump()
     max_period = solver.pop("max_period")
-    return Case(
+    return TrainCase(
         **head,
         gears=gears,
         bodies=_bodies(scenario, train, figure, duty),
@@ -152,20 +149,10 @@ def case_of(scenario: Any, toml: str, sha256: str) -> Case:
     )
 
 
-def _numbers(train: Moving) -> dict[int, int]:
-    """Number of each body of the structure in the train's order."""
-    return {body: number for number, body in enumerate(train.motion.bodies)}
-
-
 def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:
-    new, found = _numbers(train), []
+    new, found = train.numbers, []
     for number, gear in enumerate(train.parts.gears):
-        meshes: tuple[tuple[int, Side], ...] = tuple(
-            (mesh, side)
-            for mesh, both in enumerate(train.motion.gears)
-            for side, one in zip(SIDES, both, strict=True)
-            if one == number
-        )
+        meshes = train.meshes_of(number)
         mesh, side = meshes[0]
         material = materials_of(train.drives[mesh])[SIDES.index(side)]
         found.append(
@@ -193,7 +180,7 @@ def _given_mass(train: Moving, number: int) -> BodyMass:
     return BodyMass(gear.table.mass, gear.table.inertia)
 
 
-def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: Duty) -> tuple[BodyData, ...]:
+def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tuple[BodyData, ...]:
     motion, operating, found = train.motion, scenario.operating, []
     for number, body in enumerate(motion.bodies):
         part = train.parts.bodies[body]
@@ -218,7 +205,7 @@ def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: Duty) -> tuple[Bo
 
 
 def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
-    new, found = _numbers(train), []
+    new, found = train.numbers, []
     bearings = bearings_by_body(scenario, train.parts)
     for number, body in enumerate(train.motion.bodies):
         bearing = bearings[body]
@@ -242,7 +229,7 @@ def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
 
 
 def _meshes(
-    scenario: Any, train: Moving, figure: Drawn, duty: Duty, head: dict[str, str]
+    scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty, head: dict[str, str]
 ) -> tuple[TrainMesh, ...]:
     motion, found = train.motion, []
     first: LubricatedCase | None = None
@@ -283,7 +270,7 @@ def _with_laws_of(pair: LubricatedCase, first: LubricatedCase) -> LubricatedCase
     return replace(pair, film=first.film, friction=first.friction)
 
 
-def _source(scenario: Any, train: Moving, duty: Duty) -> SourceData:
+def _source(scenario: Any, train: Moving, duty: TrainDuty) -> SourceData:
     operating, given = scenario.operating, motor_torque(scenario)
     return SourceData(
         operating.source,

@@ -14,7 +14,7 @@ from tribodyn.scenario.tables.bearings import Bearing
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
 from tribodyn.studies.gear_train.tables import GROUND, BareMesh, Link, Shaft, Stage
 from tribodyn.studies.gears.motion import Mesh
-from tribodyn.train.kinematics import Joint, Kinematics, Named, Toothed, kinematics
+from tribodyn.train.kinematics import Joint, Named, Toothed, TrainSpeeds, kinematics
 
 #: Names of the gears of a drive file.
 OF_DRIVE = ("pinion", "gear")
@@ -213,7 +213,7 @@ def _named_apart(gears: Sequence[GearPart]) -> tuple[GearPart, ...]:
     return tuple(named)
 
 
-def motion_of(parts: Structure, source: int, sense: int) -> Kinematics:
+def motion_of(parts: Structure, source: int, sense: int) -> TrainSpeeds:
     """Speeds and order of a train; raises as `train.kinematics.kinematics` does."""
     return kinematics(
         [Named(body.name, body.key) for body in parts.bodies],

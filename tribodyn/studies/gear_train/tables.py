@@ -5,7 +5,6 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 
 from tribodyn.errors import quoted
-from tribodyn.geometry.drive import PROFILES
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario import fields, quantity, units
 from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Number, Table, Text, csv_file, written
@@ -13,13 +12,17 @@ from tribodyn.scenario.tables.bearings import Bearing, Stiffness
 from tribodyn.scenario.tables.duty import Power, Speed
 from tribodyn.scenario.tables.model_files import (
     Angle,
+    CentreDistance,
+    CompositeRoughness,
     Described,
     FaceWidth,
+    FamilyKeys,
     Gear,
     Inertia,
     Length,
     Mass,
-    Roughness,
+    PressureAngle,
+    Rack,
 )
 from tribodyn.studies.gears.motion import MOST_HARMONICS, TorqueHarmonic
 
@@ -33,7 +36,6 @@ Azimuth = Annotated[float, InUnit(units.ANGLE_KIND, "30 deg")]
 NotNegativeMass = Annotated[float, InUnit(units.not_negative(units.MASS))]
 SpringStiffness = Annotated[float, InUnit(units.not_negative(units.STIFFNESS))]
 Damping = Annotated[float, InUnit(units.not_negative(units.DAMPING))]
-TorsionalStiffness = Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))]
 PartName = Annotated[str, Field(strict=True, pattern=r"^\w[\w-]*$")]
 """Name of a gear, a shaft or a body: keys are made of it."""
 
@@ -71,12 +73,8 @@ class Stage(Table):
         "involute", description="family of the path of contact"
     )
     module: Length
-    pressure_angle: Angle | None = Field(
-        None, description="of the rack for involutes; at the pitch point for other families, if they take one"
-    )
-    centre_distance: (
-        Annotated[quantity.Printed, quantity.PrintedQuantity(units.positive(units.LENGTH))] | None
-    ) = Field(None, description="of involutes; default: that of nominal teeth in mesh without backlash")
+    pressure_angle: PressureAngle = None
+    centre_distance: CentreDistance = None
     azimuth: Azimuth | None = Field(
         None,
         description="direction from the first gear's axis to the second's, counter-clockwise from x; "
@@ -85,15 +83,9 @@ class Stage(Table):
     backlash: Backlash | None = Field(
         None, description="normal backlash at the pitch point; default: that of [mesh], or of the teeth"
     )
-    rack: Annotated[Text, quantity.Names(PROFILES)] | None = Field(
-        None, description="basic rack, for what the pressure angle and the gears do not say themselves"
-    )
-    shape: Annotated[dict[str, Any] | None, quantity.FamilyShape()] = Field(
-        None, description="what else the family needs, see `tribodyn list`"
-    )
-    roughness: Roughness | None = Field(
-        None, description="composite rms roughness of the flanks; default: from the mean roughness of both"
-    )
+    rack: Rack = None
+    shape: FamilyKeys = None
+    roughness: CompositeRoughness = None
     damping_ratio: NotNegative | None = Field(None, description="default: that of [mesh]")
 
 
@@ -102,14 +94,14 @@ class Shaft(Table):
 
     name: PartName
     gears: tuple[Text, ...] = Field(min_length=2, description="that turn together; two on a compliant shaft")
-    stiffness: TorsionalStiffness | None = Field(None, description="torsional; default: rigid")
+    stiffness: fields.TorsionalStiffness | None = Field(None, description="torsional; default: rigid")
     damping: fields.TorsionalDamping = written("0 N*m*s/rad", description="of a compliant shaft")
     damping_ratio: NotNegative = Field(0.0, description="of a compliant shaft, of its two gears against it")
     mass: NotNegativeMass = written("0 kg", description="of the shaft; a compliant one's is halved")
     inertia: fields.Inertia = written("0 kg*m**2", description="of the shaft; a compliant one's is halved")
 
 
-class Body(Table):
+class BareBody(Table):
     """A body without teeth, such as a flywheel or a motor, or any body of a bare model."""
 
     name: PartName
@@ -128,7 +120,7 @@ class Link(Table):
     stiffness_y: SpringStiffness = written("0 N/m")
     damping_x: Damping = written("0 N*s/m")
     damping_y: Damping = written("0 N*s/m")
-    stiffness: TorsionalStiffness | None = Field(
+    stiffness: fields.TorsionalStiffness | None = Field(
         None, description="torsional; bodies that it joins share an axis; default: none"
     )
     damping: fields.TorsionalDamping = written("0 N*m*s/rad", description="torsional")
@@ -173,7 +165,7 @@ class TrainBearings(Described, extra="allow"):
         return dict(self.__pydantic_extra__ or {})
 
 
-class Load(Table):
+class LoadTable(Table):
     """What a gear, a shaft or a body drives beside the output."""
 
     at: Text = Field(description="gear, shaft or body")
@@ -224,7 +216,7 @@ class TrainOperating(Table):
         "0 N*m*s/rad", description="output torque that grows with speed above nominal"
     )
     drive_inertia: fields.Inertia = written("0 kg*m**2", description="of the motor")
-    shaft_stiffness: TorsionalStiffness | None = Field(
+    shaft_stiffness: fields.TorsionalStiffness | None = Field(
         None, description="between motor and input; default: rigid"
     )
     shaft_damping: fields.TorsionalDamping = written("0 N*m*s/rad")

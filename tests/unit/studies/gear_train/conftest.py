@@ -7,14 +7,14 @@ import pytest
 import tomli_w
 
 from tests.support.train_scenarios import REDUCER, train_case
-from tribodyn.studies.gear_train.case import Case
+from tribodyn.studies.gear_train.case import TrainCase
 
 
 @pytest.fixture
 def reduced(tmp_path: Path):
     """Make the case of the reducer with other tables or keys: dotted keys to values."""
 
-    def made(overrides: dict[str, Any] | None = None, **tables: Any) -> Case:
+    def made(overrides: dict[str, Any] | None = None, **tables: Any) -> TrainCase:
         path = tmp_path / "reducer.toml"
         path.write_text(tomli_w.dumps(REDUCER | tables), encoding="utf-8")
         return train_case(path, overrides)

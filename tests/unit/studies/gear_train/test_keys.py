@@ -95,5 +95,5 @@ def test_the_schema_describes_every_key():
     (held,) = schema["properties"]["gear"]["patternProperties"].values()
     assert held == {"$ref": "#/$defs/TrainGear"}
     for name, table in schema["$defs"].items():
-        if name in ("Stage", "Shaft", "Body", "Link", "BareMesh", "Load", "TrainOperating"):
+        if name in ("Stage", "Shaft", "BareBody", "Link", "BareMesh", "LoadTable", "TrainOperating"):
             assert table["properties"]
