@@ -1,4 +1,4 @@
-"""Strain energy of the tooth contacts of a mesh, and the torque with which its change along the mesh cycle acts.
+"""Strain energy of the tooth contacts of a mesh, and the torque with which its change in phase acts.
 
 Written for all compilers, as `contact_forces`, whose `work` it reads.
 """

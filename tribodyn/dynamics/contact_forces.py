@@ -56,7 +56,7 @@ _COMPLIANCE, _GAP = CHANNELS.index("compliance"), CHANNELS.index("gap")
 _UNEVEN, PEAK = CHANNELS.index("line_load_friction"), CHANNELS.index("line_load_peak")
 
 
-class Place(NamedTuple):
+class MeshPlace(NamedTuple):
     """Where a mesh stands in its table."""
 
     segment: Any  # whole

@@ -11,7 +11,7 @@ from tribodyn.train.structure import shift_of, slip_of, speed_of
 
 @law
 def strain_energy(phase, segment, m, y, model, work):
-    """Strain energy of the contacts of a mesh at a phase of its own, J; fills its `work` with elastic loads."""
+    """Strain energy of a mesh's contacts at a phase of its own, J; fills its `work` with elastic loads."""
     mesh = model.meshes[m]
     place = locate(phase, segment, mesh.table)
     approach(place, motion_of(m, y, model), mesh, work)

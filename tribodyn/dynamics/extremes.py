@@ -25,7 +25,7 @@ from tribodyn.dynamics.parameters import SLIDING_DYNAMIC
 from tribodyn.dynamics.places import place_in_mesh
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, skippable, truncate, where
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.train.structure import Layout, turned
+from tribodyn.train.structure import TrainLayout, turned
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.law import ActiveLaw
 from tribodyn.tribology.surface_state import film_and_temperature
@@ -67,7 +67,7 @@ class Extremes(NamedTuple):
     state: Float[Array, "*case extreme state"]
 
 
-def no_extremes(layout: Layout, *cases: int) -> Extremes:
+def no_extremes(layout: TrainLayout, *cases: int) -> Extremes:
     """Extremes of motions of which nothing is known."""
     shape = (*cases, EXTREMES * layout.meshes)
     states = np.zeros((*shape, layout.states))

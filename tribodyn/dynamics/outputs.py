@@ -47,7 +47,7 @@ class Evaluated(NamedTuple):
     model: Model  # with NumPy arrays
 
     @property
-    def count(self) -> int:
+    def size(self) -> int:
         """Number of samples."""
         return len(self.cycles)
 
@@ -85,7 +85,7 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
     where the loss of contact itself is the answer (loads, stiffness). `shares` says whether those of
     `UNRECORDED` are among them, (n, pairs, limits).
     """
-    model, work, count = samples.model, samples.work[m], samples.count
+    model, work, count = samples.model, samples.work[m], samples.size
     mesh = model.meshes[m]
     table = mesh.table
     place = place_in_mesh(m, samples.phase, samples.interval, model)
@@ -156,7 +156,7 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
     power = samples.powers
 
     def over(places: Any) -> np.ndarray:
-        return np.stack([np.broadcast_to(values, samples.count) for values in places], axis=-1)
+        return np.stack([np.broadcast_to(values, samples.size) for values in places], axis=-1)
 
     return {
         "time": samples.cycles * operation.pitch_angle / operation.nominal_speed + y[layout.lag],
@@ -168,7 +168,7 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         "y_rate": over(y[layout.half + shift_of(b) + 1] for b in planar),
         "speed": over(speed_of(b, y, model) for b in bodies),
         **power,
-        "stored_energy": np.broadcast_to(stored_energy(y, model, samples.work), samples.count),
+        "stored_energy": np.broadcast_to(stored_energy(y, model, samples.work), samples.size),
         **works,
         "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
     }

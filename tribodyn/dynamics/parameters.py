@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.schedule import Schedule
-from tribodyn.train.structure import Bodies, Layout, Links, Mesh
+from tribodyn.train.structure import Bodies, GearMesh, Links, TrainLayout
 from tribodyn.tribology.friction.none import LAW as NO_FRICTION
 from tribodyn.tribology.friction.none import NoParameters
 from tribodyn.tribology.law import ActiveLaw, Closure, FilmFunctions, FrictionFunctions
@@ -29,7 +29,7 @@ class Options(NamedTuple):
     #: film, friction: functions of the laws in use
     film: FilmFunctions
     friction: FrictionFunctions
-    layout: Layout
+    layout: TrainLayout
     sliding: int = SLIDING_DYNAMIC
     formulation: int = CLASSICAL
     drive: int = DRIVE_SPEED
@@ -58,7 +58,7 @@ class Operation(NamedTuple):
 class Model(NamedTuple):
     """All that the right-hand side needs: numbers, and last what is switched."""
 
-    meshes: tuple[Mesh, ...]
+    meshes: tuple[GearMesh, ...]
     bodies: Bodies
     links: Links
     schedule: Schedule
@@ -71,7 +71,7 @@ class Model(NamedTuple):
         return tuple(self[:-1])
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> TrainLayout:
         """What the train consists of."""
         return self.options.layout
 

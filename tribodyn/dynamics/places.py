@@ -1,6 +1,6 @@
 """Where a mesh stands in its table, and how its two bodies move against each other. For all compilers."""
 
-from tribodyn.dynamics.contact_forces import Motion, Place
+from tribodyn.dynamics.contact_forces import MeshPlace, Motion
 from tribodyn.numerics.elementary import law, maximum, minimum, truncate
 from tribodyn.train.schedule import phase_of
 from tribodyn.train.structure import shifted, shifting, slip_of, speed_of, turned, turning
@@ -8,18 +8,18 @@ from tribodyn.train.structure import shifted, shifting, slip_of, speed_of, turne
 
 @law
 def locate(phase, segment, table):
-    """`Place` at a phase of a mesh (0 … 1) inside a segment of its table."""
+    """`MeshPlace` at a phase of a mesh (0 … 1) inside a segment of its table."""
     start = table.boundary[segment]
     cells = table.channel.shape[1]
     cells_per_cycle = cells / (table.boundary[segment + 1] - start)
     position = minimum(maximum((phase - start) * cells_per_cycle, 0.0), cells - 1e-9)
     cell = truncate(position)
-    return Place(segment, cell, position - cell, cells_per_cycle / table.pitch_angle)
+    return MeshPlace(segment, cell, position - cell, cells_per_cycle / table.pitch_angle)
 
 
 @law
 def place_in_mesh(m, phase, interval, model):
-    """`Place` of a mesh at a phase of the reference in an interval of the schedule."""
+    """`MeshPlace` of a mesh at a phase of the reference in an interval of the schedule."""
     schedule = model.schedule
     segment = truncate(schedule.segment[interval, m])
     return locate(phase_of(phase, interval, m, schedule), segment, model.meshes[m].table)

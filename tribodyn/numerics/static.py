@@ -1,7 +1,7 @@
-"""Whole numbers that structure gives and kernels are compiled for; hashable, as all that is static for JAX."""
+"""Whole numbers of the structure, which kernels are compiled for; hashable, as all that is static for JAX."""
 
 
-class Fixed(int):
+class StaticInt(int):
     """A number that kernels are compiled for, e.g. the number of states, so that their loops are unrolled."""
 
 

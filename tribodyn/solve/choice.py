@@ -75,7 +75,7 @@ def _places(
             segment = int(np.asarray(schedule.segment)[interval, m])
             own = np.asarray(mesh.table.boundary)[segment : segment + 2]
             distance = np.asarray(mesh.table.channel)[segment, :, :, _DISTANCE, 0]
-            own_nodes = np.linspace(*own, distance.shape[0] + 1)[:-1]
+            own_nodes = np.linspace(float(own[0]), float(own[1]), distance.shape[0] + 1)[:-1]
             nodes = np.array([place_of(m, phase, schedule, interval) for phase in own_nodes])
             for slot in np.flatnonzero(np.asarray(mesh.table.in_contact)[segment]):
                 before, after = sorted((0, -1), key=lambda i, slot=slot: distance[i, slot])

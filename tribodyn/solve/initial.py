@@ -16,7 +16,7 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.step_control import largest_displacement, unbounded
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.train.flow import Flow, flow
-from tribodyn.train.structure import TURN, Mesh, displacements, shift_of, turn_of, turned, velocities
+from tribodyn.train.structure import TURN, GearMesh, displacements, shift_of, turn_of, turned, velocities
 
 _COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
 #: Values of the unknown states, or what is left of the equations.
@@ -59,7 +59,7 @@ def accelerations(
     )
 
 
-def static_deflection(mesh: Mesh, torque: float) -> float:
+def static_deflection(mesh: GearMesh, torque: float) -> float:
     """Deflection of a mesh under a torque on its driven body, all on one segment's pairs, m; a scale."""
     table = mesh.table
     channel, in_contact = np.asarray(table.channel)[-1, 0, :, :, 0], np.asarray(table.in_contact)[-1]

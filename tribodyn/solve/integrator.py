@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes, no_extremes, put_extremes
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.train.structure import Layout
+from tribodyn.train.structure import TrainLayout
 
 
 class Status(IntEnum):
@@ -109,7 +109,7 @@ def put(result: Ensemble, places: Int[Array, " some"], part: Ensemble) -> None:
 
 
 def nothing_yet(
-    layout: Layout, states: Float[Array, "case state"], kept: int, extremes: bool = False
+    layout: TrainLayout, states: Float[Array, "case state"], kept: int, extremes: bool = False
 ) -> Ensemble:
     """Results before anything is integrated, with room for `kept` samples per case, and maybe extremes."""
     count = len(states)

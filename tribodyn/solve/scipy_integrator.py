@@ -14,7 +14,7 @@ from tribodyn.solve.march.step_control import STANDSTILL, unbounded
 from tribodyn.solve.right_hand_side import engage, rhs, work_array
 from tribodyn.solve.tolerances import StepTolerances
 from tribodyn.train.schedule import intervals, sample_phases
-from tribodyn.train.structure import Layout, displacements
+from tribodyn.train.structure import TrainLayout, displacements
 
 #: SciPy's class of each method.
 SOLVERS: dict[str, Any] = {"radau": Radau, "bdf": BDF, "lsoda": LSODA, "dop853": DOP853}
@@ -25,7 +25,7 @@ SLOWEST = 1e-4
 
 
 def rtol_of_all(
-    rtol: float, atol: Float[Array, " state"], y: Float[Array, " state"], layout: Layout
+    rtol: float, atol: Float[Array, " state"], y: Float[Array, " state"], layout: TrainLayout
 ) -> float:
     """One relative tolerance for all states, under which displacements keep to their absolute ones.
 

@@ -11,7 +11,7 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
 from tribodyn.train.flow import flow, tree
-from tribodyn.train.structure import TURN, Mesh, displacements, shift_of, turn_of, works
+from tribodyn.train.structure import TURN, GearMesh, displacements, shift_of, turn_of, works
 
 _COMPLIANCE = CHANNELS.index("compliance")
 _COSINE, _SINE, _GAP = CHANNELS.index("cosine"), CHANNELS.index("sine"), CHANNELS.index("gap")
@@ -38,7 +38,7 @@ class TableScales(NamedTuple):
     gap_slope: float  # largest slope of the gaps over the driver's rotation, m/rad
 
 
-def table_scales(mesh: Mesh) -> TableScales:
+def table_scales(mesh: GearMesh) -> TableScales:
     """The scales of a mesh's table."""
     table = mesh.table
     channel, boundary = np.asarray(table.channel), np.asarray(table.boundary)

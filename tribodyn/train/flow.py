@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.structure import TURN, Layout
+from tribodyn.train.structure import TURN, TrainLayout
 
 
-class Branch(NamedTuple):
+class TreeBranch(NamedTuple):
     """A body with the one that it turns with, nearer to the reference, and what joins the two."""
 
     body: int
@@ -17,26 +17,26 @@ class Branch(NamedTuple):
     link: int  # -1 where a mesh joins them
 
 
-def tree(layout: Layout, turning_links: tuple[bool, ...]) -> list[Branch]:
+def tree(layout: TrainLayout, turning_links: tuple[bool, ...]) -> list[TreeBranch]:
     """A tree from the reference to all bodies, nearer ones first; of a closed loop it leaves a joint out."""
     joints = [(a, b, m, -1) for m, (a, b) in enumerate(zip(layout.driver, layout.driven, strict=True))]
     ends = zip(layout.first, layout.second, turning_links, strict=True)
     joints += [(a, b, -1, k) for k, (a, b, turns) in enumerate(ends) if b >= 0 and turns]
-    found: list[Branch] = []
+    found: list[TreeBranch] = []
     reached = [0]
     for nearer in reached:
         for a, b, mesh, link in joints:
             body = b if a == nearer else a
             if nearer in (a, b) and body not in reached:
                 reached.append(body)
-                found.append(Branch(body, nearer, mesh, link))
+                found.append(TreeBranch(body, nearer, mesh, link))
     return found
 
 
 class Flow(NamedTuple):
     """Torques of a train at rest or accelerated as a rigid one."""
 
-    branches: list[Branch]
+    branches: list[TreeBranch]
     on_driven: Float[Array, " mesh"]  # torque of a mesh on its driven body, N m; > 0 presses driving flanks
     on_body: Float[Array, " body"]  # torque of the joint with the nearer body on each, N m
     largest: float  # sum of all torques' magnitudes, as on the reference, N m
@@ -50,11 +50,11 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
     layout, bodies, operation = model.options.layout, model.bodies, model.operation
     ratio, inertia = np.asarray(bodies.ratio, dtype=float), np.asarray(bodies.inertia, dtype=float)
     wanted = np.array(bodies.load, dtype=float)
-    largest = float(np.sum(np.abs(wanted) * ratio)) + abs(largest_extra) * ratio[layout.output]
+    largest = float(np.sum(np.abs(wanted) * ratio) + abs(largest_extra) * ratio[layout.output])
     wanted[layout.output] += extra
     if model.options.drive:
         drive = float(operation.drive_torque)
-        largest += abs(drive) * ratio[layout.input]
+        largest += float(abs(drive) * ratio[layout.input])
         wanted[layout.input] -= drive
         wanted = wanted - inertia * ratio * float(wanted @ ratio) / float(inertia @ ratio**2)
     branches = tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0))

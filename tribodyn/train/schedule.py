@@ -55,7 +55,7 @@ def common_period(rates: Sequence[Fraction]) -> int:
 def schedule_of(
     boundaries: Sequence[Float[Array, " boundary"]], rates: Sequence[Fraction], phases: Sequence[float]
 ) -> Schedule:
-    """The schedule of meshes with the boundaries of their tables, rates and phases (mesh cycles) at the start.
+    """The schedule of meshes of given boundaries, rates and phases (mesh cycles) at the start.
 
     The first one is the reference, of rate 1 and phase 0.
     """

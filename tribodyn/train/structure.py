@@ -3,8 +3,8 @@
 Body 0 is the reference: the independent variable is its actual rotation, in cycles of mesh 0, which it
 drives, so that engagement in mesh 0 falls on exactly known values whatever the speed does. The state holds
 coordinates that stay small. Every body turns positively in its own nominal sense; its micro-rotation is its
-rotation less what the reference's actual rotation makes of it by the train's ratios, ϑ_b = θ_b − i_b θ_0. That
-of the reference is nothing, and in its place stands the time lag, time less nominal time at this phase.
+rotation less what the reference's actual rotation makes of it by the train's ratios, ϑ_b = θ_b − i_b θ_0.
+That of the reference is nothing, and in its place stands the time lag, time less nominal time at this phase.
 
 States in order: of every body that moves in the plane x and y (m) and ϑ (rad), of the others ϑ alone; their
 rates in the same order, in place of the lag's the reference's slip, its speed less the nominal one (rad/s);
@@ -20,7 +20,7 @@ import numpy as np
 
 from tribodyn.numerics.elementary import law
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.numerics.static import Fixed, Indices
+from tribodyn.numerics.static import Indices, StaticInt
 from tribodyn.tribology.contact import Surfaces
 
 #: Works, counted from the first: those of the whole train, and from `OF_MESHES` on two of every mesh.
@@ -53,7 +53,7 @@ class Links(NamedTuple):
     damping: Float[Array, "link direction"]  # N s/m, N s/m, N m s/rad
 
 
-class Mesh(NamedTuple):
+class GearMesh(NamedTuple):
     """Two gears in mesh: their table, their bodies' places, and the surfaces and laws of their contacts.
 
     In the frame of the mesh `along` is the direction in which both flanks move at the pitch point, `across`
@@ -73,23 +73,23 @@ class Mesh(NamedTuple):
     friction: Any
 
 
-class Layout(NamedTuple):
+class TrainLayout(NamedTuple):
     """What the train consists of: static, hashable; numbers of bodies and states are compiled in."""
 
-    planar: Fixed  # bodies that move in the plane
-    bodies: Fixed
-    meshes: Fixed
-    links: Fixed
-    half: Fixed  # coordinates; state half + i is the rate of state i
-    lag: Fixed  # place of the reference's lag, among the rates that of its slip
-    mechanical: Fixed  # states that the mechanics depend on; the rest are works
-    states: Fixed
+    planar: StaticInt  # bodies that move in the plane
+    bodies: StaticInt
+    meshes: StaticInt
+    links: StaticInt
+    half: StaticInt  # coordinates; state half + i is the rate of state i
+    lag: StaticInt  # place of the reference's lag, among the rates that of its slip
+    mechanical: StaticInt  # states that the mechanics depend on; the rest are works
+    states: StaticInt
     driver: Indices  # this and the next: bodies at the ends of every mesh
     driven: Indices
     first: Indices  # this and the next: bodies at the ends of every link; `GROUND`
     second: Indices
-    input: Fixed  # body that the drive acts on
-    output: Fixed  # body that bears the load that varies in time
+    input: StaticInt  # body that the drive acts on
+    output: StaticInt  # body that bears the load that varies in time
 
 
 def layout_of(
@@ -99,14 +99,29 @@ def layout_of(
     links: Sequence[tuple[int, int]],
     drives: int,
     loaded: int,
-) -> Layout:
-    """The layout of so many bodies, with the ends of meshes (driver, driven) and links, and where power goes."""
+) -> TrainLayout:
+    """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output."""
     half = 2 * planar + bodies
     states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
-    lag = 2 if planar else 0
-    numbers = (planar, bodies, len(meshes), len(links), half, lag, 2 * half, states)
-    ends = [[pair[end] for pair in pairs] for pairs in (meshes, links) for end in (0, 1)]
-    return Layout(*map(Fixed, numbers), *map(Indices, ends), Fixed(drives), Fixed(loaded))
+    driver, driven, first, second = (
+        Indices([pair[end] for pair in pairs]) for pairs in (meshes, links) for end in (0, 1)
+    )
+    return TrainLayout(
+        planar=StaticInt(planar),
+        bodies=StaticInt(bodies),
+        meshes=StaticInt(len(meshes)),
+        links=StaticInt(len(links)),
+        half=StaticInt(half),
+        lag=StaticInt(2 if planar else 0),
+        mechanical=StaticInt(2 * half),
+        states=StaticInt(states),
+        driver=driver,
+        driven=driven,
+        first=first,
+        second=second,
+        input=StaticInt(drives),
+        output=StaticInt(loaded),
+    )
 
 
 @law
@@ -166,32 +181,32 @@ def slip_of_body(body, y, model):
     return model.bodies.ratio[body] * slip_of(y, layout) + turning(body, y, layout)
 
 
-def displacements(layout: Layout) -> list[int]:
+def displacements(layout: TrainLayout) -> list[int]:
     """Places of all coordinates but the lag."""
     return [i for i in range(layout.half) if i != layout.lag]
 
 
-def velocities(layout: Layout) -> list[int]:
+def velocities(layout: TrainLayout) -> list[int]:
     """Places of their rates."""
     return [layout.half + i for i in displacements(layout)]
 
 
-def works(layout: Layout) -> list[int]:
+def works(layout: TrainLayout) -> list[int]:
     """Places of all works."""
     return list(range(layout.mechanical, layout.states))
 
 
-def work_of(layout: Layout, which: int) -> int:
+def work_of(layout: TrainLayout, which: int) -> int:
     """Place of a work of the whole train: `IN`, `OUT`, `DAMPING`, `PARAMETRIC`."""
     return layout.mechanical + which
 
 
-def work_of_mesh(layout: Layout, mesh: int, which: int) -> int:
+def work_of_mesh(layout: TrainLayout, mesh: int, which: int) -> int:
     """Place of a work of a mesh: `FRICTION`, `SLIDING`."""
     return layout.mechanical + OF_MESHES + WORKS_OF_MESH * mesh + which
 
 
-def works_of_meshes(layout: Layout, which: int) -> list[int]:
+def works_of_meshes(layout: TrainLayout, which: int) -> list[int]:
     """Places of a work of all meshes."""
     return [work_of_mesh(layout, mesh, which) for mesh in range(layout.meshes)]
 

@@ -59,7 +59,7 @@ class Field(NamedTuple):
     inline: bool = False  # whether the table stands among the numbers, every entry a row
 
 
-class Places(NamedTuple):
+class Extent(NamedTuple):
     """How many numbers, addresses and lengths."""
 
     numbers: int
@@ -67,20 +67,20 @@ class Places(NamedTuple):
     lengths: int
 
 
-class Part(NamedTuple):
+class SubRecord(NamedTuple):
     """A field that is a record, or several of one kind, one after the other."""
 
     name: str
-    fields: "tuple[Field | Part, ...]"
-    first: Places  # where it begins in the record
-    size: Places  # of one record
-    count: int = 0  # 0: one record and no tuple of several
+    fields: "tuple[Field | SubRecord, ...]"
+    first: Extent  # where it begins in the record
+    size: Extent  # of one record
+    items: int = 0  # 0: one record and no tuple of several
 
 
 class LaneRecordType(types.Type):
     """Type of a record of numbers and tables over the lanes."""
 
-    def __init__(self, fields: tuple[Field | Part, ...]):
+    def __init__(self, fields: tuple[Field | SubRecord, ...]):
         self.fields = {field.name: field for field in fields}
         digest = hashlib.sha256(repr(fields).encode()).hexdigest()[:12]
         super().__init__(name=f"LaneRecord({digest}; {WIDTH})")
@@ -89,16 +89,16 @@ class LaneRecordType(types.Type):
 class LaneRecordsType(types.Type):
     """Type of several such records."""
 
-    def __init__(self, part: Part):
+    def __init__(self, part: SubRecord):
         self.item = LaneRecordType(part.fields)
         self.size = part.size
-        super().__init__(name=f"LaneRecords({self.item.name} x {part.count})")
+        super().__init__(name=f"LaneRecords({self.item.name} x {part.items})")
 
 
 class LaneRecord(NamedTuple):
     """One of a model's named tuples over the lanes, as Python hands it to a kernel."""
 
-    part: Part
+    part: SubRecord
     #: numbers, addresses: (F, WIDTH) float64, (T, WIDTH) int64, of the whole model
     numbers: np.ndarray
     addresses: np.ndarray
@@ -117,13 +117,13 @@ class LaneRecord(NamedTuple):
 class LaneLayout(NamedTuple):
     """Layout of a `LaneRecord` among a kernel's arguments."""
 
-    part: Part
+    part: SubRecord
     words: int = 3
 
     @property
     def type(self) -> Any:
         """Its type to numba."""
-        return LaneRecordsType(self.part) if self.part.count else LaneRecordType(self.part.fields)
+        return LaneRecordsType(self.part) if self.part.items else LaneRecordType(self.part.fields)
 
 
 @register_model(LaneTableType)
@@ -251,8 +251,8 @@ class _RecordAttributes(AttributeTemplate):
         field = record.fields.get(name)
         if field is None:
             return None
-        if isinstance(field, Part):
-            return LaneRecordsType(field) if field.count else LaneRecordType(field.fields)
+        if isinstance(field, SubRecord):
+            return LaneRecordsType(field) if field.items else LaneRecordType(field.fields)
         if field.inline:
             return ElementArrayType(field.ndim, ROW)
         return LaneTableType(field.ndim, field.shared) if field.ndim else LANES
@@ -262,8 +262,8 @@ class _RecordAttributes(AttributeTemplate):
 def _record_attribute(context, builder, record, value, name):
     value = cgutils.create_struct_proxy(record)(context, builder, value)
     field = record.fields[name]
-    if isinstance(field, Part):
-        kind = LaneRecordsType(field) if field.count else LaneRecordType(field.fields)
+    if isinstance(field, SubRecord):
+        kind = LaneRecordsType(field) if field.items else LaneRecordType(field.fields)
         return _moved(context, builder, kind, value, [INT64(each) for each in field.first])
     at = INT64(field.row * WIDTH)
     if not field.ndim:

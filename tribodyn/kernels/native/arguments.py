@@ -1,7 +1,7 @@
 """What kernels are and how their arguments lie in memory: a single block of words of 8 bytes.
 
-A number is a word; an array its address and lengths; a named tuple its fields one after the other, and a tuple
-its items, which are alike; a function and a fixed number no word at all. The layout says which of these a
+A number is a word; an array its address and lengths; a named tuple its fields in order, and a tuple its
+items, which are alike; a function and a fixed number no word at all. The layout says which of these a
 value is, and the machine code of a kernel depends on nothing else: functions, fixed numbers and indices are
 compiled in, other numbers and lengths never.
 
@@ -24,7 +24,7 @@ import numpy as np
 
 from tribodyn.numerics import elementary
 from tribodyn.numerics.sources import code_of
-from tribodyn.numerics.static import Fixed, Indices
+from tribodyn.numerics.static import Indices, StaticInt
 
 _serial = count()
 
@@ -192,7 +192,7 @@ class SeveralLayout(NamedTuple):
     """Layout of a tuple of so many items of one layout."""
 
     item: Any
-    count: int
+    items: int
 
 
 class RecordLayout:
@@ -241,7 +241,7 @@ def packed(value: Any) -> PackedValue:
         return PackedValue(FLOAT, _float(value), value)
     if isinstance(value, np.ndarray):
         return _packed_array(value)
-    if isinstance(value, Fixed):
+    if isinstance(value, StaticInt):
         return PackedValue(FixedLayout(int(value)), b"", value)
     if isinstance(value, Indices):
         return PackedValue(IndicesLayout(tuple(value)), b"", value)

@@ -57,7 +57,7 @@ class SeveralType(types.Type):
     def __init__(self, several: SeveralLayout):
         self.item = type_of(several.item)
         self.words = words_of(several.item)
-        super().__init__(name=f"{several.count} x {self.item.name}")
+        super().__init__(name=f"{several.items} x {self.item.name}")
 
 
 class IndicesType(types.Type):
@@ -78,7 +78,7 @@ class _RecordModel(models.OpaqueModel):
 def words_of(layout: Any) -> int:
     """Words that a value of a layout takes."""
     if isinstance(layout, SeveralLayout):
-        return layout.count * words_of(layout.item)
+        return layout.items * words_of(layout.item)
     if isinstance(layout, RecordLayout):
         return sum(words_of(field) for _, field in layout.fields)
     return 1 if isinstance(layout, Numeric) else layout.words

@@ -10,7 +10,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.solve.branch.continuation import Arrival, Leg, follow
 from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.choice import choose
-from tribodyn.solve.orbit.gear_map import GearMap, Moving, moving_states
+from tribodyn.solve.orbit.gear_map import FreeStates, GearMap, moving_states
 from tribodyn.solve.orbit.motions import PeriodMap
 from tribodyn.solve.orbit.periodic import FINE, SteadyMotion, sampled
 
@@ -44,7 +44,7 @@ class UnstableRange(NamedTuple):
 class GearLines:
     """Gear pairs on lines along a parameter, as `arclength.SystemFamily`; `starts` scale the states."""
 
-    def __init__(self, model_at: ModelAt, starts: dict[int, np.ndarray], moving: Moving, **settings: Any):
+    def __init__(self, model_at: ModelAt, starts: dict[int, np.ndarray], moving: FreeStates, **settings: Any):
         self.model_at, self.starts = model_at, starts
         self.moving, self.settings = moving, settings
 

@@ -22,7 +22,7 @@ from tribodyn.solve.jax import integrator
 from tribodyn.solve.lanes.batch import SHARED, by_shape
 from tribodyn.solve.tolerances import tolerances_of_many
 from tribodyn.train.schedule import Schedule, intervals
-from tribodyn.train.structure import Mesh
+from tribodyn.train.structure import GearMesh
 
 #: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
 #: with copies of its last case, so that fewer cases compile nothing again. On a CPU one thread per part.
@@ -194,7 +194,8 @@ def _axes(numbers: Any, one_table: bool) -> Any:
     """Which of the numbers have an axis of cases: all but tables and patterns that they have in common."""
     meshes, *rest = numbers
     table = None if one_table else 0
-    several = tuple(Mesh(*(table if name == "table" else 0 for name in Mesh._fields)) for _ in meshes)
+    others: dict[str, Any] = dict.fromkeys(GearMesh._fields, 0)
+    several = tuple(GearMesh(**{**others, "table": table}) for _ in meshes)
     schedule = Schedule(*(None if name in SHARED else 0 for name in Schedule._fields))
     return several, *(schedule if isinstance(part, Schedule) else 0 for part in rest)
 
@@ -210,9 +211,9 @@ def _stacked_numbers(models: Sequence[Model], one_table: bool) -> Any:
     meshes = []
     for m, mesh in enumerate(first.meshes):
         shared = common(mesh, ["table"]) if one_table else {}
-        others = [name for name in Mesh._fields if name not in shared]
+        others = [name for name in GearMesh._fields if name not in shared]
         own = {name: stacked([getattr(model.meshes[m], name) for model in models]) for name in others}
-        meshes.append(Mesh(**shared, **own))
+        meshes.append(GearMesh(**shared, **own))
     names = [name for name in Schedule._fields if name in SHARED]
     others = [name for name in Schedule._fields if name not in SHARED]
     own = {name: stacked([getattr(model.schedule, name) for model in models]) for name in others}

@@ -11,7 +11,7 @@ import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes
 from tribodyn.dynamics.parameters import Model, Options
-from tribodyn.kernels.lanes.tables import Field, LaneRecord, Part, Places
+from tribodyn.kernels.lanes.tables import Extent, Field, LaneRecord, SubRecord
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import Ensemble, March, nothing_yet, put
@@ -53,7 +53,7 @@ class Packed(NamedTuple):
     """Models of one shape."""
 
     shape: ModelShape
-    fields: tuple[Part, ...]
+    fields: tuple[SubRecord, ...]
     numbers: np.ndarray  # (C, F) float64
     addresses: np.ndarray  # (C, T) int64
     lengths: np.ndarray  # (L,) int64
@@ -100,7 +100,7 @@ def pack(models: Sequence[Model]) -> Packed:
     """Rows of models of one shape; tables stay where they are."""
     shape = shape_of(models[0])
     lengths: list[int] = []
-    fields, at = [], Places(0, 0, 0)
+    fields, at = [], Extent(0, 0, 0)
     for name in RECORDS:
         fields.append(_part(name, getattr(models[0], name), at, lengths))
         at = _after(fields[-1])
@@ -115,36 +115,37 @@ def pack(models: Sequence[Model]) -> Packed:
     return Packed(shape, tuple(fields), np.array(numbers), where, shapes, list(kept.values()))
 
 
-def _after(part: Part) -> Places:
+def _after(part: SubRecord) -> Extent:
     """Where a part ends."""
-    count = max(part.count, 1)
-    return Places(*(first + count * each for first, each in zip(part.first, part.size, strict=True)))
+    items = max(part.items, 1)
+    return Extent(*(first + items * each for first, each in zip(part.first, part.size, strict=True)))
 
 
-def _part(name: str, value: Any, first: Places, lengths: list[int]) -> Part:
-    """The layout of a record, or of several, that begins at a place; `lengths` receives those of its tables."""
+def _part(name: str, value: Any, first: Extent, lengths: list[int]) -> SubRecord:
+    """The layout of a record, or of several, from a place on; `lengths` receives those of its tables."""
     if not hasattr(value, "_fields"):
         parts = [_part(name, item, first, lengths) for item in value]
-        return parts[0]._replace(count=len(value))
-    at = Places(0, 0, 0)
-    fields: list[Field | Part] = []
+        return parts[0]._replace(items=len(value))
+    at = Extent(0, 0, 0)
+    fields: list[Field | SubRecord] = []
     inline = type(value).__name__ in SHORT
     for field, item in zip(value._fields, value, strict=True):
         if isinstance(item, tuple):
-            fields.append(_part(field, item, at, lengths))
-            at = _after(fields[-1])
+            part = _part(field, item, at, lengths)
+            fields.append(part)
+            at = _after(part)
             continue
         axes = np.shape(item)
         among = bool(axes) and inline and field not in SHARED
         row = at.numbers if among or not axes else at.addresses
         fields.append(Field(field, len(axes), row, at.lengths, field in SHARED, among))
         lengths += axes
-        at = Places(
+        at = Extent(
             at.numbers + (int(np.prod(axes)) if among else not axes),
             at.addresses + (bool(axes) and not among),
             at.lengths + len(axes),
         )
-    return Part(name, tuple(fields), first, at)
+    return SubRecord(name, tuple(fields), first, at)
 
 
 def _row(value: Any, kept: dict[int, Kept], known: Known) -> tuple[list[float], list[int]]:

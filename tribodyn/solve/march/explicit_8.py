@@ -13,7 +13,7 @@ from tribodyn.numerics.elementary import absolute, largest_slope, law, maximum, 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.extreme_search import ignore_segment, ignore_step
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, scratch_buffer
-from tribodyn.train.structure import Layout
+from tribodyn.train.structure import TrainLayout
 
 STAGES = 12
 # fmt: off
@@ -88,7 +88,7 @@ def shrinkage(error):
     return maximum(0.3, 0.9 * error**-0.125)
 
 
-def buffer(layout: Layout) -> Float[Array, "row state"]:
+def buffer(layout: TrainLayout) -> Float[Array, "row state"]:
     """Scratch for the kernel: the new state, its error and the stages."""
     return scratch_buffer(STAGES + 1, layout)
 

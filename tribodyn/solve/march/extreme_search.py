@@ -40,7 +40,7 @@ from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, opposite, where
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.structure import Layout
+from tribodyn.train.structure import TrainLayout
 
 #: Rise over an extreme, as a share of it, that is not worth another evaluation.
 WORTH = 1e-7
@@ -56,7 +56,7 @@ class Search(NamedTuple):
     extremes: Extremes  # the most extreme measures so far, and where
 
     @classmethod
-    def begun(cls, layout: Layout, pairs: int) -> Self:
+    def begun(cls, layout: TrainLayout, pairs: int) -> Self:
         """A search that knows nothing, with so many pair slots in every mesh."""
         measures = np.zeros((ROWS, layout.meshes * measures_of(pairs)))
         return cls(measures, np.zeros(layout.states), no_extremes(layout))

@@ -43,8 +43,8 @@ SHARE = 1e-7
 SHARE_OF_REVERSAL = 1e-4
 #: Difference of the phase, reference cycles.
 PHASE_DIFFERENCE = 1e-7
-#: What of a mesh's motion is differenced: towards, across, along the tangent, across, the driven body's and the
-#: driver's rotation.
+#: What of a mesh's motion is differenced: towards, across, along the tangent, across, the driven body's
+#: and the driver's rotation.
 TOWARDS, ACROSS, ALONG_RATE, ACROSS_RATE, DRIVEN_RATE, DRIVER_RATE = range(6)
 
 

@@ -20,7 +20,7 @@ from tribodyn.solve.march.extreme_search import Search
 from tribodyn.solve.march.reversal import stops
 from tribodyn.solve.right_hand_side import engage, interval_at, work_array
 from tribodyn.solve.tolerances import StepTolerances
-from tribodyn.train.structure import Layout
+from tribodyn.train.structure import TrainLayout
 
 #: Rows of a method's buffer: the new state and its error; the method's own rows follow.
 STATE, ERROR, SCRATCH = 0, 1, 2
@@ -35,8 +35,8 @@ class Method(NamedTuple):
     attempt: Callable[..., Any]
     #: (theta, step, y, buffer, out, layout); writes the state at the share `theta` of the step last attempted
     sample: Callable[..., Any]
-    #: (buffer, layout) -> bool Keeps what the next step can use of an accepted one; returns whether that one begins
-    #: fresh.
+    #: (buffer, layout) -> bool Keeps what the next step can use of an accepted one; returns whether that one
+    #: begins fresh.
     accept: Callable[..., Any]
     adapted: Callable[..., Any]  # (step, error, last_error, buffer) -> float The next step to try.
     #: (phase, interval, model, work, buffer); fills `work` with the contacts at the end of the step last
@@ -49,7 +49,7 @@ class Method(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Where in the reference mesh: phase, whole cycles before, the interval and the phase at which it ends."""
+    """Where in the reference mesh: phase, whole cycles before, the interval, and the phase at its end."""
 
     phase: float
     cycle: float
@@ -171,7 +171,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
     return Status.DONE.value, float(march.cycles), step, last_error, steps, evaluations, written
 
 
-def scratch_buffer(rows: int, layout: Layout) -> Float[Array, "row state"]:
+def scratch_buffer(rows: int, layout: TrainLayout) -> Float[Array, "row state"]:
     """Buffer with so many rows of a method's own."""
     return np.zeros((SCRATCH + rows, layout.states))
 

@@ -43,8 +43,8 @@ def cut_at_stop(phase, step, stop):
 def refusal(steps, max_steps, step, speed, nominal_speed):
     """The `Status` for which no step can be taken, as a number; 0.0 where one can.
 
-    Too many in this mesh cycle; the reference comes to rest, as it does where steps vanish as it stops, and at
-    once where an engagement takes all its kinetic energy; or too small. Speeds are the reference's.
+    Too many in this mesh cycle; the reference comes to rest, as it does where steps vanish as it stops, and
+    at once where an engagement takes all its kinetic energy; or too small. Speeds are the reference's.
     """
     too_many, vanishing, stopped = steps >= max_steps, step < MINIMUM_STEP, speed <= 0.0
     failure = 0.0 * step

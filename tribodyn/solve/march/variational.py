@@ -33,7 +33,7 @@ from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR
 from tribodyn.solve.methods import rodas4
 from tribodyn.solve.right_hand_side import engage, interval_at, work_array
 from tribodyn.solve.tolerances import tolerances_of_many
-from tribodyn.train.structure import Layout
+from tribodyn.train.structure import TrainLayout
 
 #: Floats to a cache line, on which dual numbers begin: half the time of a march that lets them cross it.
 CACHE_LINE = 8
@@ -69,7 +69,7 @@ class DualMethod(NamedTuple):
     """A native method over dual numbers."""
 
     integrate: Callable[..., Any]  # kernel
-    buffer: Callable[[Layout], Float[Array, "row state"]]  # (layout) -> its buffer over floats
+    buffer: Callable[[TrainLayout], Float[Array, "row state"]]  # (layout) -> its buffer over floats
     tolerance: float  # of the derivatives in a step, over the scale of the states
 
 

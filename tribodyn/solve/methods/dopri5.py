@@ -12,7 +12,7 @@ from tribodyn.numerics.elementary import law, maximum, minimum
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.extreme_search import open_segment, search_step
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
-from tribodyn.train.structure import Layout
+from tribodyn.train.structure import TrainLayout
 
 A = np.array(
     [
@@ -103,7 +103,7 @@ def dense_output(theta, step, before, after, k, i):
     )
 
 
-def buffer(layout: Layout) -> Float[Array, "row state"]:
+def buffer(layout: TrainLayout) -> Float[Array, "row state"]:
     """Scratch for the kernel: the new state, its error and the stages."""
     return scratch_buffer(STAGES, layout)
 

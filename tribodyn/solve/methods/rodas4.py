@@ -1,7 +1,8 @@
 """Native stiff method: the Rosenbrock pair RODAS4P in mesh phase, restarted exactly at engagement.
 
 Displacements have velocities and nothing else as their rates, so they are eliminated: a matrix of half as
-many rows as there are mechanical states is factorised. The works depend on the mechanics only and follow without a matrix.
+many rows as there are mechanical states is factorised. The works depend on the
+mechanics only and follow without a matrix.
 
 RODAS4P 4(3) has six stages with one matrix, is stiffly accurate and L-stable. Of its kind it keeps its order
 where a stiff system follows a given motion, as teeth do that are dragged slowly through the mesh.
@@ -23,7 +24,7 @@ from tribodyn.solve.march.extreme_search import contacts_at, open_segment, searc
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
 from tribodyn.solve.right_hand_side import rhs
-from tribodyn.train.structure import Layout
+from tribodyn.train.structure import TrainLayout
 
 STAGES = 6
 GAMMA = 0.25
@@ -87,7 +88,7 @@ def dense_output(theta, before, after, first, second):
     return (1.0 - theta) * before + theta * (after + (1.0 - theta) * (first + theta * second))
 
 
-def buffer(layout: Layout) -> Float[Array, "row state"]:
+def buffer(layout: TrainLayout) -> Float[Array, "row state"]:
     """Scratch for the kernel: new state, error, stages, Jacobian, matrix."""
     return scratch_buffer(_JACOBIAN + layout.states + layout.half - SCRATCH, layout)
 

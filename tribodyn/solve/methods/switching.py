@@ -11,7 +11,7 @@ from tribodyn.solve.march.extreme_search import open_segment, search_step
 from tribodyn.solve.march.marching import SCRATCH, Method, march_with, scratch_buffer
 from tribodyn.solve.methods import dopri5, rodas4
 from tribodyn.solve.methods.dopri5 import A
-from tribodyn.train.structure import Layout
+from tribodyn.train.structure import TrainLayout
 
 #: State at the last stage less that at the one before, over the step, by the stages' rates.
 APART = A[6] - A[5]
@@ -29,7 +29,7 @@ WHICH, STIFFNESS, COUNT, EXPLICIT_RUN = range(4)
 EXPLICIT_METHOD, STIFF_METHOD = 0.0, 1.0
 
 
-def buffer(layout: Layout) -> Float[Array, "row state"]:
+def buffer(layout: TrainLayout) -> Float[Array, "row state"]:
     """Scratch for the kernel: that of both methods, one at a time, and a row of the choice between them."""
     return scratch_buffer(len(rodas4.buffer(layout)) + 1 - SCRATCH, layout)
 

@@ -22,24 +22,24 @@ from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import DIFFERENCE, Marched, Tangent, by_differences
 from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales
-from tribodyn.train.structure import Layout, displacements, velocities
+from tribodyn.train.structure import TrainLayout, displacements, velocities
 
 
-class Moving(NamedTuple):
+class FreeStates(NamedTuple):
     """What models must have in common to be searched side by side."""
 
     states: tuple[int, ...]  # places of the states that the map acts on
-    layout: Layout
+    layout: TrainLayout
     period: int  # reference cycles of the map
 
 
-def moving_states(model: Model) -> Moving:
+def moving_states(model: Model) -> FreeStates:
     """What the map over the common period of a model acts on."""
     layout = model.layout
     free = {*displacements(layout), *velocities(layout)}
     if model.options.drive != DRIVE_SPEED:
         free |= {layout.half + layout.lag}
-    return Moving(tuple(sorted(free)), layout, model.schedule.period)
+    return FreeStates(tuple(sorted(free)), layout, model.schedule.period)
 
 
 class GearMap:
@@ -53,7 +53,7 @@ class GearMap:
         self,
         models: Sequence[Model],
         starts: Float[Array, "case state"],
-        moving: Moving,
+        moving: FreeStates,
         *,
         solver: str,
         rtol: float,

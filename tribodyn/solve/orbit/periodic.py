@@ -12,7 +12,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import MAX_STEPS
-from tribodyn.solve.orbit.gear_map import GearMap, Moving, moving_states, reasons_of
+from tribodyn.solve.orbit.gear_map import FreeStates, GearMap, moving_states, reasons_of
 from tribodyn.solve.orbit.motions import FAILED, Orbit, failed_orbit
 from tribodyn.solve.orbit.search import Method, find
 
@@ -83,7 +83,7 @@ def steady_states(
     for model in models:
         refuse_time_dependent(model)
     motions: dict[int, SteadyMotion] = {}
-    groups: dict[Moving, dict[int, Float[Array, " state"]]] = {}
+    groups: dict[FreeStates, dict[int, Float[Array, " state"]]] = {}
     for case, model in enumerate(models):
         try:
             start = static_equilibrium(model) if states is None else states[case]

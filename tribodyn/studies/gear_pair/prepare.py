@@ -67,7 +67,7 @@ def _model(
     links = [_bearing(bearing, mass) for bearing, mass in zip(case.bearings, (mass_1, mass_2), strict=True)]
     ends = [(PINION, GROUND), (GEAR, GROUND)]
     if shaft:
-        links.append(([0.0, 0.0, operating.shaft_stiffness], [0.0, 0.0, operating.shaft_damping]))
+        links.append(([0.0, 0.0, operating.shaft_stiffness or 0.0], [0.0, 0.0, operating.shaft_damping]))
         ends.append((MOTOR, PINION))
     layout = layout_of(2, 2 + len(motor), [(PINION, GEAR)], ends, MOTOR if shaft else PINION, GEAR)
     drive = parameters.DRIVE_TORQUE if operating.source == "torque" else parameters.DRIVE_SPEED

@@ -15,7 +15,7 @@ from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
 from tribodyn.studies.protocol.cost import variable_bytes
 from tribodyn.studies.sweeping import branches
-from tribodyn.train.structure import Layout
+from tribodyn.train.structure import TrainLayout
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
@@ -99,7 +99,7 @@ STATE_NAMES = (
 _OF_MOTOR = ("turn_m", "spin_m")
 
 
-def state_places(layout: Layout) -> list[int]:
+def state_places(layout: TrainLayout) -> list[int]:
     """Places of a pair's states among `STATE_NAMES`; without a shaft those of the motor are NaN."""
     motor = layout.bodies > 2
     return [i for i, name in enumerate(STATE_NAMES) if motor or name not in _OF_MOTOR]

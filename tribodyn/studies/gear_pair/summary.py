@@ -23,7 +23,7 @@ from tribodyn.train.structure import (
     OUT,
     PARAMETRIC,
     SLIDING,
-    Layout,
+    TrainLayout,
     rotational_error,
     work_of,
     works_of_meshes,
@@ -127,7 +127,7 @@ def mesh_force(block: dict[str, np.ndarray], slots: np.ndarray) -> np.ndarray:
     return np.sum(block["normal_load"][:, slots] * np.cos(angle), axis=1)
 
 
-def energy_residual(first: np.ndarray, last: np.ndarray, stored: float, layout: Layout) -> float:
+def energy_residual(first: np.ndarray, last: np.ndarray, stored: float, layout: TrainLayout) -> float:
     """Residual of the energy balance over a run, as a share of the largest of the works in it.
 
     W_in + W_parametric − W_out − W_friction − W_damping − ΔE from the first to the last state; `stored` is
@@ -142,12 +142,12 @@ def energy_residual(first: np.ndarray, last: np.ndarray, stored: float, layout: 
     return float(missing / max(np.max(np.abs(works)), 1e-300))
 
 
-def friction_work_on_vibration(work: np.ndarray, layout: Layout) -> float | None:
+def friction_work_on_vibration(work: np.ndarray, layout: TrainLayout) -> float | None:
     """Work of friction on the vibration, as a share of the loss that the rotation alone has; > 0: fed.
 
-    What friction takes of the moving bodies, Σ F_f v_rel, is what it would take of bodies that only rotate, Σ
-    F_f v_s, less what it gives to the vibration. None without friction. `work` is the change of the state over
-    whole mesh cycles.
+    What friction takes of the moving bodies, Σ F_f v_rel, is what it would take of rotation alone, Σ F_f v_s,
+    less what it gives to the vibration. None without friction. `work` is the change of the state over whole
+    mesh cycles.
     """
     nominal, taken = (float(np.sum(work[works_of_meshes(layout, which)])) for which in (SLIDING, FRICTION))
     return (nominal - taken) / abs(nominal) if nominal != 0.0 else None

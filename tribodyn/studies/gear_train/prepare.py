@@ -22,7 +22,7 @@ from tribodyn.studies.gears.prepare import Thermal, at_tooth_temperature
 from tribodyn.studies.gears.tabulated import Tabulated, quasi_static_loss, tables
 from tribodyn.train.phases import Phases
 from tribodyn.train.schedule import schedule_of
-from tribodyn.train.structure import GROUND, Bodies, Layout, Links, layout_of
+from tribodyn.train.structure import GROUND, Bodies, Links, TrainLayout, layout_of
 from tribodyn.tribology.closure import closure_of
 
 
@@ -52,7 +52,7 @@ def frame_of(azimuth: float, sense: int) -> Frame:
 
 
 def tabulated(case: TrainCase) -> tuple[Tabulated, ...]:
-    """The tables of every mesh; equal meshes share one. Raises InputError as `gears.tabulated.tables` does."""
+    """The tables of every mesh; equal meshes share one. Raises what `gears.tabulated.tables` raises."""
     known: dict[int, Tabulated] = {}
     for number, mesh in zip(table_numbers(case), case.meshes, strict=True):
         if number not in known:
@@ -81,7 +81,7 @@ def _held(case: TrainCase, body: int) -> bool:
 
 
 def _order(case: TrainCase) -> tuple[int, ...]:
-    """Bodies of the case as the model has them: first those that bearings hold, the reference first of all."""
+    """Bodies of the case as the model has them: those that bearings hold first, the reference before all."""
     numbers = range(len(case.bodies))
     held = [body for body in numbers if _held(case, body)]
     if held and 0 not in held:
@@ -160,7 +160,7 @@ def _varying(case: TrainCase) -> LoadData:
     return case.loads[varying[0] if varying else 0] if case.loads else LoadData(0, 0.0)
 
 
-def _layout(case: TrainCase, new: dict[int, int]) -> Layout:
+def _layout(case: TrainCase, new: dict[int, int]) -> TrainLayout:
     ends = [
         (new[link.ends[0]], GROUND if link.ends[1] == HOUSING else new[link.ends[1]]) for link in case.links
     ]

@@ -10,7 +10,7 @@ from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import Table, monotone_slopes
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.tabulated import Tabulated
-from tribodyn.train.structure import Layout, Mesh
+from tribodyn.train.structure import GearMesh, TrainLayout
 from tribodyn.tribology.closure import Closure
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
@@ -27,13 +27,13 @@ Frame = tuple[tuple[float, float], tuple[float, float]]
 
 def mesh_of(
     case: LubricatedCase, made: Tabulated, closure: Closure, inertias: tuple[float, float], frame: Frame
-) -> Mesh:
+) -> GearMesh:
     """A mesh of two bodies with so much inertia each, kg m²."""
     cycle = made.cycle
     radius_1, radius_2 = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
     first, second = inertias
     equivalent_mass = first * second / (first * radius_2**2 + second * radius_1**2)
-    return Mesh(
+    return GearMesh(
         made.table,
         cycle.pinion_pitch_radius,
         cycle.gear_pitch_radius,
@@ -47,7 +47,7 @@ def mesh_of(
 
 
 def options_of(
-    case: LubricatedCase, cycles: Sequence[MeshCycle], closure: Closure, layout: Layout, drive: int
+    case: LubricatedCase, cycles: Sequence[MeshCycle], closure: Closure, layout: TrainLayout, drive: int
 ) -> parameters.Options:
     """What a case of a pair switches, the same in all meshes of a train; `closure` has the laws in use."""
     linear = all(float(cycle.hertz_coefficient) == 0.0 for cycle in cycles)

@@ -22,7 +22,7 @@ from tribodyn.studies.gear_pair.report import UNKNOWN
 from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.studies.sweeping.batch import NeighbourWay, NothingBetween, case_between
-from tribodyn.train.structure import Layout, works
+from tribodyn.train.structure import TrainLayout, works
 
 if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch
@@ -63,7 +63,7 @@ def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:
     return Outcome(None, state, np.empty((0, state.size)), "failed", int(cycles), reason)
 
 
-def without_audit(state: np.ndarray, layout: Layout) -> np.ndarray:
+def without_audit(state: np.ndarray, layout: TrainLayout) -> np.ndarray:
     """The state with its clock and its audit at zero."""
     state = state.copy()
     state[[layout.lag, *works(layout)]] = 0.0
@@ -235,7 +235,7 @@ def steady(
     return [outcomes[i] for i in range(len(models))]
 
 
-def _periodic(motion: SteadyMotion, samples: int, layout: Layout) -> Outcome:
+def _periodic(motion: SteadyMotion, samples: int, layout: TrainLayout) -> Outcome:
     window = CaseWindow(0, motion.samples, motion.state, motion.end, motion.extremes)
     section = motion.samples[::samples]
     state = without_audit(motion.state, layout)
