@@ -13,21 +13,14 @@ from tribodyn.geometry.body import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.quasi_static import single_pair
-from tribodyn.record.trust import Judge, judge_tribology
+from tribodyn.record.trust import judge_tribology
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
-from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
+from tribodyn.solve.transient import Stop, TransientSettings, transient
 from tribodyn.studies.gear_pair.case import Case, window_of
-from tribodyn.studies.gear_pair.outputs import MESH, outputs_with_extremes
+from tribodyn.studies.gear_pair.outputs import MESH, recorded
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
-from tribodyn.studies.gear_pair.summary import (
-    RunningExtremes,
-    energy_residual,
-    judge_balance,
-    judge_block,
-    steady_quantities,
-    warning_of,
-)
+from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.by_standard import rated
 from tribodyn.studies.gears.case import LAYOUT
 from tribodyn.studies.gears.check import check_gears, oil_data
@@ -38,6 +31,9 @@ from tribodyn.studies.gears.prepare import (
     thermal_quantities,
 )
 from tribodyn.studies.gears.recorded import scales_of
+from tribodyn.studies.gears.running import RunStatistics, judge_balance
+from tribodyn.studies.gears.sampled import sampled_with_extremes
+from tribodyn.studies.gears.steady import warning_of
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import exceeded_limits, law_quantities
@@ -111,38 +107,44 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         settings = TransientSettings(
             choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples, window, extremes=True
         )
-        statistics = RunStatistics(window, cycles, prepared)
+        statistics = RunStatistics(window, cycles, [mesh_of_run(prepared)], model.layout)
         stop = Stop(state, 0.0, 0, 0, "", 0.0)
         for part in transient(model, state, settings):
             if isinstance(part, Stop):
                 stop = part
             elif len(part.cycles):
-                block, extreme, at = outputs_with_extremes(
-                    part.cycles, part.states, part.extremes, model, shares=statistics.averages(part.cycles)
-                )
-                recorded = {name: values for name, values in block.items() if name not in UNRECORDED}
-                record.write(statistics.written, recorded)
-                statistics.add(part, block, extreme, at)
+                shares = statistics.averages(part.cycles)
+                block, extreme = sampled_with_extremes(part.cycles, part.states, part.extremes, model, shares)
+                record.write(statistics.written, recorded(block))
+                statistics.add(part.states, block, extreme)
                 if progress:
                     progress(min(1.0, statistics.written / (cycles * samples)))
-        summary |= statistics.summary(complete=not stop.reason) | {
-            "steps": stop.steps,
-            "rhs_evaluations": stop.evaluations,
-            "wall_time": perf_counter() - begun,
-            "simulated_time": stop.time,
-            "cycles_done": stop.reached,
-        }
+        summary |= (
+            statistics.of_mesh(MESH, complete=not stop.reason)
+            | statistics.balance()
+            | {
+                "steps": stop.steps,
+                "rhs_evaluations": stop.evaluations,
+                "wall_time": perf_counter() - begun,
+                "simulated_time": stop.time,
+                "cycles_done": stop.reached,
+            }
+        )
         judge_balance(statistics.judge, summary, case.solver.rtol)
         if stop.reason:
             summary |= statistics.judge.summary()
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
-        last, work, speed = statistics.window(), statistics.window_work(), case.operating.pinion_speed
+        last, work, speed = (
+            statistics.window_of_mesh(MESH),
+            statistics.window_work(),
+            case.operating.pinion_speed,
+        )
         touching = last["normal_load"] > 0.0
         loss = np.abs(last["friction_force"] * last["sliding_speed"])[touching]
         film_shares, friction_shares = (last[name][touching] for name in UNRECORDED)
         summary |= exceeded_limits(case, film_shares, friction_shares, loss)
-        summary |= steady_quantities(last, work, prepared, samples, speed, statistics.in_window)
+        summary |= steady_quantities(last, work, prepared, samples, speed, statistics.in_window[MESH])
         summary |= thermal_quantities(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
         summary |= contact_quantities(case.lubricant, summary)
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
@@ -160,69 +162,3 @@ def _by_standard(prepared: PreparedPair) -> dict[str, float]:
     duty = operating.pinion_speed, operating.gear_torque
     found = rated(prepared.assembly, case.materials, prepared.masses, case.quality, duty)
     return {"dynamic_factor_iso": found.dynamic.factor, "resonance_ratio_iso": found.dynamic.resonance_ratio}
-
-
-class RunStatistics:
-    """What the summary needs of a run that arrives in blocks: extremes, both ends, the last cycles."""
-
-    def __init__(self, cycles: int, total: int, prepared: PreparedPair):
-        self.start = total - cycles
-        self.stop = total
-        self.written = 0
-        self.prepared = prepared
-        self.extremes, self.in_window = RunningExtremes(prepared.cycle), RunningExtremes(prepared.cycle)
-        self.blocks: list[dict[str, np.ndarray]] = []
-        self.ends: list[tuple[np.ndarray, float]] = []
-        self.window_start = np.empty(0)
-        self.judge = Judge()
-
-    def add(
-        self,
-        part: SampledStates,
-        block: dict[str, np.ndarray],
-        extreme: dict[str, np.ndarray],
-        at: np.ndarray,
-    ) -> None:
-        """Take in a part: what is recorded of its states, and at other mesh cycles where it is extreme."""
-        self.written += len(part.cycles)
-        self.extremes.add(part.cycles, block)
-        self.extremes.add(at, extreme)
-        judge_block(self.judge, part.cycles, block, self.prepared)
-        judge_block(self.judge, at, extreme, self.prepared, between_samples=True)
-        if not self.ends:
-            self.ends.append((part.states[0], block["stored_energy"][0]))
-        self.ends[1:] = [(part.states[-1], block["stored_energy"][-1])]
-        last = slice(int(np.searchsorted(part.cycles, self.start - 1e-9)), None)
-        if len(part.cycles[last]):
-            self.in_window.add(part.cycles[last], {name: values[last] for name, values in block.items()})
-            self.in_window.add(at, extreme)
-        if self.averages(part.cycles):
-            averaged = slice(last.start, int(np.searchsorted(part.cycles, self.stop - 1e-9)))
-            if not self.blocks:
-                self.window_start = part.states[averaged][0]
-            self.blocks.append({name: values[averaged] for name, values in block.items()})
-
-    def averages(self, cycles: np.ndarray) -> bool:
-        """Whether means are of some of these samples; the last of a run is a cycle after the first."""
-        return bool(np.any((cycles >= self.start - 1e-9) & (cycles < self.stop - 1e-9)))
-
-    def summary(self, complete: bool) -> dict[str, Any]:
-        """Extremes of the last cycles, of an incomplete run of all; residual of the energy balance."""
-        if not self.ends:
-            return {}
-        (first, stored_first), (last, stored_last) = self.ends
-        shown = self.in_window if complete else self.extremes
-        return shown.values() | {
-            "extremes": {"run": self.extremes.described(), "last_cycles": self.in_window.described()},
-            "energy_residual": energy_residual(
-                first, last, stored_last - stored_first, self.prepared.model.layout
-            ),
-        }
-
-    def window_work(self) -> np.ndarray:
-        """Change of the state, works included, over the last cycles."""
-        return self.ends[-1][0] - self.window_start
-
-    def window(self) -> dict[str, np.ndarray]:
-        """What was recorded over the last cycles."""
-        return {name: np.concatenate([b[name] for b in self.blocks]) for name in self.blocks[0]}

@@ -30,13 +30,17 @@ from tribodyn.studies.gear_pair.batch.steady import (
     steady,
 )
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.outputs import MESH, outputs_with_extremes
+from tribodyn.studies.gear_pair.outputs import MESH
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.report import SWEPT, UNSTABLE_QUANTITIES, layout_of, state_places
-from tribodyn.studies.gear_pair.summary import RunningExtremes, judge_block, steady_quantities, warning_of
+from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.check import remarks_in_brief
+from tribodyn.studies.gears.extremes import RunningExtremes
 from tribodyn.studies.gears.prepare import MOST_MOTIONS, at_own_temperature, thermal_quantities
+from tribodyn.studies.gears.running import add_extremes, judge_run
 from tribodyn.studies.gears.same_table import table_key
+from tribodyn.studies.gears.sampled import sampled_with_extremes
+from tribodyn.studies.gears.steady import warning_of
 from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
@@ -54,18 +58,17 @@ def window_quantities(
     engage_next(last, window.first_cycle + count // samples, prepared.model)
     cycles = window.first_cycle + np.arange(count + 1) / samples
     states = np.concatenate([window.states, last[None]])
-    block, extreme, at = outputs_with_extremes(cycles, states, window.extremes, prepared.model)
+    meshes, layout = [mesh_of_run(prepared)], prepared.model.layout
+    block, extreme = sampled_with_extremes(cycles, states, window.extremes, prepared.model)
     extremes = RunningExtremes(prepared.cycle)
-    extremes.add(cycles, block)
-    extremes.add(at, extreme)
+    add_extremes([extremes], meshes, block, extreme)
     speed, work = prepared.case.operating.pinion_speed, window.end - window.start
-    inside = {name: values[:count] for name, values in block.items()}
+    inside = block.part(slice(count)).meshes[MESH]
     quantities = steady_quantities(inside, work, prepared, samples, speed, extremes)
     quantities |= extremes.values()
     quantities |= thermal_quantities(prepared.thermal, quantities["power_in_mean"], quantities["efficiency"])
     judge = Judge()
-    judge_block(judge, cycles, block, prepared)
-    judge_block(judge, at, extreme, prepared, between_samples=True)
+    judge_run(judge, meshes, layout, block, extreme)
     judge.take({"efficiency": quantities["efficiency"]})
     judge_tribology(judge, quantities)
     values = ((quantity.name, quantities.get(quantity.name)) for quantity in SWEPT)
