@@ -15,8 +15,8 @@ from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
 from tribodyn.studies.gear_pair.batch import BATCH
 from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate
-from tribodyn.studies.gear_pair.outputs import outputs_with_extremes
-from tribodyn.studies.gear_pair.summary import RECORDED, RunningExtremes
+from tribodyn.studies.gears.extremes import RECORDED, RunningExtremes
+from tribodyn.studies.gears.sampled import sampled_with_extremes
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.studies.sweeping.batch import Chunk
@@ -34,9 +34,8 @@ def extremes_of_run(prepared, samples, method="dopri5", rtol=1e-6, cycles=2, den
     settings = TransientSettings(method, rtol, cycles, 10**6, samples, extremes=dense)
     for part in transient(model, static_equilibrium(model), settings):
         if isinstance(part, SampledStates):
-            block, extreme, at = outputs_with_extremes(part.cycles, part.states, part.extremes, model)
-            seen.add(part.cycles, block)
-            seen.add(at, extreme)
+            for found in sampled_with_extremes(part.cycles, part.states, part.extremes, model):
+                seen.add(found.cycles, found.whole["time"], found.meshes[0])
     return seen
 
 

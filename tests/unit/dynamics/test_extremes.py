@@ -52,7 +52,8 @@ from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of, worthwhile
 from tribodyn.solve.right_hand_side import contacts_of, work_array
-from tribodyn.studies.gear_pair.outputs import outputs, outputs_with_extremes
+from tribodyn.studies.gear_pair.outputs import outputs, recorded
+from tribodyn.studies.gears.sampled import sampled_with_extremes
 
 OVERRIDES = [
     {},
@@ -294,8 +295,9 @@ def test_each_side_of_a_boundary_is_recorded_as_its_segment_has_it(prepared, rng
         near = 1e-9
         beside = np.array([4.0 - near, 4.0 + near, 3.0 + boundary[1] - near])
         expected = outputs(beside, np.tile(y, (3, 1)), model)
-        _, found, at = outputs_with_extremes(np.array([2.5]), y[None], extremes, model)
-        assert at.tolist() == [4.0, 4.0, 3.0 + boundary[1]]
+        _, extreme = sampled_with_extremes(np.array([2.5]), y[None], extremes, model)
+        found = recorded(extreme)
+        assert extreme.cycles.tolist() == [4.0, 4.0, 3.0 + boundary[1]]
         for name in ("normal_load", "central_film_thickness", "pressure_angle", "time"):
             np.testing.assert_allclose(found[name], expected[name], rtol=1e-4, err_msg=name)
 

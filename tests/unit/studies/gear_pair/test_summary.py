@@ -16,13 +16,9 @@ from tests.support.states import (
     WORK_PARAMETRIC,
     WORK_SLIDING,
 )
-from tribodyn.studies.gear_pair.summary import (
-    RECORDED,
-    Extreme,
-    RunningExtremes,
-    energy_residual,
-    steady_quantities,
-)
+from tribodyn.studies.gear_pair.summary import steady_quantities
+from tribodyn.studies.gears.extremes import RECORDED, Extreme, RunningExtremes
+from tribodyn.studies.gears.running import energy_residual
 
 SAMPLES, CYCLES, SPEED, PITCH, RADIUS = 50, 4, 100.0, 0.27, 0.07
 #: Pinion speed of the window on the average, rad/s, and time of it, s.
@@ -84,7 +80,7 @@ def quantities_of(block, work):
     count = (len(cycles), 4)
     none = {name: np.full(count, np.nan) for name, _ in RECORDED.values() if name not in block}
     extremes = RunningExtremes(CYCLE)
-    extremes.add(cycles, {**block, **none, "time": cycles})
+    extremes.add(cycles, cycles, {**block, **none})
     return steady_quantities(block, work, PREPARED, SAMPLES, SPEED, extremes)
 
 
@@ -148,7 +144,9 @@ def test_extremes_of_blocks_are_those_of_the_whole(rng):
     cycles = np.arange(30) / 10
     for start in (0, 10, 20):
         part = slice(start, start + 10)
-        extremes.add(cycles[part], {name: samples[part] for name, samples in values.items()})
+        extremes.add(
+            cycles[part], values["time"][part], {name: samples[part] for name, samples in values.items()}
+        )
     found = extremes.values()
     assert found["normal_load_max"] == values["normal_load"].max()
     assert found["film_min"] == values["central_film_thickness"].min()
