@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.energy import stored_energy
-from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.equations import derivatives, resultants
 from tribodyn.dynamics.extremes import LOWEST, Extremes, highest_loaded
 from tribodyn.dynamics.parameters import Model
 from tribodyn.dynamics.places import place_in_mesh
@@ -108,6 +108,7 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         contacts = LocalContact(*(np.stack(values, axis=-1) for values in fields))
         surface, limits = surface_and_limits(contacts, model.closure(m))
     friction = per_pair(contact.FRICTION_FORCE)
+    _, _, resisting, driving, *_ = resultants(place, mesh, model, work)
     result = {name: contacting(values) for name, values in surface._asdict().items()}
     result |= {
         # of the whole face; the others of the surface are where the line load is highest
@@ -115,6 +116,10 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         # geometry exists on the whole path of contact, loaded or not
         "transmission_error_normal": contacting(per_pair(contact.TRANSMISSION_ERROR), inside),
         "pressure_angle": contacting(np.arctan2(per_pair(contact.SIN), per_pair(contact.COS)), inside),
+        "signed_distance": contacting(per_pair(contact.DISTANCE), inside),
+        "driver_torque": np.broadcast_to(resisting, count),
+        "driven_torque": np.broadcast_to(driving, count),
+        "driven_power": np.broadcast_to(driving * speed_of(model.layout.driven[m], samples.y, model), count),
         "transmission_error_rotational": rotational_error(samples.y.T, m, model),
         "normal_load": np.where(inside, load, 0.0),
         "friction_force": np.where(inside, friction, 0.0),

@@ -14,6 +14,8 @@ from tribodyn.record.opened import OpenRecord, attributes, stored_name, summary_
 from tribodyn.record.sweep_schema import SWEEP
 from tribodyn.record.withheld import withheld
 
+#: Group of a record of a train that has a group for every mesh; the same in its summary.
+MESHES = "meshes"
 #: No axis reaches so far; differences and squares of what it holds are numbers.
 LARGEST = 1e100
 
@@ -108,6 +110,10 @@ class Record(OpenRecord):
         """Names of the groups: "mesh_cycle", "geometry", "summary", as far as there are."""
         return tuple(name for name, item in self._file.items() if isinstance(item, h5py.Group))
 
+    def of_mesh(self, mesh: str, part: str) -> dict[str, Any]:
+        """`mesh_cycle` or `geometry` of a mesh of a train, by its name."""
+        return self._group(f"{MESHES}/{mesh}/{part}")
+
     def _numbers(self, scale: str) -> tuple[int, ...]:
         return tuple(int(number) for number in self._file[scale][...]) if scale in self else ()
 
@@ -115,7 +121,7 @@ class Record(OpenRecord):
         """Arrays and numbers of a group; of scales only those that are data themselves."""
         try:
             group = self._file[name]
-            own = self._attributes[name].items()
+            own = attributes(group).items()
             numbers = {key: value for key, value in own if not key.endswith("_units")}
             data = {key: item for key, item in group.items() if item.attrs["long_name"] != counted(key)}
             return {**{key: item[...] for key, item in data.items()}, **numbers}

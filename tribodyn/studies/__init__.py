@@ -11,6 +11,7 @@ STUDIES: Registry[Study] = Registry(
     "kind of scenario",
     {
         "gear-pair": "tribodyn.studies.gear_pair:STUDY",
+        "gear-train": "tribodyn.studies.gear_train:STUDY",
         "efficiency": "tribodyn.studies.efficiency:STUDY",
         "load-contact": "tribodyn.studies.load_contact:STUDY",
         "ehl": "tribodyn.studies.ehl:STUDY",

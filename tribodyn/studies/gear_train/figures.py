@@ -1,0 +1,5 @@
+"""Figures of a train."""
+
+from tribodyn.post.figures.drawing import Drawing
+
+DRAWINGS: dict[str, Drawing] = {}

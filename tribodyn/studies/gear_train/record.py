@@ -1,0 +1,129 @@
+"""What is recorded of a train over time: datasets over its bodies, and over its meshes and their pairs."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.body import GEOMETRY, geometry_arrays
+from tribodyn.mesh.cycle import MESH_CYCLE, MeshCycle, as_arrays
+from tribodyn.numerics.parameter import Variable
+from tribodyn.record.reader import MESHES
+from tribodyn.record.schema import TIME, Layout
+from tribodyn.studies.gears.recorded import PAIR
+from tribodyn.studies.gears.recorded import SAMPLES as OF_A_PAIR
+from tribodyn.studies.gears.running import MeshOfRun, mesh_pairs
+from tribodyn.studies.gears.sampled import Sampled
+
+_TIME, _BODY, _MESH, _PAIRS = ("time",), ("time", "body"), ("time", "mesh"), ("time", "mesh", "pair")
+#: What a record of a pair says in terms of pinion and gear.
+_MEANINGS = {
+    "friction_force": "sliding friction on the driver's flank along the tangent, positive in recess",
+    "sliding_speed": "sliding speed that friction has, the driver's less the driven one's",
+    "transmission_error_rotational": "dynamic transmission error, of the rotations of driver and driven",
+    "drive_torque": "torque of the drive on the input, with a compliant shaft on its motor side",
+    "power_in": "power the drive gives to the input",
+    "power_out": "power that all loads take",
+    "power_friction": "power lost to sliding friction in all meshes",
+    "power_damping": "power lost to the damping of meshes and links",
+    "work_damping": "work lost to the damping of meshes and links since the start",
+    "pressure_angle": "angle of the pair's common normal to the pitch tangent of its mesh",
+}
+
+
+def _of_train(name: str, variable: Variable) -> Variable:
+    over_mesh = name == "transmission_error_rotational"
+    dims = _MESH if over_mesh else {("time", "pair"): _PAIRS}.get(variable.dims, variable.dims)
+    return variable._replace(dims=dims, long_name=_MEANINGS.get(name, variable.long_name))
+
+
+#: What a run records over time. Rotations of a body are positive in its own nominal sense.
+SAMPLES: dict[str, Variable] = {
+    "reference_angle": Variable(_TIME, "rad", "rotation of the body that drives the first mesh"),
+    "mesh_phase": Variable(
+        _MESH,
+        "1",
+        "cycles of each mesh since it began one; a cycle begins as a pair enters",
+    ),
+    "angle": Variable(_BODY, "rad", "rotation of each body, in its own nominal sense"),
+    "speed": Variable(_BODY, "rad/s", "speed of rotation of each body, in its own nominal sense"),
+    "x": Variable(_BODY, "m", "displacement of each body in x of the train; NaN of those that only turn"),
+    "y": Variable(_BODY, "m", "displacement of each body in y of the train; NaN of those that only turn"),
+    "x_rate": Variable(_BODY, "m/s", "velocity of each body in x of the train"),
+    "y_rate": Variable(_BODY, "m/s", "velocity of each body in y of the train"),
+    **{
+        name: _of_train(name, variable)
+        for name, variable in OF_A_PAIR.items()
+        if "dof" not in variable.dims and name != "pinion_angle"
+    },
+    "signed_distance": Variable(
+        _PAIRS, "m", "distance from the pitch point to the pair's contact, negative in approach"
+    ),
+    "driver_torque": Variable(_MESH, "N*m", "torque of the mesh on its driver, against its motion"),
+    "driven_torque": Variable(_MESH, "N*m", "torque of the mesh on its driven body, with its motion"),
+    "mesh_power_friction": Variable(_MESH, "W", "power lost to sliding friction in each mesh"),
+}
+SCALES = {
+    "mesh": Variable(("mesh",), "1", "mesh of the train; driver and driven, as power flows from the input"),
+    "body": Variable(("body",), "1", "body of the train"),
+    "pair": PAIR._replace(long_name=f"{PAIR.long_name}; NaN where a mesh has none of this number"),
+}
+#: A mesh has as many pairs as it needs: they are counted beside those of the record.
+_SLOTS = {"pair": "slot", "other_pair": "other_slot"}
+_CYCLE = {
+    name: variable._replace(dims=tuple(_SLOTS.get(dim, dim) for dim in variable.dims))
+    for name, variable in MESH_CYCLE.items()
+}
+
+
+class TrainRecord(NamedTuple):
+    """How the records of a case are laid out."""
+
+    layout: Layout
+    scales: dict[str, Any]
+    groups: dict[str, dict[str, Any]]
+    pairs: tuple[int, ...]
+    meshes: Sequence[MeshOfRun]
+
+    def block(self, found: Sampled) -> dict[str, np.ndarray]:
+        """What a record takes of samples."""
+        count, bodies = len(found.cycles), len(self.scales["body"])
+        block = {"time": found.whole["time"]}
+        block["mesh_phase"] = np.stack([mesh.cycles(found.cycles) for mesh in self.meshes], axis=1)
+        for name, variable in SAMPLES.items():
+            if variable.dims == _PAIRS:
+                block[name] = np.full((count, len(self.meshes), len(self.pairs)), np.nan)
+                for m, (mesh, values) in enumerate(zip(self.meshes, found.meshes, strict=True)):
+                    block[name][:, m, self._columns(mesh.cycle)] = values[name]
+            elif variable.dims == _MESH and name in found.meshes[0]:
+                block[name] = np.stack([mesh[name] for mesh in found.meshes], axis=1)
+            elif variable.dims == _BODY:
+                values = found.whole[name]
+                block[name] = np.full((count, bodies), np.nan)
+                block[name][:, : values.shape[1]] = values
+            elif name in found.whole:
+                block[name] = found.whole[name]
+        return block
+
+    def _columns(self, cycle: MeshCycle) -> list[int]:
+        return [self.pairs.index(number) for number in mesh_pairs(cycle)]
+
+
+def record_of(
+    names: Sequence[str],
+    bodies: Sequence[str],
+    meshes: Sequence[MeshOfRun],
+    assemblies: Sequence[Assembly],
+) -> TrainRecord:
+    """The layout of a record of meshes and bodies with these names, and what it holds from the start."""
+    numbers = [number for mesh in meshes for number in mesh_pairs(mesh.cycle)]
+    pairs = tuple(range(min(numbers), max(numbers) + 1))
+    groups, tables = {}, {}
+    for name, mesh, assembly in zip(names, meshes, assemblies, strict=True):
+        tables[f"{MESHES}/{name}/mesh_cycle"] = _CYCLE
+        tables[f"{MESHES}/{name}/geometry"] = GEOMETRY
+        groups[f"{MESHES}/{name}/mesh_cycle"] = as_arrays(mesh.cycle)
+        groups[f"{MESHES}/{name}/geometry"] = geometry_arrays(assembly)
+    scales = {"mesh": np.array(names), "body": np.array(bodies), "pair": np.array(pairs)}
+    return TrainRecord(Layout(TIME, SAMPLES, SCALES, groups=tables), scales, groups, pairs, meshes)
