@@ -1,0 +1,184 @@
+"""What is said of a train without a run: speeds, frequencies, modes, and every mesh as of a pair."""
+
+from collections.abc import Iterator
+from math import degrees, pi
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.modes import Modes, modes
+from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare
+from tribodyn.studies.gears.check import check_gears
+from tribodyn.studies.gears.prepare import PreparedGears
+from tribodyn.studies.gears.usual import with_duty
+from tribodyn.studies.protocol.recording import CheckResult, TextTable
+from tribodyn.train.flow import flow
+
+#: Share of a mode's energy below which a body is left out of a table.
+LITTLE = 0.005
+#: Harmonics of the meshes whose crossing with a mode is said.
+HARMONICS = 3
+
+
+def check(case: TrainCase) -> CheckResult:
+    """Check a case, tabulate its meshes, and say what train it describes."""
+    prepared = prepare(case)
+    found = modes(prepared.model, [made.cycle for made in prepared.made])
+    of_meshes = [_of_mesh(prepared, m) for m in range(len(case.meshes))]
+    names = [mesh.name for mesh in case.meshes]
+    data = {
+        **_train(prepared),
+        "natural_frequencies": found.frequency,
+        "mode_shares": [
+            dict(zip(prepared.names, row, strict=True)) for row in np.round(found.share, 6).tolist()
+        ],
+        "mesh_frequencies": dict(zip(names, _mesh_frequencies(prepared), strict=True)),
+        "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
+    }
+    tables = [
+        *_train_tables(prepared),
+        _mode_table(prepared, found),
+        _campbell_table(prepared, found),
+        *(
+            table._replace(title=f"{table.title}, mesh {name}")
+            for name, checked in zip(names, of_meshes, strict=True)
+            for table in checked.tables
+            if checked is of_meshes[0] or table not in of_meshes[0].tables  # one oil for all
+        ),
+    ]
+    remarks = list(_named(names, [checked.remarks for checked in of_meshes]))
+    warnings = tuple(dict.fromkeys(_named(names, [checked.warnings for checked in of_meshes])))
+    return CheckResult(data, tables, remarks, warnings)
+
+
+def _named(names: list[str], said: list[Any]) -> Iterator[str]:
+    """What is said of the meshes; once where it is said of all."""
+    common = [line for line in said[0] if all(line in each for each in said[1:])]
+    yield from common
+    for name, each in zip(names, said, strict=True):
+        yield from (f"Mesh {name}: {line}" for line in each if line not in common)
+
+
+def _of_mesh(prepared: PreparedTrain, m: int) -> CheckResult:
+    pair, made = prepared.pairs[m], prepared.made[m]
+    gears = PreparedGears(pair, made.assembly, made.cycle, prepared.thermal[m])
+    return with_duty(check_gears(gears, prepared.model.closure(m)), pair)
+
+
+def _speeds(prepared: PreparedTrain) -> np.ndarray:
+    """Nominal speeds of the bodies, rad/s."""
+    return np.asarray(prepared.model.bodies.ratio) * prepared.model.operation.nominal_speed
+
+
+def _mesh_frequencies(prepared: PreparedTrain) -> list[float]:
+    """Of the meshes at nominal speed, Hz."""
+    operation = prepared.model.operation
+    first = float(operation.nominal_speed / operation.pitch_angle)
+    return [float(mesh.rate) * first for mesh in prepared.case.meshes]
+
+
+def _train(prepared: PreparedTrain) -> dict[str, Any]:
+    """The train for programs, SI."""
+    case, model = prepared.case, prepared.model
+    layout, speeds = model.layout, _speeds(prepared)
+    bodies = {}
+    for b, name in enumerate(prepared.names):
+        own = case.bodies[prepared.order[min(b, len(prepared.order) - 1)]]
+        bodies[name] = {
+            "speed": float(speeds[b]),
+            "shaft_frequency": float(speeds[b]) / (2.0 * pi),
+            "counter_clockwise": own.sense > 0,
+            "mass": float(model.bodies.mass[b]) if b < layout.planar else None,
+            "inertia": float(model.bodies.inertia[b]),
+            "centre": list(map(float, own.centre)),
+        }
+    torques = flow(model).on_driven
+    meshes = {
+        mesh.name: {
+            "driver": case.gears[mesh.gears[0]].name,
+            "driven": case.gears[mesh.gears[1]].name,
+            "rate": str(mesh.rate),
+            "phase": float(prepared.phases.meshes[m]),
+            "azimuth": float(mesh.azimuth),
+            "driven_torque": float(torques[m]),
+        }
+        for m, mesh in enumerate(case.meshes)
+    }
+    ratio = float(speeds[layout.input] / speeds[layout.output])
+    return {"train_ratio": ratio, "common_period": case.period, "bodies": bodies, "train_meshes": meshes}
+
+
+def _train_tables(prepared: PreparedTrain) -> list[TextTable]:
+    found, case = _train(prepared), prepared.case
+    whole = [
+        ("ratio of input to output speed", f"{found['train_ratio']:.6g}"),
+        ("common period of the meshes", f"{case.period} cycles of mesh {case.meshes[0].name}"),
+        ("repeats every", f"{case.period / _mesh_frequencies(prepared)[0] * 1e3:.4g} ms"),
+    ]
+    bodies = [
+        (
+            name,
+            f"{body['speed'] * 30.0 / pi:.5g}",
+            f"{body['shaft_frequency']:.5g}",
+            "counter-clockwise" if body["counter_clockwise"] else "clockwise",
+            "–" if body["mass"] is None else f"{body['mass']:.4g}",
+            f"{body['inertia']:.4g}",
+            f"{body['centre'][0] * 1e3:.5g}, {body['centre'][1] * 1e3:.5g}",
+        )
+        for name, body in found["bodies"].items()
+    ]
+    meshes = [
+        (
+            name,
+            f"{mesh['driver']} → {mesh['driven']}",
+            f"{frequency:.5g}",
+            f"{float(made.cycle.contact_ratio):.4g}",
+            f"{mesh['driven_torque']:.5g}",
+            f"{degrees(mesh['azimuth']):.4g}",
+            f"{mesh['phase']:.4f}",
+        )
+        for (name, mesh), frequency, made in zip(
+            found["train_meshes"].items(), _mesh_frequencies(prepared), prepared.made, strict=True
+        )
+    ]
+    return [
+        TextTable("Train", ("quantity", "value"), whole),
+        TextTable(
+            "Bodies", ("body", "rpm", "Hz", "turns", "mass (kg)", "inertia (kg m²)", "centre (mm)"), bodies
+        ),
+        TextTable(
+            "Meshes",
+            ("mesh", "drives", "Hz", "contact ratio", "driven torque (N m)", "azimuth (°)", "phase"),
+            meshes,
+        ),
+    ]
+
+
+def _mode_table(prepared: PreparedTrain, found: Modes) -> TextTable:
+    """Natural frequencies, and the bodies that move in each mode."""
+    rows = []
+    for frequency, share in zip(found.frequency, found.share, strict=True):
+        order = np.argsort(-share, kind="stable")
+        who = ", ".join(f"{prepared.names[b]} {100.0 * share[b]:.0f} %" for b in order if share[b] > LITTLE)
+        rows.append((f"{frequency:.5g}", who))
+    title = "Natural frequencies, at the mean mesh stiffness, and shares of the kinetic energy"
+    return TextTable(title, ("Hz", "bodies"), rows)
+
+
+def _campbell_table(prepared: PreparedTrain, found: Modes) -> TextTable:
+    """Speeds of the input at which harmonics of the meshes meet the modes."""
+    speed = float(_speeds(prepared)[prepared.model.layout.input]) * 30.0 / pi
+    names = [mesh.name for mesh in prepared.case.meshes]
+    columns = [(name, order) for name in names for order in range(1, HARMONICS + 1)]
+    own = dict(zip(names, _mesh_frequencies(prepared), strict=True))
+    rows = [
+        (
+            f"{frequency:.5g}",
+            *(f"{frequency / (order * own[name]) * speed:.4g}" for name, order in columns),
+        )
+        for frequency in found.frequency
+    ]
+    heads = [f"{name} ×{order}" if order > 1 else name for name, order in columns]
+    title = f"Campbell: input speed (rpm) at which a mesh meets a mode; now {speed:.4g}"
+    return TextTable(title, ("mode (Hz)", *heads), rows)
