@@ -1,12 +1,11 @@
 """A case of the dynamics of a gear pair: everything one simulation needs to know, in SI units."""
 
-import math
 from dataclasses import dataclass
 
 from tribodyn.dynamics.data import BearingData
-from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gears.case import LAYOUT, LubricatedCase, OutputData
+from tribodyn.studies.gears.taken import drivers, radians_of, table
 from tribodyn.studies.protocol import cost
 from tribodyn.train.structure import layout_of
 
@@ -17,8 +16,6 @@ WIDEST_WINDOW = 400
 MOST_STATES = int(layout_of(2, 3, [(0, 1)], [], 0, 0).states)
 #: Mesh cycles until most steady states are found.
 STEADY_CYCLES = 60
-#: Stiffness of a mesh over width and modulus of elasticity: 20 N/(mm µm) of steel, ISO 6336-1.
-_MESH_STIFFNESS = 0.1
 #: How often the window's samples are held; share of a record that its summary and pictures read at once.
 _WINDOW_HELD, _READ = 2.0, 0.05
 
@@ -45,9 +42,9 @@ def estimate(case: Case) -> cost.Estimate:
     record = cost.recorded(LAYOUT, sizes, _READ)
     block, window = min(max(cycles / 4.0, 1.0), 50.0) * samples, window_of(int(cycles)) * samples
     return cost.total(
-        _drivers(case),
+        drivers(case, case.mesh),
         record,
-        _table(case),
+        table(case.mesh),
         cost.in_memory(block * sides, cost.SAMPLE_BYTES),
         cost.in_memory(_WINDOW_HELD * window, record.record / (samples * cycles + 1.0)),
         _marching(case, cycles),
@@ -59,8 +56,8 @@ def estimate_in_sweep(case: Case, cycles: int, window: int, together: int) -> co
     samples = float(case.output.samples_per_cycle)
     marched = () if cycles == STEADY_CYCLES else (cost.Driver("--transient", cycles, STEADY_CYCLES),)
     return cost.total(
-        (*_drivers(case), *marched),
-        _table(case)._replace(record=0.0),
+        (*drivers(case, case.mesh), *marched),
+        table(case.mesh)._replace(record=0.0),
         cost.in_memory(3.0 * together * window * samples, MOST_STATES * 8.0),
         cost.in_memory(window * samples, cost.SAMPLE_BYTES),
         _marching(case, float(cycles), together=True),
@@ -68,41 +65,9 @@ def estimate_in_sweep(case: Case, cycles: int, window: int, together: int) -> co
     )
 
 
-def _drivers(case: Case) -> tuple[cost.Driver, ...]:
-    """Keys that make a case large."""
-    return (
-        cost.Driver("output.samples_per_cycle", case.output.samples_per_cycle, 200),
-        cost.Driver("solver.cycles", case.solver.cycles, 20),
-        cost.Driver("mesh.points", case.mesh.points, 65),
-        cost.Driver("mesh.slices", case.mesh.slices, 21),
-    )
-
-
-def _table(case: Case) -> cost.Estimate:
-    mesh = case.mesh
-    return cost.mesh_table(
-        float(mesh.points), 1 if mesh.backlash is None else 2, mesh.slices if mesh.at_load else None
-    )
-
-
 def _marching(case: Case, cycles: float, *, together: bool = False) -> cost.Estimate:
     solver, samples = case.solver, case.output.samples_per_cycle
-    return cost.marching(
-        cycles, _radians(case), solver.method, float(solver.max_steps), samples, together=together
-    )
-
-
-def _radians(case: Case) -> float:
-    """Radians of about the fastest oscillation in a mesh cycle: of the mesh, or of a gear on its bearing."""
-    mesh, drive = case.mesh, case.drive
-    bodies = [body_of(drive, side) for side in SIDES]
-    modulus = min(material.youngs_modulus for material in case.materials)
-    density = min(material.density for material in case.materials)
-    width = min(body.face_width for body in bodies)
-    stiffness = mesh.stiffness if mesh.stiffness is not None else _MESH_STIFFNESS * modulus * width
-    areas = [math.pi * ((drive.module * body.teeth / 2) ** 2 - body.bore_radius**2) for body in bodies]
-    masses = [max(density * area * body.face_width, 1e-9) for area, body in zip(areas, bodies, strict=True)]
     bearings = [max(bearing.stiffness_x, bearing.stiffness_y) for bearing in case.bearings]
-    of_mesh = stiffness * (2.0 / masses[0] + 2.0 / masses[1])
-    fastest = math.sqrt(max(of_mesh, *(k / m for k, m in zip(bearings, masses, strict=True))))
-    return 2.0 * math.pi / (drive.pinion.teeth * case.operating.pinion_speed) * fastest
+    return cost.marching(
+        cycles, radians_of(case, bearings), solver.method, float(solver.max_steps), samples, together=together
+    )

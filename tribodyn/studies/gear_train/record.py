@@ -34,7 +34,7 @@ _MEANINGS = {
 
 def _of_train(name: str, variable: Variable) -> Variable:
     over_mesh = name == "transmission_error_rotational"
-    dims = _MESH if over_mesh else {("time", "pair"): _PAIRS}.get(variable.dims, variable.dims)
+    dims = _MESH if over_mesh else _PAIRS if "pair" in variable.dims else variable.dims
     return variable._replace(dims=dims, long_name=_MEANINGS.get(name, variable.long_name))
 
 

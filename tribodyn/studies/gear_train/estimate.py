@@ -1,0 +1,49 @@
+"""What a run of a train takes."""
+
+from tribodyn.record.schema import TIME, Layout
+from tribodyn.studies.gear_train.case import HOUSING, TrainCase
+from tribodyn.studies.gear_train.record import SAMPLES
+from tribodyn.studies.gears.taken import drivers, radians_of, table
+from tribodyn.studies.protocol import cost
+
+#: How often the samples of the last cycles are held.
+_WINDOW_HELD = 2.0
+
+
+def estimate(case: TrainCase) -> cost.Estimate:
+    """What a run of a case takes; every mesh as much as that of a pair."""
+    samples, cycles, meshes = (
+        float(case.output.samples_per_cycle),
+        float(case.solver.cycles),
+        len(case.meshes),
+    )
+    mesh, solver = case.meshes[0].pair.mesh, case.solver
+    sides = 1 if mesh.backlash is None else 2
+    sizes = {
+        "time": int(samples * cycles) + 1,
+        "mesh": meshes,
+        "pair": cost.PAIRS * sides,
+        "body": len(case.bodies) + 1,
+    }
+    record = cost.recorded(Layout(TIME, SAMPLES), sizes)
+    block, window = min(max(cycles / 4.0, 1.0), 50.0) * samples, max(cycles / 4.0, case.period) * samples
+    of_meshes = []
+    for each in case.meshes:
+        radians = float(each.rate) * radians_of(
+            each.pair, [_held(case, b) for b in (each.driver, each.driven)]
+        )
+        marching = cost.marching(cycles, radians, solver.method, float(solver.max_steps), samples)
+        of_meshes += [table(mesh), marching]
+    return cost.total(
+        drivers(case, mesh),
+        record,
+        *of_meshes,
+        cost.in_memory(block * sides * meshes, cost.SAMPLE_BYTES),
+        cost.in_memory(_WINDOW_HELD * window, record.record / (samples * cycles + 1.0)),
+    )
+
+
+def _held(case: TrainCase, body: int) -> float:
+    """Stiffness of a body's bearings, N/m; 0 without any."""
+    of_body = [link.stiffness[:2] for link in case.links if body in link.ends and HOUSING in link.ends]
+    return max((stiffness for pair in of_body for stiffness in pair), default=0.0)
