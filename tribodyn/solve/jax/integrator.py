@@ -226,7 +226,7 @@ def padded_phases(schedule: Schedule, samples: int) -> tuple[Float[Array, "inter
 
 def places_in_cycle(schedule: Schedule) -> Int[Array, " place"]:
     """Numbers of intervals in a reference cycle, up to the most of any."""
-    return np.arange(max(np.diff(schedule.first).tolist()))
+    return np.arange(int(max(np.diff(schedule.first).tolist())))
 
 
 def steps_end_on(models: Sequence[Model]) -> Float[Array, "case interval stop"]:
