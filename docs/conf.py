@@ -46,7 +46,6 @@ CONTENTS = {
     ],
     "Explanation": [
         "theory",
-        "trains",
         "laws",
         "physics",
         "standards",
