@@ -46,6 +46,7 @@ CONTENTS = {
     ],
     "Explanation": [
         "theory",
+        "trains",
         "laws",
         "physics",
         "standards",
