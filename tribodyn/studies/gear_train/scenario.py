@@ -66,7 +66,7 @@ class TrainSolver(Solver):
     )
 
 
-class Scenario(ScenarioHead):
+class GearTrainScenario(ScenarioHead):
     """A scenario file."""
 
     kind: Literal["gear-train"] = "gear-train"
@@ -91,6 +91,9 @@ class Scenario(ScenarioHead):
     friction: Friction
     solver: TrainSolver = written({})
     output: Output = written({})
+
+
+Scenario = GearTrainScenario
 
 
 class PairView(NamedTuple):
