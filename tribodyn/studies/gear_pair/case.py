@@ -7,15 +7,10 @@ from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gears.case import LAYOUT, LubricatedCase, OutputData
 from tribodyn.studies.gears.taken import drivers, radians_of, table
 from tribodyn.studies.protocol import cost
-from tribodyn.train.structure import layout_of
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
 #: and an attribute of a record holds no longer spectrum.
 WIDEST_WINDOW = 400
-#: States of a pair with a compliant shaft, which has the most.
-MOST_STATES = int(layout_of(2, 3, [(0, 1)], [], 0, 0).states)
-#: Mesh cycles until most steady states are found.
-STEADY_CYCLES = 60
 #: How often the window's samples are held; share of a record that its summary and pictures read at once.
 _WINDOW_HELD, _READ = 2.0, 0.05
 
@@ -51,18 +46,14 @@ def estimate(case: Case) -> cost.Estimate:
     )
 
 
-def estimate_in_sweep(case: Case, cycles: int, window: int, together: int) -> cost.Estimate:
-    """What a case of a sweep takes that marches so many mesh cycles, and the memory of those together."""
-    samples = float(case.output.samples_per_cycle)
-    marched = () if cycles == STEADY_CYCLES else (cost.Driver("--transient", cycles, STEADY_CYCLES),)
-    return cost.total(
-        (*drivers(case, case.mesh), *marched),
-        table(case.mesh)._replace(record=0.0),
-        cost.in_memory(3.0 * together * window * samples, MOST_STATES * 8.0),
-        cost.in_memory(window * samples, cost.SAMPLE_BYTES),
-        _marching(case, float(cycles), together=True),
-        cost.Estimate(seconds=cost.MARCHED_SAMPLE * window * samples),
-    )
+def drivers_of(case: Case) -> tuple[cost.Driver, ...]:
+    """Keys that make a case large."""
+    return drivers(case, case.mesh)
+
+
+def marching_of(case: Case, cycles: float) -> list[cost.Estimate]:
+    """What its table and so many mesh cycles take, of many cases side by side."""
+    return [table(case.mesh)._replace(record=0.0), _marching(case, cycles, together=True)]
 
 
 def _marching(case: Case, cycles: float, *, together: bool = False) -> cost.Estimate:

@@ -1,6 +1,6 @@
 """Cases brought to their periodic steady states, or marched over a given number of mesh cycles."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -16,11 +16,7 @@ from tribodyn.solve.integrator import REASONS, Status
 from tribodyn.solve.orbit.motions import FAILED
 from tribodyn.solve.orbit.periodic import WANDERING, SteadyMotion, refuse_time_dependent, steady_states
 from tribodyn.solve.right_hand_side import engage_next
-from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
-from tribodyn.studies.gear_pair.report import UNKNOWN
-from tribodyn.studies.gears.same_table import table_key
-from tribodyn.studies.gears.tabulated import Tabulated
+from tribodyn.studies.gears.swept import UNKNOWN
 from tribodyn.studies.sweeping.batch import NeighbourWay, NothingBetween, case_between
 from tribodyn.train.structure import TrainLayout, works
 
@@ -78,15 +74,16 @@ def marched(
     window: int,
     points: int,
     samples: int,
+    common: int = 1,
     **solver: Any,
 ) -> list[Outcome]:
     """March every case from its state, (C, states), after the engagement at phase 0.
 
-    So many mesh `cycles`; of the last, the `window`, samples are kept, and of some `points` the first state.
-    `solver` are further arguments of `ensemble.march`.
+    So many mesh `cycles`; of the last, the `window`, samples are kept, and of the last `points` periods of
+    `common` cycles the first state. `solver` are further arguments of `ensemble.march`.
     """
     before = cycles - window
-    sections = max(0, min(points, cycles) - window)
+    sections = max(0, min(points * common, cycles) - window)
     led = march(models, states, cycles=before, window=sections, samples=1, **solver)
     good = np.flatnonzero(led.status == Status.DONE).tolist()
     ran = march(
@@ -101,6 +98,7 @@ def marched(
         **solver,
     )
     rows = {i: row for row, i in enumerate(good)}
+    begun = np.arange(before - sections, cycles) % common == 0
     outcomes = []
     for i, model in enumerate(models):
         part, row = (ran, rows[i]) if i in rows else (led, i)
@@ -116,9 +114,8 @@ def marched(
         engage_next(state, cycles, model)
         extremes = extremes_of(ran.extremes, row)
         kept = CaseWindow(before, ran.samples[row], led.state[i], ran.state[row], extremes)
-        outcomes.append(
-            Outcome(kept, without_audit(state, model.layout), section[-points:], "transient", int(reached))
-        )
+        still, section = without_audit(state, model.layout), section[begun][-points:]
+        outcomes.append(Outcome(kept, still, section, "transient", int(reached)))
     return outcomes
 
 
@@ -127,12 +124,14 @@ AT_A_TIME = 16
 #: Parts of a way at most, where every place on it needs a table of its own.
 PARTS = 4
 
-PreparedAt = Callable[[int, float], PreparedPair]
+PreparedAt = Callable[[int, float], Any]
 """Gives the prepared case on a line at a value of the parameter; raises InputError where there is none."""
 
 
 def legs_of(
-    cases: Sequence[tuple[PreparedPair, np.ndarray]], ways: Sequence[NeighbourWay | None]
+    cases: Sequence[tuple[Any, np.ndarray]],
+    ways: Sequence[NeighbourWay | None],
+    table_key: Callable[[Any], Hashable],
 ) -> list[Leg]:
     """The leg to each case, with the state that it begins from."""
     legs = []
@@ -140,12 +139,12 @@ def legs_of(
         if way is None:
             legs.append(Leg(line, 0.0, 0.0, state, 0))
         else:
-            finest = _finest(way, prepared.given)
+            finest = _finest(way, prepared.given, table_key)
             legs.append(Leg(line, way.start, way.target, state, way.period, finest, way.reach))
     return legs
 
 
-def _finest(way: NeighbourWay, case: Case) -> float:
+def _finest(way: NeighbourWay, case: Any, table_key: Callable[[Any], Hashable]) -> float:
     """Minimum step on a way, as `Leg.finest`."""
     try:
         case_between(way.neighbour, case, 0.5)
@@ -156,11 +155,15 @@ def _finest(way: NeighbourWay, case: Case) -> float:
 
 
 def prepared_between(
-    cases: Sequence[PreparedPair], ways: Sequence[NeighbourWay | None], tabulated: Callable[[Case], Tabulated]
+    cases: Sequence[Any],
+    ways: Sequence[NeighbourWay | None],
+    *,
+    tabulated: Callable[[Any], Any],
+    prepare: Callable[[Any, Any], Any],
 ) -> PreparedAt:
     """Gives the prepared case at a place on the way to a case, or beyond it."""
 
-    def prepared_at(line: int, value: float) -> PreparedPair:
+    def prepared_at(line: int, value: float) -> Any:
         way = ways[line]
         if way is None or value == way.target:
             return cases[line]
@@ -179,6 +182,8 @@ def steady(
     points: int,
     samples: int,
     method: str,
+    common: int = 1,
+    wandering: int = WANDERING,
     legs: Sequence[Leg] | None = None,
     model_at: ModelAt | None = None,
     unstable: UnstableRange | None = None,
@@ -186,9 +191,10 @@ def steady(
 ) -> list[Outcome]:
     """Find every case's steady state from its state, (C, states), after the engagement at phase 0.
 
-    `cycles` are marched at most; `points` has the section of a motion without period. `legs`, `model_at` and
-    `unstable` follow a neighbour's motion to each case, see `gear_pairs.followed_states`; lines are cases.
-    `method` and `solver`, with rtol, max_steps and workers, as `ensemble.march` takes them.
+    `cycles` are marched at most; `points` has the section of a motion without period, of which `wandering`
+    cycles are sampled; `common` as of `marched`. `legs`, `model_at` and `unstable` follow a neighbour's
+    motion to each case, see `gear_pairs.followed_states`; lines are cases. `method` and `solver`, with rtol,
+    max_steps and workers, as `ensemble.march` takes them.
     """
     outcomes: dict[int, Outcome] = {}
     for i, model in enumerate(models):
@@ -197,28 +203,29 @@ def steady(
         except InputError as error:
             outcomes[i] = failed(states[i], 0, str(error))
     pending = [i for i in range(len(models)) if i not in outcomes]
-    common: dict[str, Any] = {"samples": samples, "max_cycles": cycles, "solver": method, **solver}
+    shared: dict[str, Any] = {"samples": samples, "max_cycles": cycles, "solver": method, **solver}
     followed: list[LegResult] = []
     if legs is None or model_at is None:
-        motions = steady_states([models[i] for i in pending], states[pending], **common)
+        motions = steady_states([models[i] for i in pending], states[pending], **shared)
     else:
-        followed = followed_states(model_at, [legs[i] for i in pending], unstable=unstable, **common)
+        followed = followed_states(model_at, [legs[i] for i in pending], unstable=unstable, **shared)
         motions = [result.steady for result in followed]
-    wandering = []
+    without = []
     for i, motion in zip(pending, motions, strict=True):
         if motion.kind == FAILED:
             outcomes[i] = failed(motion.last, motion.cycles, motion.message)
         elif motion.period:
-            outcomes[i] = _periodic(motion, samples, models[i].layout)
+            outcomes[i] = _periodic(motion, samples * common, models[i].layout)
         else:
-            wandering.append((i, motion))
-    for part in range(0, len(wandering), AT_A_TIME):
-        some = wandering[part : part + AT_A_TIME]
+            without.append((i, motion))
+    for part in range(0, len(without), AT_A_TIME):
+        some = without[part : part + AT_A_TIME]
         stretches = marched(
             [models[i] for i, _ in some],
             np.array([motion.last for _, motion in some]),
-            cycles=max(points, WANDERING),
-            window=WANDERING,
+            cycles=max(points, wandering),
+            window=wandering,
+            common=common,
             points=points,
             samples=samples,
             method=method,
@@ -235,9 +242,9 @@ def steady(
     return [outcomes[i] for i in range(len(models))]
 
 
-def _periodic(motion: SteadyMotion, samples: int, layout: TrainLayout) -> Outcome:
+def _periodic(motion: SteadyMotion, every: int, layout: TrainLayout) -> Outcome:
     window = CaseWindow(0, motion.samples, motion.state, motion.end, motion.extremes)
-    section = motion.samples[::samples]
+    section = motion.samples[::every]
     state = without_audit(motion.state, layout)
     outcome = Outcome(window, state, section, motion.kind, motion.period)
     return _described(outcome, motion)._replace(period=motion.period)

@@ -1,0 +1,115 @@
+"""What differs between the kinds of motions that are swept: how cases are prepared, what is told of them."""
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.parameter import Variable
+from tribodyn.quantities.quantity import Quantity
+from tribodyn.studies.gears.extremes import RunningExtremes
+from tribodyn.studies.gears.running import MeshOfRun
+from tribodyn.studies.gears.sampled import Sampled
+from tribodyn.studies.gears.swept import SweepSettings
+from tribodyn.studies.protocol.cost import Driver, Estimate
+from tribodyn.train.structure import TrainLayout
+
+#: The mesh whose transmission error a sweep samples.
+REFERENCE = 0
+
+
+#: Tables kept in a process; a table is about 100 kB.
+TABLES_KEPT = 32
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A result that is made once: everything that it depends on, and how it is made."""
+
+    key: Hashable
+    make: Callable[[], Any] = field(compare=False)
+
+
+_tables = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
+
+
+class Form(NamedTuple):
+    """What the cases of a sweep have in common."""
+
+    modes: int
+    states: tuple[str, ...]  # names
+    common: int = 1  # mesh cycles after which all meshes are at their phases again
+    meshes: tuple[str, ...] = ()  # names of several
+
+
+class Kind:
+    """What differs between kinds of motions that are swept. A prepared case has `model`, `case`, `given`."""
+
+    swept: Sequence[Quantity] = ()  # one number per case
+    of_meshes: Mapping[str, Variable] = MappingProxyType({})  # datasets over several meshes
+    most_states = 0
+
+    def form(self, cases: Sequence[Any]) -> Form:
+        """What the cases of a sweep have in common."""
+        raise NotImplementedError
+
+    def table_key(self, case: Any) -> Hashable:
+        """Everything that the tables of a case depend on."""
+        raise NotImplementedError
+
+    def tables(self, case: Any) -> Any:
+        """The case's tables; raises as `prepare` does."""
+        raise NotImplementedError
+
+    def tabulated(self, case: Any) -> Any:
+        """The same, made once for all cases that share them."""
+        return _tables(Wanted(self.table_key(case), lambda: self.tables(case)))
+
+    def prepare(self, case: Any, tabulated: Any) -> Any:
+        """Prepare a case with tables of its `table_key`; raises InputError."""
+        raise NotImplementedError
+
+    def refuse(self, case: Any) -> None:
+        """Raise InputError for a case that has no steady state that could be sought."""
+
+    def meshes(self, prepared: Any) -> list[MeshOfRun]:
+        """The meshes, as the summary of a run sees them."""
+        raise NotImplementedError
+
+    def frequencies(self, prepared: Any) -> np.ndarray:
+        """Natural frequencies, Hz, ascending."""
+        raise NotImplementedError
+
+    def places(self, layout: TrainLayout, settings: SweepSettings) -> list[int]:
+        """Places of a case's states among those of the sweep; InputError where they do not fit."""
+        raise NotImplementedError
+
+    def steady_quantities(
+        self,
+        inside: Sampled,
+        work: np.ndarray,
+        prepared: Any,
+        samples: int,
+        extremes: Sequence[RunningExtremes],
+    ) -> tuple[dict[str, Any], dict[str, np.ndarray], Sequence[Mapping[str, Any]]]:
+        """Quantities over a window: of the case, of each mesh for `of_meshes`, and those to judge."""
+        raise NotImplementedError
+
+    def warmer(self, case: Any, row: Mapping[str, Any]) -> Any:
+        """The case at the bulk temperature of its own motion, `row` of a sweep; None: it is."""
+        raise NotImplementedError
+
+    def sliding(self, case: Any) -> str:
+        """Its `friction.sliding`."""
+        raise NotImplementedError
+
+    def drivers(self, case: Any) -> tuple[Driver, ...]:
+        """Keys that make it large."""
+        raise NotImplementedError
+
+    def marching(self, case: Any, cycles: float) -> list[Estimate]:
+        """What its tables and so many mesh cycles take, of many cases side by side."""
+        raise NotImplementedError
