@@ -118,8 +118,10 @@ def _model(
         stiffness.append((0.0, 0.0, source.shaft_stiffness or 0.0))
         damping.append((0.0, 0.0, source.shaft_damping))
     meshes = []
+    # meshes are damped as by their gears and shafts alone, like those of a pair
+    own = [each.inertia - body.attached for each, body in zip(inertias, case.bodies, strict=True)]
     for mesh, each, pair, closure in zip(case.meshes, made, pairs, closures, strict=True):
-        ends = inertias[mesh.driver].inertia, inertias[mesh.driven].inertia
+        ends = own[mesh.driver], own[mesh.driven]
         frame = frame_of(mesh.azimuth, case.bodies[mesh.driver].sense)
         meshes.append(mesh_of(pair, each, closure, ends, frame))
     drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
