@@ -10,24 +10,15 @@ from pydantic import ValidationError
 
 from tribodyn.errors import InputErrors
 from tribodyn.scenario.messages import explain
-from tribodyn.scenario.resolve import Resolved, resolve, resolve_table, unresolved_keys
+from tribodyn.scenario.resolve import resolve, resolve_table, unresolved_keys
 from tribodyn.studies.gear_train import STUDY
 from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.studies.protocol.load import loaded_from, table_of
 
 
 def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> TrainCase:
     """The case of a train's scenario; InputErrors with every mistake."""
-    return _case(resolve(path, overrides or {}, STUDY.table), path)
-
-
-def case_of_table(written: Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> TrainCase:
-    """The same of a scenario that is written here; what it names is looked for among the shipped."""
-    path = Path("train.toml")
-    return _case(resolve_table(dict(written), path, overrides or {}, STUDY.table), path)
-
-
-def _case(resolved: Resolved, path: Path) -> TrainCase:
-    data, origins, errors = resolved
+    data, origins, errors = resolve(path, overrides or {}, STUDY.table)
     data.setdefault("name", path.stem)
     table = STUDY.table(data)
     try:
@@ -40,6 +31,12 @@ def _case(resolved: Resolved, path: Path) -> TrainCase:
         raise InputErrors([origins.locate(one) for one in errors])
     toml = tomli_w.dumps(data)
     return STUDY.case(scenario, toml, hashlib.sha256(toml.encode()).hexdigest())
+
+
+def case_of_table(written: Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> TrainCase:
+    """The case of a scenario that is written here; what it names is looked for among the shipped."""
+    path = Path("train.toml")
+    return loaded_from(resolve_table(dict(written), path, overrides or {}, table_of), path).case
 
 
 def _gear(teeth: int, width: str, shift: float) -> dict[str, Any]:
