@@ -61,7 +61,8 @@ def test_the_energy_balance_closes_within_ten_tolerances(name, overrides, formul
 @pytest.mark.parametrize("method", ["dopri5", "rodas4"])
 def test_the_energy_balance_closes_when_flanks_strike(method):
     model = model_of("two-pinions-bull-gear", **RATTLE)
-    seen = evaluated(*motion(model, method, 1e-6, "unloaded"), model)
+    cycles, states = motion(model, method, 1e-6, "unloaded")
+    seen = evaluated(cycles, states, model)
     for m in range(2):
         load = mesh_outputs(m, seen)["normal_load"]
         sides = [load[:, np.asarray(model.meshes[m].table.side) == side].sum(axis=1) > 0 for side in (1, -1)]

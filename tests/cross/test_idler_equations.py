@@ -32,7 +32,7 @@ def operating_angle(mesh):
     """inv α_w = inv α + 2 tan α (x_1 + x_2)/(z_1 + z_2), without backlash."""
     teeth = TEETH[mesh] + TEETH[mesh + 1]
     involute = np.tan(ALPHA) - ALPHA + 2.0 * np.tan(ALPHA) * sum(SHIFTS[mesh]) / teeth
-    return brentq(lambda angle: np.tan(angle) - angle - involute, 0.1, 0.8, xtol=1e-15, rtol=1e-15)
+    return brentq(lambda angle: np.tan(angle) - angle - involute, 0.1, 0.8, xtol=1e-15)
 
 
 def idler(first, second, sense):
@@ -40,7 +40,7 @@ def idler(first, second, sense):
     base = np.array([[0.5 * MODULE * z * np.cos(ALPHA) for z in TEETH[m : m + 2]] for m in range(2)])
     angles = np.array([operating_angle(m) for m in range(2)])
     radii = base / np.cos(angles)[:, None]
-    damping = [damping_of(STIFFNESS[m], INERTIA[m : m + 2], tuple(radii[m])) for m in range(2)]
+    damping = [damping_of(STIFFNESS[m], (INERTIA[m], INERTIA[m + 1]), tuple(radii[m])) for m in range(2)]
     return Idler(
         mass=np.array(MASS),
         inertia=np.array(INERTIA),
@@ -73,7 +73,7 @@ def package(first, second, sense, source):
     )
     operating = {"input_speed": f"{SPEED} rad/s", "output_torque": f"{TORQUE} N*m", "source": source}
     friction = {"law": "coulomb", "coefficient": COEFFICIENT, "sliding": "dynamic"}
-    gears = [Gears(TEETH[m : m + 2], MODULE) for m in range(2)]
+    gears = [Gears((TEETH[m], TEETH[m + 1]), MODULE) for m in range(2)]
     scenario = scenario_of(train, gears, DAMPING_RATIO, operating, friction)
     for mesh, shifts in zip(scenario["mesh"], SHIFTS, strict=True):
         mesh["profile_shift"] = list(shifts)

@@ -19,13 +19,13 @@ from tribodyn.train.structure import displacements
 CYCLES, SAMPLES = 3, 40
 
 
-def differences(name, share, bare=False, **overrides):
+def differences(name, share, overrides=None, bare=False):
     """Maximum difference between the package's motion and one located by a share of the actual twist.
 
     Of a share of 0 the phases are the package's, with its static twist, else those of the teeth. `bare` puts
     nominal rotation from the teeth alone in the place of the package.
     """
-    prepared = prepare(load_scenario(name, {"friction.law": "none", **overrides}))
+    prepared = prepare(load_scenario(name, {"friction.law": "none", **(overrides or {})}))
     model, teeth = prepared.model, np.array(prepared.phases.meshes)
     start = static_equilibrium(model)
     if bare:
@@ -54,7 +54,7 @@ def test_what_the_fluctuating_twist_does_is_small_and_falls_with_it(name):
     """In proportion to the load, which all displacements are; the static twist would do much more."""
     torque = {"two-stage-reducer": 1770.0, "idler-train": 260.0}[name]
     whole, half = (
-        differences(name, 1.0, **{"operating.output_torque": f"{share * torque} N*m"}) for share in (1.0, 0.5)
+        differences(name, 1.0, {"operating.output_torque": f"{share * torque} N*m"}) for share in (1.0, 0.5)
     )
     assert whole < 1e-2
     assert whole / half == pytest.approx(2.0, rel=0.1)
@@ -69,4 +69,4 @@ def test_a_shaft_that_gives_way_twists_the_stages_against_each_other():
     expected = -load / 2e4 * 23 / (2.0 * np.pi)
     phases = np.asarray(prepared.model.schedule.offset)[0] - np.array(prepared.phases.meshes)
     assert (phases[1] + 0.5) % 1.0 - 0.5 == pytest.approx(expected, rel=0.05)
-    assert differences("two-stage-reducer", 1.0, **soft) < 0.03
+    assert differences("two-stage-reducer", 1.0, soft) < 0.03
