@@ -10,9 +10,10 @@ from pydantic import ValidationError
 
 from tribodyn.errors import InputErrors
 from tribodyn.scenario.messages import explain
-from tribodyn.scenario.resolve import resolve, unresolved_keys
+from tribodyn.scenario.resolve import resolve, resolve_table, unresolved_keys
 from tribodyn.studies.gear_train import STUDY
 from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.studies.protocol.load import loaded_from, table_of
 
 
 def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> TrainCase:
@@ -30,6 +31,12 @@ def train_case(path: Path, overrides: Mapping[str, Any] | None = None) -> TrainC
         raise InputErrors([origins.locate(one) for one in errors])
     toml = tomli_w.dumps(data)
     return STUDY.case(scenario, toml, hashlib.sha256(toml.encode()).hexdigest())
+
+
+def case_of_table(written: Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> TrainCase:
+    """The case of a scenario that is written here; what it names is looked for among the shipped."""
+    path = Path("train.toml")
+    return loaded_from(resolve_table(dict(written), path, overrides or {}, table_of), path).case
 
 
 def _gear(teeth: int, width: str, shift: float) -> dict[str, Any]:

@@ -3,7 +3,8 @@
 The frequencies of a train's meshes are rational multiples of each other, so that all of them stand at their
 phases again after a common period of whole reference cycles. An interval ends where any mesh comes to the
 next segment of its table. In mesh 0 this is exact; in the others, whose driver may be twisted against the
-reference by a few micrometres, it falls where the nominal rotation has it.
+reference, it falls where the nominal rotation has it from the phase at the start, to which the caller may add
+the static twist (`solve.twist`); what the twist fluctuates by is some 1e-4 of a cycle.
 """
 
 from collections.abc import Sequence

@@ -50,6 +50,7 @@ class BodyData:
     ratio: Fraction  # |speed| over the reference body's
     sense: int  # +1 counter-clockwise seen from +z, −1 clockwise
     centre: tuple[float, float]  # m; the reference body's is the origin
+    attached: float = 0.0  # share of `inertia` that the body drives or is driven by, kg m²
 
 
 @dataclass(frozen=True)

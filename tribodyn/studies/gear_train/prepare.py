@@ -8,6 +8,7 @@ import numpy as np
 
 from tribodyn.dynamics import parameters
 from tribodyn.errors import InputError
+from tribodyn.solve.twist import static_twist
 from tribodyn.studies.gear_train.assembled import (
     BodyInertia,
     body_inertias,
@@ -35,7 +36,7 @@ class PreparedTrain:
     made: tuple[Tabulated, ...]  # of every mesh; equal meshes share one
     pairs: tuple[LubricatedCase, ...]  # of every mesh, with the oil at its teeth's temperature
     thermal: tuple[Thermal | None, ...]
-    phases: Phases
+    phases: Phases  # of the teeth without load
     order: tuple[int, ...]  # bodies of the case as the model has them; behind these the motor
     inertias: tuple[BodyInertia, ...]  # of the case's bodies
 
@@ -71,7 +72,7 @@ def prepare(case: TrainCase, made: tuple[Tabulated, ...] | None = None) -> Prepa
         thermal.append(heat)
     found = phases(case, [each.assembly for each in made], [float(each.cycle.roll_start) for each in made])
     order = _order(case)
-    model = _model(case, made, warm, inertias, found, order)
+    model = _under_load(_model(case, made, warm, inertias, found, order), case)
     return PreparedTrain(case, model, made, tuple(warm), tuple(thermal), found, order, inertias)
 
 
@@ -118,8 +119,10 @@ def _model(
         stiffness.append((0.0, 0.0, source.shaft_stiffness or 0.0))
         damping.append((0.0, 0.0, source.shaft_damping))
     meshes = []
+    # meshes are damped as by their gears and shafts alone, like those of a pair
+    own = [each.inertia - body.attached for each, body in zip(inertias, case.bodies, strict=True)]
     for mesh, each, pair, closure in zip(case.meshes, made, pairs, closures, strict=True):
-        ends = inertias[mesh.driver].inertia, inertias[mesh.driven].inertia
+        ends = own[mesh.driver], own[mesh.driven]
         frame = frame_of(mesh.azimuth, case.bodies[mesh.driver].sense)
         meshes.append(mesh_of(pair, each, closure, ends, frame))
     drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
@@ -145,6 +148,19 @@ def _model(
         ),
         options_of(first, [each.cycle for each in made], closures[0], layout, drive),
     )
+
+
+def _under_load(model: parameters.Model, case: TrainCase) -> parameters.Model:
+    """The model with its meshes where the load at the start brings them, not those of the bare teeth."""
+    further = static_twist(model)
+    if not np.any(further):
+        return model
+    schedule = schedule_of(
+        [np.asarray(mesh.table.boundary) for mesh in model.meshes],
+        [mesh.rate for mesh in case.meshes],
+        ((model.schedule.offset[0] + further) % 1.0).tolist(),
+    )
+    return model._replace(schedule=schedule)
 
 
 def _of_motor(case: TrainCase, motor: Sequence[float]) -> list[float]:

@@ -187,9 +187,9 @@ def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tup
     motion, operating, found = train.motion, scenario.operating, []
     for number, body in enumerate(motion.bodies):
         part = train.parts.bodies[body]
-        inertia = part.inertia + sum(own for at, own in duty.inertias if at == number)
+        attached = sum(own for at, own in duty.inertias if at == number)
         if number == motion.input and operating.shaft_stiffness is None:
-            inertia += operating.drive_inertia
+            attached += operating.drive_inertia
         x, y = figure.places.centres[number]
         gears = tuple(place for place, gear in enumerate(train.parts.gears) if gear.body == body)
         found.append(
@@ -198,10 +198,11 @@ def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tup
                 part.key,
                 gears,
                 part.mass,
-                inertia,
+                part.inertia + attached,
                 motion.ratio[number],
                 motion.sense[number],
                 (float(x), float(y)),
+                attached,
             )
         )
     return tuple(found)

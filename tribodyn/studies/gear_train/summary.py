@@ -55,7 +55,7 @@ def meshes_of_run(prepared: PreparedTrain) -> list[MeshOfRun]:
     for number, (mesh, made, pair) in enumerate(
         zip(prepared.case.meshes, prepared.made, prepared.pairs, strict=True)
     ):
-        phase = float(prepared.phases.meshes[number])
+        phase = float(prepared.model.schedule.offset[0, number])  # under load
         oil = pair.lubricant.temperature
         found.append(
             MeshOfRun(made.cycle, made.assembly, pair.drive.module, oil, float(mesh.rate), phase, number + 1)

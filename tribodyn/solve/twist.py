@@ -1,0 +1,38 @@
+"""How much further the load brings every mesh than nominal rotation does: the static twist of its driver."""
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import Model, frictionless
+from tribodyn.errors import SimulationError
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.train.schedule import interval_of
+from tribodyn.train.structure import turned
+
+#: Static equilibria over the common period, of which the mean is taken.
+PLACES = 4
+
+
+def static_twist(model: Model) -> Float[Array, " mesh"]:
+    """Cycles by which the load at the start brings every mesh further, z ϑ/2π of its driver's z teeth.
+
+    The mean over the common period of ϑ, the micro-rotation of the driver against the reference at rest
+    without friction. 0 for meshes that the reference drives, and for all where no equilibrium is found.
+    """
+    layout, period = model.layout, model.schedule.period
+    further = np.zeros(layout.meshes)
+    if not any(layout.driver):
+        return further
+    smooth = frictionless(model)
+    _, phases, intervals = interval_of((np.arange(PLACES) + 0.5) * period / PLACES, model.schedule)
+    try:
+        states = [
+            static_equilibrium(smooth, float(phase), int(interval))
+            for phase, interval in zip(phases, intervals, strict=True)
+        ]
+    except SimulationError:
+        return further
+    mean = np.mean(states, axis=0)
+    for m, mesh in enumerate(model.meshes):
+        further[m] = float(turned(layout.driver[m], mean, layout)) / float(mesh.table.pitch_angle)
+    return further
