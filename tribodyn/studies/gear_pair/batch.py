@@ -72,9 +72,9 @@ class GearPairs(Kind):
         """Its natural frequencies."""
         return natural_frequencies(prepared.model, [prepared.cycle])
 
-    def places(self, layout: TrainLayout, settings: SweepSettings) -> list[int]:
+    def places(self, prepared: PreparedPair, settings: SweepSettings) -> list[int]:
         """See `state_places`."""
-        return state_places(layout)
+        return state_places(prepared.model.layout)
 
     def steady_quantities(
         self,

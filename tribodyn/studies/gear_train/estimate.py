@@ -17,8 +17,7 @@ def estimate(case: TrainCase) -> cost.Estimate:
         float(case.solver.cycles),
         len(case.meshes),
     )
-    mesh, solver = case.meshes[0].pair.mesh, case.solver
-    sides = 1 if mesh.backlash is None else 2
+    sides = 1 if case.meshes[0].pair.mesh.backlash is None else 2
     sizes = {
         "time": int(samples * cycles) + 1,
         "mesh": meshes,
@@ -27,20 +26,30 @@ def estimate(case: TrainCase) -> cost.Estimate:
     }
     record = cost.recorded(Layout(TIME, SAMPLES), sizes)
     block, window = min(max(cycles / 4.0, 1.0), 50.0) * samples, max(cycles / 4.0, case.period) * samples
-    of_meshes = []
-    for each in case.meshes:
-        radians = float(each.rate) * radians_of(
-            each.pair, [_held(case, b) for b in (each.driver, each.driven)]
-        )
-        marching = cost.marching(cycles, radians, solver.method, float(solver.max_steps), samples)
-        of_meshes += [table(mesh), marching]
     return cost.total(
-        drivers(case, mesh),
+        drivers_of(case),
         record,
-        *of_meshes,
+        *marching_of(case, cycles, together=False),
         cost.in_memory(block * sides * meshes, cost.SAMPLE_BYTES),
         cost.in_memory(_WINDOW_HELD * window, record.record / (samples * cycles + 1.0)),
     )
+
+
+def drivers_of(case: TrainCase) -> tuple[cost.Driver, ...]:
+    """Keys that make a case large."""
+    return drivers(case, case.meshes[0].pair.mesh)
+
+
+def marching_of(case: TrainCase, cycles: float, together: bool = True) -> list[cost.Estimate]:
+    """What its tables and so many reference cycles take; `together`: of many cases side by side."""
+    solver, samples, found = case.solver, case.output.samples_per_cycle, []
+    for mesh in case.meshes:
+        bearings = [_held(case, body) for body in (mesh.driver, mesh.driven)]
+        radians = float(mesh.rate) * radians_of(mesh.pair, bearings)
+        most = float(solver.max_steps)
+        found.append(table(mesh.pair.mesh))
+        found.append(cost.marching(cycles, radians, solver.method, most, samples, together=together))
+    return [each._replace(record=0.0) for each in found] if together else found
 
 
 def _held(case: TrainCase, body: int) -> float:

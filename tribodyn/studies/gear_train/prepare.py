@@ -39,6 +39,7 @@ class PreparedTrain:
     phases: Phases  # of the teeth without load
     order: tuple[int, ...]  # bodies of the case as the model has them; behind these the motor
     inertias: tuple[BodyInertia, ...]  # of the case's bodies
+    given: TrainCase  # as it was before: with the oil that enters the meshes
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -73,7 +74,7 @@ def prepare(case: TrainCase, made: tuple[Tabulated, ...] | None = None) -> Prepa
     found = phases(case, [each.assembly for each in made], [float(each.cycle.roll_start) for each in made])
     order = _order(case)
     model = _under_load(_model(case, made, warm, inertias, found, order), case)
-    return PreparedTrain(case, model, made, tuple(warm), tuple(thermal), found, order, inertias)
+    return PreparedTrain(case, model, made, tuple(warm), tuple(thermal), found, order, inertias, case)
 
 
 def _held(case: TrainCase, body: int) -> bool:

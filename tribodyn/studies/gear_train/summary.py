@@ -21,6 +21,8 @@ _LONGEST = 8000.0
 WIDEST_WINDOW = 400
 #: Quantities of which the train's is the largest of its meshes' (1), or the smallest (−1).
 WORST = {
+    "transmission_error_rms": 1,
+    "transmission_error_peak_to_peak": 1,
     "dynamic_factor": 1,
     "contact_loss_fraction": 1,
     "normal_load_max": 1,
@@ -94,7 +96,9 @@ def steady_quantities(
     layout, operation = model.layout, model.operation
     cycles = len(windows[0]["normal_load"]) / samples
     duration = float(cycles * operation.pitch_angle / operation.nominal_speed + work[layout.lag])
-    whole = {"averaging_cycles": int(cycles), **power_quantities(work, duration, layout)}
+    whole = {"averaging_cycles": int(cycles), "mesh_frequency": cycles / duration}
+    whole |= power_quantities(work, duration, layout)
+    del whole["driving_gear"]
     each = []
     for m, (window, mesh, found) in enumerate(zip(windows, meshes, extremes, strict=True)):
         force = float(np.mean(window["driven_torque"])) / float(mesh.cycle.gear_pitch_radius)

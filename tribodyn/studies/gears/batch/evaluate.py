@@ -150,7 +150,7 @@ def _evaluate(
             if settings.steady:
                 kind.refuse(case)
             prepared = kind.prepare(case, kind.tabulated(case))
-            places = kind.places(prepared.model.layout, settings)
+            places = kind.places(prepared, settings)
             given = None if chunk.states is None or np.isnan(chunk.states[i, 0]) else chunk.states[i]
             ready[i] = prepared, _start(prepared, settings) if given is None else given[places]
             frequencies = kind.frequencies(prepared)
@@ -238,7 +238,7 @@ def _fill(
     rows["transmission_error_rotational"][i, :whole] = np.resize(error, whole)
     rows["poincare_error"][i, : len(outcome.section)] = rotational_error(section, REFERENCE, model)
     rows["poincare_rate"][i, : len(outcome.section)] = rotational_error_rate(section, REFERENCE, model)
-    rows["state"][i, kind.places(model.layout, settings)] = outcome.state
+    rows["state"][i, kind.places(prepared, settings)] = outcome.state
     if settings.followed:
         fill_ends(rows, i, outcome.ends)
     rows["status"][i] = DONE

@@ -15,7 +15,6 @@ from tribodyn.studies.gears.running import MeshOfRun
 from tribodyn.studies.gears.sampled import Sampled
 from tribodyn.studies.gears.swept import SweepSettings
 from tribodyn.studies.protocol.cost import Driver, Estimate
-from tribodyn.train.structure import TrainLayout
 
 #: The mesh whose transmission error a sweep samples.
 REFERENCE = 0
@@ -83,7 +82,7 @@ class Kind:
         """Natural frequencies, Hz, ascending."""
         raise NotImplementedError
 
-    def places(self, layout: TrainLayout, settings: SweepSettings) -> list[int]:
+    def places(self, prepared: Any, settings: SweepSettings) -> list[int]:
         """Places of a case's states among those of the sweep; InputError where they do not fit."""
         raise NotImplementedError
 

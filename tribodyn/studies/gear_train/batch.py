@@ -1,0 +1,133 @@
+"""Many cases of a train's dynamics, evaluated together."""
+
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, ClassVar
+
+import numpy as np
+
+from tribodyn.dynamics.modes import natural_frequencies
+from tribodyn.errors import InputError
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.studies.gear_train.case import TrainCase, refuse_long_period
+from tribodyn.studies.gear_train.estimate import drivers_of, marching_of
+from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare, tabulated
+from tribodyn.studies.gear_train.report import SWEPT
+from tribodyn.studies.gear_train.summary import meshes_of_run, steady_quantities, worst_of
+from tribodyn.studies.gears.batch import MotionBatch
+from tribodyn.studies.gears.batch.kind import Form, Kind
+from tribodyn.studies.gears.extremes import RunningExtremes
+from tribodyn.studies.gears.prepare import at_own_temperature
+from tribodyn.studies.gears.running import MeshOfRun
+from tribodyn.studies.gears.same_table import table_key
+from tribodyn.studies.gears.sampled import Sampled
+from tribodyn.studies.gears.swept import SweepSettings, state_names
+from tribodyn.studies.gears.tabulated import Tabulated
+from tribodyn.studies.protocol.cost import Driver, Estimate
+from tribodyn.studies.sweeping.batch import Batch
+from tribodyn.train.structure import TrainLayout
+
+#: What a sweep keeps of every mesh; the name of the dataset is that of the quantity and `OF_MESH`.
+KEPT = (
+    *("transmission_error_peak_to_peak", "dynamic_factor", "contact_loss_fraction", "hertz_pressure_max"),
+    *("film_parameter_min", "efficiency", "power_friction_mean", "bulk_temperature"),
+)
+OF_MESH = "_of_mesh"
+#: States of a train that bounds the memory of a sweep before it is known.
+_MOST_STATES = 64
+
+
+class Trains(Kind):
+    """See `gears.batch.kind.Kind`."""
+
+    swept = SWEPT
+    of_meshes = {name + OF_MESH: QUANTITIES[name].variable()._replace(dims=("mesh",)) for name in KEPT}
+    most_states = _MOST_STATES
+
+    def form(self, cases: Sequence[TrainCase]) -> Form:
+        """That of the first case."""
+        prepared = self.prepare(cases[0], self.tabulated(cases[0]))
+        layout, meshes = prepared.model.layout, tuple(mesh.name for mesh in cases[0].meshes)
+        states = state_names(prepared.names, layout.planar, meshes)
+        return Form(int(layout.half) - 1, states, cases[0].period, meshes)
+
+    def table_key(self, case: TrainCase) -> Hashable:
+        """Those of all its meshes."""
+        return tuple(table_key(mesh.pair) for mesh in case.meshes)
+
+    def tables(self, case: TrainCase) -> tuple[Tabulated, ...]:
+        """Those of all its meshes."""
+        return tabulated(case)
+
+    def prepare(self, case: TrainCase, tabulated: tuple[Tabulated, ...]) -> PreparedTrain:
+        """Prepare it."""
+        return prepare(case, tabulated)
+
+    def refuse(self, case: TrainCase) -> None:
+        """Refuse a common period that is too long."""
+        refuse_long_period(case)
+
+    def meshes(self, prepared: PreparedTrain) -> list[MeshOfRun]:
+        """Its meshes."""
+        return meshes_of_run(prepared)
+
+    def frequencies(self, prepared: PreparedTrain) -> np.ndarray:
+        """Its natural frequencies."""
+        return natural_frequencies(prepared.model, [made.cycle for made in prepared.made])
+
+    def places(self, prepared: PreparedTrain, settings: SweepSettings) -> list[int]:
+        """All: a sweep is of trains of one structure."""
+        layout: TrainLayout = prepared.model.layout
+        names = state_names(prepared.names, layout.planar, [mesh.name for mesh in prepared.case.meshes])
+        if names != settings.states or prepared.case.period != settings.common:
+            rule = "the bodies, the meshes or the common period are not those of the first case"
+            raise InputError("vary", None, rule, "sweep it apart, or run it alone")
+        return list(range(layout.states))
+
+    def steady_quantities(
+        self,
+        inside: Sampled,
+        work: np.ndarray,
+        prepared: PreparedTrain,
+        samples: int,
+        extremes: Sequence[RunningExtremes],
+    ) -> tuple[dict[str, Any], dict[str, np.ndarray], Sequence[Mapping[str, Any]]]:
+        """Those of its run."""
+        meshes = meshes_of_run(prepared)
+        whole, each = steady_quantities(inside.meshes, work, prepared, meshes, samples, extremes)
+        found = {
+            name + OF_MESH: np.array([mesh.get(name, np.nan) for mesh in each], dtype=float) for name in KEPT
+        }
+        return whole | worst_of(each), found, each
+
+    def warmer(self, case: TrainCase, row: Mapping[str, Any]) -> TrainCase | None:
+        """The case with every mesh at the temperature of its own loss; None: all are."""
+        if case.meshes[0].pair.temperature is None:
+            return None
+        warm, lost = (row[name + OF_MESH] for name in ("bulk_temperature", "power_friction_mean"))
+        pairs = [
+            at_own_temperature(mesh.pair, float(own), float(loss))
+            for mesh, own, loss in zip(case.meshes, warm, lost, strict=True)
+        ]
+        if not any(pairs):
+            return None
+        meshes = (
+            mesh if pair is None else replace(mesh, pair=pair)
+            for mesh, pair in zip(case.meshes, pairs, strict=True)
+        )
+        return replace(case, meshes=tuple(meshes))
+
+    def sliding(self, case: TrainCase) -> str:
+        """Its `friction.sliding`."""
+        return case.meshes[0].pair.friction.sliding
+
+    def drivers(self, case: TrainCase) -> tuple[Driver, ...]:
+        """See `estimate.drivers_of`."""
+        return drivers_of(case)
+
+    def marching(self, case: TrainCase, cycles: float) -> list[Estimate]:
+        """See `estimate.marching_of`."""
+        return marching_of(case, cycles)
+
+
+BATCH: Batch = MotionBatch(Trains())
