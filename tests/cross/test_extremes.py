@@ -14,7 +14,6 @@ from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
 from tribodyn.studies.gear_pair.batch import BATCH
-from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate
 from tribodyn.studies.gears.extremes import RECORDED, RunningExtremes
 from tribodyn.studies.gears.sampled import sampled_with_extremes
 from tribodyn.studies.protocol.load import load_scenario
@@ -135,8 +134,10 @@ def test_figures_of_steady_states_do_not_depend_on_the_samples():
         for samples in (16, 4000)
     ]
     few, many = (
-        evaluate(
-            Chunk(np.arange(1), (case,)), SweepSettings(True, 200, 4, 8, case.output.samples_per_cycle, 5)
+        BATCH.evaluate(
+            Chunk(np.arange(1), (case,)),
+            BATCH.settings([case], None, "native")._replace(cycles=200, window=4, points=8),
+            None,
         )
         for case in cases
     )
@@ -183,7 +184,7 @@ def test_the_last_sample_may_be_the_extreme_of_a_run_and_of_a_sweep(tmp_path):
         RATTLE[0], RATTLE[1] | {"solver.cycles": cycles, "output.samples_per_cycle": samples}
     )
     summary = run(case, tmp_path / "run.h5").summary
-    swept = evaluate(Chunk(np.arange(1), (case,)), BATCH.settings([case], cycles, "native"))
+    swept = BATCH.evaluate(Chunk(np.arange(1), (case,)), BATCH.settings([case], cycles, "native"), None)
     with Record(tmp_path / "run.h5") as record:
         film = record["central_film_thickness"][-samples - 1 :]
         error = record["transmission_error_rotational"][-samples - 1 : -1]

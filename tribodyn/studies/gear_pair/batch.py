@@ -12,7 +12,7 @@ from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.report import SWEPT
 from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.batch import MotionBatch
-from tribodyn.studies.gears.batch.kind import Form, Kind
+from tribodyn.studies.gears.batch.kind import Form, SweptKind
 from tribodyn.studies.gears.extremes import RunningExtremes
 from tribodyn.studies.gears.prepare import at_own_temperature, thermal_quantities
 from tribodyn.studies.gears.running import MeshOfRun
@@ -41,8 +41,8 @@ def state_places(layout: TrainLayout) -> list[int]:
     return [i for i, name in enumerate(STATE_NAMES) if motor or name not in _OF_MOTOR]
 
 
-class GearPairs(Kind):
-    """See `gears.batch.evaluate.Kind`."""
+class GearPairs(SweptKind):
+    """See `gears.batch.evaluate.SweptKind`."""
 
     swept = SWEPT
     most_states = len(STATE_NAMES)

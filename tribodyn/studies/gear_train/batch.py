@@ -2,7 +2,7 @@
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare, tabulate
 from tribodyn.studies.gear_train.report import SWEPT
 from tribodyn.studies.gear_train.summary import meshes_of_run, steady_quantities, worst_of
 from tribodyn.studies.gears.batch import MotionBatch
-from tribodyn.studies.gears.batch.kind import Form, Kind
+from tribodyn.studies.gears.batch.kind import Form, SweptKind
 from tribodyn.studies.gears.extremes import RunningExtremes
 from tribodyn.studies.gears.prepare import at_own_temperature
 from tribodyn.studies.gears.running import MeshOfRun
@@ -33,15 +33,16 @@ KEPT = (
     *("film_parameter_min", "efficiency", "power_friction_mean", "bulk_temperature"),
 )
 OF_MESH = "_of_mesh"
+OF_MESHES = {name + OF_MESH: QUANTITIES[name].variable()._replace(dims=("mesh",)) for name in KEPT}
 #: States of a train that bounds the memory of a sweep before it is known.
 _MOST_STATES = 64
 
 
-class Trains(Kind):
-    """See `gears.batch.kind.Kind`."""
+class Trains(SweptKind):
+    """See `gears.batch.kind.SweptKind`."""
 
     swept = SWEPT
-    of_meshes = {name + OF_MESH: QUANTITIES[name].variable()._replace(dims=("mesh",)) for name in KEPT}
+    of_meshes = OF_MESHES
     most_states = _MOST_STATES
 
     def form(self, cases: Sequence[TrainCase]) -> Form:

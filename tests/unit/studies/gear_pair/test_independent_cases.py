@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from tribodyn.record.sweep_schema import FAILED
-from tribodyn.studies.gear_pair.batch import GearPairs
+from tribodyn.studies.gear_pair.batch import BATCH, GearPairs
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.sweeping.batch import Chunk
 
-evaluate = importlib.import_module("tribodyn.studies.gear_pair.batch.evaluate")
+evaluate = importlib.import_module("tribodyn.studies.gears.batch.evaluate")
 
 MOVING_ERROR = {"harmonics": [{"order": 1, "amplitude": "8 um", "phase": "90 deg"}]}
 
@@ -22,11 +22,12 @@ def test_a_moving_error_does_not_carry_one_speed_over_to_another(torque: str):
         load_scenario("jump-involute-23-47", {**keys, "operating.pinion_speed": f"{speed} rad/s"})
         for speed in (300, 500)
     ]
-    settings = GearPairs().settings(cases, None, "native")
+    settings = BATCH.settings(cases, None, "native")
 
     def starts(order: list[int]) -> dict[int, bytes]:
         evaluate._equilibria.cache_clear()
-        ready = {i: evaluate.prepare(cases[i], evaluate.tabulated(cases[i])) for i in order}
+        kind = GearPairs()
+        ready = {i: kind.prepare(cases[i], kind.tabulated(cases[i])) for i in order}
         return {i: evaluate._start(ready[i], settings).tobytes() for i in order}
 
     assert starts([0, 1]) == starts([1, 0]) == {**starts([0]), **starts([1])}
@@ -35,7 +36,7 @@ def test_a_moving_error_does_not_carry_one_speed_over_to_another(torque: str):
 
 def test_cases_that_all_fail_before_their_window_say_why():
     case = load_scenario("crc-23-47", {"solver.max_steps": 10})
-    settings = GearPairs().settings([case], 4, "native")
-    rows = evaluate.evaluate(Chunk(np.arange(1), (case,)), settings)
+    settings = BATCH.settings([case], 4, "native")
+    rows = BATCH.evaluate(Chunk(np.arange(1), (case,)), settings, None)
     assert rows["status"].tolist() == [FAILED]
     assert "the limit of steps" in rows["message"][0]

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.studies.gear_pair.batch import GearPairs
-from tribodyn.studies.gear_pair.batch.evaluate import evaluate
+from tribodyn.studies.gear_pair.batch import BATCH
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.sweeping.batch import Chunk
@@ -24,13 +23,13 @@ SHAFT = {
 @pytest.mark.parametrize("keys", [SPEED, SHAFT], ids=["speed", "shaft"])
 def test_names_of_the_recorded_state(keys):
     case = load_scenario("crc-23-47", keys)
-    settings = GearPairs().settings([case], None, "native")
-    names = list(GearPairs().layout(settings).scales["state_variable"][1])
+    settings = BATCH.settings([case], None, "native")
+    names = list(BATCH.layout(settings).scales["state_variable"][1])
 
     def at(rows):
         return dict(zip(names, rows["state"][0], strict=True))
 
-    rows = evaluate(Chunk(np.arange(1), (case,)), settings)
+    rows = BATCH.evaluate(Chunk(np.arange(1), (case,)), settings, None)
     state = at(rows)
     model = prepare(case).model
     radius = float(model.meshes[0].driven_radius)
@@ -49,6 +48,7 @@ def test_names_of_the_recorded_state(keys):
         assert 2e4 * state["turn_m"] == pytest.approx(300.0 * 23 / 47, rel=0.1)
         assert state["slip"] < 0.0
     # a cycle that begins there begins there
-    again = evaluate(Chunk(np.arange(1), (case,), rows["state"]), GearPairs().settings([case], 1, "native"))
+    chunk = Chunk(np.arange(1), (case,), rows["state"])
+    again = BATCH.evaluate(chunk, BATCH.settings([case], 1, "native"), None)
     for name in ("poincare_error", "poincare_rate"):
         assert again[name][0, 0] == pytest.approx(rows[name][0, 0], rel=1e-6)

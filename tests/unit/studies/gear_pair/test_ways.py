@@ -2,8 +2,9 @@
 
 import pytest
 
-from tribodyn.studies.gear_pair.batch.evaluate import tabulated
-from tribodyn.studies.gear_pair.batch.steady import prepared_between
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.gears.batch.steady import prepared_between
+from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.sweeping.batch import NeighbourWay
 
 
@@ -14,7 +15,7 @@ def test_a_place_on_the_way_has_its_own_speed(speed, prepared):
         prepared("crc-23-47", **{"operating.pinion_speed": f"{v} rad/s"}) for v in (400, 600)
     )
     way = NeighbourWay(at_start.case, 400.0, 600.0, 1, (100.0, 700.0))
-    prepared_at = prepared_between([at_target], [way], tabulated)
+    prepared_at = prepared_between([at_target], [way], tabulated=tables, prepare=prepare)
     assert prepared_at(0, 600.0) is at_target
     found = prepared_at(0, speed)
     assert found.case.operating.pinion_speed == pytest.approx(speed)

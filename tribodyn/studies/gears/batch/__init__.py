@@ -11,7 +11,7 @@ from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
 from tribodyn.studies.gears.batch.evaluate import evaluate
-from tribodyn.studies.gears.batch.kind import Kind
+from tribodyn.studies.gears.batch.kind import SweptKind
 from tribodyn.studies.gears.swept import SweepSettings, layout_of, row_bytes
 from tribodyn.studies.protocol import cost
 from tribodyn.studies.protocol.cost import Estimate
@@ -34,9 +34,9 @@ MOST_SAMPLED = 64
 
 
 class MotionBatch:
-    """See `sweeping.batch.Batch`; what differs between kinds is its `Kind`."""
+    """See `sweeping.batch.Batch`; what differs between kinds is its `SweptKind`."""
 
-    def __init__(self, kind: Kind) -> None:
+    def __init__(self, kind: SweptKind) -> None:
         self.kind = kind
         self.states = kind.most_states
 

@@ -18,7 +18,7 @@ from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.solve.branch.gear_pairs import UnstableRange
 from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.solve.right_hand_side import engage_next
-from tribodyn.studies.gears.batch.kind import REFERENCE, TABLES_KEPT, Kind, Wanted
+from tribodyn.studies.gears.batch.kind import REFERENCE, TABLES_KEPT, MadeOnce, SweptKind
 from tribodyn.studies.gears.batch.steady import (
     CaseWindow,
     Outcome,
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 
 def window_quantities(
-    kind: Kind, prepared: Any, window: CaseWindow, samples: int
+    kind: SweptKind, prepared: Any, window: CaseWindow, samples: int
 ) -> tuple[dict[str, float], dict[str, np.ndarray], dict[str, Any]]:
     """Return the swept quantities over a window (SI), those of meshes, and what is said of their trust."""
     model, meshes = prepared.model, kind.meshes(prepared)
@@ -68,7 +68,7 @@ def window_quantities(
 
 
 def fill_unstable(
-    kind: Kind,
+    kind: SweptKind,
     rows: dict[str, np.ndarray],
     i: int,
     branches: "Sequence[ContinuedBranch]",
@@ -101,7 +101,7 @@ CREEP = 1e-3
 
 
 def evaluate(
-    kind: Kind, layout: SweepLayout, chunk: Chunk, settings: SweepSettings, workers: int | None = None
+    kind: SweptKind, layout: SweepLayout, chunk: Chunk, settings: SweepSettings, workers: int | None = None
 ) -> dict[str, np.ndarray]:
     """Return a row for every case of a chunk, for all datasets of its layout; by default by all cores."""
     rows = _evaluate(kind, layout, chunk, settings, workers)
@@ -120,7 +120,7 @@ def evaluate(
     return rows
 
 
-def _at_own_temperature(kind: Kind, chunk: Chunk, rows: dict[str, np.ndarray]) -> dict[int, Any]:
+def _at_own_temperature(kind: SweptKind, chunk: Chunk, rows: dict[str, np.ndarray]) -> dict[int, Any]:
     """Cases, by their place, that are to be solved again at the bulk temperature of their own motion.
 
     Those that follow a branch stay at the temperature of the quasi-static loss, which their neighbours have.
@@ -137,7 +137,7 @@ def _at_own_temperature(kind: Kind, chunk: Chunk, rows: dict[str, np.ndarray]) -
 
 
 def _evaluate(
-    kind: Kind, layout: SweepLayout, chunk: Chunk, settings: SweepSettings, workers: int | None
+    kind: SweptKind, layout: SweepLayout, chunk: Chunk, settings: SweepSettings, workers: int | None
 ) -> dict[str, np.ndarray]:
     """Evaluate every case once."""
     rows = layout.empty_rows(len(chunk.cases))
@@ -179,7 +179,7 @@ def _alike(cases: dict[int, Any]) -> list[list[int]]:
 
 
 def _solve(
-    kind: Kind,
+    kind: SweptKind,
     cases: list[tuple[Any, np.ndarray]],
     ways: Sequence[NeighbourWay | None],
     prepared_at: PreparedAt,
@@ -211,7 +211,7 @@ def _solve(
 
 
 def _fill(
-    kind: Kind,
+    kind: SweptKind,
     rows: dict[str, np.ndarray],
     i: int,
     prepared: Any,
@@ -259,7 +259,7 @@ def _start(prepared: Any, settings: SweepSettings) -> np.ndarray:
     numbers = (*creeping, *model.bodies, *model.links, *(mesh.damping for mesh in model.meshes))
     tables = tuple(id(mesh.table) for mesh in model.meshes)
     key = (tables, model.options, *(np.asarray(value).tobytes() for value in numbers))
-    return _equilibria(Wanted(key, lambda: static_equilibrium(still))).copy()
+    return _equilibria(MadeOnce(key, lambda: static_equilibrium(still))).copy()
 
 
 _equilibria = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())

@@ -25,7 +25,7 @@ TABLES_KEPT = 32
 
 
 @dataclass(frozen=True)
-class Wanted:
+class MadeOnce:
     """A result that is made once: everything that it depends on, and how it is made."""
 
     key: Hashable
@@ -44,7 +44,7 @@ class Form(NamedTuple):
     meshes: tuple[str, ...] = ()  # names of several
 
 
-class Kind:
+class SweptKind:
     """What differs between kinds of motions that are swept. A prepared case has `model`, `case`, `given`."""
 
     swept: Sequence[Quantity] = ()  # one number per case
@@ -65,7 +65,7 @@ class Kind:
 
     def tabulated(self, case: Any) -> Any:
         """The same, made once for all cases that share them."""
-        return _tables(Wanted(self.table_key(case), lambda: self.tables(case)))
+        return _tables(MadeOnce(self.table_key(case), lambda: self.tables(case)))
 
     def prepare(self, case: Any, tabulated: Any) -> Any:
         """Prepare a case with tables of its `table_key`; raises InputError."""
