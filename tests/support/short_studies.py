@@ -15,6 +15,7 @@ FINITE_ELEMENTS = ("load-contact", "design", "assessment")
 #: Kind -> overrides under which its template takes seconds; that of another kind is taken as it stands.
 SHORT: dict[str, dict[str, Any]] = {
     "gear-pair": {"solver.cycles": 4, "output.samples_per_cycle": 40},
+    "gear-train": {"solver.cycles": 4, "output.samples_per_cycle": 40, "friction.law": "xu"},
     "efficiency": {"output.samples_per_cycle": 40},
     "load-contact": {"output.positions_per_cycle": 12, "mesh.slices": 7},
     "ehl": {"output.positions": 4, "contact.step": 0.25},

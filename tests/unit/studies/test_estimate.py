@@ -105,6 +105,7 @@ def test_what_is_too_large_is_refused_by_the_key_to_reduce(name: str):
 
 LARGE = {
     "gear-pair": [("output.samples_per_cycle", 10**9), ("solver.cycles", 10**9), ("mesh.points", 10**6)],
+    "gear-train": [("output.samples_per_cycle", 10**9), ("solver.cycles", 10**9), ("mesh.points", 10**6)],
     "efficiency": [("output.samples_per_cycle", 10**9)],
     "load-contact": [("output.positions_per_cycle", 10**9), ("output.cycles", 10**9)],
     "ehl": [("output.positions", 10**9)],
