@@ -70,12 +70,12 @@ def figure(
 ) -> "Figure":
     """Draw one figure, of `names(records)` or "overview", from an open record, or from several, compared.
 
-    `cycles` are the last whole mesh cycles to show, None for the whole run; by default two, and the whole run
-    where speed or load change in it. `against` is "phase" (mesh cycles) or "time" (ms), by default phase, and
-    time where speed or load change. Raises InputError for an unknown name or abscissa, no record, or a record
-    without samples.
+    `cycles` are the last whole mesh cycles to show, None for the whole run; by default two, in a train of its
+    slowest mesh, and the whole run where speed or load change in it. `against` is "phase" (mesh cycles) or
+    "time" (ms), by default phase, and time where speed or load change. Raises InputError for an unknown name
+    or abscissa, no record, or a record without samples.
     """
-    from tribodyn.post.cycles import transient
+    from tribodyn.post.cycles import shown_cycles, transient
     from tribodyn.post.figures.drawing import with_whole_markers
     from tribodyn.post.figures.panel import View
     from tribodyn.post.style import house_style
@@ -90,7 +90,8 @@ def figure(
     if name not in known:
         raise _unknown(name, "no such figure", drawable(records))
     whole = cycles == "auto" and any(transient(record) for record in records)
-    number = (None if whole else 2) if cycles == "auto" else cycles
+    shown = None if whole else max(map(shown_cycles, records))
+    number = shown if cycles == "auto" else cycles
     with house_style():
         over = against or ("time" if whole else "phase")
         return with_whole_markers(known[name].draw(records, View(number, over, against is not None)))

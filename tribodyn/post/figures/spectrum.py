@@ -49,7 +49,13 @@ def mode_frequencies(record: Record) -> np.ndarray:
 def draw_spectrum(axes: Axes, record: Record, color: str) -> tuple[float, float]:
     """Draw amplitude (µm) over frequency (kHz), orders as stems; highest amplitude and frequency."""
     spectrum, window = steady_spectrum(record)
-    mesh, modes = window.mesh_frequency, mode_frequencies(record)
+    return draw_orders(axes, spectrum, window.mesh_frequency, mode_frequencies(record), color)
+
+
+def draw_orders(
+    axes: Axes, spectrum: Spectrum, mesh: float, modes: np.ndarray, color: str
+) -> tuple[float, float]:
+    """Draw a spectrum over frequency, `mesh` that of the mesh and `modes` natural ones, Hz; see above."""
     # orders up to a little above the highest mode, and at most those that the sampling resolves
     wanted = 1.08 * float(modes.max()) / mesh if modes.size else 0.0
     limit = min(max(wanted, ORDERS + 0.5), float(spectrum.orders[-1]))
