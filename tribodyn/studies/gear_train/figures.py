@@ -102,9 +102,10 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
     for letter, axes, (trace, values, names) in zip("bcdef", rows.flat[1:], curves, strict=True):
         draw_curves(axes, record, values, names, trace, view)
         style.mark_panel(axes, letter, trace.title)
-    _legend(figure, [rows[0, 1]], "Meshes: ", len(meshes))
-    if held:
-        rows[1, 2].legend(loc="best", fontsize=6.5)
+    for axes in rows[1, 1:]:
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3, fontsize=6.5)
+    rows[1, 1].get_legend().set_title("Meshes, in b to e", {"size": 6.5})
+    rows[1, 2].get_legend().set_title("Bodies" if held else "", {"size": 6.5})
     figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
     return figure
 
@@ -118,7 +119,7 @@ def _each_mesh(trace: Trace, records: Sequence[Record], view: View) -> Figure:
         if trace is over_mesh.FILM_PARAMETER:
             over_mesh.draw_lubrication(axes)
         head = f"{record_label(record)}, " if len(records) > 1 else ""
-        style.mark_panel(axes, letter, f"{head}{style.literal(mesh)}: {_lower(trace.title)}")
+        style.mark_panel(axes, letter, f"{head}{style.literal(mesh)}, {_lower(trace.title)}")
     _finish(figure, rows, records)
     return figure
 
@@ -153,15 +154,13 @@ def _finish(figure: Any, rows: list[Axes], records: Sequence[Record]) -> None:
         figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
 
 
-def _legend(figure: Any, rows: Sequence[Axes], title: str = "", columns: int = 4) -> None:
+def _legend(figure: Any, rows: Sequence[Axes]) -> None:
     entries: dict[str, Any] = {}
     for axes in rows:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(f"{label}{ORDER.get(label, '')}", handle)
     if entries:
-        figure.legend(
-            list(entries.values()), list(entries), loc="outside lower center", ncols=min(columns, 6)
-        )
+        figure.legend(list(entries.values()), list(entries), loc="outside lower center", ncols=4)
 
 
 def _lower(text: str) -> str:

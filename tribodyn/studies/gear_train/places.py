@@ -16,6 +16,7 @@ class GearOutline(NamedTuple):
     """A gear as it stands where the angle of its body is 0."""
 
     name: str
+    number: int  # along the axis of gears
     body: int
     outline: Float[Array, "point 2"]  # about its axis, m
     #: tip_radius, pitch_radius, bore_radius: m; of a gear of several meshes the pitch circle in the first
@@ -42,6 +43,7 @@ def gear_outlines(record: Record) -> list[GearOutline]:
             about = np.array([[np.cos(turned), np.sin(turned)], [-np.sin(turned), np.cos(turned)]])
             found[gear] = GearOutline(
                 str(names[gear]),
+                gear,
                 int(places["gear_body"][gear]),
                 np.asarray(shape[f"{side}_outline"]) @ about @ frame,
                 float(shape[f"{side}_tip_radius"]),

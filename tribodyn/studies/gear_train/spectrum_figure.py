@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import Spectrum
 from tribodyn.post.figures.panel import View, record_label, record_title
-from tribodyn.post.figures.spectrum import FLOOR, draw_orders, mode_frequencies
+from tribodyn.post.figures.spectrum import FLOOR, draw_modes, draw_orders, mode_frequencies
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
@@ -51,6 +51,8 @@ def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
         title = f"{named}{literal(name)}: transmission error, mesh frequency $f_m$ = {frequency:.4g} Hz"
         mark_panel(axes, "abcdefgh"[number] if 1 < len(drawn) <= 8 else "", title, 2)
         axes.set_ylabel("Amplitude (µm)")
+    for axes, (record, _, _) in zip(rows, drawn, strict=True):
+        draw_modes(axes, mode_frequencies(record), width)
     rows[-1].set_yscale("log")
     if highest > 0:
         rows[-1].set_ylim(FLOOR * highest, 2 * highest)

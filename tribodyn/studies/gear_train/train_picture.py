@@ -23,14 +23,21 @@ _ARROW = 0.55
 _ACROSS, _MOST = 3, 12
 
 
-def draw_train(axes: Axes, record: Record, sample: int, named: bool = True) -> None:
-    """Draw all gears at a sample, outlines and pitch circles; axes in mm of the train's x and y.
+def draw_train(axes: Axes, record: Record, sample: int, mesh: int | None = None) -> None:
+    """Draw all gears at a sample, outlines and pitch circles, with the names of the bodies at their axes.
 
-    `named`: with the names of the bodies at their axes.
+    Of a `mesh` its two gears, without names. Axes in mm of the train's x and y.
     """
+    of_mesh = (
+        {int(record.geometry[f"{end}_gear"][mesh]) for end in ("driver", "driven")}
+        if mesh is not None
+        else set()
+    )
     stand, sense = poses(record)[:, sample], record.geometry["sense"]
     reach = np.full((2, 2), np.nan)
     for gear in gear_outlines(record):
+        if of_mesh and gear.number not in of_mesh:
+            continue
         x, y, turned = stand[gear.body]
         cosine, sine = np.cos(turned), np.sin(turned)
         outline = gear.outline @ np.array([[cosine, sine], [-sine, cosine]]) + (x, y)
@@ -54,7 +61,7 @@ def draw_train(axes: Axes, record: Record, sample: int, named: bool = True) -> N
     axes.grid(False)
     axes.set_xlabel("x (mm)")
     axes.set_ylabel("y (mm)")
-    if named:
+    if mesh is None:
         _name_axes(axes, record, stand)
 
 
@@ -71,7 +78,7 @@ def _name_axes(axes: Axes, record: Record, stand: np.ndarray) -> None:
 
 def draw_mesh(axes: Axes, record: Record, m: int, sample: int) -> None:
     """Draw the teeth in a mesh at a sample, with arrows for the loads on the driven gear."""
-    draw_train(axes, record, sample, named=False)
+    draw_train(axes, record, sample, m)
     (x, y), reach = mesh_reach(record, m)
     places, load = contacts(record)[sample, m], record["normal_load"][:, m]
     for pair, (left, low, way) in enumerate(places):
