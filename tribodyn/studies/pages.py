@@ -108,7 +108,9 @@ def summary_table(record: Record, full: bool = False) -> "Group":
 
     study = study_of_record(record)
     details = study.sentences(record) if full else None
-    return report.summary_table(record, study.reported(), study.verdict(record), details)
+    return report.summary_table(
+        record, study.reported(), study.verdict(record), details, study.tables(record)
+    )
 
 
 def summary_json(record: Record) -> "dict[str, Any]":
@@ -196,6 +198,7 @@ def report(
             study.on_page("profiles", record),
             verdict=study.verdict(record),
             mechanism=study.on_page("mechanism", record) if record.samples else None,
+            parts=study.tables(record),
         )
         for study, record in zip(studies, records, strict=True)
     ]

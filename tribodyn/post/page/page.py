@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
+from tribodyn.post.cycles import shown_cycles
 from tribodyn.post.page.data import (
     PageMap,
     Profiles,
@@ -36,8 +37,6 @@ from tribodyn.record.withheld import reasons, warnings
 
 #: Figures that are shown at first where a study names none.
 FIGURES = 4
-#: Mesh cycles that are shown at first.
-CYCLES = 2
 
 
 class PageContent(NamedTuple):
@@ -57,6 +56,8 @@ class PageContent(NamedTuple):
     found: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
     titles: Mapping[str, str] = MappingProxyType({})  # of datasets, in place of those of the record
     mechanism: Mechanism | None = None  # what moves, where it is no pair of gears
+    #: tables as above of parts of what the summary is about, below it
+    parts: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
 
 
 def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bool = True) -> str:
@@ -93,7 +94,10 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
             warnings_of(record, several) + _verdict(record, content, several)
             for record, content in zip(records, contents, strict=True)
         ),
-        "SUMMARY": summary_tables(records, [content.reported for content in contents]) if figures else "",
+        "SUMMARY": summary_tables(records, [content.reported for content in contents])
+        + _parts(records, contents)
+        if figures
+        else "",
         "TRUST": "".join(
             _on_trust(record, content.sentences, several)
             for record, content in zip(records, contents, strict=True)
@@ -167,7 +171,7 @@ def _record(record: Record, count: int) -> dict[str, Any]:
     cycles = record.summary.get("cycles_done")
     if cycles and record.axis == "time":
         cycle = float(axis[-1] - axis[0]) / float(cycles)
-        window[0] = max(window[0], window[1] - CYCLES * cycle)
+        window[0] = max(window[0], window[1] - shown_cycles(record) * cycle)
     elif record.axis == "phase":
         cycle = 1.0
     return {
@@ -224,6 +228,15 @@ def summary_tables(records: Sequence[Record], reported: Sequence[Reported]) -> s
     note = '<p class="keys">–: this record does not have the quantity.</p>' if missing else ""
     kind = "summary tables several" if several else "summary tables"
     return f'<div class="{kind} wide">{"".join(tables)}</div>{note}'
+
+
+def _parts(records: Sequence[Record], contents: Sequence[PageContent]) -> str:
+    tables = [
+        table(f"{record.label}: {title}" if len(records) > 1 else title, columns, rows)
+        for record, content in zip(records, contents, strict=True)
+        for title, columns, rows in content.parts
+    ]
+    return f'<div class="tables">{"".join(tables)}</div>' if tables else ""
 
 
 def _cell(record: Record, quantity: Quantity) -> str:

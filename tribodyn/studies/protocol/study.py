@@ -67,8 +67,8 @@ class Study:
                   ``SWEPT``, quantities that a sweep keeps, and ``SWEEP_TABLE``, those that it prints (both
                   optional); ``SHORT``, short names of quantities, ``PANELS``, datasets that a page shows at
                   first, ``TOP``, quantities at the top of what is printed as JSON (all optional); of a
-                  record ``maps`` over the face, ``profiles`` at the cursor, and its ``mechanism``, bodies
-                  in motion that are no pair of gears (all optional)
+                  record ``tables`` of its parts, ``maps`` over the face, ``profiles`` at the cursor, and its
+                  ``mechanism``, bodies in motion that are no pair of gears (all optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
@@ -200,6 +200,11 @@ class Study:
     def sentences(self, record: "Record") -> list[str]:
         """Say how far a record is to be trusted, and what its numbers are not."""
         return self._part("report", "sentences")(record)
+
+    def tables(self, record: "Record") -> "Sequence[TextTable]":
+        """Tables of the parts of what a record is about, beside those of its summary; mostly none."""
+        own = self._part("report", "tables", optional=True)
+        return own(record) if own else ()
 
     def verdict(self, record: "Record") -> list[str]:
         """Say in at most `verdict.LINES` sentences what a record shows, whether it holds, and what to do."""
