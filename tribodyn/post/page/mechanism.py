@@ -28,6 +28,7 @@ class Sight(NamedTuple):
     x: float  # middle, m
     y: float
     reach: float  # half of what is seen in height, m
+    front: Sequence[int] = ()  # numbers of the bodies that lie in front then
 
 
 class Mechanism(NamedTuple):

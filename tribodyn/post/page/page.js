@@ -301,7 +301,8 @@
     context.clearRect(0, 0, canvas.width, canvas.height);
     const world = () => context.setTransform(scale, 0, 0, -scale, canvas.width / 2 - scale * sight.x, canvas.height / 2 + scale * sight.y);
     const edges = { pinion: COLORS[0], gear: COLORS[1], paper: color("--ink"), ring: color("--ring") };
-    for (const body of teeth.bodies) {
+    const front = (sight.front || []).map((number) => teeth.bodies[number]);
+    for (const body of teeth.bodies.filter((one) => !front.includes(one)).concat(front)) {
       const [x, y, angle] = body.pose(frame);
       world();
       context.translate(x, y);

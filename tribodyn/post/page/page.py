@@ -236,7 +236,7 @@ def _parts(records: Sequence[Record], contents: Sequence[PageContent]) -> str:
         for record, content in zip(records, contents, strict=True)
         for title, columns, rows in content.parts
     ]
-    return f'<div class="tables">{"".join(tables)}</div>' if tables else ""
+    return f'<div class="tables parts">{"".join(tables)}</div>' if tables else ""
 
 
 def _cell(record: Record, quantity: Quantity) -> str:

@@ -98,7 +98,7 @@ def verdict(record: Record) -> list[str]:
     found = [*_moved(summary, meshes), *_pressed(summary, meshes), *_lost(summary, meshes)]
     name = max(meshes, key=lambda name: _beyond(meshes[name]))
     for line in of_any.outside(meshes[name]):
-        found.append(f"{name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)
+        found.append(f"Mesh {name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)
         if len(found) == of_any.LINES - 1:
             break
     return [*found, *of_any.advised({**meshes[name], **of_any.numbers(summary)})]
@@ -189,7 +189,7 @@ def _on_period(record: Record) -> list[str]:
     cycles, period = int(found["averaging_cycles"]), max(int(found["common_period"]), 1)
     text = f"Means are over the last {_counted(cycles, 'cycle')} of the mesh {record['mesh'][0]}"
     if cycles % period:
-        return [f"{text}, which are no whole common periods of the meshes, {period} each."]
+        return [f"{text}, less than the common period of {period} cycles."]
     return [f"{text}: {_counted(cycles // period, 'common period')} of all meshes."]
 
 

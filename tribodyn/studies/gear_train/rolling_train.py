@@ -17,12 +17,15 @@ _OPACITY = 0.75
 def mechanism(record: Record) -> Mechanism:
     """All gears, the largest behind; contacts without load, mesh after mesh, the newest pair first."""
     gears, stand, sense = gear_outlines(record), poses(record), record.geometry["sense"]
-    bodies = []
+    bodies: list[Body] = []
+    of_gear: dict[int, list[int]] = {}
     for gear in gears:
         fill = "pinion" if sense[gear.body] == sense[0] else "gear"
-        bodies.append(Body(gear.outline, stand[gear.body], fill, opacity=_OPACITY))
+        parts = [Body(gear.outline, stand[gear.body], fill, opacity=_OPACITY)]
         if gear.bore_radius > 0.0:
-            bodies.append(Body(gear.bore_radius * _CIRCLE, stand[gear.body], "paper"))
+            parts.append(Body(gear.bore_radius * _CIRCLE, stand[gear.body], "paper"))
+        of_gear[gear.number] = list(range(len(bodies), len(bodies) + len(parts)))
+        bodies += parts
     centres = np.array([record.geometry["centre"][gear.body] for gear in gears])
     tips = np.array([[gear.tip_radius] for gear in gears])
     low, high = np.min(centres - tips, axis=0), np.max(centres + tips, axis=0)
@@ -32,7 +35,8 @@ def mechanism(record: Record) -> Mechanism:
     sights = [whole]
     for m, mesh in enumerate(record["mesh"]):
         (x, y), reach = mesh_reach(record, m)
-        sights.append(Sight(f"the mesh {mesh}", x, y, reach))
+        ends = (int(record.geometry[f"{end}_gear"][m]) for end in ("driver", "driven"))
+        sights.append(Sight(f"the mesh {mesh}", x, y, reach, [n for gear in ends for n in of_gear[gear]]))
     carried = np.any(np.isfinite(record["normal_load"]), axis=0)[:, ::-1]
     places = contacts(record)[:, :, ::-1][:, carried]
     return Mechanism(
