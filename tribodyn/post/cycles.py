@@ -84,6 +84,18 @@ def last_cycles(record: Record, cycles: int | None = 2) -> Window:
     return Window(slice(start, stop), phase, record["time"][start:stop], per_cycle)
 
 
+def in_parts(record: Record, window: Window) -> Window:
+    """A window as parts of so many cycles that every mesh of a train goes through one; of a pair single ones.
+
+    Their samples are its `samples_per_cycle`; what is left at the end is cut off.
+    """
+    together = int(np.ceil(1.0 / np.min(mesh_rates(record)) - _SAME_PHASE)) if "mesh_phase" in record else 1
+    size = min(together * window.samples_per_cycle, max(1, window.phase.size - 1))
+    count = (window.phase.size - 1) // size * size + 1
+    part = slice(window.part.start, window.part.start + count)
+    return Window(part, window.phase[:count], window.time[:count], size)
+
+
 def pair_curve(
     record: Record,
     values: np.ndarray,

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tribodyn.post.cycles import Window, key_points, last_cycles, of_mesh, pair_curve
+from tribodyn.post.cycles import Window, in_parts, key_points, last_cycles, of_mesh, pair_curve
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal, name_above, write_beside
 from tribodyn.quantities.quantity import SHOWN
@@ -103,8 +103,7 @@ def draw(
         values = of_mesh(record[trace.dataset], mesh) * trace.factor
         color = PALETTE[number % len(PALETTE)] if several else PALETTE[0]
         if window.phase[-1] > MOST_CYCLES_DRAWN:
-            low, mean, high = cycle_ranges(record, values, window, mesh)
-            shown += draw_ranges(axes, (low, mean, high), window, x, color)
+            shown += draw_ranges(axes, record, values, window, view, color, mesh=mesh)
         elif values.ndim == 1:
             axes.plot(x, values[window.part], color=color)
             shown.append(values[window.part])
@@ -127,30 +126,35 @@ def draw(
 
 def draw_ranges(
     axes: Axes,
-    ranges: tuple[np.ndarray, np.ndarray, np.ndarray],
+    record: Record,
+    values: np.ndarray,
     window: Window,
-    x: np.ndarray,
+    view: View,
     color: str,
-    label: str = "mean of a mesh cycle",
+    labels: tuple[str, str] = ("range in a mesh cycle", "mean of a mesh cycle"),
+    mesh: int | None = None,
 ) -> list[np.ndarray]:
-    """Draw minimum, mean and maximum within each mesh cycle; what is drawn."""
-    low, mean, high = ranges
-    size = window.samples_per_cycle
-    middle = x[:-1].reshape(-1, size).mean(axis=1)
-    axes.fill_between(middle, low, high, color=color, alpha=0.3, linewidth=0, label="range in a mesh cycle")
-    axes.plot(middle, mean, color=color, linewidth=0.9, label=label)
+    """Draw minimum, mean and maximum within each mesh cycle, in a train of its slowest mesh; what is drawn."""
+    parts = in_parts(record, window)
+    low, mean, high = cycle_ranges(record, values, parts, mesh)
+    middle = abscissa(parts, view)[:-1].reshape(-1, parts.samples_per_cycle).mean(axis=1)
+    axes.fill_between(middle, low, high, color=color, alpha=0.3, linewidth=0, label=labels[0])
+    axes.plot(middle, mean, color=color, linewidth=0.9, label=labels[1])
     return [low, high]
 
 
 def cycle_ranges(
     record: Record, values: np.ndarray, window: Window, mesh: int | None = None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Minimum, mean and maximum (cycles,) within each whole mesh cycle; of pairs those under load; or NaN."""
+    """Minimum, mean and maximum (cycles,) in every `samples_per_cycle`; of pairs those under load; or NaN."""
     values = values[window.part][:-1]
     if values.ndim > 1:
         load = of_mesh(record["normal_load"], mesh)[window.part][:-1]
         values = np.where(load > 0.0, values, np.nan)
-    rows = np.where(np.isfinite(values), values, np.nan).reshape(round(window.phase[-1]), -1)
+    rows = np.where(np.isfinite(values), values, np.nan).reshape(
+        -1, window.samples_per_cycle, *values.shape[1:]
+    )
+    rows = rows.reshape(len(rows), -1)
     count = np.isfinite(rows).sum(axis=1)
     mean = np.where(count > 0, np.nansum(rows, axis=1) / np.maximum(count, 1), np.nan)
     return np.fmin.reduce(rows, axis=1), mean, np.fmax.reduce(rows, axis=1)

@@ -19,7 +19,6 @@ from tribodyn.post.figures.panel import (
     View,
     abscissa,
     abscissa_label,
-    cycle_ranges,
     draw,
     draw_ranges,
     record_label,
@@ -38,6 +37,7 @@ ERROR = over_mesh.TRANSMISSION_ERROR._replace(
     title="Transmission error of each mesh", symbol="$r_1θ_1 - r_2θ_2$"
 )
 DISPLACEMENT = Trace("x", "Displacement of each body in its bearing", r"$\sqrt{x^2 + y^2}$", "µm")
+PRESSURE = over_mesh.HERTZ_PRESSURE._replace(title="Maximum Hertz pressure in each contact")
 EFFICIENCY = over_mesh.EFFICIENCY._replace(title="Efficiency of the train at each moment")
 
 #: Height of one of so many panels, inch.
@@ -72,7 +72,8 @@ def draw_curves(
         if not np.any(np.isfinite(curve)):
             continue
         if window.phase[-1] > MOST_CYCLES_DRAWN:
-            shown += draw_ranges(axes, cycle_ranges(record, curve, window), window, x, color, name)
+            labels = "_range", style.literal(name)
+            shown += draw_ranges(axes, record, curve, window, view, color, labels)
         else:
             axes.plot(x, curve[window.part], color=color, label=style.literal(name))
             shown.append(curve[window.part])
@@ -113,7 +114,7 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
 def _each_mesh(trace: Trace, records: Sequence[Record], view: View) -> Figure:
     """Draw the pairs of every mesh in a panel of its own, of one record after the other."""
     places = [(record, m, str(mesh)) for record in records for m, mesh in enumerate(record["mesh"])]
-    figure, rows = _rows(len(places))
+    figure, rows = _rows(len(places), records)
     for letter, axes, (record, m, mesh) in zip(_letters(places), rows, places, strict=True):
         draw(axes, [record], trace, view, last=axes is rows[-1], mesh=m)
         if trace is over_mesh.FILM_PARAMETER:
@@ -126,7 +127,7 @@ def _each_mesh(trace: Trace, records: Sequence[Record], view: View) -> Figure:
 
 def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], view: View) -> Figure:
     """Draw a curve of every mesh or body, each record in a panel of its own."""
-    figure, rows = _rows(len(records))
+    figure, rows = _rows(len(records), records)
     for letter, axes, record in zip(_letters(records), rows, records, strict=True):
         draw_curves(axes, record, of(record), list(record[over]), trace, view)
         head = f"{record_label(record)}: " if len(records) > 1 else ""
@@ -135,10 +136,10 @@ def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], vie
     return figure
 
 
-def _rows(count: int) -> tuple[Any, list[Axes]]:
+def _rows(count: int, records: Sequence[Record]) -> tuple[Any, list[Axes]]:
     height = style.PANEL_HEIGHT if count <= _FEW else _LOW
     figure = style.new_figure(style.WIDTH, (height + 0.15) * count + 0.6)
-    return figure, list(figure.subplots(count, 1, squeeze=False, sharex=True)[:, 0])
+    return figure, list(figure.subplots(count, 1, squeeze=False, sharex=len(records) == 1)[:, 0])
 
 
 def _letters(of: Sequence[Any]) -> list[str]:
@@ -200,6 +201,6 @@ DRAWINGS: dict[str, Drawing] = {
     "friction": _per_mesh("friction coefficient of every pair", over_mesh.FRICTION_COEFFICIENT),
     "film": _per_mesh("film thickness of every pair", over_mesh.FILM_THICKNESS),
     "film-parameter": _per_mesh("film thickness over roughness", over_mesh.FILM_PARAMETER),
-    "pressure": _per_mesh("Hertz pressure of every pair", over_mesh.HERTZ_PRESSURE),
+    "pressure": _per_mesh("Hertz pressure of every pair", PRESSURE),
     "mesh-stiffness": _per_mesh("stiffness of every pair", over_mesh.STIFFNESS),
 }

@@ -57,7 +57,7 @@ def test_contacts_lie_on_both_outlines(record: Record, actual: bool, tolerance: 
         for gear in ends(record, m):
             for sample in SAMPLES:
                 x, y, turn = (moved[:, sample] if actual else nominal(record, sample))[gear.body]
-                outline = turned(gear.outline, turn) + (x, y)
+                outline = turned(gear.outline, turn) + np.array([x, y])
                 touching = found[sample, m][np.isfinite(found[sample, m, :, 0])]
                 assert len(touching) >= 1
                 assert max(distance(contact[:2], outline) for contact in touching) < tolerance
