@@ -134,7 +134,7 @@ def draw_ranges(
     labels: tuple[str, str] = ("range in a mesh cycle", "mean of a mesh cycle"),
     mesh: int | None = None,
 ) -> list[np.ndarray]:
-    """Draw minimum, mean and maximum within each mesh cycle, in a train of its slowest mesh; what is drawn."""
+    """Draw minimum, mean and maximum in each mesh cycle, in a train of its slowest mesh; what is drawn."""
     parts = in_parts(record, window)
     low, mean, high = cycle_ranges(record, values, parts, mesh)
     middle = abscissa(parts, view)[:-1].reshape(-1, parts.samples_per_cycle).mean(axis=1)
@@ -151,10 +151,8 @@ def cycle_ranges(
     if values.ndim > 1:
         load = of_mesh(record["normal_load"], mesh)[window.part][:-1]
         values = np.where(load > 0.0, values, np.nan)
-    rows = np.where(np.isfinite(values), values, np.nan).reshape(
-        -1, window.samples_per_cycle, *values.shape[1:]
-    )
-    rows = rows.reshape(len(rows), -1)
+    parts = len(values) // window.samples_per_cycle
+    rows = np.where(np.isfinite(values), values, np.nan).reshape(parts, -1)
     count = np.isfinite(rows).sum(axis=1)
     mean = np.where(count > 0, np.nansum(rows, axis=1) / np.maximum(count, 1), np.nan)
     return np.fmin.reduce(rows, axis=1), mean, np.fmax.reduce(rows, axis=1)
