@@ -109,7 +109,7 @@ def summary_table(record: Record, full: bool = False) -> "Group":
     study = study_of_record(record)
     details = study.sentences(record) if full else None
     return report.summary_table(
-        record, study.reported(), study.verdict(record), details, study.tables(record)
+        record, study.reported(), study.verdict(record), details, study.besides("tables", record) or ()
     )
 
 
@@ -193,12 +193,12 @@ def report(
             study.reported(),
             study.sentences(record),
             study.panels(),
-            study.on_page("maps", record) or (),
+            study.besides("maps", record) or (),
             sheet(record) if figures else (),
-            study.on_page("profiles", record),
+            study.besides("profiles", record),
             verdict=study.verdict(record),
-            mechanism=study.on_page("mechanism", record) if record.samples else None,
-            parts=study.tables(record),
+            mechanism=study.besides("mechanism", record) if record.samples else None,
+            parts=study.besides("tables", record) or (),
         )
         for study, record in zip(studies, records, strict=True)
     ]

@@ -119,7 +119,7 @@ def draw(
     if last:
         axes.set_xlabel(abscissa_label(view, "" if mesh is None else str(records[0]["mesh"][0])))
     if mesh is not None:
-        axes.set_xlim(float(x[0]), float(x[-1]))
+        axes.autoscale(axis="x", tight=True)
         return 0
     return mark_key_points(axes, records, view, first)
 

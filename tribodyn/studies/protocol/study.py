@@ -201,11 +201,6 @@ class Study:
         """Say how far a record is to be trusted, and what its numbers are not."""
         return self._part("report", "sentences")(record)
 
-    def tables(self, record: "Record") -> "Sequence[TextTable]":
-        """Tables of the parts of what a record is about, beside those of its summary; mostly none."""
-        own = self._part("report", "tables", optional=True)
-        return own(record) if own else ()
-
     def verdict(self, record: "Record") -> list[str]:
         """Say in at most `verdict.LINES` sentences what a record shows, whether it holds, and what to do."""
         from tribodyn.post import verdict
@@ -248,8 +243,8 @@ class Study:
         """Datasets that a page shows at first; none: the first ones."""
         return self._part("report", "PANELS", optional=True) or ()
 
-    def on_page(self, what: Literal["maps", "profiles", "mechanism"], record: "Record") -> Any:
-        """What a page of a record shows besides: `PageMap`s, `Profiles`, a `Mechanism`; None: nothing."""
+    def besides(self, what: Literal["tables", "maps", "profiles", "mechanism"], record: "Record") -> Any:
+        """What is shown of a record besides: `TextTable`s, `PageMap`s, `Profiles`, a `Mechanism`; or None."""
         found = self._part("report", what, optional=True)
         return found(record) if found else None
 
