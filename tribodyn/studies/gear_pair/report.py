@@ -1,7 +1,5 @@
 """Reported quantities of a gear pair's dynamics, how far to trust them, and what a sweep records."""
 
-from typing import Any
-
 from tribodyn.post.report import on_closures, on_energy, on_methods
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported

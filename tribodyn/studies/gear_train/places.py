@@ -33,7 +33,7 @@ def gear_outlines(record: Record) -> list[GearOutline]:
         shape, cycle = record.of_mesh(mesh, "geometry"), record.of_mesh(mesh, "mesh_cycle")
         frame = np.array(_frame(record, m))
         pitch = 2.0 * np.pi / cycle["pinion_teeth"]
-        roll = cycle["roll_start"] + record["mesh_phase"][0, m] * pitch
+        roll = cycle["roll_start"] + places["phase"][m] * pitch
         for end, side, way in _ENDS:
             gear = int(places[end][m])
             if gear in found:

@@ -200,5 +200,6 @@ def geometry_of(prepared: PreparedTrain) -> dict[str, np.ndarray]:
         "tooth_direction": np.array(prepared.phases.teeth),
         "driver_gear": np.array([mesh.gears[0] for mesh in case.meshes]),
         "driven_gear": np.array([mesh.gears[1] for mesh in case.meshes]),
+        "phase": np.array(prepared.phases.meshes),
         "azimuth": np.array([mesh.azimuth for mesh in case.meshes]),
     }

@@ -80,6 +80,9 @@ TRAIN_GEOMETRY: dict[str, Variable] = {
     ),
     "driver_gear": Variable(("mesh",), "1", "number of the gear that drives in each mesh"),
     "driven_gear": Variable(("mesh",), "1", "number of the gear that is driven in each mesh"),
+    "phase": Variable(
+        ("mesh",), "1", "cycles of each mesh where all angles are 0, without load; of the first mesh 0"
+    ),
     "azimuth": Variable(("mesh",), "rad", "direction from the driver's axis to the driven one's, from x"),
 }
 #: A mesh has as many pairs as it needs: they are counted beside those of the record.

@@ -30,17 +30,15 @@ def record(tmp_path_factory: pytest.TempPathFactory) -> Record:
     return Record(run(train_case(path), folder / "reducer.h5").path)
 
 
-def nominal(record: Record, sample: int) -> np.ndarray:
-    """Centre and rotation of every body without loads: turned with the mesh that it belongs to."""
-    places = record.geometry
-    angle = np.zeros(len(places["sense"]))
-    for m, mesh in enumerate(record["mesh"]):
-        radii = record.of_mesh(mesh, "geometry")
-        cycles = record["mesh_phase"][sample, m] - record["mesh_phase"][0, m]
-        driver = cycles * 2 * np.pi / record.of_mesh(mesh, "mesh_cycle")["pinion_teeth"]
-        ratio = radii["pinion_pitch_radius"] / radii["gear_pitch_radius"]
-        for end, turn in (("driver", driver), ("driven", driver * ratio)):
-            angle[int(places["gear_body"][int(places[f"{end}_gear"][m])])] = turn
+def nominal(record: Record, m: int, sample: int) -> np.ndarray:
+    """Centre and rotation of the bodies of a mesh without loads: both turned by its phase."""
+    places, mesh = record.geometry, record["mesh"][m]
+    radii, angle = record.of_mesh(mesh, "geometry"), np.zeros(len(places["sense"]))
+    cycles = record["mesh_phase"][sample, m] - places["phase"][m]
+    driver = cycles * 2 * np.pi / record.of_mesh(mesh, "mesh_cycle")["pinion_teeth"]
+    ratio = radii["pinion_pitch_radius"] / radii["gear_pitch_radius"]
+    for end, turn in (("driver", driver), ("driven", driver * ratio)):
+        angle[int(places["gear_body"][int(places[f"{end}_gear"][m])])] = turn
     return np.column_stack([places["centre"], places["sense"] * angle])
 
 
@@ -56,7 +54,7 @@ def test_contacts_lie_on_both_outlines(record: Record, actual: bool, tolerance: 
     for m in range(len(record["mesh"])):
         for gear in ends(record, m):
             for sample in SAMPLES:
-                x, y, turn = (moved[:, sample] if actual else nominal(record, sample))[gear.body]
+                x, y, turn = (moved[:, sample] if actual else nominal(record, m, sample))[gear.body]
                 outline = turned(gear.outline, turn) + np.array([x, y])
                 touching = found[sample, m][np.isfinite(found[sample, m, :, 0])]
                 assert len(touching) >= 1
@@ -69,7 +67,7 @@ def test_teeth_overlap_nowhere(record: Record):
     for m, mesh in enumerate(record["mesh"]):
         (driver, driven), shape = ends(record, m), record.of_mesh(mesh, "geometry")
         for sample in SAMPLES:
-            stand = nominal(record, sample)
+            stand = nominal(record, m, sample)
             one, two = (turned(g.outline, stand[g.body, 2]) + stand[g.body, :2] for g in (driver, driven))
             near = one[np.hypot(*(one - stand[driver.body, :2]).T) > 0.9 * shape["pinion_root_radius"]]
             inside = near[Closed(two).contains_points(near)]
