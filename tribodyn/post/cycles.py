@@ -5,6 +5,7 @@ periods per mesh cycle whatever the speed does. At constant speed, frequency is 
 Whole cycles are taken, so harmonics of the mesh fall exactly on lines and no window is needed.
 """
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,8 @@ from tribodyn.record.reader import Record
 
 #: Change of speed or load over a run, as a share of the maximum, by which it is a transient.
 CHANGING = 0.05
+#: Mesh cycles that are shown at first, and at most where one mesh of a train is slower than the first.
+SHOWN, MOST_SHOWN = 2, 24
 #: Phases closer than this are one, mesh cycles.
 _SAME_PHASE = 1e-9
 
@@ -40,12 +43,34 @@ class KeyPoint(NamedTuple):
 
 
 def samples_per_cycle(record: Record) -> int:
-    """Find the samples in one mesh cycle from the pinion's rotation; InputError below two samples."""
+    """Find the samples in one mesh cycle, of a train its first mesh's; InputError below two samples."""
     if record.samples < 2:
         raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
+    if "mesh_phase" in record:
+        phase = record["mesh_phase"][:, 0]
+        return max(1, round((phase.size - 1) / (phase[-1] - phase[0])))
     angle = record["pinion_angle"]
     step = (angle[-1] - angle[0]) / (angle.size - 1)
     return max(1, round(2 * np.pi / record.mesh_cycle["pinion_teeth"] / step))
+
+
+def mesh_rates(record: Record) -> np.ndarray:
+    """Cycles of every mesh of a train per cycle of its first mesh."""
+    phase = record["mesh_phase"]
+    turned = phase[-1] - phase[0]
+    return turned / turned[0]
+
+
+def shown_cycles(record: Record) -> int:
+    """Whole mesh cycles to show at first: two, in a train of the slowest mesh."""
+    if "mesh_phase" not in record or record.samples < 2:
+        return SHOWN
+    return min(MOST_SHOWN, int(np.ceil(SHOWN / np.min(mesh_rates(record)) - _SAME_PHASE)))
+
+
+def of_mesh(values: np.ndarray, mesh: int | None) -> np.ndarray:
+    """A dataset of one mesh: of a train that of a mesh by its number, of a pair all."""
+    return values if mesh is None else values[:, mesh]
 
 
 def last_cycles(record: Record, cycles: int | None = 2) -> Window:
@@ -59,23 +84,44 @@ def last_cycles(record: Record, cycles: int | None = 2) -> Window:
     return Window(slice(start, stop), phase, record["time"][start:stop], per_cycle)
 
 
+def in_parts(record: Record, window: Window) -> Window:
+    """A window as parts of so many cycles that every mesh of a train goes through one; of a pair single ones.
+
+    Their samples are its `samples_per_cycle`; what is left at the end is cut off.
+    """
+    together = int(np.ceil(1.0 / np.min(mesh_rates(record)) - _SAME_PHASE)) if "mesh_phase" in record else 1
+    size = min(together * window.samples_per_cycle, max(1, window.phase.size - 1))
+    count = (window.phase.size - 1) // size * size + 1
+    part = slice(window.part.start, window.part.start + count)
+    return Window(part, window.phase[:count], window.time[:count], size)
+
+
 def pair_curve(
-    record: Record, values: np.ndarray, pair: int, window: Window, abscissa: np.ndarray
+    record: Record,
+    values: np.ndarray,
+    pair: int,
+    window: Window,
+    abscissa: np.ndarray,
+    mesh: int | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Cut out the curve of one pair number, broken where the number passes to the next teeth.
 
     In the sample that ends a cycle, the teeth that were pair 1 are already pair 0: their last point is taken
     from there, so that each piece reaches its end. Out of contact (transmission error NaN) the curve breaks.
-    `values` are a dataset over time and pair, `abscissa` phase or time of the window.
+    `values` are a dataset over time and pair, of a train of this `mesh`; `abscissa` phase or time of the
+    window.
     """
     numbers = record.pairs
-    values = np.where(np.isnan(record["transmission_error_normal"]), np.nan, values)[window.part]
+    error = of_mesh(record["transmission_error_normal"], mesh)
+    values = np.where(np.isnan(error), np.nan, values)[window.part]
     column = values[:, numbers.index(pair)]
     older = values[:, numbers.index(pair - 1)] if pair - 1 in numbers and pair <= 1 else None
     pieces_x, pieces_y = [], []
-    for start in range(0, column.size - 1, window.samples_per_cycle):
-        end = min(start + window.samples_per_cycle, column.size - 1)
-        last = older[end] if older is not None else np.nan
+    phase = window.phase if mesh is None else record["mesh_phase"][window.part, mesh]
+    passed = np.diff(np.floor(phase + _SAME_PHASE), prepend=np.floor(phase[0] + _SAME_PHASE)) > 0.0
+    for start, end in pairwise(dict.fromkeys([0, *np.flatnonzero(passed), column.size - 1])):
+        after = older if passed[end] else column
+        last = after[end] if after is not None else np.nan
         pieces_x += [abscissa[start : end + 1], [np.nan]]
         pieces_y += [column[start:end], [last, np.nan]]
     return np.concatenate(pieces_x), np.concatenate(pieces_y)
@@ -101,16 +147,20 @@ def key_points(record: Record) -> list[KeyPoint]:
 
 def transient(record: Record) -> bool:
     """Whether the mean speed or the load of a mesh cycle changes by more than `CHANGING` during a run."""
-    if "velocity" not in record or "power_out" not in record or record.samples < 2:
+    if not {"power_out", "velocity"} <= {*record} and not {"power_out", "speed"} <= {*record}:
+        return False
+    if record.samples < 2:
         return False
     window = last_cycles(record, None)
     count = round(window.phase[-1])
     if count < 3:
         return False
     size = window.samples_per_cycle
-    dof = list(record["dof"])
-    speed = record["velocity"][window.part]
-    pinion, gear = (speed[:-1, dof.index(name)].reshape(count, size) for name in ("theta_p", "theta_g"))
+    if "dof" in record:
+        dof, speed = list(record["dof"]), record["velocity"][window.part]
+        pinion, gear = (speed[:-1, dof.index(name)].reshape(count, size) for name in ("theta_p", "theta_g"))
+    else:  # a train, whose bodies all have the speed of the first but for their ratios
+        pinion = gear = record["speed"][window.part][:-1, 0].reshape(count, size)
     power = record["power_out"][window.part][:-1].reshape(count, size)
     with np.errstate(divide="ignore", invalid="ignore"):
         torque = np.mean(power / gear, axis=1)

@@ -22,12 +22,17 @@ SOLVER = "Solver"
 
 
 def summary_table(
-    record: Record, reported: Reported, verdict: Sequence[str], sentences: Sequence[str] | None
+    record: Record,
+    reported: Reported,
+    verdict: Sequence[str],
+    sentences: Sequence[str] | None,
+    tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = (),
 ) -> Group:
     """Lay out the summary of a record for the terminal (a rich renderable), in engineers' units.
 
     `reported` is what the study of the record has in its summary, `verdict` what it says first, `sentences`
-    how far to trust it; None leaves these details out, and those of the solver.
+    how far to trust it; None leaves these details out, and those of the solver. `tables` (title, columns,
+    rows) of parts come below.
     """
     parts: list[Any] = [Text(str(record.scenario.get("title", record.path.stem)), style="bold")]
     urgent = "bold red" if record.status != "complete" or record.trust == trust.OUTSIDE else ""
@@ -53,7 +58,7 @@ def summary_table(
             table.add_row(Text(group, style="bold cyan"), "", "")
         for row in rows:
             table.add_row(*row)
-    parts.append(table)
+    parts += [table, *(_of_parts(*one) for one in tables)]
     if sentences is None:
         return Group(*parts)
     parts.append(Text("How far to trust it", style="bold cyan"))
@@ -66,6 +71,17 @@ def summary_table(
         for line in lines or ["The record has no summary."]
     ]
     return Group(*parts)
+
+
+def _of_parts(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
+    """A table of parts: what the rows are about, a column for each part, units."""
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold cyan")
+    table.add_column(title, no_wrap=True)
+    for name in columns[1:]:
+        table.add_column(name, justify="right" if name else "left")
+    for label, *cells in rows:
+        table.add_row(f"  {label}", *cells)
+    return table
 
 
 def _order_of(pairs: Sequence[int]) -> str:

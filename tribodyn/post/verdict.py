@@ -62,10 +62,7 @@ def moved(summary: Mapping[str, Any]) -> Iterable[str]:
         parts = [f"The transmission error swings by {with_unit('transmission_error_peak_to_peak', error)}"]
         if (factor := summary.get("dynamic_factor")) is not None:
             parts.append(f"vibration raises the tooth forces to {factor:.2f} times their mean")
-        apart = summary.get("contact_loss_fraction") or 0.0
-        parts.append(
-            f"the teeth are apart for {share(apart)} of the time" if apart > APART else "no tooth lifts off"
-        )
+        parts.append(apart(summary.get("contact_loss_fraction") or 0.0))
         yield f"{'; '.join(parts)}."
     if (loaded := summary.get("loaded_transmission_error_peak_to_peak")) is not None:
         text = with_unit("loaded_transmission_error_peak_to_peak", loaded)
@@ -80,12 +77,7 @@ def pressed(summary: Mapping[str, Any]) -> Iterable[str]:
     ratio, film = summary.get("film_parameter_min"), summary.get("film_min")
     if ratio is not None:
         thick = f"at least {with_unit('film_min', film)}, " if film is not None else "at least "
-        state = (
-            "a full film"
-            if ratio >= SMOOTH
-            else f"asperities carry {'part' if ratio >= ROUGH else 'much'} of the load"
-        )
-        parts.append(f"the oil film is {thick}{ratio:.2g} times the roughness: {state}")
+        parts.append(f"the oil film is {thick}{ratio:.2g} times the roughness: {lubrication(ratio)}")
     roots = [
         summary[name] for name in ("pinion_root_tension_max", "gear_root_tension_max") if name in summary
     ]
@@ -182,9 +174,9 @@ def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> li
 
     if loud := extreme("dynamic_factor", np.nanargmax):
         found.append(f"Vibration is largest at {loud[1]}: tooth forces of {loud[0]:.2f} times their mean.")
-    if apart := extreme("contact_loss_fraction", np.nanargmax):
+    if separated := extreme("contact_loss_fraction", np.nanargmax):
         many = int(np.sum(np.nan_to_num(record["contact_loss_fraction"]) > APART))
-        longest = f"for {share(apart[0])} of the time at {apart[1]}"
+        longest = f"for {share(separated[0])} of the time at {separated[1]}"
         found.append(f"The teeth separate in {many} cases, {longest}." if many else "No tooth lifts off.")
     if thin := extreme("film_parameter_min", np.nanargmin):
         found.append(f"The film is thinnest at {thin[1]}: {thin[0]:.2g} times the roughness.")
@@ -195,6 +187,20 @@ def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> li
     if failed := record.count()["failed"]:
         found.append(f"{failed} of {record.count()['cases']} cases failed.")
     return found[:LINES]
+
+
+def apart(fraction: float) -> str:
+    """Whether teeth lift off, by the share of the time without contact."""
+    return (
+        f"the teeth are apart for {share(fraction)} of the time" if fraction > APART else "no tooth lifts off"
+    )
+
+
+def lubrication(ratio: float) -> str:
+    """What keeps the flanks apart, by the film over the roughness."""
+    if ratio >= SMOOTH:
+        return "a full film"
+    return f"asperities carry {'part' if ratio >= ROUGH else 'much'} of the load"
 
 
 def numbers(summary: Any) -> dict[str, float]:

@@ -95,6 +95,14 @@ _OF_A_GEAR = {
     "clearance": "From the tip circle to the mate's root circle",
     "rack_tip": "Half width left at the tip of the rack between its rounded corners",
 }
+TRAIN = (
+    Quantity("train_ratio", "Ratio of the train", digits=".5g").defined_as(
+        "Speed of the input over that of the output."
+    ),
+    Quantity("common_period", "Common period, cycles of the first mesh", digits=",d").defined_as(
+        "Cycles of the first mesh after which all meshes are at their phases again."
+    ),
+)
 #: Distances from the limits of existence, positive where gears exist, see `geometry.limits.limits`.
 LIMITS = (
     *(
@@ -106,4 +114,4 @@ LIMITS = (
     ),
     Quantity("contact_ratio_above_1", "Contact ratio above 1").defined_as("Contact ratio less 1."),
 )
-QUANTITIES = (*GEOMETRY, *MOTION, *LIMITS)
+QUANTITIES = (*GEOMETRY, *MOTION, *TRAIN, *LIMITS)

@@ -70,12 +70,12 @@ def figure(
 ) -> "Figure":
     """Draw one figure, of `names(records)` or "overview", from an open record, or from several, compared.
 
-    `cycles` are the last whole mesh cycles to show, None for the whole run; by default two, and the whole run
-    where speed or load change in it. `against` is "phase" (mesh cycles) or "time" (ms), by default phase, and
-    time where speed or load change. Raises InputError for an unknown name or abscissa, no record, or a record
-    without samples.
+    `cycles` are the last whole mesh cycles to show, None for the whole run; by default two, in a train of its
+    slowest mesh, and the whole run where speed or load change in it. `against` is "phase" (mesh cycles) or
+    "time" (ms), by default phase, and time where speed or load change. Raises InputError for an unknown name
+    or abscissa, no record, or a record without samples.
     """
-    from tribodyn.post.cycles import transient
+    from tribodyn.post.cycles import shown_cycles, transient
     from tribodyn.post.figures.drawing import with_whole_markers
     from tribodyn.post.figures.panel import View
     from tribodyn.post.style import house_style
@@ -90,7 +90,8 @@ def figure(
     if name not in known:
         raise _unknown(name, "no such figure", drawable(records))
     whole = cycles == "auto" and any(transient(record) for record in records)
-    number = (None if whole else 2) if cycles == "auto" else cycles
+    shown = None if whole else max(map(shown_cycles, records))
+    number = shown if cycles == "auto" else cycles
     with house_style():
         over = against or ("time" if whole else "phase")
         return with_whole_markers(known[name].draw(records, View(number, over, against is not None)))
@@ -107,7 +108,9 @@ def summary_table(record: Record, full: bool = False) -> "Group":
 
     study = study_of_record(record)
     details = study.sentences(record) if full else None
-    return report.summary_table(record, study.reported(), study.verdict(record), details)
+    return report.summary_table(
+        record, study.reported(), study.verdict(record), details, study.besides("tables", record) or ()
+    )
 
 
 def summary_json(record: Record) -> "dict[str, Any]":
@@ -190,11 +193,12 @@ def report(
             study.reported(),
             study.sentences(record),
             study.panels(),
-            study.on_page("maps", record) or (),
+            study.besides("maps", record) or (),
             sheet(record) if figures else (),
-            study.on_page("profiles", record),
+            study.besides("profiles", record),
             verdict=study.verdict(record),
-            mechanism=study.on_page("mechanism", record) if record.samples else None,
+            mechanism=study.besides("mechanism", record) if record.samples else None,
+            parts=study.besides("tables", record) or (),
         )
         for study, record in zip(studies, records, strict=True)
     ]

@@ -101,6 +101,15 @@ def _azimuth(mesh: Distance, first: tuple[float, float], second: tuple[float, fl
     return atan2(y, x) if mesh.azimuth is None else mesh.azimuth
 
 
+def frame_of(azimuth: float, sense: int) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Directions along and across of a mesh whose driver turns in a sense, +1 counter-clockwise.
+
+    Across is from the driver's axis to the driven one's, at this azimuth (rad); along is the motion at the
+    pitch point.
+    """
+    return (-sense * sin(azimuth), sense * cos(azimuth)), (cos(azimuth), sin(azimuth))
+
+
 def check_room(
     gears: Sequence[Disc], centres: Float[Array, "body 2"], meshing: Sequence[tuple[int, int]]
 ) -> None:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from tribodyn.post.cycles import Window, key_points, last_cycles, pair_curve
+from tribodyn.post.cycles import Window, in_parts, key_points, last_cycles, of_mesh, pair_curve
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal, name_above, write_beside
 from tribodyn.quantities.quantity import SHOWN
@@ -81,72 +81,97 @@ def abscissa(window: Window, view: View) -> np.ndarray:
 
 
 def draw(
-    axes: Axes, records: Sequence[Record], trace: Trace, view: View, first: bool = True, last: bool = True
+    axes: Axes,
+    records: Sequence[Record],
+    trace: Trace,
+    view: View,
+    first: bool = True,
+    last: bool = True,
+    mesh: int | None = None,
 ) -> int:
     """Draw a dataset of every record, pairs apart where it has pairs, with axis labels and key points.
 
-    In a stack of panels the `first` alone names the key points and the `last` alone the horizontal axis. Over
-    many cycles the range within each cycle and its mean are drawn. Returns the rows of names above the axes.
+    Of trains a `mesh` is drawn, without key points. In a stack of panels the `first` alone names the key
+    points and the `last` alone the horizontal axis. Over many cycles the range within each cycle and its mean
+    are drawn. Returns the rows of names above the axes.
     """
     several = len(records) > 1
     shown = []
     for number, record in enumerate(records):
         window = last_cycles(record, view.cycles)
         x = abscissa(window, view)
-        values = record[trace.dataset] * trace.factor
+        values = of_mesh(record[trace.dataset], mesh) * trace.factor
         color = PALETTE[number % len(PALETTE)] if several else PALETTE[0]
         if window.phase[-1] > MOST_CYCLES_DRAWN:
-            shown += _draw_ranges(axes, record, values, window, x, color)
+            shown += draw_ranges(axes, record, values, window, view, color, mesh=mesh)
         elif values.ndim == 1:
             axes.plot(x, values[window.part], color=color)
             shown.append(values[window.part])
         else:
-            for position, pair in enumerate(drawn_pairs(record, window)):
-                curve = pair_curve(record, values, pair, window, x)
+            for position, pair in enumerate(drawn_pairs(record, window, mesh)):
+                curve = pair_curve(record, values, pair, window, x, mesh)
                 shade = PALETTE[(number if several else position) % len(PALETTE)]
                 axes.plot(*curve, color=shade, linestyle=PAIR_STYLES.get(pair, "-"), label=pair_label(pair))
                 shown.append(curve[1])
-        _shade_extrapolated(axes, record, trace, window, x, color if several else "")
+        _shade_extrapolated(axes, record, trace, window, x, color if several else "", mesh)
     axes.set_ylabel(trace.label)
     scale(axes, shown, trace.from_zero)
     if last:
-        axes.set_xlabel(abscissa_label(view))
+        axes.set_xlabel(abscissa_label(view, "" if mesh is None else str(records[0]["mesh"][0])))
+    if mesh is not None:
+        axes.autoscale(axis="x", tight=True)
+        return 0
     return mark_key_points(axes, records, view, first)
 
 
-def _draw_ranges(
-    axes: Axes, record: Record, values: np.ndarray, window: Window, x: np.ndarray, color: str
+def draw_ranges(
+    axes: Axes,
+    record: Record,
+    values: np.ndarray,
+    window: Window,
+    view: View,
+    color: str,
+    labels: tuple[str, str] = ("range in a mesh cycle", "mean of a mesh cycle"),
+    mesh: int | None = None,
 ) -> list[np.ndarray]:
-    """Draw minimum, mean and maximum within each mesh cycle, of all pairs under load; what is drawn."""
-    low, mean, high = cycle_ranges(record, values, window)
-    size = window.samples_per_cycle
-    middle = x[:-1].reshape(-1, size).mean(axis=1)
-    axes.fill_between(middle, low, high, color=color, alpha=0.3, linewidth=0, label="range in a mesh cycle")
-    axes.plot(middle, mean, color=color, linewidth=0.9, label="mean of a mesh cycle")
+    """Draw minimum, mean and maximum in each mesh cycle, in a train of its slowest mesh; what is drawn."""
+    parts = in_parts(record, window)
+    low, mean, high = cycle_ranges(record, values, parts, mesh)
+    middle = abscissa(parts, view)[:-1].reshape(-1, parts.samples_per_cycle).mean(axis=1)
+    axes.fill_between(middle, low, high, color=color, alpha=0.3, linewidth=0, label=labels[0])
+    axes.plot(middle, mean, color=color, linewidth=0.9, label=labels[1])
     return [low, high]
 
 
 def cycle_ranges(
-    record: Record, values: np.ndarray, window: Window
+    record: Record, values: np.ndarray, window: Window, mesh: int | None = None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Minimum, mean and maximum (cycles,) within each whole mesh cycle; of pairs those under load; or NaN."""
+    """Minimum, mean and maximum (cycles,) in every `samples_per_cycle`; of pairs those under load; or NaN."""
     values = values[window.part][:-1]
     if values.ndim > 1:
-        values = np.where(record["normal_load"][window.part][:-1] > 0.0, values, np.nan)
-    rows = np.where(np.isfinite(values), values, np.nan).reshape(round(window.phase[-1]), -1)
+        load = of_mesh(record["normal_load"], mesh)[window.part][:-1]
+        values = np.where(load > 0.0, values, np.nan)
+    parts = len(values) // window.samples_per_cycle
+    rows = np.where(np.isfinite(values), values, np.nan).reshape(parts, -1)
     count = np.isfinite(rows).sum(axis=1)
     mean = np.where(count > 0, np.nansum(rows, axis=1) / np.maximum(count, 1), np.nan)
     return np.fmin.reduce(rows, axis=1), mean, np.fmax.reduce(rows, axis=1)
 
 
 def _shade_extrapolated(
-    axes: Axes, record: Record, trace: Trace, window: Window, x: np.ndarray, own: str = ""
+    axes: Axes,
+    record: Record,
+    trace: Trace,
+    window: Window,
+    x: np.ndarray,
+    own: str = "",
+    mesh: int | None = None,
 ) -> None:
     """Shade where a law is outside its range for any pair under load; in a record's `own` colour if given."""
     if trace.flag not in record:
         return
     outside = (record[trace.flag] == 0) & (record["normal_load"] > 0.0)
-    outside = np.any(outside[window.part], axis=1)
+    outside = np.any(of_mesh(outside, mesh)[window.part], axis=1)
     color, label = EXTRAPOLATED[trace.flag]
     if own:
         color, label = f"{own}18", f"{label}: {record_label(record)}"
@@ -156,10 +181,11 @@ def _shade_extrapolated(
         axes.axvspan(left, right, color=color, linewidth=0, zorder=0.5, label=label)
 
 
-def drawn_pairs(record: Record, window: Window) -> list[int]:
+def drawn_pairs(record: Record, window: Window, mesh: int | None = None) -> list[int]:
     """List the pairs to draw: driving flanks from the newest on, then back flanks that carry load."""
-    load = record["normal_load"][window.part]
-    front = [pair for pair in record.pairs if pair <= 1]
+    load = of_mesh(record["normal_load"], mesh)[window.part]
+    known = np.any(np.isfinite(load), axis=0)  # a mesh of a train may have fewer than another
+    front = [pair for pair, own in zip(record.pairs, known, strict=True) if pair <= 1 and own]
     touching = [pair for slot, pair in enumerate(record.pairs) if pair > 1 and np.any(load[:, slot] > 0)]
     return front[::-1] + touching
 
@@ -169,9 +195,11 @@ def pair_label(pair: int) -> str:
     return f"pair {pair}" if pair <= 1 else f"back flanks {pair - 1}"
 
 
-def abscissa_label(view: View) -> str:
-    """Label the horizontal axis."""
-    return "Time (ms)" if view.against == "time" else "Phase (mesh cycles)"
+def abscissa_label(view: View, mesh: str = "") -> str:
+    """Label the horizontal axis, of a train with the name of its first mesh."""
+    if view.against == "time":
+        return "Time (ms)"
+    return f"Cycles of the mesh {literal(mesh)}" if mesh else "Phase (mesh cycles)"
 
 
 def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bool = True) -> int:

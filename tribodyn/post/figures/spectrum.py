@@ -20,6 +20,8 @@ ORDERS = 12
 FLOOR, MAP_FLOOR = 1e-5, 1e-3
 #: Orders that have a mark, and names of orders above the axes, at most.
 MARKED, NAMED = 40, 14
+#: Width of a name of a mode, as a share of the axis.
+NAME = 0.055
 #: Mesh cycles in the window of one spectrum along a run, and between two.
 WINDOW, HOP = 16, 4
 #: Spectra over a run, at least, where it is long enough.
@@ -49,7 +51,28 @@ def mode_frequencies(record: Record) -> np.ndarray:
 def draw_spectrum(axes: Axes, record: Record, color: str) -> tuple[float, float]:
     """Draw amplitude (µm) over frequency (kHz), orders as stems; highest amplitude and frequency."""
     spectrum, window = steady_spectrum(record)
-    mesh, modes = window.mesh_frequency, mode_frequencies(record)
+    return draw_orders(axes, spectrum, window.mesh_frequency, mode_frequencies(record), color)
+
+
+def apart(places: np.ndarray, least: float) -> list[tuple[float, str]]:
+    """Numbers from 1 of ascending places and where to write them; those closer than `least` as a range."""
+    groups: list[list[int]] = []
+    for number, place in enumerate(places):
+        if groups and place - places[groups[-1][-1]] < least:
+            groups[-1].append(number)
+        else:
+            groups.append([number])
+    ends = [dict.fromkeys((group[0] + 1, group[-1] + 1)) for group in groups]
+    return [
+        (float(np.mean(places[group])), "–".join(map(str, of)))
+        for group, of in zip(groups, ends, strict=True)
+    ]
+
+
+def draw_orders(
+    axes: Axes, spectrum: Spectrum, mesh: float, modes: np.ndarray, color: str
+) -> tuple[float, float]:
+    """Draw a spectrum over frequency, `mesh` that of the mesh, Hz, as far as the `modes` reach; see above."""
     # orders up to a little above the highest mode, and at most those that the sampling resolves
     wanted = 1.08 * float(modes.max()) / mesh if modes.size else 0.0
     limit = min(max(wanted, ORDERS + 0.5), float(spectrum.orders[-1]))
@@ -66,11 +89,16 @@ def draw_spectrum(axes: Axes, record: Record, color: str) -> tuple[float, float]
     for order in range(1 if step == 1 else step, count + 1, step):
         text = "$f_m$" if order == 1 else f"{order}$f_m$"
         name_above(axes, places[order - 1], text, 0)
-    for number, frequency in enumerate(modes, start=1):
-        if frequency <= limit * mesh:
-            axes.axvline(frequency * 1e-3, color=PALETTE[3], linewidth=0.9, linestyle=(0, (4, 2)), zorder=1)
-            name_above(axes, frequency * 1e-3, f"mode {number}", 1, PALETTE[3])
     return float(orders.max(initial=0.0)), limit * mesh * 1e-3
+
+
+def draw_modes(axes: Axes, modes: np.ndarray, width: float) -> None:
+    """Draw natural frequencies (Hz, ascending) as lines on an axis of so many kHz, named above it."""
+    seen = modes[modes * 1e-3 <= width] * 1e-3
+    for frequency in seen:
+        axes.axvline(frequency, color=PALETTE[3], linewidth=0.9, linestyle=(0, (4, 2)), zorder=1)
+    for place, numbers in apart(seen, NAME * width):
+        name_above(axes, place, f"mode {numbers}", 1, PALETTE[3])
 
 
 def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
@@ -90,6 +118,8 @@ def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
         title = f"{named}Amplitudes of the transmission error, mesh frequency $f_m$ = {mesh:.4g} Hz"
         mark_panel(axes, "abcdefgh"[number] if 1 < count <= 8 else "", title, 2)
         axes.set_ylabel("Amplitude (µm)")
+    for axes, record in zip(rows, records, strict=True):
+        draw_modes(axes, mode_frequencies(record), width)
     rows[-1].set_yscale("log")
     if highest > 0:
         rows[-1].set_ylim(FLOOR * highest, 2 * highest)

@@ -16,7 +16,9 @@ MOST_SAMPLES = 8000
 #: Points of all series of a page, about: a number takes eleven bytes in the file.
 MOST_POINTS = 500_000
 #: Datasets that only add up another one: rotation, works.
-INTEGRALS = ("pinion_angle", "work_")
+INTEGRALS = ("pinion_angle", "reference_angle", "mesh_phase", "angle", "work_")
+#: Axes of what is recorded of the pairs of several meshes.
+OF_PAIRS = ("mesh", "pair")
 #: Intervals that are shaded, at most.
 MOST_INTERVALS = 300
 #: Datasets by the flag that says where the law behind them is inside its range.
@@ -72,7 +74,7 @@ def with_unit(text: str, unit: str) -> str:
 
 
 def series_of(record: Record, records: int = 1) -> list[Series]:
-    """Datasets of numbers along a record's axis, but for the axis: one curve, or one per pair.
+    """Datasets of numbers along a record's axis, but for the axis: one curve, or one per pair, mesh or body.
 
     Without those of several units at once, and without those that are integrals of others (`INTEGRALS`). So
     many `records` share the page, and the points that it may have.
@@ -81,31 +83,51 @@ def series_of(record: Record, records: int = 1) -> list[Series]:
         name
         for name in record
         if name != record.axis
-        and len(record.dims_of(name)) <= 2
+        and (len(record.dims_of(name)) <= 2 or record.dims_of(name)[1:] == OF_PAIRS)
         and record.dims_of(name)[:1] == (record.axis,)
         and record.units(name)
         and " or " not in record.units(name)
         and not name.startswith(INTEGRALS)
         and np.asarray(record[name]).dtype.kind == "f"
     ]
-    count = sum(1 if np.ndim(record[name]) == 1 else np.shape(record[name])[1] for name in names)
+    count = sum(int(np.prod(np.shape(record[name])[1:])) for name in names)
     most = min(MOST_SAMPLES, max(1000, MOST_POINTS // max(1, count * records)))
     found = []
     for name in names:
         dims = record.dims_of(name)
         values, unit = in_engineers_units(np.asarray(record[name]), record.units(name))
-        curves = [Curve("", *thinned(values, most))] if values.ndim == 1 else []
-        for across in dims[1:]:
-            labels = record[across] if across in record else np.arange(values.shape[1])
-            word = f"{across.replace('_', ' ')} " if np.asarray(labels).dtype.kind in "iu" else ""
+        if values.ndim == 1:
+            curves = [Curve("", *thinned(values, most))]
+        elif dims[1:] == OF_PAIRS:
+            curves = _of_pairs(record, values, most)
+        else:
+            labels = _labels(record, dims[1], values.shape[1])
             curves = [
-                Curve(f"{word}{label}", *thinned(column, most))
-                for label, column in zip(labels, values.T, strict=True)
+                Curve(label, *thinned(column, most)) for label, column in zip(labels, values.T, strict=True)
             ]
-            if across == "pair":
+            if dims[1] == "pair":
                 curves.reverse()  # the one that entered last comes first
         found.append(Series(name, _title(record, name), unit, tuple(curves)))
     return found
+
+
+def _labels(record: Record, across: str, count: int) -> list[str]:
+    """Names along an axis, of numbers with what they count."""
+    labels = np.asarray(record[across] if across in record else np.arange(count))
+    word = f"{across.replace('_', ' ')} " if labels.dtype.kind in "iu" else ""
+    return [f"{word}{label}" for label in labels]
+
+
+def _of_pairs(record: Record, values: np.ndarray, most: int) -> list[Curve]:
+    """Curves of the pairs of several meshes, mesh after mesh; those that a mesh has, the newest first."""
+    meshes, pairs = (_labels(record, dim, size) for dim, size in zip(OF_PAIRS, values.shape[1:], strict=True))
+    known = np.any(np.isfinite(record["normal_load"]), axis=0) if "normal_load" in record else None
+    return [
+        Curve(f"{mesh}, {pairs[q]}", *thinned(values[:, m, q], most))
+        for m, mesh in enumerate(meshes)
+        for q in reversed(range(len(pairs)))
+        if known is None or known[m, q]
+    ]
 
 
 def _title(record: Record, name: str) -> str:

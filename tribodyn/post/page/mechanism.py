@@ -7,8 +7,8 @@ import numpy as np
 
 from tribodyn.post.page.data import packed
 
-#: Positions that are kept, evenly over the run.
-MOST_FRAMES = 1500
+#: Positions that are kept, evenly over the run, at least, and of all bodies and contacts together.
+MOST_FRAMES, MOST_PLACES = 1500, 60_000
 
 
 class Body(NamedTuple):
@@ -18,6 +18,17 @@ class Body(NamedTuple):
     pose: np.ndarray  # (samples, 3); x and y of the centre, m, and rotation, rad, anticlockwise
     fill: Literal["pinion", "gear", "paper", "ring"]  # colour of the page; a ring is a line of `width`
     width: float = 0.0  # m
+    opacity: float = 1.0  # of its area
+
+
+class Sight(NamedTuple):
+    """A part of a mechanism to look at."""
+
+    label: str
+    x: float  # middle, m
+    y: float
+    reach: float  # half of what is seen in height, m
+    front: Sequence[int] = ()  # numbers of the bodies that lie in front then
 
 
 class Mechanism(NamedTuple):
@@ -28,13 +39,15 @@ class Mechanism(NamedTuple):
     load: str  # dataset of the loads, by which arrows are as long; a curve for each contact
     contacts: np.ndarray  # (samples, contacts, 3); x, y, m, and direction of the load, rad
     reach: float  # half of what is seen in height, m
-    longest: float  # length of the arrow of the largest load, m
+    longest: float  # length of the arrow of the largest load, m; shorter where less than `reach` is seen
+    sights: Sequence[Sight] = ()  # to choose from; none: all of it
 
 
 def mechanism_data(found: Mechanism) -> dict[str, Any]:
     """A mechanism as the page reads it."""
     samples = len(found.contacts)
-    frames = np.unique(np.linspace(0, samples - 1, min(samples, MOST_FRAMES)).round().astype(int))
+    most = max(MOST_FRAMES, MOST_PLACES // (len(found.bodies) + found.contacts.shape[1]))
+    frames = np.unique(np.linspace(0, samples - 1, min(samples, most)).round().astype(int))
     x, y, alpha = np.moveaxis(found.contacts[frames], -1, 0)
     bodies = [
         {
@@ -42,6 +55,7 @@ def mechanism_data(found: Mechanism) -> dict[str, Any]:
             "pose": packed(body.pose[frames]),
             "fill": body.fill,
             "width": body.width,
+            "opacity": body.opacity,
         }
         for body in found.bodies
     ]
@@ -55,4 +69,5 @@ def mechanism_data(found: Mechanism) -> dict[str, Any]:
         "alpha": packed(alpha),
         "reach": found.reach,
         "longest": found.longest,
+        "sights": [sight._asdict() for sight in found.sights],
     }

@@ -295,18 +295,22 @@
     const sample = indexAt(record.axis, at), frame = teeth.turning ? Math.floor(turned * teeth.roll.length) % teeth.roll.length : teeth.frames ? indexAt(teeth.frames, sample) : sample;
     let across = 1e-9;
     for (let k = 0; k < (teeth.path || []).length; k += 2) across = Math.max(across, Math.abs(teeth.path[k]), 1.4 * Math.abs(teeth.path[k + 1]));
-    const scale = teeth.reach ? canvas.height / 2 / teeth.reach : canvas.width / 2 / (1.75 * across);
+    const sight = (teeth.sights || [])[Number($("sight").value)] || { x: 0, y: 0, reach: teeth.reach }, nearer = sight.reach / teeth.reach;
+    const scale = teeth.reach ? canvas.height / 2 / sight.reach : canvas.width / 2 / (1.75 * across);
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, canvas.width, canvas.height);
-    const world = () => context.setTransform(scale, 0, 0, -scale, canvas.width / 2, canvas.height / 2);
+    const world = () => context.setTransform(scale, 0, 0, -scale, canvas.width / 2 - scale * sight.x, canvas.height / 2 + scale * sight.y);
     const edges = { pinion: COLORS[0], gear: COLORS[1], paper: color("--ink"), ring: color("--ring") };
-    for (const body of teeth.bodies) {
+    const front = (sight.front || []).map((number) => teeth.bodies[number]);
+    for (const body of teeth.bodies.filter((one) => !front.includes(one)).concat(front)) {
       const [x, y, angle] = body.pose(frame);
       world();
       context.translate(x, y);
       context.rotate(angle);
       context.fillStyle = color(body.fill === "paper" ? "--card" : "--" + body.fill);
+      context.globalAlpha = body.opacity || 1;
       if (body.fill !== "ring") context.fill(body.path);
+      context.globalAlpha = 1;
       context.lineWidth = body.width || 1.4 * ratio / scale;
       context.strokeStyle = edges[body.fill];
       context.stroke(body.path);
@@ -336,7 +340,7 @@
       const place = teeth.longest ? q : pairs - 1 - q, load = valueAt(loads.curves[place] || loads.curves[0]);
       if (teeth.longest && !(load > 1e-9 * largest)) continue;
       const share = tint ? (valueAt(tint.curves[place] || tint.curves[0]) - lowest) / (highest - lowest || 1) : 1;
-      arrow(context, x, y, alpha, (load / largest) * (teeth.longest || 0.55 * across), share, ratio / scale);
+      arrow(context, x, y, alpha, (load / largest) * (teeth.longest * nearer || 0.55 * across), share, ratio / scale);
     }
   }
   function arrow(context, x, y, alpha, length, share, pixel) {
@@ -410,7 +414,8 @@
   $("add").onchange = (event) => { if (event.target.value) { shown.push(event.target.value); offer(); draw(); read(); } };
   $("view").onchange = (event) => { range = event.target.value === "all" ? span() : first.window; draw(); move(Math.max(range[0], Math.min(range[1], at))); };
   $("color").onchange = drawTeeth;
-  $("which").onchange = (event) => { which = Number(event.target.value); move(at); };
+  $("sight").onchange = drawTeeth;
+  $("which").onchange = (event) => { which = Number(event.target.value); looks(); move(at); };
   $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; redraw(); };
   document.addEventListener("keydown", (event) => {
     if (["SELECT", "INPUT"].includes(event.target.tagName) && event.key !== " ") return;
@@ -424,6 +429,13 @@
   choose($("color"), first.series.filter((one) => one.curves.length > 1).map((one) => [one.name, one.short]));
   if (first.byName[data.load]) $("color").value = data.load;
   choose($("which"), data.records.map((one, k) => [String(k), one.label]));
+  const looks = () => {
+    const sights = (data.records[which].teeth || {}).sights || [];
+    $("sight").textContent = "";
+    choose($("sight"), sights.map((one, k) => [String(k), one.label]));
+    $("sight-label").hidden = !sights.length;
+  };
+  looks();
   $("which-label").hidden = data.records.length < 2;
   if (first.teeth && first.teeth.title) $("teeth-title").textContent = first.teeth.title;
   const moving = data.records.some((one) => one.teeth || one.profiles || (one.maps || []).length);

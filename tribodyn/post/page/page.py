@@ -1,9 +1,7 @@
 """Puts a page together: one file, which asks nothing of any other place."""
 
-import json
 from collections.abc import Mapping, Sequence
 from html import escape
-from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -12,6 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
+from tribodyn.post.cycles import shown_cycles
+from tribodyn.post.page.assembled import assembled
 from tribodyn.post.page.data import (
     PageMap,
     Profiles,
@@ -36,8 +36,6 @@ from tribodyn.record.withheld import reasons, warnings
 
 #: Figures that are shown at first where a study names none.
 FIGURES = 4
-#: Mesh cycles that are shown at first.
-CYCLES = 2
 
 
 class PageContent(NamedTuple):
@@ -57,6 +55,8 @@ class PageContent(NamedTuple):
     found: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
     titles: Mapping[str, str] = MappingProxyType({})  # of datasets, in place of those of the record
     mechanism: Mechanism | None = None  # what moves, where it is no pair of gears
+    #: tables as above of parts of what the summary is about, below it
+    parts: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
 
 
 def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bool = True) -> str:
@@ -93,7 +93,10 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
             warnings_of(record, several) + _verdict(record, content, several)
             for record, content in zip(records, contents, strict=True)
         ),
-        "SUMMARY": summary_tables(records, [content.reported for content in contents]) if figures else "",
+        "SUMMARY": summary_tables(records, [content.reported for content in contents])
+        + _parts(records, contents)
+        if figures
+        else "",
         "TRUST": "".join(
             _on_trust(record, content.sentences, several)
             for record, content in zip(records, contents, strict=True)
@@ -108,46 +111,6 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
     }
     payload = {"records": data, "panels": panels, "load": LOAD, "axis": axis}
     return assembled(" · ".join(dict.fromkeys(map(title_of, records))), payload, sections, figures)
-
-
-def assembled(title: str, payload: dict[str, Any], sections: dict[str, str], figures: bool = True) -> str:
-    """Put a page together of its title, its data and the HTML of its sections."""
-    payload["figures"] = figures
-    parts = {
-        "RESULT": "",
-        **sections,
-        "TITLE": escape(title),
-        # no text of a record can end the element that holds it
-        "DATA": json.dumps(payload, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
-        "PLOTLY": _file("package_data/plotly.min.js", "plotly") if figures else "",
-        "SCRIPT": _file("page.js"),
-    }
-    # every other piece is a name: what stands in for one is not looked through again
-    body = "".join(parts.get(piece, piece) for piece in _file("page.html").split("@"))
-    policy = "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:"
-    return document(title, _file("page.css"), body, policy)
-
-
-def document(title: str, style: str, body: str, policy: str) -> str:
-    """Put a body (HTML) into a file that may load nothing but what the `policy` names."""
-    return f"""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; {policy}">
-<meta name="generator" content="tribodyn">
-<title>{escape(title)}</title>
-<style>{style}</style>
-</head>
-<body>
-{body}</body>
-</html>
-"""
-
-
-def _file(name: str, package: str = __package__ or "") -> str:
-    return resources.files(package).joinpath(name).read_text(encoding="utf-8")
 
 
 def title_of(record: Record | SweepRecord) -> str:
@@ -167,7 +130,7 @@ def _record(record: Record, count: int) -> dict[str, Any]:
     cycles = record.summary.get("cycles_done")
     if cycles and record.axis == "time":
         cycle = float(axis[-1] - axis[0]) / float(cycles)
-        window[0] = max(window[0], window[1] - CYCLES * cycle)
+        window[0] = max(window[0], window[1] - shown_cycles(record) * cycle)
     elif record.axis == "phase":
         cycle = 1.0
     return {
@@ -224,6 +187,15 @@ def summary_tables(records: Sequence[Record], reported: Sequence[Reported]) -> s
     note = '<p class="keys">–: this record does not have the quantity.</p>' if missing else ""
     kind = "summary tables several" if several else "summary tables"
     return f'<div class="{kind} wide">{"".join(tables)}</div>{note}'
+
+
+def _parts(records: Sequence[Record], contents: Sequence[PageContent]) -> str:
+    tables = [
+        table(f"{record.label}: {title}" if len(records) > 1 else title, columns, rows)
+        for record, content in zip(records, contents, strict=True)
+        for title, columns, rows in content.parts
+    ]
+    return f'<div class="tables parts">{"".join(tables)}</div>' if tables else ""
 
 
 def _cell(record: Record, quantity: Quantity) -> str:

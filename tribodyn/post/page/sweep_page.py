@@ -10,8 +10,9 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post.figures.sweep.branch import Branch, axis_label, branches
 from tribodyn.post.figures.sweep.response import panels_of
+from tribodyn.post.page.assembled import assembled
 from tribodyn.post.page.data import packed
-from tribodyn.post.page.page import assembled, origin, picture, table, title_of, verdict_list
+from tribodyn.post.page.page import origin, picture, table, title_of, verdict_list
 from tribodyn.post.sweep_report import described, sweep_remarks, sweep_rows, sweep_verdict, sweep_warnings
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_reader import SweepRecord

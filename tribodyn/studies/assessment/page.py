@@ -7,7 +7,8 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from tribodyn.post.page.page import document, summary_tables, table, verdict_list, warnings_of
+from tribodyn.post.page.assembled import document
+from tribodyn.post.page.page import summary_tables, table, verdict_list, warnings_of
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity

@@ -1,13 +1,11 @@
 """Reported quantities of a gear pair's dynamics, how far to trust them, and what a sweep records."""
 
-from collections.abc import Mapping
-from typing import Any
-
 from tribodyn.post.report import on_closures, on_energy, on_methods
-from tribodyn.quantities.catalogue import QUANTITIES, quantities
+from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
 from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
+from tribodyn.studies.gears.extremes_said import on_extremes
 
 #: One number per case, from its steady window.
 SWEPT = (
@@ -45,35 +43,12 @@ SWEEP_TABLE = quantities(
 )
 
 
-#: Relative difference between the extremes of the whole run and those of its last cycles that is said.
-DIFFERENT = 0.005
-
 SHORT = {"peak_to_peak": "transmission_error_peak_to_peak", "loss": "power_friction_mean"}
 
 PANELS = (
     *("transmission_error_rotational", "normal_load", "central_film_thickness"),
     *("friction_coefficient", "power_friction"),
 )
-
-
-def on_extremes(summary: Mapping[str, Any]) -> list[str]:
-    """Say which extremes of the whole run, or of its last mesh cycles, are not those of the table."""
-    described = summary.get("extremes")
-    if not described:  # a record of 0.1.0, or of a run that stopped at once
-        return []
-    said = []
-    for part, words in (("run", "Over the whole run"), ("last_cycles", "Over the last mesh cycles")):
-        others = []
-        for quantity in (QUANTITIES["normal_load_max"], *TRIBOLOGY):
-            known, value = described.get(part, {}).get(quantity.name), summary.get(quantity.name)
-            if known is None or value is None or not abs(known["value"] - value) > DIFFERENT * abs(value):
-                continue
-            name = quantity.title[0].lower() + quantity.title[1:]
-            at = f" at t = {known['time']:.4g} s" if part == "run" and "time" in known else ""
-            others.append(f"{name} {quantity.with_unit(known['value'])}" + at)
-        if others:
-            said.append(f"{words}: {', '.join(others)}.")
-    return said
 
 
 def sentences(record: Record) -> list[str]:

@@ -1,5 +1,206 @@
-"""Figures of a train."""
+"""Figures of a train: in its true positions, its meshes over their cycles, its modes."""
 
+from collections.abc import Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.post import style
+from tribodyn.post.cycles import last_cycles
+from tribodyn.post.figures import over_mesh
 from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.panel import (
+    MOST_CYCLES_DRAWN,
+    ORDER,
+    Trace,
+    View,
+    abscissa,
+    abscissa_label,
+    draw,
+    draw_ranges,
+    record_label,
+    record_title,
+)
+from tribodyn.post.figures.scale import scale
+from tribodyn.record.reader import Record
+from tribodyn.studies.gear_train.modes_figure import modes_figure
+from tribodyn.studies.gear_train.spectrum_figure import has_spectra, spectrum_figure
+from tribodyn.studies.gear_train.train_picture import draw_train, train_figure
 
-DRAWINGS: dict[str, Drawing] = {}
+MESH_FORCE = Trace("driven_torque", "Force of each mesh along its pitch tangent", "$F_t$", "N")
+FILM = over_mesh.FILM_THICKNESS._replace(title="Minimum film thickness of each mesh", from_zero=True)
+LOSS = Trace("mesh_power_friction", "Loss to friction in each mesh", "$P_f$", "W", from_zero=True)
+ERROR = over_mesh.TRANSMISSION_ERROR._replace(
+    title="Transmission error of each mesh", symbol="$r_1θ_1 - r_2θ_2$"
+)
+DISPLACEMENT = Trace("x", "Displacement of each body in its bearing", r"$\sqrt{x^2 + y^2}$", "µm")
+PRESSURE = over_mesh.HERTZ_PRESSURE._replace(title="Maximum Hertz pressure in each contact")
+EFFICIENCY = over_mesh.EFFICIENCY._replace(title="Efficiency of the train at each moment")
+
+#: Height of one of so many panels, inch.
+_LOW, _FEW = 1.8, 3
+
+
+def mesh_forces(record: Record) -> np.ndarray:
+    """Force of every mesh on its driven gear along the pitch tangent, N (samples, meshes)."""
+    radii = [record.of_mesh(mesh, "geometry")["gear_pitch_radius"] for mesh in record["mesh"]]
+    return record["driven_torque"] / np.array(radii)
+
+
+def thinnest_films(record: Record) -> np.ndarray:
+    """Smallest film of the pairs under load in every mesh, m (samples, meshes); NaN without any."""
+    films = np.where(record["normal_load"] > 0.0, record["central_film_thickness"], np.nan)
+    return np.fmin.reduce(films, axis=2)
+
+
+def displacements(record: Record) -> np.ndarray:
+    """Displacement of every body in its bearing, m (samples, bodies); NaN of those that only turn."""
+    return np.hypot(record["x"], record["y"])
+
+
+def draw_curves(
+    axes: Axes, record: Record, values: np.ndarray, names: Sequence[str], trace: Trace, view: View
+) -> None:
+    """Draw a curve for each name, `values` (samples, names) in SI; over many cycles the range within each."""
+    window = last_cycles(record, view.cycles)
+    x, shown = abscissa(window, view), []
+    for number, name in enumerate(names):
+        curve, color = values[:, number] * trace.factor, style.PALETTE[number % len(style.PALETTE)]
+        if not np.any(np.isfinite(curve)):
+            continue
+        if window.phase[-1] > MOST_CYCLES_DRAWN:
+            labels = "_range", style.literal(name)
+            shown += draw_ranges(axes, record, curve, window, view, color, labels)
+        else:
+            axes.plot(x, curve[window.part], color=color, label=style.literal(name))
+            shown.append(curve[window.part])
+    scale(axes, shown, trace.from_zero)
+    axes.set_xlim(float(x[0]), float(x[-1]))
+    axes.set_ylabel(trace.label)
+    axes.set_xlabel(abscissa_label(view, str(record["mesh"][0])))
+
+
+def overview_figure(records: Sequence[Record], view: View) -> Figure:
+    """Draw what the first record holds: the train, and forces, errors, films and losses of its meshes."""
+    record = records[0]
+    meshes, bodies = list(record["mesh"]), list(record["body"])
+    figure = style.new_figure(11.0, 6.6)
+    rows = figure.subplots(2, 3)
+    draw_train(rows[0, 0], record, last_cycles(record, view.cycles).part.start)
+    style.mark_panel(rows[0, 0], "a", "Train, drawn to scale")
+    moved = displacements(record)
+    held = bool(np.any(np.isfinite(moved)))
+    curves = (
+        (MESH_FORCE, mesh_forces(record), meshes),
+        (ERROR, record["transmission_error_rotational"], meshes),
+        (FILM, thinnest_films(record), meshes),
+        (LOSS, record["mesh_power_friction"], meshes),
+        (DISPLACEMENT, moved, bodies) if held else (EFFICIENCY, record["efficiency"][:, None], ["train"]),
+    )
+    for letter, axes, (trace, values, names) in zip("bcdef", rows.flat[1:], curves, strict=True):
+        draw_curves(axes, record, values, names, trace, view)
+        style.mark_panel(axes, letter, trace.title)
+    for axes in rows[1, 1:]:
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3, fontsize=6.5)
+    rows[1, 1].get_legend().set_title("Meshes, in b to e", {"size": 6.5})
+    rows[1, 2].get_legend().set_title("Bodies" if held else "", {"size": 6.5})
+    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
+    return figure
+
+
+def _each_mesh(trace: Trace, records: Sequence[Record], view: View) -> Figure:
+    """Draw the pairs of every mesh in a panel of its own, of one record after the other."""
+    places = [(record, m, str(mesh)) for record in records for m, mesh in enumerate(record["mesh"])]
+    figure, rows = _rows(len(places), records)
+    for letter, axes, (record, m, mesh) in zip(_letters(places), rows, places, strict=True):
+        draw(axes, [record], trace, view, last=axes is rows[-1], mesh=m)
+        if trace is over_mesh.FILM_PARAMETER:
+            over_mesh.draw_lubrication(axes)
+        head = f"{record_label(record)}, " if len(records) > 1 else ""
+        style.mark_panel(axes, letter, f"{head}{style.literal(mesh)}, {_lower(trace.title)}")
+    _finish(figure, rows, records)
+    return figure
+
+
+def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], view: View) -> Figure:
+    """Draw a curve of every mesh or body, each record in a panel of its own."""
+    figure, rows = _rows(len(records), records)
+    for letter, axes, record in zip(_letters(records), rows, records, strict=True):
+        draw_curves(axes, record, of(record), list(record[over]), trace, view)
+        head = f"{record_label(record)}: " if len(records) > 1 else ""
+        style.mark_panel(axes, letter, f"{head}{_lower(trace.title) if head else trace.title}")
+    _finish(figure, rows, records)
+    return figure
+
+
+def _rows(count: int, records: Sequence[Record]) -> tuple[Any, list[Axes]]:
+    height = style.PANEL_HEIGHT if count <= _FEW else _LOW
+    figure = style.new_figure(style.WIDTH, (height + 0.15) * count + 0.6)
+    return figure, list(figure.subplots(count, 1, squeeze=False, sharex=len(records) == 1)[:, 0])
+
+
+def _letters(of: Sequence[Any]) -> list[str]:
+    return [chr(ord("a") + number) if 1 < len(of) <= 26 else "" for number in range(len(of))]
+
+
+def _finish(figure: Any, rows: list[Axes], records: Sequence[Record]) -> None:
+    figure.align_ylabels()
+    for axes in rows[:-1]:
+        axes.set_xlabel("")
+    _legend(figure, rows)
+    if len(records) == 1:
+        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+
+
+def _legend(figure: Any, rows: Sequence[Axes]) -> None:
+    entries: dict[str, Any] = {}
+    for axes in rows:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            entries.setdefault(f"{label}{ORDER.get(label, '')}", handle)
+    if entries:
+        figure.legend(list(entries.values()), list(entries), loc="outside lower center", ncols=4)
+
+
+def _lower(text: str) -> str:
+    return text[0].lower() + text[1:]
+
+
+def _per_mesh(about: str, trace: Trace) -> Drawing:
+    return Drawing(about, partial(_each_mesh, trace))
+
+
+DRAWINGS: dict[str, Drawing] = {
+    "overview": Drawing("the train, forces, errors, films and losses of its meshes", overview_figure),
+    "train": Drawing("the train in its true positions, and the teeth in every mesh", train_figure),
+    "transmission-error": Drawing(
+        "transmission error of every mesh",
+        partial(_all_meshes, ERROR, lambda record: record["transmission_error_rotational"], "mesh"),
+    ),
+    "mesh-force": Drawing(
+        "force of every mesh along its pitch tangent", partial(_all_meshes, MESH_FORCE, mesh_forces, "mesh")
+    ),
+    "displacement": Drawing(
+        "displacement of every body in its bearing",
+        partial(_all_meshes, DISPLACEMENT, displacements, "body"),
+        lambda record: bool(np.any(np.isfinite(record["x"]))),
+    ),
+    "loss": Drawing(
+        "loss to friction in every mesh",
+        partial(_all_meshes, LOSS, lambda record: record["mesh_power_friction"], "mesh"),
+    ),
+    "spectrum": Drawing(
+        "spectrum of every mesh's transmission error, with the modes", spectrum_figure, has_spectra
+    ),
+    "modes": Drawing(
+        "natural frequencies, mesh frequencies over the speed, shares of the bodies", modes_figure
+    ),
+    "normal-load": _per_mesh("normal load of every pair of every mesh", over_mesh.NORMAL_LOAD),
+    "friction": _per_mesh("friction coefficient of every pair", over_mesh.FRICTION_COEFFICIENT),
+    "film": _per_mesh("film thickness of every pair", over_mesh.FILM_THICKNESS),
+    "film-parameter": _per_mesh("film thickness over roughness", over_mesh.FILM_PARAMETER),
+    "pressure": _per_mesh("Hertz pressure of every pair", PRESSURE),
+    "mesh-stiffness": _per_mesh("stiffness of every pair", over_mesh.STIFFNESS),
+}

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, pi, sin
+from math import pi
 
 import numpy as np
 
@@ -18,10 +18,11 @@ from tribodyn.studies.gear_train.assembled import (
 )
 from tribodyn.studies.gear_train.case import HOUSING, LoadData, TrainCase
 from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.model import Frame, mesh_of, options_of, varying_load
+from tribodyn.studies.gears.model import mesh_of, options_of, varying_load
 from tribodyn.studies.gears.prepare import Thermal, at_tooth_temperature
 from tribodyn.studies.gears.tabulated import Tabulated, quasi_static_loss, tables
 from tribodyn.train.phases import Phases
+from tribodyn.train.positions import frame_of
 from tribodyn.train.schedule import schedule_of
 from tribodyn.train.structure import GROUND, Bodies, Links, TrainLayout, layout_of
 from tribodyn.tribology.closure import closure_of
@@ -46,11 +47,6 @@ class PreparedTrain:
         """Names of the model's bodies."""
         own = tuple(self.case.bodies[body].name for body in self.order)
         return own if len(own) == self.model.layout.bodies else (*own, "motor")
-
-
-def frame_of(azimuth: float, sense: int) -> Frame:
-    """Directions along and across of a mesh whose driver turns in a sense, +1 counter-clockwise."""
-    return (-sense * sin(azimuth), sense * cos(azimuth)), (cos(azimuth), sin(azimuth))
 
 
 def tabulated(case: TrainCase) -> tuple[Tabulated, ...]:
@@ -190,3 +186,20 @@ def _layout(case: TrainCase, new: dict[int, int]) -> TrainLayout:
     return layout_of(
         planar, count + shaft, meshes, ends, count if shaft else source, new[_varying(case).body]
     )
+
+
+def geometry_of(prepared: PreparedTrain) -> dict[str, np.ndarray]:
+    """Where bodies, gears and meshes stand, as `record.TRAIN_GEOMETRY` says."""
+    case, order = prepared.case, prepared.order
+    numbers = {body: number for number, body in enumerate(order)}
+    bodies = [*order, *[case.source.body] * (prepared.model.layout.bodies - len(order))]
+    return {
+        "centre": np.array([case.bodies[body].centre for body in bodies]),
+        "sense": np.array([case.bodies[body].sense for body in bodies]),
+        "gear_body": np.array([numbers[gear.body] for gear in case.gears]),
+        "tooth_direction": np.array(prepared.phases.teeth),
+        "driver_gear": np.array([mesh.gears[0] for mesh in case.meshes]),
+        "driven_gear": np.array([mesh.gears[1] for mesh in case.meshes]),
+        "phase": np.array(prepared.phases.meshes),
+        "azimuth": np.array([mesh.azimuth for mesh in case.meshes]),
+    }

@@ -1,6 +1,6 @@
 """What is recorded of a train over time: datasets over its bodies, and over its meshes and their pairs."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -67,7 +67,23 @@ SAMPLES: dict[str, Variable] = {
 SCALES = {
     "mesh": Variable(("mesh",), "1", "mesh of the train; driver and driven, as power flows from the input"),
     "body": Variable(("body",), "1", "body of the train"),
+    "gear": Variable(("gear",), "1", "gear of the train"),
     "pair": PAIR._replace(long_name=f"{PAIR.long_name}; NaN where a mesh has none of this number"),
+}
+#: Where its bodies, gears and meshes stand. Numbers of bodies and gears count from 0 along their axes.
+TRAIN_GEOMETRY: dict[str, Variable] = {
+    "centre": Variable(("body", "axis"), "m", "axis of each body in x, y of the train, without load"),
+    "sense": Variable(("body",), "1", "nominal sense of rotation, 1 counter-clockwise seen from +z, -1 not"),
+    "gear_body": Variable(("gear",), "1", "number of the body that each gear belongs to"),
+    "tooth_direction": Variable(
+        ("gear",), "rad", "direction of the axis of a tooth where its body's angle is 0, from x"
+    ),
+    "driver_gear": Variable(("mesh",), "1", "number of the gear that drives in each mesh"),
+    "driven_gear": Variable(("mesh",), "1", "number of the gear that is driven in each mesh"),
+    "phase": Variable(
+        ("mesh",), "1", "cycles of each mesh where all angles are 0, without load; of the first mesh 0"
+    ),
+    "azimuth": Variable(("mesh",), "rad", "direction from the driver's axis to the driven one's, from x"),
 }
 #: A mesh has as many pairs as it needs: they are counted beside those of the record.
 _SLOTS = {"pair": "slot", "other_pair": "other_slot"}
@@ -115,15 +131,26 @@ def record_of(
     bodies: Sequence[str],
     meshes: Sequence[MeshOfRun],
     assemblies: Sequence[Assembly],
+    gears: Sequence[str],
+    geometry: Mapping[str, Any],
 ) -> TrainRecord:
-    """The layout of a record of meshes and bodies with these names, and what it holds from the start."""
+    """The layout of a record of meshes, bodies and gears with these names, and what it holds from the start.
+
+    `geometry` are the values of `TRAIN_GEOMETRY`.
+    """
     numbers = [number for mesh in meshes for number in mesh_pairs(mesh.cycle)]
     pairs = tuple(range(min(numbers), max(numbers) + 1))
-    groups, tables = {}, {}
+    groups: dict[str, Any] = {"geometry": dict(geometry)}
+    tables: dict[str, Any] = {"geometry": TRAIN_GEOMETRY}
     for name, mesh, assembly in zip(names, meshes, assemblies, strict=True):
         tables[f"{MESHES}/{name}/mesh_cycle"] = _CYCLE
         tables[f"{MESHES}/{name}/geometry"] = GEOMETRY
         groups[f"{MESHES}/{name}/mesh_cycle"] = as_arrays(mesh.cycle)
         groups[f"{MESHES}/{name}/geometry"] = geometry_arrays(assembly)
-    scales = {"mesh": np.array(names), "body": np.array(bodies), "pair": np.array(pairs)}
+    scales = {
+        "mesh": np.array(names),
+        "body": np.array(bodies),
+        "gear": np.array(gears),
+        "pair": np.array(pairs),
+    }
     return TrainRecord(Layout(TIME, SAMPLES, SCALES, groups=tables), scales, groups, pairs, meshes)

@@ -1,10 +1,42 @@
-"""Reported quantities of a train, and how far to trust them."""
+"""Reported quantities of a train, of all its meshes and of each, and how far to trust them."""
 
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from tribodyn.post import verdict as of_any
+from tribodyn.post.report import on_closures, on_energy, on_methods
 from tribodyn.quantities.catalogue import quantities
-from tribodyn.quantities.quantity import Reported
-from tribodyn.record.reader import Record
+from tribodyn.quantities.quantity import Quantity, Reported
+from tribodyn.record.reader import MESHES, Record
+from tribodyn.record.withheld import reasons
+from tribodyn.studies.gear_train.rolling_train import mechanism as mechanism
+from tribodyn.studies.gears.case import TEMPERATURE
+from tribodyn.studies.gears.extremes_said import on_extremes
+from tribodyn.studies.protocol.recording import TextTable
 
-REPORTED: Reported = {}
+#: The worst of all meshes where it is not said of the train.
+REPORTED: Reported = {
+    "Train": quantities("train_ratio", "common_period"),
+    "Dynamics": quantities("dynamic_factor", "normal_load_max", "contact_loss_fraction"),
+    "Tribology": quantities("film_min", "film_parameter_min", "hertz_pressure_max", "flash_temperature_max"),
+    "Energy": quantities(
+        *("power_in_mean", "power_friction_mean", "power_damping_mean"),
+        *("friction_work_on_vibration", "efficiency"),
+    ),
+    "Temperature": quantities("bulk_temperature", "contact_temperature_max"),
+    "Solver": quantities("solver", "steps", "rhs_evaluations", "wall_time"),
+}
+#: Of each mesh, in a table with a column for each.
+OF_A_MESH: tuple[Quantity, ...] = (
+    *quantities("contact_ratio", "normal_backlash", "stiffness_single_pair_at_pitch_point"),
+    *quantities("mesh_frequency", "transmission_error_mean", "transmission_error_rms"),
+    *quantities("transmission_error_peak_to_peak", "mesh_stiffness_mean", "mesh_stiffness_peak_to_peak"),
+    *quantities("normal_load_max", "dynamic_factor", "contact_loss_fraction"),
+    *quantities("film_min", "film_parameter_min", "film_parameter_min_roll_angle"),
+    *quantities("hertz_pressure_max", "flash_temperature_max", "friction_coefficient_mean"),
+    *quantities("power_in_mean", "power_friction_mean", "efficiency"),
+    *TEMPERATURE,
+)
 #: One number per case, from its steady window; of all meshes the worst.
 SWEPT = (
     *quantities(
@@ -20,8 +52,146 @@ SWEEP_TABLE = quantities(
     *("transmission_error_peak_to_peak", "dynamic_factor", "normal_load_max", "hertz_pressure_max"),
     *("film_min", "efficiency", "contact_loss_fraction"),
 )
+SHORT = {"loss": "power_friction_mean"}
+PANELS = (
+    *("transmission_error_rotational", "normal_load", "central_film_thickness"),
+    *("friction_coefficient", "mesh_power_friction"),
+)
+#: Meshes beside each other in a table, and named one by one in a sentence.
+ACROSS, NAMED = 4, 3
+
+
+def meshes_of(record: Record) -> dict[str, Mapping[str, Any]]:
+    """What the summary has of each mesh, by name, in the record's order."""
+    known = record.summary.get(MESHES)
+    names = map(str, record["mesh"])
+    return {name: known[name] for name in names if isinstance(known, Mapping) and name in known}
+
+
+def tables(record: Record) -> list[TextTable]:
+    """Quantities of each mesh, a column for each."""
+    meshes, withheld = meshes_of(record), reasons(record.summary)
+    names = list(meshes)
+    return [_table(names[start : start + ACROSS], meshes, withheld) for start in range(0, len(names), ACROSS)]
+
+
+def _table(
+    names: Sequence[str], meshes: Mapping[str, Mapping[str, Any]], withheld: Mapping[str, str]
+) -> TextTable:
+    rows = [[what, *(str(meshes[name].get(what, "")) for name in names), ""] for what in ("driver", "driven")]
+    for quantity in OF_A_MESH:
+        cells = []
+        for name in names:
+            value = meshes[name].get(quantity.name)
+            hidden = f"{MESHES}/{name}/{quantity.name}" in withheld
+            cells.append("withheld" if hidden else "" if value is None else quantity.written(value))
+        if any(cells):
+            rows.append([quantity.title, *cells, quantity.unit])
+    return TextTable("Each mesh", ("", *names, ""), rows)
+
+
+def verdict(record: Record) -> list[str]:
+    """Say what vibrates, presses and is lost in which mesh, where a law is in doubt, and what to do."""
+    summary, meshes = record.summary, meshes_of(record)
+    if not meshes:
+        return []
+    found = [*_moved(summary, meshes), *_pressed(summary, meshes), *_lost(summary, meshes)]
+    name = max(meshes, key=lambda name: _beyond(meshes[name]))
+    for line in of_any.outside(meshes[name]):
+        found.append(f"Mesh {name}: {line[0].lower()}{line[1:]}" if _beyond(meshes[name]) else line)
+        if len(found) == of_any.LINES - 1:
+            break
+    return [*found, *of_any.advised({**meshes[name], **of_any.numbers(summary)})]
+
+
+def _beyond(mesh: Mapping[str, Any]) -> float:
+    """Share of contact or loss beyond the range of a law from which it is in doubt; 0 below."""
+    found = of_any.numbers(mesh)
+    most = max(found.get("film_outside", 0.0), found.get("friction_outside", 0.0))
+    return most if most >= of_any.IN_DOUBT else 0.0
+
+
+def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
+    factors = {name: of_any.numbers(mesh).get("dynamic_factor") for name, mesh in meshes.items()}
+    known = {name: factor for name, factor in factors.items() if factor is not None}
+    if not known:
+        return
+    if len(known) <= NAMED:
+        parts = _listed([f"{factor:.2f} ({name})" for name, factor in known.items()])
+        text = f"Vibration raises the tooth forces to {parts} times their mean"
+    else:
+        name = max(known, key=lambda name: known[name])
+        text = f"Vibration raises the tooth forces to at most {known[name]:.2f} times their mean ({name})"
+    loss = of_any.numbers(summary).get("contact_loss_fraction", 0.0)
+    where = f" in {_worst(summary, meshes, 'contact_loss_fraction')}" if loss > of_any.APART else ""
+    yield f"{text}; {of_any.apart(loss)}{where}."
+
+
+def _pressed(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
+    found, parts = of_any.numbers(summary), []
+    if (pressure := found.get("hertz_pressure_max")) is not None:
+        where = _worst(summary, meshes, "hertz_pressure_max")
+        parts.append(
+            f"The flanks press with up to {of_any.with_unit('hertz_pressure_max', pressure)} ({where})"
+        )
+    if (ratio := found.get("film_parameter_min")) is not None:
+        where = _worst(summary, meshes, "film_parameter_min")
+        film = of_any.numbers(meshes[where]).get("film_min")
+        thick = "" if film is None else f"{of_any.with_unit('film_min', film)}, "
+        text = f"the oil film is at least {thick}{ratio:.2g} times the roughness ({where})"
+        parts.append(f"{text}: {of_any.lubrication(ratio)}")
+    if parts:
+        yield f"{'; '.join(parts)}."
+
+
+def _lost(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
+    losses = {name: of_any.numbers(mesh).get("power_friction_mean", 0.0) for name, mesh in meshes.items()}
+    whole = sum(losses.values())
+    for line in of_any.lost(summary):
+        if len(losses) <= NAMED:
+            parts = [f"{of_any.share(loss / whole)} in {name}" for name, loss in losses.items()]
+            yield f"{line[:-1]}: {_listed(parts)}."
+        else:
+            name = max(losses, key=lambda name: losses[name])
+            yield f"{line[:-1]}, most of it in {name}: {of_any.share(losses[name] / whole)}."
+
+
+def _worst(summary: Mapping[str, Any], meshes: Mapping[str, Any], quantity: str) -> str:
+    """Name of the mesh that has the worst value of a quantity; the first where the summary does not say."""
+    number = of_any.numbers(summary.get("worst_mesh")).get(quantity, 1.0)
+    return list(meshes)[min(max(int(number), 1), len(meshes)) - 1]
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return " and ".join(filter(None, (", ".join(parts[:-1]), *parts[-1:])))
 
 
 def sentences(record: Record) -> list[str]:
-    """Say how well the run satisfies what can be checked."""
-    return []
+    """Say over which cycles means are, and of all meshes what of a pair is said of it."""
+    summary, meshes = record.summary, meshes_of(record)
+    of_train = {name: value for name, value in summary.items() if name != "averaging_cycles"}
+    said: dict[str, list[str]] = {}
+    for name, mesh in meshes.items():
+        for line in (*on_extremes(mesh), *on_closures(mesh)):
+            said.setdefault(line, []).append(name)
+    of_meshes = [
+        line if len(names) == len(meshes) else f"{line[:-1]} ({', '.join(names)})."
+        for line, names in said.items()
+    ]
+    return [*on_methods(of_train), *_on_period(record), *of_meshes, *on_energy(summary)]
+
+
+def _on_period(record: Record) -> list[str]:
+    """Say over which cycles means are, and whether these are whole common periods of the meshes."""
+    found = of_any.numbers(record.summary)
+    if not {"averaging_cycles", "common_period"} <= set(found):
+        return []
+    cycles, period = int(found["averaging_cycles"]), max(int(found["common_period"]), 1)
+    text = f"Means are over the last {_counted(cycles, 'cycle')} of the mesh {record['mesh'][0]}"
+    if cycles % period:
+        return [f"{text}, less than the common period of {period} cycles."]
+    return [f"{text}: {_counted(cycles // period, 'common period')} of all meshes."]
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"

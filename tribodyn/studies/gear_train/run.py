@@ -15,7 +15,7 @@ from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
 from tribodyn.studies.gear_train.case import TrainCase
-from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare
+from tribodyn.studies.gear_train.prepare import PreparedTrain, geometry_of, prepare
 from tribodyn.studies.gear_train.record import TrainRecord, record_of
 from tribodyn.studies.gear_train.summary import (
     at_rest,
@@ -80,7 +80,14 @@ def _run(case: TrainCase, path: Path, force: bool, progress: Progress | None) ->
         "lubricant": oil_data(case.meshes[0].pair.lubricant),
         "meshes": dict(zip(names, rests, strict=True)),
     }
-    kept: TrainRecord = record_of(names, prepared.names, meshes, [made.assembly for made in prepared.made])
+    kept: TrainRecord = record_of(
+        names,
+        prepared.names,
+        meshes,
+        [made.assembly for made in prepared.made],
+        [gear.name for gear in case.gears],
+        geometry_of(prepared),
+    )
     more = {"groups": kept.groups, "scales": kept.scales}
     with writer(case, path, kept.layout, cycles * samples + 1, force=force, **more) as record:
         begun = perf_counter()

@@ -67,8 +67,8 @@ class Study:
                   ``SWEPT``, quantities that a sweep keeps, and ``SWEEP_TABLE``, those that it prints (both
                   optional); ``SHORT``, short names of quantities, ``PANELS``, datasets that a page shows at
                   first, ``TOP``, quantities at the top of what is printed as JSON (all optional); of a
-                  record ``maps`` over the face, ``profiles`` at the cursor, and its ``mechanism``, bodies
-                  in motion that are no pair of gears (all optional)
+                  record ``tables`` of its parts, ``maps`` over the face, ``profiles`` at the cursor, and its
+                  ``mechanism``, bodies in motion that are no pair of gears (all optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional; figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
@@ -243,8 +243,8 @@ class Study:
         """Datasets that a page shows at first; none: the first ones."""
         return self._part("report", "PANELS", optional=True) or ()
 
-    def on_page(self, what: Literal["maps", "profiles", "mechanism"], record: "Record") -> Any:
-        """What a page of a record shows besides: `PageMap`s, `Profiles`, a `Mechanism`; None: nothing."""
+    def besides(self, what: Literal["tables", "maps", "profiles", "mechanism"], record: "Record") -> Any:
+        """What is shown of a record besides: `TextTable`s, `PageMap`s, `Profiles`, a `Mechanism`; or None."""
         found = self._part("report", what, optional=True)
         return found(record) if found else None
 

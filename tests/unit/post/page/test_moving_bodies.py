@@ -30,7 +30,7 @@ def rolling(tmp_path_factory) -> Iterator[Record]:
 def test_elements_touch_cam_and_crown(rolling, rng):
     """To 0.1 µm, between outlines so fine that their chords leave 0.02 µm."""
     study = study_of(rolling.scenario)
-    found = study.on_page("mechanism", rolling)
+    found = study.besides("mechanism", rolling)
     assert found is not None
     _, crown, cam, cage, *elements = found.bodies
     radius, count = float(rolling.geometry["element_radius"]), rolling.scenario["drive"]["elements"]
@@ -50,7 +50,7 @@ def test_elements_touch_cam_and_crown(rolling, rng):
 
 def test_arrows_lie_where_the_record_has_loads(rolling, rng):
     """The element of a load stands where the record's angle from the eccentric has it."""
-    found = study_of(rolling.scenario).on_page("mechanism", rolling)
+    found = study_of(rolling.scenario).besides("mechanism", rolling)
     assert found is not None
     shaft, angle = rolling["input_angle"], rolling["element_angle"]
     cage = found.bodies[3].pose

@@ -1,4 +1,4 @@
-from tribodyn.studies.gear_pair.report import on_extremes
+from tribodyn.studies.gears.extremes_said import on_extremes
 
 
 def summary(run, last):
