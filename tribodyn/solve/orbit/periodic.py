@@ -123,9 +123,10 @@ def _search_finely(before: GearMap, orbits: list[Orbit], tolerance: float, setti
 
 
 def refuse_time_dependent(model: Model) -> None:
-    """Raise InputError where the load varies in time otherwise than with the mesh.
+    """Raise InputError where the load varies in time otherwise than with the meshes.
 
-    Harmonics at whole multiples of the mesh frequency of a prescribed speed repeat with the mesh.
+    With a prescribed speed, harmonics at whole multiples of the frequency of the common period repeat with
+    the meshes; that of a single mesh is the mesh frequency.
     """
     operation = model.operation
     torques = np.asarray(operation.load_torques)
@@ -136,17 +137,20 @@ def refuse_time_dependent(model: Model) -> None:
             "a load that changes over time has no steady state over the mesh cycle",
             "omit the table, or run the scenario in time",
         )
-    period = float(operation.pitch_angle) / float(operation.nominal_speed)
+    cycles = model.schedule.period
+    period = cycles * float(operation.pitch_angle) / float(operation.nominal_speed)
     frequencies = np.asarray(operation.load_frequencies)[np.asarray(operation.load_amplitudes) != 0.0]
     for frequency in frequencies:
         orders = frequency * period / (2.0 * np.pi)
         if model.options.drive != DRIVE_SPEED or abs(orders - round(orders)) > 1e-9:
+            over = "the mesh cycle" if cycles == 1 else f"the {cycles} cycles after which all meshes repeat"
+            lowest = "the mesh frequency" if cycles == 1 else "the frequency of these"
             raise InputError(
                 "operating.gear_torque_harmonics",
                 f"{frequency:g} rad/s",
-                "does not repeat with the mesh, so that there is no steady state over the mesh cycle",
-                f"take a whole multiple of the mesh frequency ({2.0 * np.pi / period:.6g} rad/s) with a "
-                "prescribed speed, or run the scenario in time",
+                f"does not repeat with the mesh, so that there is no steady state over {over}",
+                f"take a whole multiple of {lowest} ({2.0 * np.pi / period:.6g} rad/s) with a prescribed "
+                "speed, or run the scenario in time",
             )
 
 
