@@ -14,6 +14,7 @@ import tomli_w
 
 from tests.support.states import PAIR, TURN_G, VX_P, VY_P, X_P, Y_P, random_place, random_state
 from tests.support.train_scenarios import REDUCER, train_case
+from tribodyn.dynamics.contact_forces import DISTANCE
 from tribodyn.dynamics.outputs import evaluated, mesh_outputs
 from tribodyn.dynamics.parameters import Model
 from tribodyn.studies.gear_pair.prepare import prepare as prepare_pair
@@ -22,12 +23,12 @@ from tribodyn.studies.gear_train.prepare import PreparedTrain
 from tribodyn.studies.gear_train.prepare import prepare as prepare_train
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.schedule import phase_of
-from tribodyn.train.structure import shift_of, turn_of
+from tribodyn.train.structure import shift_of, turn_of, velocities
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 
-#: Random states at which a mesh is compared.
-STATES = 60
+#: Random states at which a mesh is compared; places in a cycle, of which those next to the pitch point count.
+STATES, PLACES = 60, 4000
 
 KEYS_OF_LAWS = {"coulomb": {"coefficient": 0.06}}
 #: Laws that are solved for every mesh before the run.
@@ -91,15 +92,32 @@ def as_pair(data: dict[str, Any], train: PreparedTrain, mesh: int) -> dict[str, 
 
 
 def states_of(model: Model, mesh: int, rng: np.random.Generator) -> tuple[np.ndarray, ...]:
-    """Cycles, intervals and states of a train, the mesh's driver at its nominal speed."""
+    """Cycles, intervals and states of a train, the mesh's driver at its nominal speed.
+
+    A third of them are where a pair comes by the pitch point, and hardly vibrate: its friction turns there.
+    """
     layout, schedule = model.layout, model.schedule
+    near = STATES // 3
     states = np.array([random_state(rng, model) for _ in range(STATES)])
+    states[:near, velocities(layout)] *= 1e-3
     states[:, layout.half + layout.lag] = 0.0
     states[:, layout.half + turn_of(layout.driver[mesh], layout)] = 0.0
-    intervals = np.arange(STATES) % len(schedule.start)
+    grid = (np.arange(PLACES * schedule.period) + 0.5) / PLACES
+    there = evaluated(grid, np.zeros((len(grid), layout.states)), model)
+    table, segment = model.meshes[mesh].table, np.asarray(schedule.segment)[there.interval, mesh].astype(int)
+    distance = np.min(
+        [
+            np.where(inside > 0.0, np.abs(there.work[mesh][DISTANCE, slot]), np.inf)
+            for slot, inside in enumerate(np.asarray(table.in_contact)[segment].T)
+        ],
+        axis=0,
+    )
+    turning = np.argsort(distance)[:near]
+    intervals = np.arange(STATES - near) % len(schedule.start)
     before = np.searchsorted(np.asarray(schedule.first)[1:], intervals, side="right")
     phases = [random_place(rng, schedule, int(interval))[0] for interval in intervals]
-    return before + np.array(phases), intervals, states
+    cycles = np.concatenate([grid[turning], before + np.array(phases)])
+    return cycles, np.concatenate([there.interval[turning], intervals]), states
 
 
 def states_of_pair(model: Model, mesh: int, states: np.ndarray) -> np.ndarray:
