@@ -7,14 +7,15 @@ import pytest
 
 from tests.support.states import sampled
 from tests.support.train_scenarios import prepared_train
-from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
+from tribodyn.dynamics.extremes import no_extremes, take_in
+from tribodyn.dynamics.outputs import at_extremes, evaluated, mesh_outputs, train_outputs
 from tribodyn.dynamics.parameters import Model
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.methods import METHODS
 from tribodyn.solve.tolerances import tolerances_from
-from tribodyn.solve.transient import TransientSettings, make_integrator
+from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
 from tribodyn.train.structure import rotational_error
 
 REDUCER = "two-stage-reducer"
@@ -116,6 +117,32 @@ def test_energy_balances_whatever_drives_and_loads_a_train(run):
         assert all(np.min(load) == 0.0 < np.max(load) for load in loads)
     if run.startswith("run-up"):
         assert whole["speed"][-1, 0] > 1.1 * whole["speed"][0, 0]
+
+
+def test_the_extremes_of_every_mesh_are_found():
+    """Where flanks part: not missed by what 2000 samples in a cycle see, and no farther from it."""
+    model = prepared_train(REDUCER, **RUBBING | RATTLE).model
+    settings = TransientSettings("dopri5", 1e-8, 6, 10**6, 2000, extremes=True)
+    *parts, _ = transient(model, initial_state(model, "static"), settings)
+    chunks = [part for part in parts if isinstance(part, SampledStates)]
+    at, states = (np.concatenate([getattr(chunk, of) for chunk in chunks]) for of in ("cycles", "states"))
+    found = no_extremes(model.layout)
+    for chunk in chunks:
+        if chunk.extremes is not None:
+            take_in(found, chunk.extremes)
+    dense, (both, _) = evaluated(at, states, model), at_extremes(at[:1], states[:1], found, model)
+    for mesh in range(2):
+        expected, seen = (mesh_outputs(mesh, samples) for samples in (dense, both))
+        for name, sign in (
+            ("normal_load", 1),
+            ("transmission_error_rotational", 1),
+            ("hertz_pressure", 1),
+            ("transmission_error_rotational", -1),
+            ("central_film_thickness", -1),
+        ):
+            there, most = (sign * np.nanmax(sign * values[name]) for values in (expected, seen))
+            size = np.nanmax(np.abs(expected[name]))
+            assert -1e-9 * size <= sign * (most - there) <= 1e-5 * size
 
 
 @pytest.fixture(scope="module")
