@@ -155,6 +155,7 @@ def speeds():
     return models, np.array([initial_state(model, "static") for model in models])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["dopri5", pytest.param("tsit5", marks=pytest.mark.soak)])
 def test_a_batch_of_trains_is_so_many_single_runs(speeds, method):
     """Over cycles that are no whole number of common periods."""
@@ -168,6 +169,7 @@ def test_a_batch_of_trains_is_so_many_single_runs(speeds, method):
         assert off(model, found.samples[case], alone.samples[-40:]) < (1e-7 if method == "dopri5" else 3e-6)
 
 
+@pytest.mark.slow
 def test_a_batch_goes_on_where_another_ended(speeds):
     """Within the common period of three cycles: the meshes stand where they stood."""
     models, states = speeds

@@ -87,27 +87,29 @@ def over_the_period(train: PreparedTrain) -> tuple[np.ndarray, np.ndarray]:
     """Exact map of (displacements, velocities, 1) over the common period, and senses of the coordinates."""
     model, schedule = train.model, train.model.schedule
     cycle = float(model.operation.pitch_angle / model.operation.nominal_speed)
-    start, whole = 0.0, np.eye(1)
+    one = linear_train(train, [1] * len(model.meshes))
+    free = free_coordinates(one, (0,))
+    inside, count = np.ix_(free, free), len(free)
+    inverse = np.linalg.inv(mass_matrix(one)[inside])
+    load = output_load(one, float(model.bodies.load[-1]))[free]
+    elapsed, whole = 0.0, np.eye(2 * count + 1)
     for k, row in enumerate(np.asarray(schedule.segment).astype(int)):
         counts = [
             int(np.sum(np.asarray(mesh.table.in_contact)[segment]))
             for segment, mesh in zip(row, model.meshes, strict=True)
         ]
         linear = linear_train(train, counts)
-        free = free_coordinates(linear, (0,))
-        inside, count = np.ix_(free, free), len(free)
-        inverse = np.linalg.inv(mass_matrix(linear)[inside])
         flow = np.zeros((2 * count + 1, 2 * count + 1))
         flow[:count, count:-1] = np.eye(count)
         flow[count:-1, :count] = -inverse @ stiffness_matrix(linear)[inside]
         flow[count:-1, count:-1] = -inverse @ damping_matrix(linear)[inside]
-        flow[count:-1, -1] = inverse @ output_load(linear, float(model.bodies.load[-1]))[free]
+        flow[count:-1, -1] = inverse @ load
         duration = float(schedule.end[k] - schedule.start[k]) * cycle
-        start += duration
-        whole = expm(flow * duration) @ (whole if k else np.eye(len(flow)))
-    assert start == pytest.approx(schedule.period * cycle)
-    own = np.ones(3 * len(linear.bodies))
-    own[2::3] = senses(linear)
+        elapsed += duration
+        whole = expm(flow * duration) @ whole
+    assert elapsed == pytest.approx(schedule.period * cycle)
+    own = np.ones(3 * len(one.bodies))
+    own[2::3] = senses(one)
     return whole, own[free]
 
 
