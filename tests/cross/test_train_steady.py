@@ -222,6 +222,19 @@ def test_a_train_is_followed_along_its_speed(rubbing):
     assert scaled(trains[1].model, found.state - expected.state) < 1e-6
 
 
+def test_a_lightly_damped_train_need_not_repeat():
+    """Another solver comes by its samples, and they are of whole common periods."""
+    light = {"mesh.backlash": "20 um", "mesh.damping_ratio": 0.005, "bearings.default.damping_ratio": 0.003}
+    model = at_speed(REDUCER, 7800, **RUBBING, **light, **{"operating.output_torque": "150 N*m"}).model
+    (steady,) = steady_states([model], samples=10, max_cycles=300)
+    assert steady.period == 0
+    assert "unstable state of period 1" in steady.message
+    assert steady.samples.shape[0] == 10 * 15
+    end = by_another_solver(model, steady.state, 3)
+    assert scaled(model, end - steady.samples[30]) < 1e-4
+    assert scaled(model, end - steady.state) > 1e-1
+
+
 def harmonic(train: PreparedTrain, mesh: int, times: float) -> list[dict[str, str]]:
     """A load that varies with a mesh's frequency, times a number."""
     reference = train.model.operation
