@@ -7,7 +7,8 @@ python -m tools.bench_peers --only tribodyn LSODA                     # programs
 Single: the CRC drive at 300 rad/s over 20 mesh cycles. Every program gets the loosest tolerance (of a ladder)
 with which the maximum error of the transmission error, over its range, is within TARGET of the solution at
 1e-12; compilation, tables and files are outside. A program that does not get there is marked and has no
-ratio; one with a right-hand side of its own must agree with tribodyn's first. Diffrax: the same for diffrax,
+ratio; one with a right-hand side of its own must agree with tribodyn's first. Train: the same for a two-stage
+reducer, on tribodyn's right-hand side. Diffrax: the same for diffrax,
 whose compilation takes minutes. Batch: the same drive at many speeds. Steady: its periodic steady states over
 the speed, and LSODA marching to them.
 """
@@ -23,10 +24,11 @@ from tools.peers import steady
 from tools.peers.batch import BATCHES, WINDOW, Batch, models_at, threads
 from tools.peers.batch import SAMPLES as IN_BATCH
 from tools.peers.numpy_model import MOVING, difference
-from tools.peers.single import Problem, Program, octave, octave_timed, peers, tribodyn_engine
+from tools.peers.single import Problem, Program, octave, octave_timed, peers, peers_on_trains, tribodyn_engine
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.gear_train.prepare import prepare as prepare_train
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.train.structure import rotational_error
 
@@ -68,6 +70,7 @@ PARTS = {
     "diffrax": lambda given: single(
         lambda name: "diffrax" in name or name in (OURS, "SciPy LSODA, numba"), given.repeats
     ),
+    "train": lambda given: of_train(lambda name: wanted(name, given), given.repeats),
     "batch": lambda given: batch(lambda name: wanted(name, given), given.repeats),
     "steady": lambda given: f"{steady.table(given.repeats, TARGET)} {measured_on()}.",
 }
@@ -82,8 +85,19 @@ def problem(cycles: int = CYCLES) -> Problem:
 
 def single(wanted: Callable[[str], bool], repeats: int) -> str:
     """Table of single runs."""
-    posed = problem()
-    programs = {name: program for name, program in peers().items() if wanted(name)}
+    return compared(problem(), {name: one for name, one in peers().items() if wanted(name)}, repeats)
+
+
+def of_train(wanted: Callable[[str], bool], repeats: int) -> str:
+    """Table of single runs of a train."""
+    case: Any = load_scenario("two-stage-reducer")
+    model = prepare_train(case).model
+    posed = Problem(model, static_equilibrium(model), CYCLES, SAMPLES)
+    return compared(posed, {name: one for name, one in peers_on_trains().items() if wanted(name)}, repeats)
+
+
+def compared(posed: Problem, programs: dict[str, Program], repeats: int) -> str:
+    """Table of programs that solve the same problem."""
     differs = require_same_equations(posed, programs)
     exact = tribodyn_engine("dopri5")(posed, 1e-12)
     timings = []

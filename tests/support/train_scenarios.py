@@ -1,7 +1,9 @@
 """Scenarios of trains, read as `load_scenario` reads them: references, schema, rules, case."""
 
 import hashlib
+import json
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +13,10 @@ from pydantic import ValidationError
 from tribodyn.errors import InputErrors
 from tribodyn.scenario.messages import explain
 from tribodyn.scenario.resolve import resolve, resolve_table, unresolved_keys
+from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies.gear_train import STUDY
 from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare
 from tribodyn.studies.protocol.load import loaded_from, table_of
 
 
@@ -37,6 +41,16 @@ def case_of_table(written: Mapping[str, Any], overrides: Mapping[str, Any] | Non
     """The case of a scenario that is written here; what it names is looked for among the shipped."""
     path = Path("train.toml")
     return loaded_from(resolve_table(dict(written), path, overrides or {}, table_of), path).case
+
+
+@lru_cache(maxsize=32)
+def _prepared(name: str, overrides: str) -> PreparedTrain:
+    return prepare(train_case(find_scenario(name), json.loads(overrides)))
+
+
+def prepared_train(name: str, **overrides: Any) -> PreparedTrain:
+    """A shipped train with overrides made ready, once for all that ask for it."""
+    return _prepared(name, json.dumps(overrides, sort_keys=True))
 
 
 def _gear(teeth: int, width: str, shift: float) -> dict[str, Any]:

@@ -52,8 +52,8 @@ Runner = Callable[[Problem, float], Array]
 class Program(NamedTuple):
     """A program of the comparison: how it runs, and the right-hand side that it brings along, or None.
 
-    `run` takes problem and relative tolerance and returns samples of the transmission error, m; it raises
-    RuntimeError where it gives up. `rates` are as of `numpy_model.difference`.
+    `run` takes problem and relative tolerance and returns samples of the transmission error, m, of several
+    meshes in rows; it raises RuntimeError where it gives up. `rates` are as of `numpy_model.difference`.
     """
 
     run: Runner
@@ -68,7 +68,10 @@ def tribodyn_engine(method: str) -> Runner:
         part = integrator.integrate(problem.state, 0, problem.cycles)
         if part.status != Status.DONE:
             raise RuntimeError(f"{method}: {part.message or part.status}")
-        return rotational_error(part.samples, 0, problem.model)
+        errors = [
+            rotational_error(part.samples, mesh, problem.model) for mesh in range(len(problem.model.meshes))
+        ]
+        return np.stack(errors) if len(errors) > 1 else errors[0]
 
     return run
 
@@ -179,13 +182,19 @@ def _in_octave(model: Model, given: dict[str, Any]) -> dict[str, Any]:
         return loadmat(folder / "found.mat")
 
 
-def peers() -> dict[str, Program]:
-    """All programs that can be run here, ours first."""
+def peers_on_trains() -> dict[str, Program]:
+    """Programs that take the compiled right-hand side of any train, ours first."""
     programs = {f"tribodyn {name}": Program(tribodyn_engine(name)) for name in ("dopri5", "rodas4")}
-    for name in ("BDF", "LSODA"):
-        programs[f"SciPy {name}, NumPy"] = Program(scipy_on_numpy(name), numpy_rates)
     for name in ("BDF", "LSODA", "DOP853"):
         programs[f"SciPy {name}, numba"] = Program(tribodyn_engine(name.lower()))
+    return programs
+
+
+def peers() -> dict[str, Program]:
+    """All programs that can be run here, ours first."""
+    programs = peers_on_trains()
+    for name in ("BDF", "LSODA"):
+        programs[f"SciPy {name}, NumPy"] = Program(scipy_on_numpy(name), numpy_rates)
     for name in ("Tsit5", "Dopri8", "Kvaerno5"):
         programs[f"diffrax {name}"] = Program(tribodyn_engine(name.lower()))
     if find_spec("sksundae"):

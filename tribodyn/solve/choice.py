@@ -10,7 +10,7 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.initial import accelerations
 from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF, SWITCHING
 from tribodyn.solve.tolerances import state_scales
-from tribodyn.train.schedule import place_of
+from tribodyn.train.schedule import intervals, place_of
 
 _DISTANCE = CHANNELS.index("signed_distance")
 #: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one, with
@@ -21,6 +21,8 @@ STIFF_ABOVE = {SLIDING_KINEMATIC: 5000, SLIDING_DYNAMIC: 10000}
 SWITCHING_ABOVE = {SLIDING_KINEMATIC: float("inf"), SLIDING_DYNAMIC: 100}
 #: Stability limit of Dormand-Prince 5(4) on the negative real axis.
 REAL_STABILITY = 3.3
+#: Reference cycles of the common period that are looked at, evenly spread, where it has more.
+CYCLES = 8
 #: Phases in each segment at which the Jacobian is evaluated.
 PHASES = 9
 #: Phases about the place where the friction of a pair reverses, and how far they reach, over its width.
@@ -42,33 +44,36 @@ def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
     The spectral radius of the mechanics' Jacobian (central differences) over the stability limit, integrated
     over the phase; it is sampled finely where a pair's friction reverses, a short and possibly stiff stretch.
     """
-    cycles, phases, intervals = _places(model)
+    cycles, phases, numbers = _places(model)
     mechanical, states = model.layout.mechanical, model.layout.states
     scale = state_scales(model, state)[:mechanical]
     shift = np.zeros((mechanical, states))
     shift[:, :mechanical] = SHARE * np.diag(scale)
     shape = (len(phases), mechanical, states)
     up, down = (
-        accelerations(
-            np.broadcast_to(state + sign * shift, shape), phases[:, None], intervals[:, None], model
-        )
+        accelerations(np.broadcast_to(state + sign * shift, shape), phases[:, None], numbers[:, None], model)
         for sign in (1, -1)
     )
     jacobians = np.swapaxes((up - down)[..., :mechanical] / (2.0 * SHARE * scale[:, None]), 1, 2)
     radius = np.max(np.abs(np.linalg.eigvals(jacobians)), axis=1)
     width = np.diff(cycles)
     whole = float(np.sum(0.5 * width * (radius[1:] + radius[:-1])))
-    return whole / model.schedule.period / REAL_STABILITY
+    return whole / float(cycles[-1] - cycles[0]) / REAL_STABILITY
 
 
 def _places(
     model: Model,
 ) -> tuple[Float[Array, " place"], Float[Array, " place"], Int[Array, " place"]]:
-    """Places over the common period in order: reference cycles, phases in them, and intervals."""
+    """Places over the cycles looked at, put one behind the other: cycles, phases in them, and intervals."""
     schedule = model.schedule
-    first, start, end = (np.asarray(part) for part in (schedule.first, schedule.start, schedule.end))
-    passed, phases, intervals = [], [], []
-    for interval in range(len(start)):
+    start, end = np.asarray(schedule.start), np.asarray(schedule.end)
+    count = min(schedule.period, CYCLES)
+    chosen = np.arange(count) * schedule.period // count
+    of_cycles = [
+        (number, n) for number, cycle in enumerate(chosen.tolist()) for n in intervals(schedule, cycle)
+    ]
+    passed, phases, found = [], [], []
+    for number, interval in of_cycles:
         low, high = float(start[interval]), float(end[interval])
         places = list(np.linspace(low, high, PHASES))
         for m, mesh in enumerate(model.meshes):
@@ -86,11 +91,10 @@ def _places(
                     width = float(model.operation.reversal_width) / slope
                     about = np.linspace(-REVERSAL_REACH, REVERSAL_REACH, REVERSAL_PHASES)
                     places += list(np.clip(pitch_point + width * about, low, high))
-        cycle = int(np.searchsorted(first[1:], interval, side="right"))
         phases += sorted(places)
-        passed += [cycle] * len(places)
-        intervals += [interval] * len(places)
-    return np.array(passed) + np.array(phases), np.array(phases), np.array(intervals)
+        passed += [number] * len(places)
+        found += [interval] * len(places)
+    return np.array(passed) + np.array(phases), np.array(phases), np.array(found)
 
 
 def choose(method: str, model: Model, state: Float[Array, " state"]) -> Choice:

@@ -23,7 +23,7 @@ FINE = 1e-2
 #: a few hundred times the tolerance where contact opens and closes. Such a case is marched once more,
 #: over so many mesh cycles at the fine tolerance, with fixed points at a hundredth of that.
 NOISE, ONCE_MORE = 1e-5, 120
-#: Mesh cycles of a motion without period that are sampled.
+#: Mesh cycles of a motion without period that are sampled: as many common periods as fit in, at least one.
 WANDERING = 16
 
 
@@ -36,8 +36,8 @@ class SteadyMotion(Orbit):
     natural frequency.
     """
 
-    #: over one period of the motion, works counted from its start; over `WANDERING` mesh cycles of a motion
-    #: without period
+    #: over one period of the motion, works counted from its start; of a motion without period over common
+    #: periods, see `WANDERING`
     samples: Float[Array, "sample state"]
     #: at the end of the samples, before the next engagement: the works and the lag of whole mesh cycles
     end: Float[Array, " state"]
@@ -116,16 +116,18 @@ def _search_finely(before: GearMap, orbits: list[Orbit], tolerance: float, setti
     models, begin = [before.models[i] for i in noisy], np.array([orbits[i].last for i in noisy])
     rtol = {"rtol": FINE * tolerance, "fine_rtol": FINE**2 * tolerance}
     finest = GearMap(models, before.full(begin), before.kind, **rtol, **settings)
-    finer = find(finest, begin, tolerance=tolerance, max_periods=ONCE_MORE)
+    most = max(1, ONCE_MORE // finest.cycles)
+    finer = find(finest, begin, tolerance=tolerance, max_periods=most)
     for i, orbit in zip(noisy, finer, strict=True):
         if orbit.period and orbit.stable:
             orbits[i] = replace(orbit, cycles=orbits[i].cycles + orbit.cycles)
 
 
 def refuse_time_dependent(model: Model) -> None:
-    """Raise InputError where the load varies in time otherwise than with the mesh.
+    """Raise InputError where the load varies in time otherwise than with the meshes.
 
-    Harmonics at whole multiples of the mesh frequency of a prescribed speed repeat with the mesh.
+    With a prescribed speed, harmonics at whole multiples of the frequency of the common period repeat with
+    the meshes; that of a single mesh is the mesh frequency.
     """
     operation = model.operation
     torques = np.asarray(operation.load_torques)
@@ -136,30 +138,34 @@ def refuse_time_dependent(model: Model) -> None:
             "a load that changes over time has no steady state over the mesh cycle",
             "omit the table, or run the scenario in time",
         )
-    period = float(operation.pitch_angle) / float(operation.nominal_speed)
+    cycles = model.schedule.period
+    period = cycles * float(operation.pitch_angle) / float(operation.nominal_speed)
     frequencies = np.asarray(operation.load_frequencies)[np.asarray(operation.load_amplitudes) != 0.0]
     for frequency in frequencies:
         orders = frequency * period / (2.0 * np.pi)
         if model.options.drive != DRIVE_SPEED or abs(orders - round(orders)) > 1e-9:
+            over = "the mesh cycle" if cycles == 1 else f"the {cycles} cycles after which all meshes repeat"
+            lowest = "the mesh frequency" if cycles == 1 else "the frequency of these"
             raise InputError(
                 "operating.gear_torque_harmonics",
                 f"{frequency:g} rad/s",
-                "does not repeat with the mesh, so that there is no steady state over the mesh cycle",
-                f"take a whole multiple of the mesh frequency ({2.0 * np.pi / period:.6g} rad/s) with a "
-                "prescribed speed, or run the scenario in time",
+                f"does not repeat with the mesh, so that there is no steady state over {over}",
+                f"take a whole multiple of {lowest} ({2.0 * np.pi / period:.6g} rad/s) with a prescribed "
+                "speed, or run the scenario in time",
             )
 
 
 def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[SteadyMotion]:
     """Each orbit with its samples, marched once more over its period, or over some mesh cycles without."""
-    cycles = [0 if orbit.kind == FAILED else orbit.period or WANDERING for orbit in orbits]
+    wandering = max(1, WANDERING // period_map.cycles)
+    periods = [0 if orbit.kind == FAILED else orbit.period or wandering for orbit in orbits]
     motions: dict[int, SteadyMotion] = {}
     for case, orbit in enumerate(orbits):
         state, last = period_map.full(np.array([orbit.state, orbit.last]))
         whole = vars(orbit) | {"state": state, "last": last}
         motions[case] = SteadyMotion(**whole, samples=np.empty((0, len(state))), end=state, extremes=None)
-    for period in sorted({*cycles} - {0}):
-        cases = np.flatnonzero(np.array(cycles) == period)
+    for period in sorted({*periods} - {0}):
+        cases = np.flatnonzero(np.array(periods) == period)
         states = np.array([motions[case].state for case in cases.tolist()])
         result = period_map.integrate(states, cases, period, samples, True, extremes=True)
         reasons = reasons_of(result.status, result.reached)

@@ -1,0 +1,155 @@
+"""What several meshes cost, as ratios to a pair and to other programs in the same run."""
+
+import tomllib
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import Any
+
+import numpy as np
+import pytest
+import tomli_w
+
+from tests.support.train_scenarios import prepared_train, train_case
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import Model
+from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
+from tribodyn.kernels.lanes.arrays import rows_of
+from tribodyn.kernels.lanes.vectors import WIDTH
+from tribodyn.kernels.native import kernel
+from tribodyn.scenario.sources import find_scenario
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.lanes.batch import lane_model, pack
+from tribodyn.solve.right_hand_side import work_array
+from tribodyn.solve.tolerances import tolerances_from
+from tribodyn.solve.transient import make_integrator
+from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.train.schedule import interval_of
+from tribodyn.train.structure import rotational_error
+
+pytestmark = pytest.mark.bench
+
+REDUCER = "two-stage-reducer"
+#: Places in a common period at which the right-hand side is evaluated, and how often over.
+PLACES, OVER = 600, 40
+#: Right-hand side of a train over the sum of those of its pairs, at most; seconds to meet a calm machine.
+MOST, SECONDS = 1.3, 8.0
+CYCLES, SAMPLES = 20, 200
+#: Largest error of the transmission errors over their range.
+TARGET = 2e-5
+
+
+@kernel
+def _single(times, cycles, phases, intervals, y, model, work, dy):
+    for _ in range(times):
+        for n in range(phases.shape[0]):
+            derivatives(phases[n], cycles[n], int(intervals[n]), y, model, work, dy)
+
+
+@kernel
+def _lanes(times, cycles, phases, intervals, y, model, work, dy):
+    for _ in range(times):
+        for n in range(phases.shape[0]):
+            phase = rows_of(phases[n])[0]
+            derivatives(phase, cycles[n], int(intervals[n]), rows_of(y), model, rows_of(work), rows_of(dy))
+
+
+def model_of(law: str, folder: Path, stage: int | None = None) -> Model:
+    """The reducer under a friction law, or one of its stages as a pair, at the speed and load that it has."""
+    path = find_scenario(REDUCER)
+    if stage is None:
+        return prepared_train(REDUCER, **{"friction.law": law}).model
+    data: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
+    part, mesh = data["stage"][stage], prepared_train(REDUCER).case.meshes[stage].pair.operating
+    data["friction"]["law"] = law
+    data["stage"], data["gear"] = [part], {name: data["gear"][name] for name in part["gears"]}
+    del data["shaft"]
+    first, second = part["gears"]
+    data["operating"] |= {"input": first, "input_speed": f"{mesh.pinion_speed!r} rad/s"}
+    data["operating"] |= {"output": second, "output_torque": f"{mesh.gear_torque!r} N*m"}
+    alone = folder / f"stage-{stage}.toml"
+    alone.write_text(tomli_w.dumps(data), encoding="utf-8")
+    return prepare(train_case(alone)).model
+
+
+def right_hand_sides(model: Model, lanes: bool) -> Callable[[], Any]:
+    """What evaluates a right-hand side at `PLACES` over the common period, `OVER` times."""
+    at = (np.arange(PLACES) + 0.5) * model.schedule.period / PLACES
+    cycles, phases, intervals = interval_of(at, model.schedule)
+    y, work = static_equilibrium(model), work_array(model)
+    if not lanes:
+        return lambda: _single(OVER, cycles, phases, intervals, y, model, work, np.zeros_like(y))
+    over, _, _ = lane_model(pack([model] * WIDTH))
+    wide = [np.repeat(values[..., None], WIDTH, axis=-1) for values in (phases[:, None], y, work, 0.0 * y)]
+    return lambda: _lanes(OVER, cycles, wide[0], intervals, wide[1], over, *wide[2:])
+
+
+def least(calls: Sequence[Callable[[], Any]], turns: int, enough: float = 0.0) -> list[float]:
+    """Processor time of calls, taken in turn: the least of each, which met the calmest machine; s.
+
+    Where the first one's over the sum of the others' is not below `enough`, they go on for seconds: whatever
+    else runs holds a processor's caches for as long.
+    """
+    best = [float("inf")] * len(calls)
+    turn, end = 0, perf_counter() + SECONDS
+    while turn <= turns or (best[0] >= enough * sum(best[1:]) and enough and perf_counter() < end):
+        for place, call in enumerate(calls):
+            begun = process_time()
+            call()
+            best[place] = min(best[place], process_time() - begun)
+        turn += 1
+    return best
+
+
+@pytest.mark.parametrize("lanes", [False, True])
+@pytest.mark.parametrize("law", ["none", "masjedi-khonsari"])
+def test_a_right_hand_side_costs_what_its_meshes_cost(law, lanes, tmp_path, capsys):
+    """Of two meshes and three bodies no more than 1.3 times that of two pairs, which have four."""
+    models = [model_of(law, tmp_path), *(model_of(law, tmp_path, stage) for stage in range(2))]
+    train, *pairs = least([right_hand_sides(model, lanes) for model in models], 15, MOST)
+    ratio = train / sum(pairs)
+    with capsys.disabled():
+        nanoseconds = ", ".join(f"{1e9 * time / PLACES / OVER:.0f}" for time in (train, *pairs))
+        print(
+            f"\n{law}, {'lanes' if lanes else 'single'}: train and its stages {nanoseconds} ns: {ratio:.2f}"
+        )
+    assert ratio < MOST
+
+
+@pytest.mark.parametrize("law", ["none", "masjedi-khonsari"])
+def test_a_reducer_runs_in_five_times_the_time_of_its_faster_pair(law, tmp_path, capsys):
+    """Over 20 cycles of the faster mesh; SciPy's LSODA on the same compiled right-hand side takes far longer.
+
+    Tolerances are those at which each is within `TARGET` of a solution at 1e-11.
+    """
+    train, pair = model_of(law, tmp_path), model_of(law, tmp_path, 0)
+
+    def run(model: Model, method: str, rtol: float) -> Callable[[], Any]:
+        state = static_equilibrium(model)
+        tolerances = tolerances_from(model, state, rtol, 10**6)
+        return lambda: make_integrator(method, model, SAMPLES, tolerances).integrate(state, 0, CYCLES)
+
+    exact = run(train, "dopri5", 1e-11)().samples
+
+    def error(samples: np.ndarray) -> float:
+        both = [[rotational_error(states, m, train) for m in range(2)] for states in (samples, exact)]
+        return max(
+            float(np.max(np.abs(one - other)) / np.ptp(other)) for one, other in zip(*both, strict=True)
+        )
+
+    ours, ours_of_pair, theirs = (
+        run(train, "dopri5", 1e-5),
+        run(pair, "dopri5", 1e-5),
+        run(train, "lsoda", 1e-6),
+    )
+    errors = [error(solve().samples) for solve in (ours, theirs)]
+    times = [*least([ours, ours_of_pair], 25), *least([theirs], 3)]
+    to_pair, to_peer = times[0] / times[1], times[2] / times[0]
+    with capsys.disabled():
+        print(
+            f"\n{law}: {CYCLES} cycles of the reducer {1e3 * times[0]:.2f} ms (error {errors[0]:.1e}), "
+            f"{to_pair:.2f} times its first pair; LSODA ({errors[1]:.1e}) takes {to_peer:.0f} times that"
+        )
+    assert max(errors) < TARGET
+    assert to_pair < 5.0
+    assert to_peer > 10.0
