@@ -1,7 +1,6 @@
 """Many cases of a train's dynamics, evaluated together."""
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,10 +13,10 @@ from tribodyn.studies.gear_train.estimate import drivers_of, marching_of
 from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare, tabulated
 from tribodyn.studies.gear_train.report import SWEPT
 from tribodyn.studies.gear_train.summary import meshes_of_run, steady_quantities, worst_of
+from tribodyn.studies.gear_train.warmth import at_own_temperatures
 from tribodyn.studies.gears.batch import MotionBatch
 from tribodyn.studies.gears.batch.kind import Form, SweptKind
 from tribodyn.studies.gears.extremes import RunningExtremes
-from tribodyn.studies.gears.prepare import at_own_temperature
 from tribodyn.studies.gears.running import MeshOfRun
 from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.gears.sampled import Sampled
@@ -105,18 +104,8 @@ class Trains(SweptKind):
         """The case with every mesh at the temperature of its own loss; None: all are."""
         if case.meshes[0].pair.temperature is None:
             return None
-        warm, lost = (row[name + OF_MESH] for name in ("bulk_temperature", "power_friction_mean"))
-        pairs = [
-            at_own_temperature(mesh.pair, float(own), float(loss))
-            for mesh, own, loss in zip(case.meshes, warm, lost, strict=True)
-        ]
-        if not any(pairs):
-            return None
-        meshes = (
-            mesh if pair is None else replace(mesh, pair=pair)
-            for mesh, pair in zip(case.meshes, pairs, strict=True)
-        )
-        return replace(case, meshes=tuple(meshes))
+        warm, lost = (row[name + OF_MESH].tolist() for name in ("bulk_temperature", "power_friction_mean"))
+        return at_own_temperatures(case, warm, lost)
 
     def sliding(self, case: TrainCase) -> str:
         """Its `friction.sliding`."""

@@ -17,10 +17,11 @@ from tribodyn.studies.gear_train.assembled import (
     table_numbers,
 )
 from tribodyn.studies.gear_train.case import HOUSING, LoadData, TrainCase
+from tribodyn.studies.gear_train.warmth import at_tooth_temperatures
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.model import mesh_of, options_of, varying_load
-from tribodyn.studies.gears.prepare import Thermal, at_tooth_temperature
-from tribodyn.studies.gears.tabulated import Tabulated, quasi_static_loss, tables
+from tribodyn.studies.gears.prepare import Thermal
+from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.train.phases import Phases
 from tribodyn.train.positions import frame_of
 from tribodyn.train.schedule import schedule_of
@@ -62,11 +63,7 @@ def prepare(case: TrainCase, made: tuple[Tabulated, ...] | None = None) -> Prepa
     """Check the geometry, tabulate the meshes and assemble the model; `made` is of equal tables, if known."""
     made = made or tabulated(case)
     inertias = body_inertias(case, [each.assembly for each in made])
-    warm, thermal = [], []
-    for mesh, each in zip(case.meshes, made, strict=True):
-        pair, heat = at_tooth_temperature(mesh.pair, each.assembly, quasi_static_loss(each))
-        warm.append(pair)
-        thermal.append(heat)
+    warm, thermal = zip(*at_tooth_temperatures(case, made), strict=True)
     found = phases(case, [each.assembly for each in made], [float(each.cycle.roll_start) for each in made])
     order = _order(case)
     model = _under_load(_model(case, made, warm, inertias, found, order), case)

@@ -1,6 +1,5 @@
 """From a case of a train's dynamics to its record."""
 
-from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -24,8 +23,9 @@ from tribodyn.studies.gear_train.summary import (
     window_of,
     worst_of,
 )
+from tribodyn.studies.gear_train.warmth import at_own_temperatures
 from tribodyn.studies.gears.check import oil_data
-from tribodyn.studies.gears.prepare import MOST_MOTIONS, at_own_temperature
+from tribodyn.studies.gears.prepare import MOST_MOTIONS
 from tribodyn.studies.gears.running import RunStatistics, judge_balance
 from tribodyn.studies.gears.sampled import sampled_with_extremes
 from tribodyn.studies.gears.steady import warning_of
@@ -48,24 +48,16 @@ def run(
     path = target(case, output, force)
     result = _run(case, path, force, progress)
     for _ in range(MOST_MOTIONS - 1):
-        again = _at_own_temperatures(case, result) if result.status == "complete" else None
+        if result.status != "complete":
+            break
+        each = [result.summary["meshes"][mesh.name] for mesh in case.meshes]
+        warm = [found.get("bulk_temperature") for found in each]
+        again = at_own_temperatures(case, warm, [found["power_friction_mean"] for found in each])
         if again is None:
             break
         case = again
         result = _run(case, path, True, progress)
     return result
-
-
-def _at_own_temperatures(case: TrainCase, result: RunResult) -> TrainCase | None:
-    """The case with every mesh at the temperature of its own loss; None where all are."""
-    changed = False
-    meshes = []
-    for mesh in case.meshes:
-        found = result.summary["meshes"][mesh.name]
-        again = at_own_temperature(mesh.pair, found.get("bulk_temperature"), found["power_friction_mean"])
-        changed = changed or again is not None
-        meshes.append(mesh if again is None else replace(mesh, pair=again))
-    return replace(case, meshes=tuple(meshes)) if changed else None
 
 
 def _run(case: TrainCase, path: Path, force: bool, progress: Progress | None) -> RunResult:
