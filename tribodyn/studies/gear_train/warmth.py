@@ -41,8 +41,13 @@ def at_own_temperatures(
 ) -> TrainCase | None:
     """The case with every mesh at the temperature that the losses of its motion give; None: all are there.
 
-    `bulk` are the temperatures at which it was run, K; `losses` the mean losses to tooth friction, W.
+    `bulk` are the temperatures at which it was run, K; `losses` the mean losses to tooth friction, W. The means
+    of these and of those before are taken: thin oil of several meshes overshoots, and would swing.
     """
+    before = [mesh.pair.temperature and mesh.pair.temperature.mesh_loss for mesh in case.meshes]
+    losses = [
+        lost if known is None else 0.5 * (lost + known) for lost, known in zip(losses, before, strict=True)
+    ]
     pairs = [
         at_own_temperature(pair, warm, lost)
         for pair, warm, lost in zip(_heated(case, losses), bulk, losses, strict=True)

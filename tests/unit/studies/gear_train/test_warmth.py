@@ -42,11 +42,3 @@ def test_a_run_settles_at_the_losses_of_its_motion(tmp_path):
     for mesh, own in zip(found.values(), gears, strict=True):
         assert mesh["oil_temperature"] == pytest.approx(oil, abs=0.3)
         assert mesh["bulk_temperature"] == pytest.approx(sum(own) / 2.0, abs=0.3)
-
-
-def test_by_the_standard_a_mesh_is_warmed_by_itself_alone():
-    """As the same gears as a pair, of which the estimate of ISO knows nothing beside."""
-    case = load_scenario("two-stage-reducer", {"temperature.model": "iso"})
-    both = [heat.temperatures.bulk for heat in prepare(case).thermal]
-    assert both[0] != pytest.approx(both[1], abs=0.5)
-    assert all(pair.temperature.other_heat == 0.0 for pair in prepare(case).pairs)
