@@ -41,8 +41,8 @@ def at_own_temperatures(
 ) -> TrainCase | None:
     """The case with every mesh at the temperature that the losses of its motion give; None: all are there.
 
-    `bulk` are the temperatures at which it was run, K; `losses` the mean losses to tooth friction, W. The means
-    of these and of those before are taken: thin oil of several meshes overshoots, and would swing.
+    `bulk` are the temperatures at which it was run, K; `losses` the mean losses to tooth friction, W. The
+    means of these and of those before are taken: the oil of several meshes would swing to and fro.
     """
     before = [mesh.pair.temperature and mesh.pair.temperature.mesh_loss for mesh in case.meshes]
     losses = [
