@@ -49,9 +49,20 @@ OTHER_GEARS = {
     "kind=planetary": "planetary gears",
     "drive.planets=3": "planetary gears",
     "drive.carrier.speed=1": "planetary gears",
-    "stages=2": "several stages",
-    "shafts.input=1": "several stages",
-    "drive.gear2.teeth=40": "several stages",
+    "drive.type=bevel": "bevel, worm and hypoid gears",
+}
+
+
+#: As users ask for several stages of a pair of gears: setting, key of the message.
+SEVERAL_STAGES = {
+    "stages=2": "stages",
+    "shafts.input=1": "shafts",
+    "drive.gear2.teeth=40": "drive.gear2",
+    "idler.teeth=30": "idler",
+    "gear.wheel-1.teeth=40": "gear",
+    "body=[]": "body",
+    "kind=gearbox": "kind",
+    "operating.input=pinion-1": "operating.input",
 }
 
 
@@ -61,7 +72,34 @@ def test_gears_that_are_not_modelled(refused: Refused, scenario: Path, setting: 
     key = setting.partition("=")[0]
     assert code == 2
     assert f": {key}" in line or f": {key.rpartition('.')[0]} = " in line
-    assert f"{what} are not modelled: this version computes one pair of external spur gears" in line
+    assert f"{what} are not modelled: this version computes external spur gears" in line
+
+
+@pytest.mark.parametrize(("setting", "key"), SEVERAL_STAGES.items())
+def test_several_stages_are_sent_to_the_kind_that_has_them(
+    refused: Refused, scenario: Path, setting: str, key: str
+):
+    code, (line,) = refused("check", str(scenario), "--set", setting)
+    assert code == 2
+    assert f": {key} = " in line
+    assert 'several stages are of another kind of study; write kind = "gear-train"' in line
+
+
+#: As users ask for other gears of a train: setting, what is said of it.
+OTHER_TRAINS = {
+    'gear.wheel-1.helix_angle="10 deg"': "helical gears",
+    'stage.1.helix_angle="10 deg"': "helical gears",
+    "gear.wheel-1.teeth=-69": "internal gears",
+    "planets=3": "planetary gears",
+    "carrier.speed=1": "planetary gears",
+}
+
+
+@pytest.mark.parametrize(("setting", "what"), OTHER_TRAINS.items())
+def test_trains_that_are_not_modelled(refused: Refused, setting: str, what: str):
+    code, (line,) = refused("check", "two-stage-reducer", "--set", setting)
+    assert code == 2
+    assert f"{what} are not modelled: this version computes external spur gears" in line
 
 
 def test_a_planetary_gearbox_is_refused_once(refused: Refused, scenario: Path):
@@ -70,7 +108,7 @@ def test_a_planetary_gearbox_is_refused_once(refused: Refused, scenario: Path):
     code, (line,) = refused("run", str(scenario))
     assert code == 2
     assert line.startswith(f"{scenario}: stage = ")
-    assert "describe one stage" in line
+    assert 'kind = "gear-train"' in line
 
 
 @pytest.mark.parametrize("setting", ["operating.shaft_stifness=1", "drive.ringg=1", "drive.gear.teeth=-1"])

@@ -55,7 +55,7 @@ class Origins:
 def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
     """Return what pydantic found as our errors, in the order of the file.
 
-    Of a file that describes gears which are not modelled only that is said, once.
+    Of a file that describes gears which its kind of study has not only that is said, once.
     """
     found = [dict(one) for one in error.errors(include_url=False)]
     errors = [_explain_one(one, model) for one in found]
@@ -66,13 +66,15 @@ def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
 
 
 def _outside(found: dict[str, Any], error: InputError, several: bool) -> InputError | None:
-    """What to say of a key that describes gears which are not modelled; None where it does not.
+    """What to say of a key that describes gears which the kind of study has not; None where it does not.
 
     `several` says whether the scenario may have several stages.
     """
     name, given = str(found["loc"][-1]), found["input"]
     if found["type"] == "extra_forbidden":
         named = given if isinstance(given, str) and len(given.split()) < 3 else ""  # type = "planetary"
+        if not several and scope.names_gears(name, given):
+            return scope.refusal(error, scope.STAGES)
         return scope.outside(error, name, named, but=(scope.STAGES,) if several else ())
     fewest = found.get("ctx", {}).get("ge")  # a number of teeth that only the sign of internal gears excludes
     if name == "teeth" and fewest is not None and given <= -fewest:

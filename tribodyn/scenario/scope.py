@@ -1,6 +1,7 @@
-"""Gears that this version does not model, by the keys and names under which scenarios ask for them."""
+"""Gears that this version does not model, or that a kind of study has not, by what asks for them."""
 
 import re
+from typing import Any
 
 from tribodyn.errors import InputError
 
@@ -11,12 +12,13 @@ _OUTSIDE = {
     INTERNAL: (r"^internal(_(gears?|teeth|mesh))?$|annulus|^ring(_|$)", "describe an external gear"),
     "planetary gears": (
         r"planet|epicyclic|^(sun|carrier)s?(_|$)",
-        "describe an external mesh of it, sun and planet, as [drive.pinion] and [drive.gear]",
+        "describe an external mesh of it, sun and planet",
     ),
     STAGES: (
         r"multi_?stage|^((n|number_of)_)?(stage|shaft|gearbox|gear_?train|train|idler|gears|mesh(es)?|"
         r"((pinion|gear|wheel)_?\d+))(e?s)?(_?\d+)?$",
-        "describe one stage as [drive.pinion] and [drive.gear]",
+        'write kind = "gear-train" with [gear.NAME] and [[stage]] (tribodyn init --kind gear-train), '
+        "or describe one stage as [drive.pinion] and [drive.gear]",
     ),
     "bevel, worm and hypoid gears": (r"bevel|worm|hypoid|(cone|shaft|spiral)_angle", "omit it"),
 }
@@ -36,9 +38,21 @@ def outside(error: InputError, *names: str, remedy: str = "", but: tuple[str, ..
 
 
 def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
-    """What to say, in place of an error, of a value that asks for gears which are not modelled."""
+    """What to say, in place of an error, of a value that asks for gears which its kind of study has not."""
+    if what == STAGES:
+        rule = f"{STAGES} are of another kind of study"
+        return InputError(error.key, error.value, rule, _OUTSIDE[STAGES][1], error.file)
     rule = (
-        f"{what} are not modelled: this version computes one pair of external spur gears, "
+        f"{what} are not modelled: this version computes external spur gears, "
         "not helical, internal or planetary gears"
     )
     return InputError(error.key, error.value, rule, remedy or _OUTSIDE[what][1], error.file)
+
+
+def names_gears(name: str, given: Any) -> bool:
+    """Whether an unknown key is a table of a train: [gear.NAME], [[body]] or [[link]]."""
+    if name == "gear":
+        return (
+            isinstance(given, dict) and bool(given) and all(isinstance(one, dict) for one in given.values())
+        )
+    return name in ("body", "link") and isinstance(given, list)
