@@ -111,9 +111,10 @@ def _train(prepared: PreparedTrain) -> dict[str, Any]:
 
 def _train_tables(prepared: PreparedTrain) -> list[TextTable]:
     found, case = _train(prepared), prepared.case
+    cycles = "1 cycle" if case.period == 1 else f"{case.period} cycles"
     whole = [
         ("ratio of input to output speed", f"{found['train_ratio']:.6g}"),
-        ("common period of the meshes", f"{case.period} cycles of mesh {case.meshes[0].name}"),
+        ("common period of the meshes", f"{cycles} of mesh {case.meshes[0].name}"),
         ("repeats every", f"{case.period / _mesh_frequencies(prepared)[0] * 1e3:.4g} ms"),
     ]
     bodies = [
@@ -124,7 +125,7 @@ def _train_tables(prepared: PreparedTrain) -> list[TextTable]:
             "counter-clockwise" if body["counter_clockwise"] else "clockwise",
             "–" if body["mass"] is None else f"{body['mass']:.4g}",
             f"{body['inertia']:.4g}",
-            f"{body['centre'][0] * 1e3:.5g}, {body['centre'][1] * 1e3:.5g}",
+            ", ".join(f"{round(place * 1e3, 9) + 0.0:.5g}" for place in body["centre"]),
         )
         for name, body in found["bodies"].items()
     ]
