@@ -12,8 +12,8 @@ from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_response
+from tribodyn.studies.gear_pair.batch import state_places
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.gear_pair.report import state_places
 from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.sweep.engines import LocalEngine

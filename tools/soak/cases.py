@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import tomli_w
 
-from tools.soak import duties, searches, studies
+from tools.soak import duties, searches, studies, trains
 from tools.soak.draw import Draw
 from tools.soak.drives import FAMILIES, drive
 from tribodyn.errors import InputError
@@ -18,7 +18,8 @@ from tribodyn.studies.protocol.load import load_scenario
 MOST_DRAWS = 40
 #: What a case is, and its share of all: so many of `SHARES` groups.
 SORTS = {
-    "gear-pair": 24,
+    "gear-pair": 20,
+    "gear-train": 4,
     "efficiency": 6,
     "load-contact": 6,
     "ehl": 4,
@@ -78,6 +79,7 @@ def sort_of(number: int) -> str:
 
 
 _MAKERS: dict[str, Callable[[Draw, dict[str, Any]], dict[str, Any]]] = {
+    "gear-train": trains.train,
     "efficiency": studies.efficiency,
     "load-contact": studies.load_contact,
     "ehl": studies.solved_contact,

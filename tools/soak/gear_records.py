@@ -45,10 +45,29 @@ def faults(record: Record, rtol: float) -> Iterator[str]:
     yield from _numbers(data)
     yield from _friction(data)
     yield from _damping(data)
-    yield from _summary(record, data)
-    yield from _energy(record, data, rtol)
+    yield from _summary(record.summary, data)
+    yield from _energy(record, rtol)
     if record.status == "complete":
         yield from _means(record, data)
+
+
+def train_faults(record: Record, rtol: float) -> Iterator[str]:
+    """Say what is wrong with a complete or failed record of a train whose meshes have equal teeth."""
+    if record.samples == 0:
+        return
+    data = {name: record[name] for name in record}
+    yield from _numbers(data)
+    yield from _friction(data)
+    yield from _damping(data)
+    yield from _energy(record, rtol)
+    for m, name in enumerate(record["mesh"]):
+        own = {key: values[:, m] for key, values in data.items() if "mesh" in record.dims_of(key)}
+        yield from _summary(record.summary["meshes"][name], own)
+    lost = np.sum(data["mesh_power_friction"], axis=1)
+    if not np.allclose(
+        lost, data["power_friction"], rtol=1e-9, atol=1e-12 * np.max(np.abs(lost), initial=0.0)
+    ):
+        yield "the losses of the meshes are not that of the train"
 
 
 def _numbers(data: dict[str, np.ndarray]) -> Iterator[str]:
@@ -70,8 +89,8 @@ def _numbers(data: dict[str, np.ndarray]) -> Iterator[str]:
         yield f"asperities carry {np.max(ratio):.6g} of the load"
     if np.any(data["central_film_thickness"][load > 0] <= 0):
         yield "the film is not thicker than zero"
-    for name in ("time", "pinion_angle"):
-        if not np.all(np.diff(data[name]) > 0):
+    for name in ("time", "pinion_angle", "reference_angle"):
+        if name in data and not np.all(np.diff(data[name]) > 0):
             yield f"{name} does not increase at {_first(np.diff(data[name]) <= 0)}"
 
 
@@ -88,8 +107,7 @@ def _damping(data: dict[str, np.ndarray]) -> Iterator[str]:
         yield f"power_damping falls to {np.min(power):.4g}"
 
 
-def _summary(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
-    summary = record.summary
+def _summary(summary: dict[str, Any], data: dict[str, np.ndarray]) -> Iterator[str]:
     for key, name, greatest in EXTREMES:
         values = data[name][np.isfinite(data[name])]
         known = summary.get("extremes", {}).get("run", {}).get(key)
@@ -104,7 +122,7 @@ def _summary(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
             yield f"summary {key} is infinite"
 
 
-def _energy(record: Record, data: dict[str, np.ndarray], rtol: float) -> Iterator[str]:
+def _energy(record: Record, rtol: float) -> Iterator[str]:
     summary = record.summary
     residual = summary.get("energy_residual")
     if residual is None:

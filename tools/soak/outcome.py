@@ -16,6 +16,7 @@ from rich.console import Console
 
 from tools.soak.cases import SoakCase, case, written
 from tools.soak.gear_records import faults as gear_faults
+from tools.soak.gear_records import train_faults
 from tools.soak.other_records import FAULTS, any_faults, sweep_against_run, sweep_faults
 from tools.soak.refusals import untrue
 from tribodyn.errors import InputError, SimulationError
@@ -110,6 +111,8 @@ def _run(made: SoakCase, folder: Path) -> tuple[str, str, list[str], float]:
 def _faults(made: SoakCase, record: Record) -> Iterator[str]:
     if made.sort == "gear-pair":
         yield from gear_faults(record, _rtol(made))
+    elif made.sort == "gear-train":
+        yield from train_faults(record, _rtol(made))
     elif record.status == "complete":
         yield from FAULTS.get(made.sort, any_faults)(record)
 

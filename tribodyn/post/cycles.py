@@ -147,9 +147,8 @@ def key_points(record: Record) -> list[KeyPoint]:
 
 def transient(record: Record) -> bool:
     """Whether the mean speed or the load of a mesh cycle changes by more than `CHANGING` during a run."""
-    if not {"power_out", "velocity"} <= {*record} and not {"power_out", "speed"} <= {*record}:
-        return False
-    if record.samples < 2:
+    moving = "velocity" in record or "speed" in record
+    if not moving or "power_out" not in record or record.samples < 2:
         return False
     window = last_cycles(record, None)
     count = round(window.phase[-1])

@@ -4,8 +4,9 @@ Bodies and meshes are numbered from the reference ones: body 0 drives mesh 0. A 
 torque count positive in its own sense of rotation; x, y are the train's, seen from +z.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Self
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import BodyMass, Side
@@ -131,6 +132,16 @@ class TrainCase(CaseHead):
     def chosen(self) -> dict[str, str]:
         """Give the laws that "auto" took, those of the reference mesh for all."""
         return self.meshes[0].pair.chosen()
+
+    def beside(self, other: CaseHead) -> Self:
+        """Return the case with the laws of the other where "auto" chose them in both."""
+        if not isinstance(other, TrainCase) or len(other.meshes) != len(self.meshes):
+            return self
+        meshes = (
+            replace(mesh, pair=mesh.pair.beside(theirs.pair))
+            for mesh, theirs in zip(self.meshes, other.meshes, strict=True)
+        )
+        return replace(self, meshes=tuple(meshes))
 
     @property
     def toothed_shafts(self) -> tuple[ToothedShaft, ...]:

@@ -16,6 +16,7 @@ from matplotlib.lines import Line2D
 
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
+from tribodyn.post.figures.spectrum import apart
 from tribodyn.post.figures.sweep.branch import Branch, axis_label, chosen_branch, sweep_title
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, mark_panel, name_above, new_figure, write_beside
 from tribodyn.record.sweep_reader import SweepRecord
@@ -24,6 +25,8 @@ from tribodyn.record.sweep_reader import SweepRecord
 RAYS, LEAST_ORDERS = 6, 4
 #: Area of the largest marker, square points.
 LARGEST_AREA = 160.0
+#: Share of the height between the names of two modes, at least.
+NAMES_APART = 0.035
 #: Amplitudes below this share of the highest are not shown: 60 dB.
 LOWEST = 10 ** (-60.0 / 20)
 
@@ -93,15 +96,20 @@ def _marker(share: float) -> Line2D:
 
 def _draw_modes(axes: Axes, branch: Branch) -> None:
     modes = branch.values("mode_frequency") * 1e-3
-    for mode in range(modes.shape[1]):
-        known = np.flatnonzero(np.isfinite(modes[:, mode]))
-        if not known.size:
-            continue
-        axes.plot(branch.x, modes[:, mode], color=QUIET, linestyle=(0, (4, 2)), linewidth=0.9)
-        first = known[np.argmin(branch.x[known])]
-        name = f"mode {mode + 1}: {modes[first, mode]:.3g} kHz"
-        write_beside(axes, name, (branch.x[first], modes[first, mode]), (2, 2), 7, INK)
-    axes.set_ylim(0, 1.15 * float(np.nanmax(modes)))
+    axes.plot(branch.x, modes, color=QUIET, linestyle=(0, (4, 2)), linewidth=0.9)
+    top = 1.15 * float(np.nanmax(modes))
+    known = np.flatnonzero(np.isfinite(modes[:, 0]))
+    first = known[np.argmin(branch.x[known])]
+    found = modes[first][np.isfinite(modes[first])]
+    for _, numbers in apart(found, NAMES_APART * top):
+        low, high = (found[int(number) - 1] for number in (numbers.split("–")[0], numbers.split("–")[-1]))
+        name = (
+            f"modes {numbers}: {low:.3g} to {high:.3g} kHz"
+            if low < high
+            else f"mode {numbers}: {low:.3g} kHz"
+        )
+        write_beside(axes, name, (branch.x[first], high), (2, 2), 7, INK)
+    axes.set_ylim(0, top)
 
 
 def _draw_orders(axes: Axes, branch: Branch, largest: float) -> None:
@@ -181,10 +189,9 @@ def _draw(axes: Axes, branch: Branch, norm: LogNorm, limit: float) -> LineCollec
     axes.add_collection(lines)
     modes = branch.values("mode_frequency") * 1e-3
     last = int(np.argmax(branch.x))
-    for mode in range(modes.shape[1]):
-        axes.plot(modes[:, mode], branch.x, color=QUIET, linestyle=(0, (3, 2)), linewidth=0.7, zorder=0.9)
-        if np.isfinite(modes[last, mode]):
-            name_above(axes, modes[last, mode], f"mode {mode + 1}", mode % 2, INK)
+    axes.plot(modes, branch.x, color=QUIET, linestyle=(0, (3, 2)), linewidth=0.7, zorder=0.9)
+    for row, (place, numbers) in enumerate(apart(modes[last][np.isfinite(modes[last])], NAMES_APART * limit)):
+        name_above(axes, place, f"mode {numbers}", row % 2, INK)
     axes.set_xlim(0, limit)
     axes.set_ylim(float(np.min(low)), float(np.max(high)))
     axes.grid(False)

@@ -1,0 +1,66 @@
+"""Sweeps of trains: what they keep of every case is what a long run of it has, by mesh and of the worst."""
+
+import numpy as np
+import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.record.sweep_schema import DONE, FAILED
+from tribodyn.studies.gear_train.batch import BATCH, KEPT, OF_MESH
+from tribodyn.studies.gear_train.report import SWEPT
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
+from tribodyn.studies.sweeping.batch import Chunk
+
+KEYS = {"friction.law": "coulomb", "friction.coefficient": 0.06, "output.samples_per_cycle": 60}
+
+
+def case_at(speed: int, **keys):
+    return load_scenario("two-stage-reducer", {**KEYS, "operating.input_speed": f"{speed} rpm", **keys})
+
+
+def evaluated(cases, transient=None, **settings):
+    chosen = BATCH.settings(cases, transient, "native")._replace(**settings)
+    return BATCH.evaluate(Chunk(np.arange(len(cases)), tuple(cases)), chosen, 1)
+
+
+def test_steady_states_are_those_of_long_runs(tmp_path):
+    cases = [case_at(1480), case_at(1950)]
+    rows = evaluated(cases)
+    assert rows["status"].tolist() == [DONE, DONE]
+    assert rows["period"].tolist() == [1, 1]
+    assert np.all(rows["residual"] < 1e-7)
+    assert np.all(rows["multiplier_max"] < 1.0)
+    for i, speed in enumerate((1480, 1950)):
+        long = run(case_at(speed, **{"solver.cycles": 240, "solver.rtol": 1e-8}), tmp_path / f"{speed}.h5")
+        for name in (quantity.name for quantity in SWEPT):
+            if long.summary.get(name) is not None:
+                assert rows[name][i] == pytest.approx(long.summary[name], rel=2e-4, abs=1e-9), name
+        for name in KEPT:
+            of_meshes = [mesh.get(name, np.nan) for mesh in long.summary["meshes"].values()]
+            np.testing.assert_allclose(rows[name + OF_MESH][i], of_meshes, rtol=2e-4, atol=1e-9)
+
+
+def test_a_marched_case_goes_on_from_its_neighbours_state():
+    """Twice twelve cycles are twenty-four."""
+    (case,) = cases = [case_at(1480)]
+    chunk = Chunk(np.arange(1), (case,), evaluated(cases, 12)["state"])
+    again = BATCH.evaluate(chunk, BATCH.settings(cases, 12, "native"), 1)
+    np.testing.assert_allclose(again["state"], evaluated(cases, 24)["state"], rtol=1e-5, atol=1e-12)
+
+
+def test_one_law_for_all_cases():
+    slow_one, fast = (
+        load_scenario("two-stage-reducer", {"operating.input_speed": speed})
+        for speed in ("500 rpm", "1480 rpm")
+    )
+    assert slow_one.chosen() != fast.chosen()
+    assert slow_one.beside(fast).chosen() == fast.chosen()
+
+
+def test_a_long_common_period_and_another_structure_are_refused():
+    long = load_scenario("two-stage-reducer-hunting", {**KEYS, "solver.max_period": 60})
+    with pytest.raises(InputError, match="again after 61 cycles"):
+        BATCH.check(long, BATCH.settings([long], None, "native"))
+    rows = evaluated([case_at(1480), case_at(1480, **{"gear.wheel-1.teeth": 70})])
+    assert rows["status"].tolist() == [DONE, FAILED]
+    assert "not those of the first case" in rows["message"][1]
