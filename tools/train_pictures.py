@@ -28,7 +28,9 @@ PERIOD = 17
 
 def block(name: str) -> str:
     """Return the file that the page shows."""
-    found = re.search(rf"^```toml {re.escape(name)}\n(.*?)^```$", PAGE.read_text("utf-8"), re.DOTALL | re.MULTILINE)
+    found = re.search(
+        rf"^```toml {re.escape(name)}\n(.*?)^```$", PAGE.read_text("utf-8"), re.DOTALL | re.MULTILINE
+    )
     if found is None:
         raise SystemExit(f"{PAGE}: no block {name}")
     return found[1]

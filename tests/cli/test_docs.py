@@ -35,6 +35,7 @@ RECORD = "crc-23-47"
 #: What shortens a scenario of a kind, of those that pages run.
 SHORTER = {
     "gear-pair": ("solver.cycles=2",),
+    "gear-train": ("solver.cycles=2",),
     "efficiency": ("output.samples_per_cycle=40",),
     "load-contact": ("output.positions_per_cycle=8",),
     "ehl": ("output.positions=4", "contact.step=0.25"),
@@ -98,9 +99,9 @@ def folder(tmp_path: Path, record: bytes, monkeypatch: pytest.MonkeyPatch) -> Pa
 
 def write_tables(page: Path, folder: Path) -> None:
     """Write the files that a page shows and refers to."""
-    for table in blocks("csv"):
-        if table.page == page:
-            (folder / table.info).write_text(table.text, encoding="utf-8")
+    for file in (*blocks("csv"), *(block for block in blocks("toml") if block.info.endswith(".toml"))):
+        if file.page == page:
+            (folder / file.info).write_text(file.text, encoding="utf-8")
 
 
 def commands(block: Block) -> list[list[str]]:
