@@ -85,11 +85,12 @@ def test_the_page_of_laws_names_every_law_and_what_it_names_exists():
     text = (DOCS / "laws.md").read_text(encoding="utf-8")
     for name in (*FAMILIES, *FILM_LAWS, *FRICTION_LAWS):
         assert f"`{name}`" in text, name
-    theory = (DOCS / "theory.md").read_text(encoding="utf-8")
+    theory = "".join((DOCS / f"{page_}.md").read_text(encoding="utf-8") for page_ in ("theory", "trains"))
     for place in re.findall(r"`((?:tribodyn|tests)/[^`]*)`", text + theory):
         assert (ROOT / place).exists(), place
     for name, place in re.findall(r"`(\w+)`(?: and `\w+`)? in `([^`]*\.py)`", theory):
-        assert f"def {name}(" in (ROOT / place).read_text(encoding="utf-8"), name
+        source = (ROOT / place).read_text(encoding="utf-8")
+        assert re.search(rf"^(def|class) {name}\(", source, re.MULTILINE), name
 
 
 def test_the_reference_of_the_package_has_every_public_name_with_an_example():

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies.gear_train.batch import BATCH, KEPT, OF_MESH
@@ -46,6 +47,22 @@ def test_a_marched_case_goes_on_from_its_neighbours_state():
     chunk = Chunk(np.arange(1), (case,), evaluated(cases, 12)["state"])
     again = BATCH.evaluate(chunk, BATCH.settings(cases, 12, "native"), 1)
     np.testing.assert_allclose(again["state"], evaluated(cases, 24)["state"], rtol=1e-5, atol=1e-12)
+
+
+def test_a_sweep_up_and_down_goes_on_from_neighbours(tmp_path):
+    speeds = ["1450 rpm", "1475 rpm", "1500 rpm"]
+    swept = td.sweep(
+        "two-stage-reducer",
+        {"operating.input_speed": speeds},
+        KEYS,
+        direction="both",
+        output=tmp_path / "both.h5",
+    )
+    expected = evaluated([case_at(speed) for speed in (1450, 1475, 1500)])
+    for direction in ("up", "down"):
+        found = swept.dynamic_factor_of_mesh.sel(direction=direction)
+        np.testing.assert_allclose(found, expected["dynamic_factor_of_mesh"], rtol=1e-4)
+    assert not np.any(swept.cycles % 3)  # whole common periods
 
 
 def test_one_law_for_all_cases():

@@ -19,7 +19,6 @@ TESTS = Path(__file__).parents[1]
 MAY_IMPORT: dict[str, set[str]] = {}
 MAY_IMPORT["numerics"] = set()
 MAY_IMPORT["geometry"] = {"numerics"}
-MAY_IMPORT["train"] = {"numerics"}
 MAY_IMPORT["tribology"] = {"numerics", "geometry"}
 MAY_IMPORT["compliance"] = {"numerics", "geometry", "tribology"}
 MAY_IMPORT["mesh"] = {"numerics", "geometry", "compliance", "tribology"}

@@ -105,7 +105,7 @@ def chained_steps(
         yield chunks
         status, final, period = recorded(numbers)
         good = status == DONE
-        states[good] = final[good]
+        states[good, : final.shape[1]] = final[good]  # a record has the states of its own structure
         for lane in np.flatnonzero(good):
             behind[lane] = places[lane], int(period[lane])
 

@@ -22,7 +22,9 @@ UNSTABLE_QUANTITIES = (
 
 #: Everything a sweep records of a case beside the quantities of its kind.
 CASES: dict[str, Variable] = {
-    "period": Variable((), "1", "mesh cycles in one period of the motion; 0: it has none", "<i4", 0),
+    "period": Variable(
+        (), "1", "mesh cycles, of several meshes common periods, in one period; 0: it has none", "<i4", 0
+    ),
     "stable": flag(
         (),
         "whether the periodic motion is stable: 1 yes, 0 no, -1 not periodic, or not known",
@@ -30,7 +32,7 @@ CASES: dict[str, Variable] = {
     ),
     "multiplier_max": Variable((), "1", "maximum modulus of the Floquet multipliers"),
     "residual": Variable((), "1", "scaled change of the state over one period of the motion"),
-    "cycles": Variable((), "1", "mesh cycles integrated", "<i8", 0),
+    "cycles": Variable((), "1", "mesh cycles integrated, of several meshes of the first", "<i8", 0),
     "solution": Variable((), "1", "sort of motion that was found", f"S{WORD}", b""),
     "transmission_error_rotational": Variable(
         ("sample",), "m", "rotational transmission error in the steady window; NaN beyond whole periods"
@@ -57,7 +59,9 @@ _ERROR_OF_UNSTABLE = Variable(
 
 #: The scales after those of the cases.
 SAMPLE = Variable(("sample",), "1", "phase of the mesh in mesh cycles, from the start of the window")
-CYCLE = Variable(("cycle",), "1", "mesh cycle, counted from the first that was kept")
+CYCLE = Variable(
+    ("cycle",), "1", "mesh cycle, of several meshes of the first, counted from the first that was kept"
+)
 MODE = Variable(("mode",), "1", "mode of vibration, lowest first")
 RETURN = Variable(("return",), "1", "mesh cycle of an unstable motion")
 STATE_VARIABLE = Variable(("state_variable",), "1", "state of the model, see tribodyn.train.structure")

@@ -213,9 +213,9 @@ def steady(
     without = []
     for i, motion in zip(pending, motions, strict=True):
         if motion.kind == FAILED:
-            outcomes[i] = failed(motion.last, motion.cycles, motion.message)
+            outcomes[i] = failed(motion.last, common * motion.cycles, motion.message)
         elif motion.period:
-            outcomes[i] = _periodic(motion, samples * common, models[i].layout)
+            outcomes[i] = _periodic(motion, samples, common, models[i].layout)
         else:
             without.append((i, motion))
     for part in range(0, len(without), AT_A_TIME):
@@ -232,7 +232,7 @@ def steady(
             **solver,
         )
         for (i, motion), stretch in zip(some, stretches, strict=True):
-            outcomes[i] = _described(stretch, motion)
+            outcomes[i] = _described(stretch, motion, common)
     for i, (_, arrival, continued) in zip(pending, followed, strict=False):
         outcomes[i] = outcomes[i]._replace(
             state=without_audit(arrival.next_state, models[i].layout),
@@ -242,21 +242,21 @@ def steady(
     return [outcomes[i] for i in range(len(models))]
 
 
-def _periodic(motion: SteadyMotion, every: int, layout: TrainLayout) -> Outcome:
+def _periodic(motion: SteadyMotion, samples: int, common: int, layout: TrainLayout) -> Outcome:
     window = CaseWindow(0, motion.samples, motion.state, motion.end, motion.extremes)
-    section = motion.samples[::every]
+    section = motion.samples[:: samples * common]
     state = without_audit(motion.state, layout)
-    outcome = Outcome(window, state, section, motion.kind, motion.period)
-    return _described(outcome, motion)._replace(period=motion.period)
+    outcome = Outcome(window, state, section, motion.kind, common * motion.period)
+    return _described(outcome, motion, common)._replace(period=motion.period)
 
 
-def _described(outcome: Outcome, motion: SteadyMotion) -> Outcome:
+def _described(outcome: Outcome, motion: SteadyMotion, common: int) -> Outcome:
     if outcome.window is None:
         return outcome
     known = np.abs(motion.multipliers[np.isfinite(motion.multipliers)])
     return outcome._replace(
         solution=motion.kind,
-        cycles=outcome.cycles + motion.cycles,
+        cycles=outcome.cycles + common * motion.cycles,
         message=motion.message,
         stable=int(motion.stable) if motion.period else UNKNOWN,
         multiplier_max=float(known.max()) if known.size else float("nan"),
