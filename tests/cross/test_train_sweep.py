@@ -1,18 +1,24 @@
 """Sweeps of trains: what they keep of every case is what a long run of it has, by mesh and of the worst."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE, FAILED
-from tribodyn.studies.gear_train.batch import BATCH, KEPT, OF_MESH
+from tribodyn.studies.gear_train.batch import BATCH, KEPT, OF_MESH, Trains
 from tribodyn.studies.gear_train.report import SWEPT
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.studies.sweeping.batch import Chunk
 
 KEYS = {"friction.law": "coulomb", "friction.coefficient": 0.06, "output.samples_per_cycle": 60}
+
+
+#: The gears of the middle shaft against each other.
+TURNED = {"gear.pinion-2.tooth_angle": "7 deg"}
 
 
 def case_at(speed: int, **keys):
@@ -81,3 +87,19 @@ def test_a_long_common_period_and_another_structure_are_refused():
     rows = evaluated([case_at(1480), case_at(1480, **{"gear.wheel-1.teeth": 70})])
     assert rows["status"].tolist() == [DONE, FAILED]
     assert "not those of the first case" in rows["message"][1]
+
+
+def test_a_case_does_not_start_from_where_another_stands():
+    """Trains that differ in the place of an axis, or in how the gears of a shaft are turned."""
+    evaluate = import_module("tribodyn.studies.gears.batch.evaluate")
+    cases = [case_at(1480, **keys) for keys in ({}, {"stage.1.azimuth": "90 deg"}, TURNED)]
+    settings, kind = BATCH.settings(cases, None, "native"), Trains()
+    ready = [kind.prepare(case, kind.tabulated(case)) for case in cases]
+
+    def starts(order):
+        evaluate._equilibria.cache_clear()
+        return {i: evaluate._start(ready[i], settings).tobytes() for i in order}
+
+    together = starts([0, 1, 2])
+    assert together == starts([2, 1, 0]) == {**starts([0]), **starts([1]), **starts([2])}
+    assert len(set(together.values())) == 3

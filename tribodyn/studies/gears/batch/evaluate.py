@@ -37,7 +37,7 @@ from tribodyn.studies.gears.steady import warning_of
 from tribodyn.studies.gears.swept import UNSTABLE_QUANTITIES, SweepSettings
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
-from tribodyn.train.structure import rotational_error, rotational_error_rate
+from tribodyn.train.structure import GearMesh, rotational_error, rotational_error_rate
 
 if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch
@@ -256,7 +256,9 @@ def _start(prepared: Any, settings: SweepSettings) -> np.ndarray:
     creeping = model.operation._replace(nominal_speed=CREEP)
     # the model, which is kept with the result, keeps another table from taking this one's identity
     still = frictionless(model._replace(operation=creeping))
-    numbers = (*creeping, *model.bodies, *model.links, *(mesh.damping for mesh in model.meshes))
+    # of a mesh where it is and how it is damped: laws of its contacts have no part in this
+    meshes = (number for mesh in model.meshes for number in mesh[1 : GearMesh._fields.index("surfaces")])
+    numbers = (*creeping, *model.bodies, *model.links, *meshes, *model.schedule)
     tables = tuple(id(mesh.table) for mesh in model.meshes)
     key = (tables, model.options, *(np.asarray(value).tobytes() for value in numbers))
     return _equilibria(MadeOnce(key, lambda: static_equilibrium(still))).copy()
