@@ -1,22 +1,14 @@
 """From a case of a gear pair's dynamics to its record."""
 
+from functools import partial
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
-import numpy as np
-
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.outputs import UNRECORDED
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.body import geometry_arrays
-from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import as_arrays
-from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.record.trust import judge_tribology
-from tribodyn.solve.choice import choose
-from tribodyn.solve.initial import initial_state
-from tribodyn.solve.transient import Stop, TransientSettings, transient
 from tribodyn.studies.gear_pair.case import Case, window_of
 from tribodyn.studies.gear_pair.outputs import MESH, recorded
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
@@ -24,19 +16,16 @@ from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.by_standard import rated
 from tribodyn.studies.gears.case import LAYOUT
 from tribodyn.studies.gears.check import check_gears, oil_data
+from tribodyn.studies.gears.marched import record_motion, run_until_warm
 from tribodyn.studies.gears.prepare import (
-    MOST_MOTIONS,
     at_own_temperature,
     contact_quantities,
     thermal_quantities,
 )
 from tribodyn.studies.gears.recorded import scales_of
-from tribodyn.studies.gears.running import RunStatistics, judge_balance
-from tribodyn.studies.gears.sampled import sampled_with_extremes
-from tribodyn.studies.gears.steady import warning_of
+from tribodyn.studies.gears.steady import at_rest, limits_in, warning_of
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
-from tribodyn.tribology.closure import exceeded_limits, law_quantities
 
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
 REGULAR = "regular"
@@ -50,18 +39,15 @@ def run(
 
     Where the case asks for a bulk temperature, it is run again until its own loss gives that temperature.
     """
-    path = target(case, output, force)
-    result = _run(case, path, force, progress)
-    for _ in range(MOST_MOTIONS - 1):
-        if result.status != "complete":
-            break
-        warm, lost = result.summary.get("bulk_temperature"), result.summary["power_friction_mean"]
-        again = at_own_temperature(case, warm, lost)
-        if again is None:
-            break
-        case = again
-        result = _run(case, path, True, progress)
-    return result
+    return run_until_warm(
+        case,
+        target(case, output, force),
+        force,
+        partial(_run, progress=progress),
+        lambda case, summary: at_own_temperature(
+            case, summary.get("bulk_temperature"), summary["power_friction_mean"]
+        ),
+    )
 
 
 def check(case: Case) -> CheckResult:
@@ -70,25 +56,21 @@ def check(case: Case) -> CheckResult:
     return check_gears(prepared, prepared.model.closure(MESH), prepared.masses)
 
 
-def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunResult:
+def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> RunResult:
     """Run a case once."""
     prepared = prepare(case)
     case = prepared.case
     model, cycle = prepared.model, prepared.cycle
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
     summary: dict[str, Any] = {
-        "contact_ratio": float(cycle.contact_ratio),
-        **({} if case.mesh.backlash is None else {"normal_backlash": case.mesh.backlash}),
-        "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
+        **at_rest(case, prepared.assembly, cycle),
         "pinion_mass": prepared.masses[0][0],
         "gear_mass": prepared.masses[1][0],
         "pinion_inertia": prepared.masses[0][1],
         "gear_inertia": prepared.masses[1][1],
         "mode_frequencies": natural_frequencies(model, [cycle]),
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
-        "compliance_remark": compliance_remark(prepared.assembly, case.materials, case.mesh) or None,
         **_by_standard(prepared),
-        **law_quantities(case),
         "lubricant": oil_data(case.lubricant),
     }
     more = {
@@ -96,54 +78,20 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         "scales": scales_of(cycle.side),
     }
     with writer(case, path, LAYOUT, cycles * samples + 1, force=force, **more) as record:
-        begun = perf_counter()
         try:
-            state = initial_state(model, case.solver.initial)
+            motion = record_motion(
+                case, model, [mesh_of_run(prepared)], window_of(cycles), record, recorded, progress
+            )
         except SimulationError as error:
             return RunResult(record.fail(str(error), summary), "failed", str(error), summary)
-        choice = choose(case.solver.method, model, state)
-        summary |= {"solver": choice.method, "solver_reason": choice.reason}
-        window = window_of(cycles)
-        settings = TransientSettings(
-            choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples, window, extremes=True
-        )
-        statistics = RunStatistics(window, cycles, [mesh_of_run(prepared)], model.layout)
-        stop = Stop(state, 0.0, 0, 0, "", 0.0)
-        for part in transient(model, state, settings):
-            if isinstance(part, Stop):
-                stop = part
-            elif len(part.cycles):
-                shares = statistics.averages(part.cycles)
-                block, extreme = sampled_with_extremes(part.cycles, part.states, part.extremes, model, shares)
-                record.write(statistics.written, recorded(block))
-                statistics.add(part.states, block, extreme)
-                if progress:
-                    progress(min(1.0, statistics.written / (cycles * samples)))
-        summary |= (
-            statistics.of_mesh(MESH, complete=not stop.reason)
-            | statistics.balance()
-            | {
-                "steps": stop.steps,
-                "rhs_evaluations": stop.evaluations,
-                "wall_time": perf_counter() - begun,
-                "simulated_time": stop.time,
-                "cycles_done": stop.reached,
-            }
-        )
-        judge_balance(statistics.judge, summary, case.solver.rtol)
-        if stop.reason:
+        statistics = motion.statistics
+        summary |= motion.solver | statistics.of_mesh(MESH, complete=not motion.stopped) | motion.done
+        if motion.stopped:
             summary |= statistics.judge.summary()
-            message = str(SimulationError(stop.reason, stop.time))
-            return RunResult(record.fail(message, summary), "failed", message, summary)
-        last, work, speed = (
-            statistics.window_of_mesh(MESH),
-            statistics.window_work(),
-            case.operating.pinion_speed,
-        )
-        touching = last["normal_load"] > 0.0
-        loss = np.abs(last["friction_force"] * last["sliding_speed"])[touching]
-        film_shares, friction_shares = (last[name][touching] for name in UNRECORDED)
-        summary |= exceeded_limits(case, film_shares, friction_shares, loss)
+            return RunResult(record.fail(motion.stopped, summary), "failed", motion.stopped, summary)
+        last, work = statistics.window_of_mesh(MESH), statistics.window_work()
+        summary |= limits_in(last, case)
+        speed = case.operating.pinion_speed
         summary |= steady_quantities(last, work, prepared, samples, speed, statistics.in_window[MESH])
         summary |= thermal_quantities(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
         summary |= contact_quantities(case.lubricant, summary)

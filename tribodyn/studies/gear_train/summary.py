@@ -5,15 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.mesh.by_compliance import compliance_remark
-from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.studies.gear_train.prepare import PreparedTrain
 from tribodyn.studies.gears.extremes import RunningExtremes
 from tribodyn.studies.gears.prepare import contact_quantities, thermal_quantities
 from tribodyn.studies.gears.running import MeshOfRun
-from tribodyn.studies.gears.steady import LAST_ORDER, mesh_quantities, power_quantities
+from tribodyn.studies.gears.steady import LAST_ORDER, at_rest, mesh_quantities, power_quantities
 from tribodyn.train.structure import FRICTION, work_of_mesh
-from tribodyn.tribology.closure import law_quantities
 
 #: Numbers that an attribute of a record holds, and that a spectrum may have.
 _LONGEST = 8000.0
@@ -65,18 +62,11 @@ def meshes_of_run(prepared: PreparedTrain) -> list[MeshOfRun]:
     return found
 
 
-def at_rest(prepared: PreparedTrain, m: int) -> dict[str, Any]:
-    """Quantities of a mesh that do not depend on its motion."""
-    pair, made = prepared.pairs[m], prepared.made[m]
-    return {
-        "driver": prepared.case.gears[prepared.case.meshes[m].gears[0]].name,
-        "driven": prepared.case.gears[prepared.case.meshes[m].gears[1]].name,
-        "contact_ratio": float(made.cycle.contact_ratio),
-        **({} if pair.mesh.backlash is None else {"normal_backlash": pair.mesh.backlash}),
-        "stiffness_single_pair_at_pitch_point": single_pair(made.cycle, pair.operating.gear_torque).stiffness,
-        "compliance_remark": compliance_remark(made.assembly, pair.materials, pair.mesh) or None,
-        **law_quantities(pair),
-    }
+def mesh_at_rest(prepared: PreparedTrain, m: int) -> dict[str, Any]:
+    """Quantities of a mesh that do not depend on its motion, and the names of its gears."""
+    driver, driven = (prepared.case.gears[gear].name for gear in prepared.case.meshes[m].gears)
+    made = prepared.made[m]
+    return {"driver": driver, "driven": driven} | at_rest(prepared.pairs[m], made.assembly, made.cycle)
 
 
 def steady_quantities(

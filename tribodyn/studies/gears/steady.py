@@ -8,9 +8,19 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.dynamics.outputs import UNRECORDED
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.quasi_static import driving_gear, efficiency, power_put_in, total_stiffness
+from tribodyn.mesh.quasi_static import (
+    driving_gear,
+    efficiency,
+    power_put_in,
+    single_pair,
+    total_stiffness,
+)
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
+from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.extremes import WORKING, RunningExtremes
 from tribodyn.train.structure import (
     DAMPING,
@@ -22,6 +32,7 @@ from tribodyn.train.structure import (
     work_of,
     works_of_meshes,
 )
+from tribodyn.tribology.closure import exceeded_limits, law_quantities
 from tribodyn.tribology.surface_state import fraction_in_range
 
 #: Mesh orders whose amplitudes of the transmission error are in the summary: 1 to this.
@@ -95,6 +106,25 @@ def mesh_quantities(
         "spectrum_frequencies": spectrum.orders[keep] * frequency,
         "spectrum_amplitudes": spectrum.amplitudes[keep],
     }
+
+
+def at_rest(case: LubricatedCase, assembly: Assembly, cycle: MeshCycle) -> dict[str, Any]:
+    """Quantities of a mesh that do not depend on its motion, and the laws in use."""
+    return {
+        "contact_ratio": float(cycle.contact_ratio),
+        **({} if case.mesh.backlash is None else {"normal_backlash": case.mesh.backlash}),
+        "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
+        "compliance_remark": compliance_remark(assembly, case.materials, case.mesh) or None,
+        **law_quantities(case),
+    }
+
+
+def limits_in(window: Mapping[str, np.ndarray], case: LubricatedCase) -> dict[str, Any]:
+    """Limits of the laws that a mesh exceeds over a window, which has the shares of `UNRECORDED`."""
+    touching = window["normal_load"] > 0.0
+    loss = np.abs(window["friction_force"] * window["sliding_speed"])[touching]
+    film_shares, friction_shares = (window[name][touching] for name in UNRECORDED)
+    return exceeded_limits(case, film_shares, friction_shares, loss)
 
 
 def power_quantities(work: np.ndarray, duration: float, layout: TrainLayout) -> dict[str, Any]:

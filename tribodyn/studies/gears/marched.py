@@ -1,0 +1,97 @@
+"""A case marched in time into its record, and again until it is as warm as its own losses make it."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import Model
+from tribodyn.errors import SimulationError
+from tribodyn.record.writer import RecordWriter
+from tribodyn.solve.choice import choose
+from tribodyn.solve.initial import initial_state
+from tribodyn.solve.transient import Stop, TransientSettings, transient
+from tribodyn.studies.gears.prepare import MOST_MOTIONS
+from tribodyn.studies.gears.running import MeshOfRun, RunStatistics, judge_balance
+from tribodyn.studies.gears.sampled import Sampled, sampled_with_extremes
+from tribodyn.studies.protocol.recording import RunResult
+from tribodyn.studies.protocol.study import Progress
+
+
+class RecordedMotion(NamedTuple):
+    """A motion that was recorded."""
+
+    statistics: RunStatistics
+    solver: dict[str, str]  # by what method, and why
+    done: dict[str, float]  # what it took and how far it came, balance of energy included
+    stopped: str  # why it ended before its time; "": it did not
+
+
+def record_motion(
+    case: Any,
+    model: Model,
+    meshes: Sequence[MeshOfRun],
+    window: int,
+    record: RecordWriter,
+    recorded: Callable[[Sampled], Mapping[str, np.ndarray]],
+    progress: Progress | None,
+) -> RecordedMotion:
+    """Integrate a case, its `solver` and `output`, from its start, and write it to a record as it comes.
+
+    `window` are the cycles at the end that means are of, `recorded` what the record takes of samples. Raises
+    SimulationError where there is no start.
+    """
+    begun, solver = perf_counter(), case.solver
+    samples, cycles = case.output.samples_per_cycle, solver.cycles
+    state = initial_state(model, solver.initial)
+    choice = choose(solver.method, model, state)
+    settings = TransientSettings(
+        choice.method, solver.rtol, cycles, solver.max_steps, samples, window, extremes=True
+    )
+    statistics = RunStatistics(window, cycles, meshes, model.layout)
+    stop = Stop(state, 0.0, 0, 0, "", 0.0)
+    for part in transient(model, state, settings):
+        if isinstance(part, Stop):
+            stop = part
+        elif len(part.cycles):
+            shares = statistics.averages(part.cycles)
+            block, extreme = sampled_with_extremes(part.cycles, part.states, part.extremes, model, shares)
+            record.write(statistics.written, recorded(block))
+            statistics.add(part.states, block, extreme)
+            if progress:
+                progress(min(1.0, statistics.written / (cycles * samples)))
+    done = statistics.balance() | {
+        "steps": stop.steps,
+        "rhs_evaluations": stop.evaluations,
+        "wall_time": perf_counter() - begun,
+        "simulated_time": stop.time,
+        "cycles_done": stop.reached,
+    }
+    judge_balance(statistics.judge, done, solver.rtol)
+    stopped = str(SimulationError(stop.reason, stop.time)) if stop.reason else ""
+    return RecordedMotion(
+        statistics, {"solver": choice.method, "solver_reason": choice.reason}, done, stopped
+    )
+
+
+def run_until_warm(
+    case: Any,
+    path: Path,
+    force: bool,
+    once: Callable[[Any, Path, bool], RunResult],
+    warmer: Callable[[Any, Mapping[str, Any]], Any],
+) -> RunResult:
+    """Run a case `once`, and again until its own loss gives the temperature at which it was run.
+
+    `warmer` gives the case at the temperature of a summary's losses; None: it was run there.
+    """
+    result = once(case, path, force)
+    for _ in range(MOST_MOTIONS - 1):
+        again = warmer(case, result.summary) if result.status == "complete" else None
+        if again is None:
+            break
+        case = again
+        result = once(case, path, True)
+    return result
