@@ -130,7 +130,7 @@ def test_the_extremes_of_every_mesh_are_found():
     for chunk in chunks:
         if chunk.extremes is not None:
             take_in(found, chunk.extremes)
-    dense, (both, _) = evaluated(at, states, model), at_extremes(at[:1], states[:1], found, model)
+    dense, both = evaluated(at, states, model), at_extremes(at[:1], states[:1], found, model)
     for mesh in range(2):
         expected, seen = (mesh_outputs(mesh, samples) for samples in (dense, both))
         for name, sign in (

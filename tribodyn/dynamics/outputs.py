@@ -185,17 +185,15 @@ def at_extremes(
     states: Float[Array, "sample state"],
     extremes: Extremes | None,
     model: Model,
-) -> tuple[Evaluated, Float[Array, " extreme"]]:
-    """Samples and, behind them, where a motion is extreme, evaluated; and the cycles of the latter."""
+) -> Evaluated:
+    """Samples and, behind them, where a motion is extreme, evaluated."""
     if extremes is None:
-        return evaluated(cycles, states, model), np.empty(0)
+        return evaluated(cycles, states, model)
     there = extremes.measure > LOWEST
     _, _, interval = interval_of(cycles, model.schedule)
-    at = extremes.cycles[there]
-    samples = evaluated(
-        np.concatenate([cycles, at]),
+    return evaluated(
+        np.concatenate([cycles, extremes.cycles[there]]),
         np.concatenate([states, extremes.state[there]]),
         model,
         np.concatenate([interval, extremes.interval[there].astype(int)]),
     )
-    return samples, at

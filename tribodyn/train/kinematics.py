@@ -11,10 +11,10 @@ input's power meets. Speeds are given over that body's; turns are measured in cy
 from collections import deque
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from math import lcm
 from typing import NamedTuple
 
 from tribodyn.errors import InputError
+from tribodyn.train.schedule import common_period
 
 
 class Named(NamedTuple):
@@ -108,7 +108,7 @@ def kinematics(
         driven=tuple(new[gears[driven].body] for _, driven in driving),
         gears=tuple(driving),
         rate=rate,
-        period=lcm(*(one.denominator for one in rate)),
+        period=common_period(rate),
     )
 
 

@@ -27,8 +27,9 @@ def check(case: TrainCase) -> CheckResult:
     found = modes(prepared.model, [made.cycle for made in prepared.made])
     of_meshes = [_of_mesh(prepared, m) for m in range(len(case.meshes))]
     names = [mesh.name for mesh in case.meshes]
+    train = _train(prepared)
     data = {
-        **_train(prepared),
+        **train,
         "natural_frequencies": found.frequency,
         "mode_shares": [
             dict(zip(prepared.names, row, strict=True)) for row in np.round(found.share, 6).tolist()
@@ -37,7 +38,7 @@ def check(case: TrainCase) -> CheckResult:
         "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
     }
     tables = [
-        *_train_tables(prepared),
+        *_train_tables(prepared, train),
         _mode_table(prepared, found),
         _campbell_table(prepared, found),
         *(
@@ -83,8 +84,7 @@ def _train(prepared: PreparedTrain) -> dict[str, Any]:
     case, model = prepared.case, prepared.model
     layout, speeds = model.layout, _speeds(prepared)
     bodies = {}
-    for b, name in enumerate(prepared.names):
-        own = case.bodies[prepared.order[min(b, len(prepared.order) - 1)]]
+    for b, (name, own) in enumerate(zip(prepared.names, prepared.bodies, strict=True)):
         bodies[name] = {
             "speed": float(speeds[b]),
             "shaft_frequency": float(speeds[b]) / (2.0 * pi),
@@ -109,8 +109,8 @@ def _train(prepared: PreparedTrain) -> dict[str, Any]:
     return {"train_ratio": ratio, "common_period": case.period, "bodies": bodies, "train_meshes": meshes}
 
 
-def _train_tables(prepared: PreparedTrain) -> list[TextTable]:
-    found, case = _train(prepared), prepared.case
+def _train_tables(prepared: PreparedTrain, found: dict[str, Any]) -> list[TextTable]:
+    case = prepared.case
     cycles = "1 cycle" if case.period == 1 else f"{case.period} cycles"
     whole = [
         ("ratio of input to output speed", f"{found['train_ratio']:.6g}"),

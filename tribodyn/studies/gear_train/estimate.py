@@ -12,11 +12,8 @@ _WINDOW_HELD = 2.0
 
 def estimate(case: TrainCase) -> cost.Estimate:
     """What a run of a case takes; every mesh as much as that of a pair."""
-    samples, cycles, meshes = (
-        float(case.output.samples_per_cycle),
-        float(case.solver.cycles),
-        len(case.meshes),
-    )
+    samples, cycles = float(case.output.samples_per_cycle), float(case.solver.cycles)
+    meshes = len(case.meshes)
     sides = 1 if case.meshes[0].pair.mesh.backlash is None else 2
     sizes = {
         "time": int(samples * cycles) + 1,

@@ -16,7 +16,7 @@ from tribodyn.studies.gear_train.assembled import (
     phases,
     table_numbers,
 )
-from tribodyn.studies.gear_train.case import HOUSING, LoadData, TrainCase
+from tribodyn.studies.gear_train.case import HOUSING, BodyData, LoadData, TrainCase
 from tribodyn.studies.gear_train.warmth import at_tooth_temperatures
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.model import mesh_of, options_of, varying_load
@@ -49,14 +49,22 @@ class PreparedTrain:
         own = tuple(self.case.bodies[body].name for body in self.order)
         return own if len(own) == self.model.layout.bodies else (*own, "motor")
 
+    @property
+    def bodies(self) -> tuple[BodyData, ...]:
+        """Bodies of the case as the model has them; a motor stands and turns as what it drives."""
+        own = tuple(self.case.bodies[body] for body in self.order)
+        motor = self.case.bodies[self.case.source.body]
+        return own if len(own) == self.model.layout.bodies else (*own, motor)
+
 
 def tabulated(case: TrainCase) -> tuple[Tabulated, ...]:
     """The tables of every mesh; equal meshes share one. Raises what `gears.tabulated.tables` raises."""
     known: dict[int, Tabulated] = {}
-    for number, mesh in zip(table_numbers(case), case.meshes, strict=True):
+    numbers = table_numbers(case)
+    for number, mesh in zip(numbers, case.meshes, strict=True):
         if number not in known:
             known[number] = tables(mesh.pair)
-    return tuple(known[number] for number in table_numbers(case))
+    return tuple(known[number] for number in numbers)
 
 
 def prepare(case: TrainCase, made: tuple[Tabulated, ...] | None = None) -> PreparedTrain:
@@ -96,11 +104,11 @@ def _model(
     source, new = case.source, {body: number for number, body in enumerate(order)}
     closures = [closure_of(pair) for pair in pairs]
     layout = _layout(case, new)
-    motor = [source.inertia] if layout.bodies > len(order) else []
+    motor = [source.body] if layout.bodies > len(order) else []
     bodies = Bodies(
         mass=np.array([inertias[body].mass for body in order[: layout.planar]]),
-        inertia=np.array([*(inertias[body].inertia for body in order), *motor]),
-        ratio=np.array([*(float(case.bodies[body].ratio) for body in order), *_of_motor(case, motor)]),
+        inertia=np.array([*(inertias[body].inertia for body in order), *(source.inertia for _ in motor)]),
+        ratio=np.array([float(case.bodies[body].ratio) for body in (*order, *motor)]),
         load=np.zeros(layout.bodies),
         load_damping=np.zeros(layout.bodies),
     )
@@ -157,10 +165,6 @@ def _under_load(model: parameters.Model, case: TrainCase) -> parameters.Model:
     return model._replace(schedule=schedule)
 
 
-def _of_motor(case: TrainCase, motor: Sequence[float]) -> list[float]:
-    return [float(case.bodies[case.source.body].ratio) for _ in motor]
-
-
 def _varying(case: TrainCase) -> LoadData:
     """The load that varies over time, or the first one."""
     varying = [number for number, load in enumerate(case.loads) if load.table or load.harmonics]
@@ -189,10 +193,9 @@ def geometry_of(prepared: PreparedTrain) -> dict[str, np.ndarray]:
     """Where bodies, gears and meshes stand, as `record.TRAIN_GEOMETRY` says."""
     case, order = prepared.case, prepared.order
     numbers = {body: number for number, body in enumerate(order)}
-    bodies = [*order, *[case.source.body] * (prepared.model.layout.bodies - len(order))]
     return {
-        "centre": np.array([case.bodies[body].centre for body in bodies]),
-        "sense": np.array([case.bodies[body].sense for body in bodies]),
+        "centre": np.array([body.centre for body in prepared.bodies]),
+        "sense": np.array([body.sense for body in prepared.bodies]),
         "gear_body": np.array([numbers[gear.body] for gear in case.gears]),
         "tooth_direction": np.array(prepared.phases.teeth),
         "driver_gear": np.array([mesh.gears[0] for mesh in case.meshes]),

@@ -39,6 +39,5 @@ def sampled_with_extremes(
     shares: bool = False,
 ) -> tuple[Sampled, Sampled]:
     """Datasets at samples, and where the motion between them is extreme."""
-    every, _ = at_extremes(cycles, states, extremes, model)
-    found, count = sampled(every, shares), len(cycles)
+    found, count = sampled(at_extremes(cycles, states, extremes, model), shares), len(cycles)
     return found.part(slice(count)), found.part(slice(count, None))
