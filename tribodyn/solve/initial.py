@@ -16,7 +16,8 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.step_control import largest_displacement, unbounded
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.train.flow import Flow, flow
-from tribodyn.train.structure import TURN, GearMesh, displacements, shift_of, turn_of, turned, velocities
+from tribodyn.train.links.chain import twist_under
+from tribodyn.train.structure import GearMesh, displacements, shift_of, turn_of, turned, velocities
 
 _COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
 #: Values of the unknown states, or what is left of the equations.
@@ -128,11 +129,11 @@ def _closed(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float
     """State in which the meshes have rotational errors (m) and shafts the twist of their torque."""
     layout = model.layout
     y = np.zeros(layout.states)
-    stiffness = np.asarray(model.links.stiffness)[:, TURN]
     for body, nearer, m, link in torques.branches:
         start = float(turned(nearer, y, layout))
         if link >= 0:
-            value = start - float(torques.on_body[body]) / float(stiffness[link])
+            twist = twist_under(link, torques.on_link[link], model)
+            value = start + twist if body == layout.first[link] else start - twist
         else:
             mesh = model.meshes[m]
             ends = float(mesh.driver_radius), float(mesh.driven_radius)

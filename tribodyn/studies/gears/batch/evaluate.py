@@ -37,6 +37,7 @@ from tribodyn.studies.gears.steady import warning_of
 from tribodyn.studies.gears.swept import UNSTABLE_QUANTITIES, SweepSettings
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
+from tribodyn.train.links.chain import numbers_of
 from tribodyn.train.structure import rotational_error, rotational_error_rate
 
 if TYPE_CHECKING:
@@ -256,7 +257,8 @@ def _start(prepared: Any, settings: SweepSettings) -> np.ndarray:
     creeping = model.operation._replace(nominal_speed=CREEP)
     # the model, which is kept with the result, keeps another table from taking this one's identity
     still = frictionless(model._replace(operation=creeping))
-    numbers = (*creeping, *model.bodies, *model.links, *(mesh.damping for mesh in model.meshes))
+    numbers = (*creeping, *model.bodies, *model.links[:2], *numbers_of(model.links.own))
+    numbers += tuple(mesh.damping for mesh in model.meshes)
     tables = tuple(id(mesh.table) for mesh in model.meshes)
     key = (tables, model.options, *(np.asarray(value).tobytes() for value in numbers))
     return _equilibria(MadeOnce(key, lambda: static_equilibrium(still))).copy()
