@@ -161,7 +161,8 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
     power = samples.powers
 
     def over(places: Any) -> np.ndarray:
-        return np.stack([np.broadcast_to(values, samples.size) for values in places], axis=-1)
+        columns = [np.broadcast_to(values, samples.size) for values in places]
+        return np.stack(columns, axis=-1) if columns else np.empty((samples.size, 0))
 
     return {
         "time": samples.cycles * operation.pitch_angle / operation.nominal_speed + y[layout.lag],
