@@ -16,7 +16,7 @@ from tribodyn.dynamics.loads import load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import law
+from tribodyn.numerics.elementary import law, maximum
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.right_hand_side import rhs
 from tribodyn.train.structure import (
@@ -190,7 +190,7 @@ def differentiate_links(y, scale, model, jacobian):
                 laws = model.options.links
                 twist = turned(first, y, layout) - turned(second, y, layout)
                 _, _, share = laws.act(k, twist, stiffness, links.own, laws)
-                by = SHARE * max(scale[i], scale[j])
+                by = SHARE * maximum(scale[i], scale[j])
                 slope, rise = laws.slope(k, twist, by, stiffness, links.own, laws)
                 lost_by_twist = damping * rise * rate * rate
                 stiffness, damping = slope + damping * rise * rate, damping * share
