@@ -5,10 +5,12 @@ import pytest
 
 import tribodyn as td
 from tribodyn.dynamics.modes import natural_frequencies
+from tribodyn.dynamics.outputs import evaluated, mesh_outputs
 from tribodyn.numerics.elementary import law
 from tribodyn.record.reader import Record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
+from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.studies.gear_train.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -81,6 +83,21 @@ def test_the_motion_is_that_without_play_a_tooth_further(tmp_path):
         for name in ("dynamic_factor", "transmission_error_rms", "power_friction_mean"):
             both = [summary["meshes"][mesh][name] for summary in summaries]
             assert both[1] == pytest.approx(both[0], rel=2e-3), (mesh, name)
+
+
+def test_the_steady_state_is_that_without_play_a_tooth_further():
+    """The same loads of the second mesh, and the same multipliers, by the derivative of the law."""
+    models = [prepare(reducer(keys)).model for keys in (SHAFT, {**PLAY, "shaft.0.contact_share": 1e-4})]
+    found = steady_states(models, samples=40)
+    assert {each.kind for each in found} == {"period-1"}
+    samples = [
+        evaluated(np.arange(len(each.samples)) / 40, each.samples, model)
+        for each, model in zip(found, models, strict=True)
+    ]
+    linear, loose = (mesh_outputs(1, each)["normal_load"] for each in samples)
+    np.testing.assert_allclose(loose, linear, atol=1e-5 * np.max(linear))
+    linear, loose = (np.sort(np.abs(each.multipliers)) for each in found)
+    np.testing.assert_allclose(loose, linear, rtol=1e-5, atol=1e-8)
 
 
 def test_energy_closes_where_play_opens_and_both_methods_agree(tmp_path):

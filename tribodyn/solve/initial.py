@@ -108,11 +108,14 @@ def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> F
     values = _closed(model, side * clear, torques)[unknown]
     scale = _scales(model, deflection)[unknown]
     tolerance = 1e-6 * float(np.linalg.norm(residual(values))) + 1e-30
-    found = _root(residual, values, scale, tolerance)
+    loose = bool(model.links.own)
+    found = _root(residual, values, scale, tolerance, loose)
     if found is None:  # damping of a moving error holds the flanks all but apart, or deep in each other
         for share in np.linspace(0.0, 1.0, DAMPING_STEPS).tolist():
             meshes = tuple(mesh._replace(damping=share * mesh.damping) for mesh in model.meshes)
-            found = _root(partial(residual, model=model._replace(meshes=meshes)), values, scale, tolerance)
+            found = _root(
+                partial(residual, model=model._replace(meshes=meshes)), values, scale, tolerance, loose
+            )
             if found is None:
                 sides = [np.asarray(mesh.table.side) for mesh in model.meshes]
                 pressed = all(bool(np.any(of * way > 0)) for of, way in zip(sides, side, strict=True))
@@ -170,16 +173,23 @@ def _root(
     values: Float[Array, " unknown"],
     scale: Float[Array, " unknown"],
     tolerance: float,
+    loose: bool,
 ) -> Float[Array, " unknown"] | None:
-    """Where the residual is below a tolerance, by damped Newton steps; None where they do not get there."""
+    """Where the residual is below a tolerance, by damped Newton steps; None where they do not get there.
+
+    `loose`: a link may turn freely, and then stays where it is.
+    """
     value = residual(values)
     steps = 1e-5 * np.diag(scale)
     for _ in range(60):
         size = np.linalg.norm(value)
         jacobian = ((residual(values + steps) - value) / (1e-5 * scale[:, None])).T
         if np.linalg.matrix_rank(jacobian) < len(values):
-            break  # the flanks are apart: nothing resists
-        change = np.linalg.solve(jacobian, -value)
+            if not loose:
+                break  # the flanks are apart: nothing resists
+            change = scale * np.linalg.lstsq(jacobian * scale, -value)[0]
+        else:
+            change = np.linalg.solve(jacobian, -value)
         factor = 1.0
         while factor > 1e-4:
             trial = residual(values + factor * change)
