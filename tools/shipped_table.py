@@ -11,6 +11,7 @@ from tools.marked_block import DOCS, ROOT, put, table
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.sources import names, shipped
 from tribodyn.studies import STUDIES
+from tribodyn.train.links import LINK_LAWS
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.validation import PAPERS
@@ -26,6 +27,7 @@ def counts() -> str:
         ("tooth families", *_named(FAMILIES), "`tribodyn list families`"),
         ("film laws", *_named(FILM_LAWS), "`tribodyn list film-laws`"),
         ("friction laws", *_named(FRICTION_LAWS), "`tribodyn list laws`"),
+        ("laws of links", *_named(LINK_LAWS), "`tribodyn list link-laws`"),
         ("scenarios", len(names(shipped("scenarios"))), "by what they show", "`tribodyn list scenarios`"),
         ("papers", len(papers), ", ".join(papers), "`tribodyn list papers`"),
     ]

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from tribodyn.numerics.parameter import Parameter
     from tribodyn.studies.protocol.study import Study
     from tribodyn.studies.protocol.verb import Finding
+    from tribodyn.train.links.law import LinkLaw
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
 
     Design: type[Run]
@@ -56,6 +57,7 @@ __all__ = [
     "GearPair",
     "Gradient",
     "InputError",
+    "LinkLaw",
     "OutputError",
     "Parameter",
     "Run",
@@ -86,6 +88,7 @@ _PLACES = {
     "GearPair": "tribodyn.interface.drive",
     "Gradient": "tribodyn.interface.gradient",
     "InputError": "tribodyn.errors",
+    "LinkLaw": "tribodyn.train.links.law",
     "OutputError": "tribodyn.errors",
     "Parameter": "tribodyn.numerics.parameter",
     "Run": "tribodyn.interface.result",

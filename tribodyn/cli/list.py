@@ -26,6 +26,7 @@ class What(StrEnum):
     kinds = "kinds"
     laws = "laws"
     film_laws = "film-laws"
+    link_laws = "link-laws"
     families = "families"
     solvers = "solvers"
     plots = "plots"
@@ -70,6 +71,7 @@ def _about(what: What) -> dict[str, str]:
     from tribodyn.scenario.sources import shipped
     from tribodyn.solve.methods import SOLVERS
     from tribodyn.studies import STUDIES
+    from tribodyn.train.links import LINK_LAWS
     from tribodyn.tribology.film import FILM_LAWS
     from tribodyn.tribology.friction import FRICTION_LAWS
     from tribodyn.validation import PAPERS
@@ -78,6 +80,7 @@ def _about(what: What) -> dict[str, str]:
         What.kinds: STUDIES,
         What.laws: FRICTION_LAWS,
         What.film_laws: FILM_LAWS,
+        What.link_laws: LINK_LAWS,
         What.families: FAMILIES,
         What.papers: PAPERS,
     }

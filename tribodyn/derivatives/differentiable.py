@@ -22,6 +22,7 @@ from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.limits.limits import beyond
 from tribodyn.mesh.tabulate import pair_slots
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.tribology.closure import laws_of
 
 #: XLA takes a fraction of the time to make a program that it hardly optimises; it runs in milliseconds.
 _HARDLY_OPTIMISED = {"xla_backend_optimization_level": 0}
@@ -52,6 +53,8 @@ class Differentiable:
     Attributes
     ----------
     of, wrt : names of the quantities, and keys
+    about : what the quantities are
+    parts : the case of the pair, and the name, that each quantity is worked out of
     at : the numbers of the case, SI
     units, key_units : SI units of quantities and keys
     """
@@ -62,6 +65,8 @@ class Differentiable:
         self._quantities = [quantity_of(case, name) for name in of]
         self._numbers = numbers_of(case, schema)
         check_keys(self.wrt, self._numbers)
+        self.about = tuple(quantity.about for quantity in self._quantities)
+        self.parts = tuple((case, name) for name in self.of)
         self.units = tuple(quantity.unit for quantity in self._quantities)
         self.key_units = tuple(self._numbers[key].unit for key in self.wrt)
         self.at = np.array([float(self._numbers[key].value) for key in self.wrt])
@@ -116,7 +121,8 @@ class Differentiable:
 
     @cached_property
     def _structure(self) -> "_Structure":
-        return _Structure(_without(self._case, self._numbers), self._case, self._numbers)
+        laws = laws_of(self._case) if hasattr(self._case, "film") and hasattr(self._case, "friction") else ()
+        return _Structure(_without(self._case, self._numbers), laws, self._case, self._numbers)
 
     def _finite(self, found: Any) -> Any:
         """Distances that do not exist are a whole module, or one, beyond the limit, and of no slope."""
@@ -138,7 +144,7 @@ def fixed_of(case: Any) -> Fixed:
         return Fixed(pairs, bool(float(gears.path.pressure_angle(0.0)) < 1e-9))
 
 
-def check_keys(keys: Sequence[str], numbers: Mapping[str, Number]) -> None:
+def check_keys(keys: Sequence[str], numbers: Mapping[str, Any]) -> None:
     """Refuse keys by which nothing can be differentiated, and none at all."""
     there = "; there is: " + ", ".join(numbers)
     if not keys:
@@ -155,6 +161,7 @@ class _Structure:
     """A case, equal to all others that differ in their numbers alone."""
 
     text: str
+    laws: tuple[Any, ...]  # of film and friction: "auto" takes them by the numbers
     case: Any = field(compare=False)
     numbers: Mapping[str, Number] = field(compare=False)
 

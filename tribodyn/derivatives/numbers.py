@@ -42,10 +42,15 @@ def numbers_of(case: Any, schema: type[BaseModel]) -> dict[str, Number]:
     """Numbers of a case with gears by their dotted keys, as overrides have them; `schema` of its scenario."""
     found = {}
     for key, number in _numbers(case, tomllib.loads(case.toml)["drive"]):
-        kind = kind_at(schema, key)
-        unit = number.unit or (kind.si if isinstance(kind, Kind) else "1")
-        found[key] = number._replace(unit=unit.replace("**", "").replace("*", " "))
+        found[key] = number._replace(unit=unit_at(schema, key, number.unit))
     return found
+
+
+def unit_at(schema: type[BaseModel], key: str, own: str = "") -> str:
+    """SI unit of a key as it is shown: its `own`, else as the schema has it."""
+    kind = kind_at(schema, key)
+    unit = own or (kind.si if isinstance(kind, Kind) else "1")
+    return unit.replace("**", "").replace("*", " ")
 
 
 def _numbers(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:

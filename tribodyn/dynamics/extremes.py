@@ -95,10 +95,8 @@ def take_in(extremes: Extremes, others: Extremes) -> None:
 @law
 def highest_loaded(i, place, mesh, model, work):
     """Contact of slot i where its line load is highest along the face: what is recorded of its surfaces."""
-    if model.options.sliding == SLIDING_DYNAMIC:
-        sliding = work[RELATIVE_VELOCITY, i]
-    else:
-        sliding = work[SLIDING, i]
+    dynamic = model.options.sliding == SLIDING_DYNAMIC
+    sliding = work[RELATIVE_VELOCITY, i] if dynamic else work[SLIDING, i]
     peak = cubic(mesh.table.channel, place.segment, place.cell, i, PEAK, place.u)
     speed_1, speed_2 = work[DRIVER_SPEED, i], work[DRIVEN_SPEED, i]
     return local_contact(

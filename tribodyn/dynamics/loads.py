@@ -51,8 +51,10 @@ def link_forces(y, model, dy):
             i, j = half + turn_of(first, layout), half + turn_of(second, layout)
             twist = turned(first, y, layout) - turned(second, y, layout)
             twist_rate = turning(first, y, layout) - turning(second, y, layout)
-            damping = links.damping[k, TURN] * twist_rate
-            torque = links.stiffness[k, TURN] * twist + damping
+            laws = model.options.links
+            elastic, _, share = laws.act(k, twist, links.stiffness[k, TURN], links.own, laws)
+            damping = links.damping[k, TURN] * share * twist_rate
+            torque = elastic + damping
             power = power + damping * twist_rate
             dy[i] = dy[i] - torque
             dy[j] = dy[j] + torque
@@ -74,5 +76,6 @@ def link_energy(y, model):
                 energy = energy + 0.5 * links.stiffness[k, direction] * apart * apart
         if second >= 0:
             twist = turned(first, y, layout) - turned(second, y, layout)
-            energy = energy + 0.5 * links.stiffness[k, TURN] * twist * twist
+            laws = model.options.links
+            energy = energy + laws.act(k, twist, links.stiffness[k, TURN], links.own, laws)[1]
     return energy

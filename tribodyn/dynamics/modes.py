@@ -10,6 +10,7 @@ from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.flow import flow
+from tribodyn.train.links.chain import tangent_stiffness
 from tribodyn.train.structure import TURN, shift_of, turn_of
 
 
@@ -34,7 +35,7 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
     turn, and where a torque drives, the rigid rotation is not among the modes. Stiffness is the tangent at
     the static load, the mean over the mesh cycle: at every phase of those driving pairs that carry when the
     load is shared by compliances, gaps and the bearings' give, each at its own load where the Hertz contact
-    stiffens with it. No friction.
+    stiffens with it; so is that of a link with a law, unless it closes a loop: that at rest. No friction.
     """
     layout, bodies, links = model.layout, model.bodies, model.links
     mass, stiffness = np.zeros(layout.half), np.zeros((layout.half, layout.half))
@@ -42,6 +43,8 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
         mass[turn_of(body, layout)] = bodies.inertia[body]
         if body < layout.planar:
             mass[shift_of(body) : shift_of(body) + 2] = bodies.mass[body]
+    still = model._replace(options=model.options._replace(drive=DRIVE_SPEED))
+    torques = flow(still)
     for k, (first, second) in enumerate(zip(layout.first, layout.second, strict=True)):
         for direction in range(TURN + 1):
             ends = [body for body in (first, second) if body >= 0]
@@ -51,12 +54,13 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
             places = [turn_of(b, layout) if turns else shift_of(b) + direction for b in ends]
             row = np.zeros(layout.half)
             row[places] = [1.0, -1.0][: len(ends)]
-            stiffness += float(np.asarray(links.stiffness)[k, direction]) * np.outer(row, row)
-    still = model._replace(options=model.options._replace(drive=DRIVE_SPEED))
-    torques = flow(still).on_driven
+            tangent = float(np.asarray(links.stiffness)[k, direction])
+            if turns:
+                tangent = tangent_stiffness(k, torques.on_link.get(k, 0.0), model)
+            stiffness += tangent * np.outer(row, row)
     for m, cycle in enumerate(cycles):
         rows = _directions(model, m)
-        stiffness += rows.T @ _mean_stiffness(model, m, cycle, float(torques[m])) @ rows
+        stiffness += rows.T @ _mean_stiffness(model, m, cycle, float(torques.on_driven[m])) @ rows
     free = np.arange(layout.half) if model.options.drive else np.delete(np.arange(layout.half), layout.lag)
     root = 1.0 / np.sqrt(mass[free])
     squared, vectors = np.linalg.eigh(root[:, None] * stiffness[np.ix_(free, free)] * root)

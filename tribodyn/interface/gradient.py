@@ -79,18 +79,18 @@ def _with_unit(value: float, unit: str) -> str:
 def gradient(
     source: Source, of: str, wrt: str | Sequence[str], overrides: Mapping[str, Any] | None = None
 ) -> Gradient:
-    """Differentiate a quantity of a gear pair by numbers of its scenario, exactly, through JAX.
+    """Differentiate a quantity of a gear pair or a train by numbers of its scenario, exactly, through JAX.
 
     Parameters
     ----------
     source, overrides
-        As `scenario` takes them; any scenario of a gear pair with the tables that the quantity needs.
+        As `scenario` takes them; any scenario of a pair or a train with the tables that the quantity needs.
     of : str
         "contact_ratio", "centre_distance", "pressure_angle", "equivalent_radius", "hertz_pressure",
         "mean_stiffness", "stiffness_swing", "transmission_error_swing", "loss_factor", "efficiency",
         "friction_power", "normal_load_max", "hertz_pressure_max", "film_min", "film_parameter_min",
         "flash_temperature_max"; or a distance of `constraints`. All are quasi-static, of elastic load
-        sharing.
+        sharing. Of a train ``"MESH.NAME"``, and of all its meshes "efficiency" and "friction_power".
         "mesh_stiffness_mean", "mesh_stiffness_peak_to_peak", "loaded_transmission_error_peak_to_peak" and
         "power_friction_mean" of a summary are understood too.
     wrt : str or sequence of str
@@ -115,15 +115,14 @@ def gradient(
     set of pairs in contact is about to change, at a whole contact ratio, derivatives are one-sided.
     """
     keys = [wrt] if isinstance(wrt, str) else list(wrt)
-    case = scenario(source, overrides)
-    _check(case, of)
-    function = differentiable(case, of, keys)
+    function = differentiable(source, of, keys, overrides)
+    for pair, name in function.parts:
+        _check(pair, name)
     value, slopes = function.gradient(function.at)
-    quantity = quantity_of(case, of)
     by_key = dict(zip(keys, slopes.tolist(), strict=True))
     at = dict(zip(keys, function.at.tolist(), strict=True))
     units = dict(zip(keys, function.key_units, strict=True))
-    return Gradient(of, quantity.about, quantity.unit, value, by_key, at, units)
+    return Gradient(of, function.about[0], function.units[0], value, by_key, at, units)
 
 
 @in_python()
@@ -133,7 +132,7 @@ def differentiable(
     wrt: str | Sequence[str],
     overrides: Mapping[str, Any] | None = None,
 ) -> Differentiable:
-    """Make quantities of a gear pair a differentiable function of numbers of its scenario, as a search needs.
+    """Make quantities of a pair or a train a differentiable function of its numbers, as a search needs.
 
     Parameters
     ----------
@@ -153,7 +152,7 @@ def differentiable(
     """
     case = scenario(source, overrides)
     of, wrt = ([names] if isinstance(names, str) else list(names) for names in (of, wrt))
-    return Differentiable(case, study_of({"kind": case.kind}).table(), of, wrt)
+    return study_of({"kind": case.kind}).differentiable(case, of, wrt)
 
 
 def _check(case: Any, of: str) -> None:

@@ -16,6 +16,7 @@ from tribodyn.studies.protocol.run import run as run_case
 from tribodyn.studies.protocol.study import CaseHead, Progress
 
 if TYPE_CHECKING:
+    from tribodyn.train.links.law import LinkLaw
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
 
 
@@ -28,6 +29,7 @@ def run(
     force: bool = False,
     film: "FilmLaw | Callable[..., Any] | None" = None,
     friction: "FrictionLaw | Callable[..., Any] | None" = None,
+    links: "Mapping[str, LinkLaw | Callable[..., Any]] | None" = None,
     progress: Progress | bool | None = None,
     allow_large: bool = False,
 ) -> Run:
@@ -43,6 +45,8 @@ def run(
         Replace a record of that name.
     film, friction : FilmLaw, FrictionLaw or function, optional
         Take the place of the scenario's laws.
+    links : LinkLaw or function by name, optional
+        Take the places of the laws of a train's links and compliant shafts of these names.
     progress : callable or bool, optional
         Called with the share done, 0 … 1; default: a bar on a terminal or in a notebook; False: none.
     allow_large : bool
@@ -61,7 +65,8 @@ def run(
     OutputError
         If the record cannot be written.
     """
-    how: dict[str, Any] = {"film": film, "friction": friction, "force": force, "progress": progress}
+    laws: dict[str, Any] = {"film": film, "friction": friction, "links": links}
+    how: dict[str, Any] = {**laws, "force": force, "progress": progress}
     return recorded(scenario(source, overrides), output, allow_large=allow_large, **how)
 
 

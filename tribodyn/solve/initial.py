@@ -16,7 +16,8 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.step_control import largest_displacement, unbounded
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.train.flow import Flow, flow
-from tribodyn.train.structure import TURN, GearMesh, displacements, shift_of, turn_of, turned, velocities
+from tribodyn.train.links.chain import twist_under
+from tribodyn.train.structure import GearMesh, displacements, shift_of, turn_of, turned, velocities
 
 _COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
 #: Values of the unknown states, or what is left of the equations.
@@ -107,11 +108,14 @@ def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> F
     values = _closed(model, side * clear, torques)[unknown]
     scale = _scales(model, deflection)[unknown]
     tolerance = 1e-6 * float(np.linalg.norm(residual(values))) + 1e-30
-    found = _root(residual, values, scale, tolerance)
+    loose = bool(model.links.own)
+    found = _root(residual, values, scale, tolerance, loose)
     if found is None:  # damping of a moving error holds the flanks all but apart, or deep in each other
         for share in np.linspace(0.0, 1.0, DAMPING_STEPS).tolist():
             meshes = tuple(mesh._replace(damping=share * mesh.damping) for mesh in model.meshes)
-            found = _root(partial(residual, model=model._replace(meshes=meshes)), values, scale, tolerance)
+            found = _root(
+                partial(residual, model=model._replace(meshes=meshes)), values, scale, tolerance, loose
+            )
             if found is None:
                 sides = [np.asarray(mesh.table.side) for mesh in model.meshes]
                 pressed = all(bool(np.any(of * way > 0)) for of, way in zip(sides, side, strict=True))
@@ -128,11 +132,11 @@ def _closed(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float
     """State in which the meshes have rotational errors (m) and shafts the twist of their torque."""
     layout = model.layout
     y = np.zeros(layout.states)
-    stiffness = np.asarray(model.links.stiffness)[:, TURN]
     for body, nearer, m, link in torques.branches:
         start = float(turned(nearer, y, layout))
         if link >= 0:
-            value = start - float(torques.on_body[body]) / float(stiffness[link])
+            twist = twist_under(link, torques.on_link[link], model)
+            value = start + twist if body == layout.first[link] else start - twist
         else:
             mesh = model.meshes[m]
             ends = float(mesh.driver_radius), float(mesh.driven_radius)
@@ -169,16 +173,23 @@ def _root(
     values: Float[Array, " unknown"],
     scale: Float[Array, " unknown"],
     tolerance: float,
+    loose: bool,
 ) -> Float[Array, " unknown"] | None:
-    """Where the residual is below a tolerance, by damped Newton steps; None where they do not get there."""
+    """Where the residual is below a tolerance, by damped Newton steps; None where they do not get there.
+
+    `loose`: a link may turn freely, and then stays where it is.
+    """
     value = residual(values)
     steps = 1e-5 * np.diag(scale)
     for _ in range(60):
         size = np.linalg.norm(value)
         jacobian = ((residual(values + steps) - value) / (1e-5 * scale[:, None])).T
         if np.linalg.matrix_rank(jacobian) < len(values):
-            break  # the flanks are apart: nothing resists
-        change = np.linalg.solve(jacobian, -value)
+            if not loose:
+                break  # the flanks are apart: nothing resists
+            change = scale * np.linalg.lstsq(jacobian * scale, -value)[0]
+        else:
+            change = np.linalg.solve(jacobian, -value)
         factor = 1.0
         while factor > 1e-4:
             trial = residual(values + factor * change)

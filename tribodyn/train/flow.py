@@ -39,6 +39,7 @@ class Flow(NamedTuple):
     branches: list[TreeBranch]
     on_driven: Float[Array, " mesh"]  # torque of a mesh on its driven body, N m; > 0 presses driving flanks
     on_body: Float[Array, " body"]  # torque of the joint with the nearer body on each, N m
+    on_link: dict[int, float]  # torque with which a link of the tree turns its first end back, N m
     largest: float  # sum of all torques' magnitudes, as on the reference, N m
 
 
@@ -70,4 +71,9 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
             on_driven[branch.mesh] = torque if branch.body == layout.driven[branch.mesh] else back * torque
     for m in np.flatnonzero(np.isnan(on_driven)):
         on_driven[m] = (through[0] if not model.options.drive else largest) / ratio[layout.driven[m]]
-    return Flow(branches, on_driven, on_body, largest)
+    on_link = {
+        link: float(-on_body[body] if body == layout.first[link] else on_body[body])
+        for body, _, _, link in branches
+        if link >= 0
+    }
+    return Flow(branches, on_driven, on_body, on_link, largest)

@@ -21,6 +21,7 @@ import numpy as np
 from tribodyn.numerics.elementary import law
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.static import Indices, StaticInt
+from tribodyn.train.links.chain import NoLinkParameters
 from tribodyn.tribology.contact import Surfaces
 
 #: Works, counted from the first: those of the whole train, and from `OF_MESHES` on two of every mesh.
@@ -46,11 +47,13 @@ class Links(NamedTuple):
     """Springs and dampers between two bodies, or a body and the ground: bearings, shafts, couplings.
 
     They act on the difference of the ends' coordinates, in x and y where both ends move in the plane, and on
-    that of their rotations where both are bodies, which have one nominal speed then.
+    that of their rotations where both are bodies, which have one nominal speed then: in x and y linearly, in
+    rotation by the laws that are switched, see `train.links`.
     """
 
     stiffness: Float[Array, "link direction"]  # N/m, N/m, N m/rad
     damping: Float[Array, "link direction"]  # N s/m, N s/m, N m s/rad
+    own: Any = NoLinkParameters()  # parameters of the laws
 
 
 class GearMesh(NamedTuple):

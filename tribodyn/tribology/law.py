@@ -132,8 +132,8 @@ def _values_type(names: tuple[str, ...]) -> Any:
 
 
 @dataclass(frozen=True, eq=False)
-class _Law:
-    """What film and friction laws have in common."""
+class KeyedLaw:
+    """What laws have in common that a scenario chooses by name, with keys of their own."""
 
     table: ClassVar[str]  # the scenario's table that names the law and holds its keys
     name: str  # as scenarios give it
@@ -180,8 +180,8 @@ class _Law:
         """The functions that kernels and models hold."""
         raise NotImplementedError
 
-    def made(self, given: LawInput, values: dict[str, Any]) -> Any:
-        """Make the parameters; keys without a value take their default.
+    def made(self, given: Any, values: dict[str, Any]) -> Any:
+        """Make the parameters; keys without a value take their default; `given` as `parameters` takes it.
 
         Raises InputError if a value is unknown or missing, or has no meaning under these conditions.
         """
@@ -214,7 +214,7 @@ class _Law:
 
 
 @dataclass(frozen=True, eq=False)
-class FilmLaw(_Law):
+class FilmLaw(KeyedLaw):
     """A law of film thickness: a plain object, chosen by ``[film] law`` or handed over from Python.
 
     `function` is (contact: LocalContact, surfaces: Surfaces, parameters) -> (ln of the film of smooth
@@ -233,7 +233,7 @@ class FilmLaw(_Law):
 
 
 @dataclass(frozen=True, eq=False)
-class FrictionLaw(_Law):
+class FrictionLaw(KeyedLaw):
     """A law of friction: a plain object, chosen by ``[friction] law`` or handed over from Python.
 
     `function` is (contact: LocalContact, film: ActiveLaw, surfaces: Surfaces, parameters) -> friction

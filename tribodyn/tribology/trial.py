@@ -9,12 +9,12 @@ import numpy as np
 from tribodyn.errors import InputError, quoted
 from tribodyn.numerics import elementary
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.law import Closure, FilmLaw, FrictionLaw
+from tribodyn.tribology.law import Closure, FilmLaw, FrictionLaw, KeyedLaw
 
 #: Line load (N/m), curvature (1/m), entrainment, sliding, speeds of both flanks (m/s) of an ordinary gear
 #: contact on either side of the pitch point.
 _CONTACTS = ((4e5, 100.0, 2.0, 1.0, 2.5, 1.5), (2e5, 150.0, 2.0, -1.0, 1.5, 2.5))
-_REMEDY = "write it for scalars, with arithmetic and tribodyn.numerics.elementary: where() and not if"
+REMEDY = "write it for scalars, with arithmetic and tribodyn.numerics.elementary: where() and not if"
 
 
 def try_laws(film: FilmLaw, friction: FrictionLaw, closure: Closure) -> None:
@@ -29,9 +29,7 @@ def try_laws(film: FilmLaw, friction: FrictionLaw, closure: Closure) -> None:
 
 def _try(law: FilmLaw | FrictionLaw, closure: Closure) -> None:
     key, name = f"{law.table}.law", quoted(law.name)
-    for called in {other.__name__ for function in law.functions for other in _unmarked(function)}:
-        rule = f"calls {called}, which is not marked as part of a law"
-        raise InputError(key, name, rule, "put @law of tribodyn.numerics.elementary over it")
+    refuse_unmarked(key, law)
     several = local_contact(*np.array(_CONTACTS).T)
     for how, contact in (("a number", local_contact(*_CONTACTS[0])), ("arrays", several)):
         try:
@@ -39,10 +37,17 @@ def _try(law: FilmLaw | FrictionLaw, closure: Closure) -> None:
                 value = _value(law, contact, closure)
         except Exception as error:
             why = " ".join(f"{type(error).__name__}: {error}".split())
-            raise InputError(key, name, f"fails on {how}: {why}", _REMEDY) from error
+            raise InputError(key, name, f"fails on {how}: {why}", REMEDY) from error
         if not np.all(np.isfinite(value)) or np.any(np.asarray(value) < 0.0):
             rule = f"gives {value} in an ordinary contact, where a number of at least 0 is due"
             raise InputError(key, name, rule, "mend its formula or its parameters")
+
+
+def refuse_unmarked(key: str, law: KeyedLaw) -> None:
+    """Raise InputError of a key if a law calls a function that is not marked as part of one."""
+    for called in {other.__name__ for function in law.functions for other in _unmarked(function)}:
+        rule = f"calls {called}, which is not marked as part of a law"
+        raise InputError(key, quoted(law.name), rule, "put @law of tribodyn.numerics.elementary over it")
 
 
 def _value(law: FilmLaw | FrictionLaw, contact: Any, closure: Closure) -> Any:

@@ -32,7 +32,7 @@ WAVES = {"operating.gear_torque_harmonics": [{"amplitude": "30 N*m", "frequency"
 )
 def test_every_column_is_that_of_central_differences(prepared, monkeypatch, rng, more, evaluations):
     model = prepared("crc-23-47", **more, **{"friction.law": "none"}).model
-    shafts = [values[2:] for values in model.links]
+    shafts = [values[2:] for values in (model.links.stiffness, model.links.damping)]
     links = (np.vstack([size * BEARINGS, own]) for size, own in zip((2e8, 3e3), shafts, strict=True))
     model = altered(model, links=dict(zip(("stiffness", "damping"), links, strict=True)))
     layout, schedule = model.layout, model.schedule

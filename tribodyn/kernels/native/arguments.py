@@ -256,19 +256,12 @@ def packed(value: Any) -> PackedValue:
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return together(type(value).__qualname__, value._fields, value)  # pyright: ignore[reportAttributeAccessIssue]
     if isinstance(value, tuple):
-        return _packed_items(value)
+        items = [packed(item) for item in value]
+        (layout,) = {item.layout for item in items}  # a kernel takes items that are alike
+        return PackedValue(_several(layout, len(items)), b"".join(item.words for item in items), value)
     raise TypeError(
         f"a kernel takes numbers, arrays, functions and tuples of them, not {type(value).__name__}"
     )
-
-
-def _packed_items(values: tuple[Any, ...]) -> PackedValue:
-    """Pack a tuple of values that are alike."""
-    items = [packed(value) for value in values]
-    layouts = {item.layout for item in items}
-    if len(layouts) != 1:
-        raise TypeError(f"a kernel takes tuples of items of one layout, not of {len(layouts)}")
-    return PackedValue(_several(layouts.pop(), len(items)), b"".join(item.words for item in items), values)
 
 
 def _packed_array(array: np.ndarray) -> PackedValue:

@@ -1,4 +1,4 @@
-"""The tables ``[film]`` and ``[friction]``: which laws hold between the flanks, and the laws' own keys."""
+"""Tables that name a law and hold its own keys, such as ``[film]`` and ``[friction]`` between the flanks."""
 
 from typing import Any, ClassVar, Self
 
@@ -17,8 +17,9 @@ from tribodyn.tribology.law import AUTO, FilmData
 class LawTable(Table, extra="allow"):
     """A table that holds the own keys of the law it names, which only the law knows."""
 
-    name: ClassVar[str]
+    place: ClassVar[str]  # where it stands, for messages
     laws: ClassVar[Registry[Any]]
+    automatic: ClassVar[bool] = True  # whether "auto" chooses one
     law: Any  # its name
 
     @property
@@ -32,7 +33,7 @@ class LawTable(Table, extra="allow"):
         part = handler.resolve_ref_schema(handler(schema))
         names = part["properties"]["law"]
         choice = names["anyOf"][0] if "anyOf" in names else names
-        choice["enum"] = [AUTO, *cls.laws]
+        choice["enum"] = [AUTO, *cls.laws] if cls.automatic else [*cls.laws]
         for name, law in cls.laws.items():
             for key in law.keys:
                 own = key_schema(key)
@@ -61,7 +62,7 @@ class LawTable(Table, extra="allow"):
 class FilmTable(LawTable):
     """Which law gives the film between the flanks, and the law's own keys."""
 
-    name = "film"
+    place = "film"
     laws = FILM_LAWS
     law: Text | None = Field(None, description="default: the one that goes with the friction law")
 
@@ -69,7 +70,7 @@ class FilmTable(LawTable):
 class FrictionTable(LawTable):
     """Which law acts between the flanks, and the law's own keys."""
 
-    name = "friction"
+    place = "friction"
     laws = FRICTION_LAWS
     law: Text
 
@@ -80,12 +81,11 @@ def law_errors(table: LawTable) -> list[InputError]:
         rule = "is a key of a film law, and none is named"
         remedy = f"name it, such as law = {quoted(next(iter(table.laws)))}"
         given = table.own.items()
-        return [InputError(f"{table.name}.{key}", quoted(value), rule, remedy) for key, value in given]
-    if table.law == AUTO:
+        return [InputError(f"{table.place}.{key}", quoted(value), rule, remedy) for key, value in given]
+    if table.law == AUTO and table.automatic:
         rule, remedy = f'contradicts law = "{AUTO}", which takes none', "name the law whose key it is"
-        return [
-            InputError(f"{table.name}.{key}", quoted(value), rule, remedy) for key, value in table.own.items()
-        ]
+        given = table.own.items()
+        return [InputError(f"{table.place}.{key}", quoted(value), rule, remedy) for key, value in given]
     try:
         law = table.laws[table.law]
     except InputError as error:
@@ -95,12 +95,12 @@ def law_errors(table: LawTable) -> list[InputError]:
 
 
 def _owner(table: LawTable, law: Any) -> Owner:
-    return Owner(table.name, "law", law.keys, tuple(type(table).model_fields))
+    return Owner(table.place, "law", law.keys, tuple(type(table).model_fields))
 
 
 def _explained(error: InputError, table: LawTable, law: Any) -> InputError:
     """Say of a missing key that the law needs it, and of another law's key that this one has none."""
-    key = error.key.removeprefix(f"{table.name}.")
+    key = error.key.removeprefix(f"{table.place}.")
     known = {parameter.name: parameter for parameter in law.keys}
     if key not in table.own:
         rule = f'missing: law = "{law.name}" needs it, {known[key].about}'
@@ -119,6 +119,6 @@ def film_of(film: FilmTable | None) -> FilmData:
     return FilmData(film.law, own_values(_owner(film, FILM_LAWS[film.law]), film.own))
 
 
-def friction_values(table: FrictionTable) -> dict[str, float]:
-    """Return the values of the friction law's own keys, in SI units."""
-    return {} if table.law == AUTO else own_values(_owner(table, FRICTION_LAWS[table.law]), table.own)
+def law_values(table: LawTable) -> dict[str, float]:
+    """Return the values of the own keys of the law that a table names, in SI units."""
+    return {} if table.law == AUTO else own_values(_owner(table, table.laws[table.law]), table.own)

@@ -11,7 +11,8 @@ import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes
 from tribodyn.dynamics.parameters import Model, Options
-from tribodyn.kernels.lanes.tables import Extent, Field, LaneRecord, SubRecord
+from tribodyn.kernels.lanes.fields import Extent, Field, SubRecord
+from tribodyn.kernels.lanes.tables import LaneRecord
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import Ensemble, March, nothing_yet, put

@@ -2,7 +2,8 @@
 
 The contacts of a mesh see its bodies through their relative position and motion alone: through two numbers of
 position and three or four of velocity. Differences in these give the mesh's matrix k, from which its columns
-in the bodies' coordinates follow, Pᵀ k P; links are linear. What the reference's speed and the time do is
+in the bodies' coordinates follow, Pᵀ k P; links are linear, but where their laws have
+slopes of their own. What the reference's speed and the time do is
 differenced in the whole right-hand side, where they are switched on.
 """
 
@@ -15,7 +16,7 @@ from tribodyn.dynamics.loads import load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import law
+from tribodyn.numerics.elementary import law, maximum
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.right_hand_side import rhs
 from tribodyn.train.structure import (
@@ -32,6 +33,7 @@ from tribodyn.train.structure import (
     slip_of_body,
     speed_of,
     turn_of,
+    turned,
     turning,
 )
 from tribodyn.train.structure import SLIDING as WORK_SLIDING
@@ -162,7 +164,7 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
 
 
 @kernel
-def differentiate_links(y, model, jacobian):
+def differentiate_links(y, scale, model, jacobian):
     """Add what the links do to the forces, and to the power that damping takes."""
     layout, links = model.options.layout, model.links
     half, lost = layout.half, layout.mechanical + DAMPING
@@ -183,10 +185,20 @@ def differentiate_links(y, model, jacobian):
                     rate = rate - y[half + j]
             stiffness, damping = links.stiffness[k, direction], links.damping[k, direction]
             turns = direction == TURN
+            lost_by_twist = 0.0
+            if turns:
+                laws = model.options.links
+                twist = turned(first, y, layout) - turned(second, y, layout)
+                _, _, share = laws.act(k, twist, stiffness, links.own, laws)
+                by = SHARE * maximum(scale[i], scale[j])
+                slope, rise = laws.slope(k, twist, by, stiffness, links.own, laws)
+                lost_by_twist = damping * rise * rate * rate
+                stiffness, damping = slope + damping * rise * rate, damping * share
             if not (turns and first == 0):  # the reference has no micro-rotation
                 jacobian[half + i, i] -= stiffness
                 jacobian[half + i, half + i] -= damping
                 jacobian[lost, half + i] += 2.0 * damping * rate
+                jacobian[lost, i] += lost_by_twist
                 if second >= 0:
                     jacobian[half + j, i] += stiffness
                     jacobian[half + j, half + i] += damping
@@ -194,6 +206,7 @@ def differentiate_links(y, model, jacobian):
                 jacobian[half + j, j] -= stiffness
                 jacobian[half + j, half + j] -= damping
                 jacobian[lost, half + j] -= 2.0 * damping * rate
+                jacobian[lost, j] -= lost_by_twist
                 jacobian[half + i, j] += stiffness
                 jacobian[half + i, half + j] += damping
 
@@ -219,7 +232,7 @@ def differentiate(place, y, f, scale, model, work, into):
     for m in range(layout.meshes):
         contacts += differentiate_mesh(m, place, y, scale, model, work, jacobian)
     evaluations = (contacts + layout.meshes - 1) // layout.meshes
-    differentiate_links(y, model, jacobian)
+    differentiate_links(y, scale, model, jacobian)
     consistent = options.formulation == ENERGY_CONSISTENT
     prescribed = options.drive == DRIVE_SPEED
     for b in range(1, layout.bodies):  # loads and drive; what the reference's speed does is differenced below

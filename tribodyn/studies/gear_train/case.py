@@ -4,9 +4,10 @@ Bodies and meshes are numbered from the reference ones: body 0 drives mesh 0. A 
 torque count positive in its own sense of rotation; x, y are the train's, seen from +z.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Self
+from typing import Any, Self
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import BodyMass, Side
@@ -14,6 +15,8 @@ from tribodyn.numerics.curve import Table
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gears.case import LubricatedCase, OutputData
 from tribodyn.studies.protocol.recording import CaseHead
+from tribodyn.train.links.law import LinkLaw
+from tribodyn.train.links.linear import LAW as LINEAR_LINK
 from tribodyn.train.phases import ToothedShaft
 
 #: As an end of a link: the housing.
@@ -69,6 +72,8 @@ class LinkData:
     stiffness: tuple[float, float, float]  # N/m, N/m, N m/rad
     damping: tuple[float, float, float]  # N s/m, N s/m, N m s/rad
     damping_ratio: tuple[float, float, float]
+    law: LinkLaw = LINEAR_LINK  # of its rotation
+    values: Mapping[str, Any] = field(default_factory=dict)  # of the law's own keys, in SI units
 
 
 @dataclass(frozen=True)

@@ -123,20 +123,25 @@ def in_terms_of_train(error: InputError, train: Moving, mesh: int) -> InputError
     """The error of a mesh's pair of gears with the keys of the train's scenario."""
     if isinstance(error, InputErrors):
         return InputErrors([in_terms_of_train(one, train, mesh) for one in error.errors])
-    part = train.parts.meshes[train.motion.meshes[mesh]]
-    head, _, rest = error.key.partition(".")
-    if head != "drive" or part.key == "drive":
+    key = key_in_train(error.key, train, mesh)
+    if key == error.key:
         return error
-    driver, driven = (train.parts.gears[gear].key for gear in train.motion.gears[mesh])
-    side, _, inner = rest.partition(".")
-    if side in SIDES:
-        key = f"{driver if side == 'pinion' else driven}.{inner}"
-    else:
-        key = f"{part.key}.{rest}" if hasattr(part.table, side) else rest
     remedy = error.remedy.replace("drive.material for both", "material for all")
     for table in ("to [drive]", "[drive]"):
         remedy = remedy.replace(table, table.replace("[drive]", "[[stage]]"))
     return InputError(key, error.value, error.rule, remedy, error.file)
+
+
+def key_in_train(key: str, train: Moving, mesh: int) -> str:
+    """Where the train's scenario has a key of a mesh's pair of gears; other keys are its own."""
+    part = train.parts.meshes[train.motion.meshes[mesh]]
+    head, _, rest = key.partition(".")
+    if head != "drive" or part.key == "drive":
+        return key
+    side, _, inner = rest.partition(".")
+    if side in SIDES:
+        return f"{train.parts.gears[train.motion.gears[mesh][SIDES.index(side)]].key}.{inner}"
+    return f"{part.key}.{rest}" if hasattr(part.table, side) else rest
 
 
 def _placed(train: Moving, assemblies: tuple[Assembly, ...], couplings: list[tuple[int, int]]) -> Centres:

@@ -1,6 +1,6 @@
 """Speeds and torques of a train as its scenario gives them: each once, at the input or at the output."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, quoted
@@ -93,11 +93,17 @@ def duty_of(scenario: Any, train: Moving) -> TrainDuty:
     against = [0.0] * len(motion.bodies)
     for load in loads:
         against[load.body] += load.torque
-    teeth = [(parts.gears[one].table.teeth, parts.gears[two].table.teeth) for one, two in motion.gears]
-    torques = nominal_torques(motion, teeth, train.couplings, against)
+    torques = torques_of(train, against)
     least = _NOTHING * max(map(abs, torques.driven))
     driven = tuple(0.0 if abs(torque) <= least else torque for torque in torques.driven)
     return TrainDuty(speed, tuple(loads), tuple(inertias), torques._replace(driven=driven))
+
+
+def torques_of(train: Moving, against: Sequence[float]) -> Torques:
+    """Torques, N m, that loads on the bodies (against their motion, in the train's order) call for."""
+    gears, motion = train.parts.gears, train.motion
+    teeth = [(gears[one].table.teeth, gears[two].table.teeth) for one, two in motion.gears]
+    return nominal_torques(motion, teeth, train.couplings, against)
 
 
 def motor_torque(scenario: Any) -> float | None:

@@ -22,10 +22,11 @@ from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.model import mesh_of, options_of, varying_load
 from tribodyn.studies.gears.prepare import Thermal
 from tribodyn.studies.gears.tabulated import Tabulated, tables
+from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases
 from tribodyn.train.positions import frame_of
 from tribodyn.train.schedule import schedule_of
-from tribodyn.train.structure import GROUND, Bodies, Links, TrainLayout, layout_of
+from tribodyn.train.structure import GROUND, TURN, Bodies, Links, TrainLayout, layout_of
 from tribodyn.tribology.closure import closure_of
 
 
@@ -117,6 +118,8 @@ def _model(
         bodies.load_damping[new[load.body]] += load.damping
     stiffness = [link.stiffness for link in case.links]
     damping = [link_damping(link, inertias) for link in case.links]
+    laws = [(link.key, link.law, dict(link.values)) for link in case.links]
+    chain, of_links = chain_of(laws, [link.stiffness[TURN] for link in case.links])
     if motor:
         stiffness.append((0.0, 0.0, source.shaft_stiffness or 0.0))
         damping.append((0.0, 0.0, source.shaft_damping))
@@ -133,7 +136,7 @@ def _model(
     return parameters.Model(
         tuple(meshes),
         bodies,
-        Links(np.array(stiffness).reshape(-1, 3), np.array(damping).reshape(-1, 3)),
+        Links(np.array(stiffness).reshape(-1, 3), np.array(damping).reshape(-1, 3), of_links),
         schedule_of(
             [np.asarray(each.table.boundary) for each in made],
             [mesh.rate for mesh in case.meshes],
@@ -148,7 +151,7 @@ def _model(
             reversal_width=first.friction.reversal_width,
             **varying_load(varying.table, varying.harmonics),
         ),
-        options_of(first, [each.cycle for each in made], closures[0], layout, drive),
+        options_of(first, [each.cycle for each in made], closures[0], layout, drive)._replace(links=chain),
     )
 
 

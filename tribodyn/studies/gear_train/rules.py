@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from tribodyn.errors import InputError, InputErrors, unknown_name
+from tribodyn.errors import InputError, InputErrors, quoted, unknown_name
 from tribodyn.scenario.tables.bearings import broken_bearing
 from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.solve.methods import SOLVERS
@@ -13,6 +13,7 @@ from tribodyn.studies.gear_train.names import broken_names, broken_sort
 from tribodyn.studies.gear_train.scenario import Scenario, pair_view
 from tribodyn.studies.gears.motion import broken_flank_rules, broken_mesh_rules, broken_source_rules
 from tribodyn.studies.gears.scenario import broken_gear_rules
+from tribodyn.train.links.linear import LAW as LINEAR_LINK
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
@@ -24,6 +25,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         *broken_names(scenario),
         *_of_all_gears(scenario),
         *_bearings(scenario),
+        *_link_laws(scenario),
         *broken_source_rules(scenario.operating, "input_torque"),
         *broken_duty_rules(scenario),
     ]
@@ -94,6 +96,14 @@ def _of_all_gears(scenario: Scenario) -> Iterator[InputError]:
 def _bearings(scenario: Scenario) -> Iterator[InputError]:
     for name, bearing in scenario.bearings.by_name.items():
         yield from broken_bearing(f"bearings.{name}", bearing)
+
+
+def _link_laws(scenario: Scenario) -> Iterator[InputError]:
+    for name in ("link", "shaft"):
+        for number, table in enumerate(getattr(scenario, name)):
+            if table.law != LINEAR_LINK.name and not table.stiffness:
+                key, rule = f"{name}.{number}.stiffness", f"missing: law = {quoted(table.law)} needs it"
+                yield InputError(key, table.stiffness, rule, 'add stiffness = "1e5 N*m/rad"')
 
 
 def _bare_meshes(meshes: Any) -> Iterator[InputError]:

@@ -11,6 +11,7 @@ from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Count, model_file, written
 from tribodyn.scenario.tables.bearings import bearing_of
 from tribodyn.scenario.tables.drive_data import masses_of, materials_of, teeth_of
+from tribodyn.scenario.tables.laws import law_values
 from tribodyn.scenario.tables.model_files import DriveTable, Grade, MaterialReference, Roughness
 from tribodyn.scenario.tables.quality import grade_of, tolerances_of
 from tribodyn.solve.methods import SolverData
@@ -44,6 +45,7 @@ from tribodyn.studies.gears.case import LubricatedCase, OutputData
 from tribodyn.studies.gears.motion import Friction, Mesh, Output, Solver, moving_mesh_of
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
+from tribodyn.train.links import LINK_LAWS
 
 
 def _sort(mesh: Any) -> str:
@@ -228,7 +230,10 @@ def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
     for link in train.parts.links:
         one, two = (HOUSING if end < 0 else new[end] for end in link.ends)
         ends = (two, one) if one == HOUSING else (one, two)
-        found.append(LinkData(link.name, link.key, ends, link.stiffness, link.damping, link.damping_ratio))
+        law, values = LINK_LAWS[link.table.law], law_values(link.table)
+        found.append(
+            LinkData(link.name, link.key, ends, link.stiffness, link.damping, link.damping_ratio, law, values)
+        )
     return tuple(found)
 
 

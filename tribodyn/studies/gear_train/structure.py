@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from tribodyn.scenario.quantity import Printed
 from tribodyn.scenario.tables.bearings import Bearing
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
-from tribodyn.studies.gear_train.tables import GROUND, BareMesh, Link, Shaft, Stage
+from tribodyn.studies.gear_train.tables import GROUND, BareMesh, Link, LinkTable, Shaft, Stage
 from tribodyn.studies.gears.motion import Mesh
 from tribodyn.train.kinematics import Joint, Named, Toothed, TrainSpeeds, kinematics
 
@@ -59,6 +59,7 @@ class LinkPart(NamedTuple):
     stiffness: tuple[float, float, float]
     damping: tuple[float, float, float]
     damping_ratio: tuple[float, float, float]
+    table: LinkTable
 
 
 class Structure(NamedTuple):
@@ -160,6 +161,7 @@ def _spring(number: int, shaft: Shaft, places: dict[str, tuple[int, ...]]) -> Li
         (0.0, 0.0, shaft.stiffness or 0.0),
         (0.0, 0.0, shaft.damping),
         (0.0, 0.0, shaft.damping_ratio),
+        shaft,
     )
 
 
@@ -175,6 +177,7 @@ def _links(scenario: Any, places: dict[str, tuple[int, ...]]) -> Iterator[LinkPa
             stiffness,
             (link.damping_x, link.damping_y, link.damping),
             (link.damping_ratio, link.damping_ratio, link.damping_ratio),
+            link,
         )
 
 

@@ -10,6 +10,7 @@ from tribodyn.scenario import fields, quantity, units
 from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Number, Table, Text, csv_file, written
 from tribodyn.scenario.tables.bearings import Bearing, Stiffness
 from tribodyn.scenario.tables.duty import Power, Speed
+from tribodyn.scenario.tables.laws import LawTable
 from tribodyn.scenario.tables.model_files import (
     Angle,
     CentreDistance,
@@ -25,6 +26,7 @@ from tribodyn.scenario.tables.model_files import (
     Rack,
 )
 from tribodyn.studies.gears.motion import MOST_HARMONICS, TorqueHarmonic
+from tribodyn.train.links import LINK_LAWS
 
 #: Stages, shafts, bodies, links, meshes and loads, each: as many as any train has.
 MOST_PARTS = 100
@@ -89,7 +91,16 @@ class Stage(Table):
     damping_ratio: NotNegative | None = Field(None, description="default: that of [mesh]")
 
 
-class Shaft(Table):
+class LinkTable(LawTable):
+    """The law of a torsional link, and the law's own keys."""
+
+    place = "link"
+    laws = LINK_LAWS
+    automatic = False
+    law: Text = Field("linear", description="of the torque over the twist; damping is linear")
+
+
+class Shaft(LinkTable):
     """Gears that turn together: one rigid body, or two bodies with a torsional spring between them."""
 
     name: PartName
@@ -109,7 +120,7 @@ class BareBody(Table):
     inertia: Inertia = Field(description="polar")
 
 
-class Link(Table):
+class Link(LinkTable):
     """Springs and dampers between two bodies, or between a body and the housing."""
 
     name: PartName | None = Field(None, description="default: the names of its ends")

@@ -22,7 +22,7 @@ from tribodyn.scenario.tables.drive_rules import (
     slices_of,
 )
 from tribodyn.scenario.tables.duty import SpectrumScenario, duty_of, unnamed_duty
-from tribodyn.scenario.tables.laws import FilmTable, film_of, friction_values
+from tribodyn.scenario.tables.laws import FilmTable, film_of, law_values
 from tribodyn.scenario.tables.losses import (
     LossesTable,
     TemperatureTable,
@@ -89,7 +89,7 @@ def oil_fields(scenario: Any) -> dict[str, Any]:
     friction, found = getattr(scenario, "friction", None), {}
     if friction is not None:
         own = {name: getattr(friction, name) for name in type(friction).model_fields if name != "law"}
-        found["friction"] = FrictionData(friction.law, friction_values(friction), **own)
+        found["friction"] = FrictionData(friction.law, law_values(friction), **own)
     return found | {
         "lubricant": lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
         "film": film_of(getattr(scenario, "film", None)),

@@ -2,7 +2,7 @@
 
 import hashlib
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from inspect import isfunction
 from pathlib import Path
@@ -10,13 +10,14 @@ from typing import Any, cast
 
 import tomli_w
 
-from tribodyn.errors import InputError, quoted
+from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.numerics.registry import FROM_PYTHON
 from tribodyn.scenario.own_keys import in_toml
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.study import CaseHead, Progress, RunResult
+from tribodyn.train.links.law import LinkLaw
 from tribodyn.tribology.closure import with_laws
-from tribodyn.tribology.law import FilmData, FilmLaw, FrictionData, FrictionLaw
+from tribodyn.tribology.law import FilmData, FilmLaw, FrictionData, FrictionLaw, KeyedLaw
 
 
 def run(
@@ -25,6 +26,7 @@ def run(
     *,
     film: FilmLaw | Callable[..., Any] | None = None,
     friction: FrictionLaw | Callable[..., Any] | None = None,
+    links: Mapping[str, LinkLaw | Callable[..., Any]] | None = None,
     force: bool = False,
     progress: Progress | None = None,
     allow_large: bool = False,
@@ -44,6 +46,8 @@ def run(
     friction : FrictionLaw or function, optional
         Takes the place of the scenario's friction law; keys of its own have the values of
         `FrictionLaw.with_values`. The keys ``sliding`` and ``reversal_width`` of the scenario stay.
+    links : LinkLaw or function by name, optional
+        Take the places of the laws of a train's links and compliant shafts of these names.
     force : replace an existing record
     progress : callable, optional
         Called with the share done, 0 … 1.
@@ -65,6 +69,8 @@ def run(
     for table, law in (("film", film), ("friction", friction)):
         if law is not None:
             case = with_law(case, table, law)
+    for name, link_law in (links or {}).items():
+        case = with_link_law(case, name, link_law)
     how: dict[str, Any] = {"force": force, "allow_large": allow_large, "resume": resume, "client": client}
     return STUDIES[case.kind].run(case, output, progress=progress, **how)
 
@@ -75,26 +81,57 @@ def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw | Callable[.
     Its scenario, which the record of a run holds, names the law as one from Python: it cannot be loaded
     again. Raises InputError if the case has no such law, or what is given is none.
     """
-    due = FilmLaw if table == "film" else FrictionLaw
+    own = _from_python(table, law, FilmLaw if table == "film" else FrictionLaw)
+    old: Any = getattr(case, table, None)
+    if not isinstance(old, FilmData | FrictionData):
+        rule = f'a case of kind "{case.kind}" has no {table} law'
+        raise InputError(table, quoted(own.name.removeprefix(FROM_PYTHON)), rule, "omit it")
+    data = tomllib.loads(case.toml)
+    data[table] = _naming(data.get(table, {}), own, old.values)
+    laws: dict[str, Any] = {table: own}
+    return with_laws(cast(Any, _written(case, data)), **laws)
+
+
+def with_link_law(case: CaseHead, name: str, law: LinkLaw | Callable[..., Any]) -> CaseHead:
+    """Return the case under a law from Python for the link or compliant shaft of a name; see `with_law`.
+
+    Raises InputError if the case has no such link, or it no torsional stiffness, or what is given is no law.
+    """
+    own = _from_python("links", law, LinkLaw)
+    links: tuple[Any, ...] = getattr(case, "links", ())
+    found = {link.name: place for place, link in enumerate(links) if link.stiffness[-1] > 0.0}
+    if name not in found:
+        if not found:
+            rule = "this case has no link and no compliant shaft with a torsional stiffness"
+            raise InputError(f"links.{name}", None, rule, "omit it, or give one a stiffness")
+        raise unknown_name("links", name, found, "link or compliant shaft")
+    link, data = links[found[name]], tomllib.loads(case.toml)
+    table, _, number = link.key.partition(".")
+    data[table][int(number)] = _naming(data[table][int(number)], own, link.values)
+    changed = list(links)
+    changed[found[name]] = replace(link, law=own, values={})
+    return replace(_written(case, data), links=tuple(changed))  # pyright: ignore[reportCallIssue]
+
+
+def _from_python(table: str, law: Any, due: type[Any]) -> Any:
+    """A law as it was given, or of a function, under a name that no scenario can give."""
     if isfunction(law):
         name = law.__name__.strip("<>").replace("_", "-")
         law = due(name, next(iter((law.__doc__ or "from Python").strip().splitlines())), law)
     if not isinstance(law, due):
-        rule = f"expected a {due.__name__}, got {type(law).__name__}"
-        raise InputError(
-            table, quoted(getattr(law, "name", law)), rule, f"give a tribodyn.{due.__name__}, or a function"
-        )
-    old: Any = getattr(case, table, None)
-    if not isinstance(old, FilmData | FrictionData):
-        rule = f'a case of kind "{case.kind}" has no {table} law'
-        raise InputError(table, quoted(law.name), rule, "omit it")
-    if not law.name.startswith(FROM_PYTHON):
-        law = replace(law, name=FROM_PYTHON + law.name)
-    data = tomllib.loads(case.toml)
-    kept = {key: value for key, value in data.get(table, {}).items() if key not in ("law", *old.values)}
+        rule, given = f"expected a {due.__name__}, got {type(law).__name__}", getattr(law, "name", law)
+        raise InputError(table, quoted(given), rule, f"give a tribodyn.{due.__name__}, or a function")
+    return law if law.name.startswith(FROM_PYTHON) else replace(law, name=FROM_PYTHON + law.name)
+
+
+def _naming(table: dict[str, Any], law: KeyedLaw, old: Mapping[str, Any]) -> dict[str, Any]:
+    """A scenario's table that names a law, without the values of the old one's keys."""
+    kept = {key: value for key, value in table.items() if key not in ("law", *old)}
     own = {key.name: in_toml(key, key.default) for key in law.keys if key.default is not None}
-    data[table] = {**kept, "law": law.name, **own}
+    return {**kept, "law": law.name, **own}
+
+
+def _written(case: CaseHead, data: dict[str, Any]) -> CaseHead:
+    """The case with another text of its scenario."""
     toml = tomli_w.dumps(data)
-    named = replace(case, toml=toml, sha256=hashlib.sha256(toml.encode()).hexdigest())
-    laws: dict[str, Any] = {table: law}
-    return with_laws(cast(Any, named), **laws)
+    return replace(case, toml=toml, sha256=hashlib.sha256(toml.encode()).hexdigest())

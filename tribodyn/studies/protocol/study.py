@@ -74,6 +74,8 @@ class Study:
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case or scenario)
     assess        ``ROLE``, the part that it plays in an assessment of a drive (optional), see `protocol.part`
+    derivatives   ``DIFFERENTIABLE``, what makes quantities of a case a function of its numbers (optional:
+                  that of a pair of gears), called as `derivatives.differentiable.Differentiable`
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
     verbs         ``VERBS``, verbs and Python functions that it offers (optional), see `protocol.verb`;
                   ``RUN_PROPERTIES``, a class of properties that its runs have in Python beside those of a
@@ -255,6 +257,13 @@ class Study:
     def role(self) -> "Contribution | None":
         """The part that it plays in an assessment of a drive; None: it plays none."""
         return self._part("assess", "ROLE", optional=True)
+
+    def differentiable(self, case: Any, of: Sequence[str], wrt: Sequence[str]) -> Any:
+        """Quantities of a case as a function of its numbers: a `Differentiable`, or what serves as one."""
+        from tribodyn.derivatives.differentiable import Differentiable
+
+        own = self._part("derivatives", "DIFFERENTIABLE", optional=True)
+        return (own or Differentiable)(case, self.table(), of, wrt)
 
     def verbs(self) -> "Mapping[str, Verb]":
         """Verbs of the command line that it offers, by name."""

@@ -37,6 +37,7 @@ from tribodyn.studies.gears.steady import warning_of
 from tribodyn.studies.gears.swept import UNSTABLE_QUANTITIES, SweepSettings
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
+from tribodyn.train.links.chain import numbers_of
 from tribodyn.train.structure import GearMesh, rotational_error, rotational_error_rate
 
 if TYPE_CHECKING:
@@ -258,7 +259,8 @@ def _start(prepared: Any, settings: SweepSettings) -> np.ndarray:
     still = frictionless(model._replace(operation=creeping))
     # of a mesh where it is and how it is damped: laws of its contacts have no part in this
     meshes = (number for mesh in model.meshes for number in mesh[1 : GearMesh._fields.index("surfaces")])
-    numbers = (*creeping, *model.bodies, *model.links, *meshes, *model.schedule)
+    links = (*model.links[:2], *numbers_of(model.links.own))
+    numbers = (*creeping, *model.bodies, *links, *meshes, *model.schedule)
     tables = tuple(id(mesh.table) for mesh in model.meshes)
     key = (tables, model.options, *(np.asarray(value).tobytes() for value in numbers))
     return _equilibria(MadeOnce(key, lambda: static_equilibrium(still))).copy()
