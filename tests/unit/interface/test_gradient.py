@@ -251,3 +251,16 @@ def test_no_slope_depends_on_the_equality_of_numbers(name):
 def test_a_temperature_that_moves_with_the_losses_is_not_differentiated():
     with pytest.raises(InputError, match="temperature that does not move"):
         td.gradient("efficiency-oil-18-36", "efficiency", "operating.oil_temperature")
+
+
+@pytest.mark.slow
+def test_laws_that_follow_from_the_duty():
+    """Compiled programs are of the laws that "auto" took, which differ where numbers alone do."""
+    constant = {"friction.law": "auto", "mesh.compliance": "constant", "mesh.stiffness": "4e8 N/m"}
+    taken = set()
+    for torque in ("300 N*m", "100 N*m"):
+        case = td.scenario("spur-25-51", constant | {"operating.gear_torque": torque})
+        taken.add(case.friction.law)
+        function = td.differentiable(case, "friction_power", "operating.gear_torque")
+        assert function.values(function.at) == pytest.approx([quantity(case, "friction_power")], rel=1e-9)
+    assert len(taken) == 2

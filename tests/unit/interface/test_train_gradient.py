@@ -1,91 +1,208 @@
-"""Derivatives of trains by their scenario's numbers: central differences of other scenarios, closed forms."""
+"""Derivatives of a train's quantities by its numbers, against differences of rescaled scenarios."""
+
+import tomllib
 
 import numpy as np
 import pytest
 
 import tribodyn as td
+from tests.support.train_scenarios import REDUCER
 from tribodyn.derivatives.differentiable import fixed_of
 from tribodyn.derivatives.quantities import PairEvaluation, quantity_of
+from tribodyn.scenario.sources import find_scenario
 
-REDUCER, IDLER = "two-stage-reducer", "idler-train"
-#: Units in which keys are written, by the end of their names.
-WRITTEN = {"module": "m", "face_width": "m", "output_torque": "N*m", "input_speed": "rad/s"}
+#: Its meshes have the same teeth, and one compiled program.
+TWICE = REDUCER | {
+    "gear": REDUCER["gear"] | {"wheel-1": REDUCER["gear"]["wheel-2"]},
+    "mesh": {"compliance": "constant", "stiffness": "4e8 N/m", "damping_ratio": 0.05},
+    "friction": {"law": "niemann"},
+}
+#: One stage of another family, and one by a drive file.
+CYCLOID = REDUCER | {
+    "gear": {name: {"teeth": teeth, "face_width": "20 mm"} for name, teeth in (("one", 23), ("two", 47))},
+    "stage": [
+        {
+            "gears": ["two", "one"],
+            "module": "3 mm",
+            "family": "cycloidal",
+            "shape": {"approach_circle": "26 mm", "recess_circle": "14 mm"},
+        }
+    ],
+    "shaft": [],
+    "operating": REDUCER["operating"] | {"input": "one", "output": "two"},
+}
+DRIVE = {name: REDUCER[name] for name in ("title", "kind", "lubricant", "mesh", "friction")} | {
+    "drive": "spur-25-51",
+    "operating": {
+        "output_speed": "500 rpm",
+        "output_torque": "100 N*m",
+        "oil_temperature": "70 degC",
+    },
+}
+#: Keys of every kind; those in one text are changed together, for a gear has one module.
+REDUCED = [
+    *("gear.wheel-1.profile_shift", "gear.pinion-2.addendum", "gear.wheel-2.face_width"),
+    *("stage.0.module", "stage.1.pressure_angle", "stage.0.centre_distance", "operating.output_torque"),
+    *("material.youngs_modulus", "gear.wheel-1.material.youngs_modulus"),
+]
+IDLER = [
+    *("gear.idler.addendum", "gear.idler.face_width", "gear.driver.profile_shift"),
+    *("stage.0.module stage.1.module", "operating.output_torque"),
+]
+UNITS = {"N m": "N*m", "m2/s": "m**2/s"}
 
 
-def of_mesh(case, name):
-    """A quantity of a mesh of a case, worked out of its pair without a compiled program."""
-    mesh, _, quantity = name.partition(".")
-    (pair,) = (one.pair for one in case.meshes if one.name == mesh)
-    return float(quantity_of(pair, quantity).function(PairEvaluation(pair, fixed_of(pair))))
+def shipped(name, **operating):
+    """A shipped scenario, with another key in place of the output's torque."""
+    table = tomllib.loads(find_scenario(name).read_text(encoding="utf-8"))
+    if operating:
+        del table["operating"]["output_torque"]
+        table["operating"] |= operating
+    return table
 
 
-def slope_of_scenarios(source, name, key, at):
-    """Central difference over two scenarios that are written and loaded."""
-    at = float(at)
-    step, unit = 1e-5 * max(abs(at), 0.1), WRITTEN.get(key.rpartition(".")[2])
-    ends = [
-        of_mesh(td.scenario(source, {key: f"{value!r} {unit}" if unit else value}), name)
-        for value in (at + step, at - step)
-    ]
-    return (ends[0] - ends[1]) / (2 * step)
+def quantity(case, name):
+    """Without a compiled program."""
+    mesh, _, name = name.rpartition(".")
+    pairs = [one.pair for one in case.meshes if mesh in ("", one.name)]
+    if mesh:
+        return float(quantity_of(pairs[0], name).function(PairEvaluation(pairs[0], fixed_of(pairs[0]))))
+    loss = sum(quantity(case, f"{one.name}.friction_power") for one in case.meshes)
+    ratio = [float(case.bodies[load.body].ratio) for load in case.loads]
+    out = case.source.speed * sum(load.torque * n for load, n in zip(case.loads, ratio, strict=True))
+    return {"friction_power": loss, "efficiency": out / (out + loss)}[name]
+
+
+def compare(source, of, groups, overrides=None, rel=1e-5):
+    """Slopes with differences of scenarios; keys of a group are changed by the same factor."""
+    keys = " ".join(groups).split()
+    case = td.scenario(source, overrides)
+    function = td.differentiable(case, of, keys)
+    values, slopes = function.jacobian(function.at)
+    assert values == pytest.approx([quantity(case, name) for name in of], rel=1e-9)
+    np.testing.assert_allclose(function.values(function.at), values, rtol=1e-12)
+    for group in groups:
+        places = [keys.index(key) for key in group.split()]
+        found = slopes[:, places] @ function.at[places]
+        step, ends = 1e-4, []
+        for factor in (1.0 + step, 1.0 - step):
+            changed = {}
+            for place in places:
+                unit, value = function.key_units[place], float(function.at[place] * factor)
+                changed[keys[place]] = value if unit == "1" else f"{value!r} {UNITS.get(unit, unit)}"
+            end = td.scenario(source, (overrides or {}) | changed)
+            ends.append(np.array([quantity(end, name) for name in of]))
+        expected = (ends[0] - ends[1]) / (2.0 * step)
+        np.testing.assert_allclose(
+            found / values, expected / values, rtol=rel, atol=0.01 * rel, err_msg=group
+        )
 
 
 @pytest.mark.parametrize(
-    ("source", "keys"),
+    ("source", "groups", "overrides"),
     [
-        (
-            REDUCER,
-            [
-                *("operating.output_torque", "gear.pinion-1.profile_shift", "gear.wheel-2.addendum"),
-                *("stage.0.module", "stage.1.module", "gear.pinion-2.face_width"),
-            ],
+        pytest.param(
+            shipped("two-stage-reducer"),
+            REDUCED,
+            {"stage.0.centre_distance": "138.6 mm", "gear.wheel-1.material": "C45"},
+            id="reducer",
         ),
-        (IDLER, ["operating.output_torque", "gear.idler.profile_shift", "gear.idler.addendum"]),
+        pytest.param(
+            shipped("idler-train"),
+            IDLER,
+            {"gear.driven.face_width": "36 mm"},
+            id="idler",
+        ),
+        pytest.param(
+            shipped("two-pinions-bull-gear", power="200 kW"),
+            ["operating.power", "operating.input_speed", "load.0.torque", "gear.bull.profile_shift"],
+            {},
+            id="splitter",
+        ),
+        pytest.param(
+            shipped("two-pinions-bull-gear", input_torque="1600 N*m"),
+            ["operating.input_torque", "load.0.torque"],
+            {},
+            id="torque-put-in",
+        ),
+        pytest.param(DRIVE, ["drive.gear.addendum", "drive.module"], {}, id="drive"),
     ],
-    ids=[REDUCER, IDLER],
 )
-def test_slopes_are_those_of_scenarios(source, keys):
-    """A gear in two meshes moves both; a load reaches every mesh by the ratios."""
-    of = ("hertz_pressure", "contact_ratio", "centre_distance")
-    names = [f"{mesh.name}.{name}" for mesh in td.scenario(source).meshes for name in of]
-    function = td.differentiable(source, names, keys)
-    values, slopes = function.jacobian(function.at)
-    case = td.scenario(source)
-    np.testing.assert_allclose(values, [of_mesh(case, name) for name in names], rtol=1e-10)
-    for i, name in enumerate(names):
-        for j, key in enumerate(keys):
-            expected = slope_of_scenarios(source, name, key, function.at[j])
-            scale = abs(values[i]) / max(abs(function.at[j]), 0.1)
-            assert slopes[i, j] == pytest.approx(expected, rel=2e-5, abs=1e-6 * scale), (name, key)
+def test_teeth_and_pressures(source, groups, overrides):
+    case = td.scenario(source, overrides)
+    names = "contact_ratio", "centre_distance", "hertz_pressure"
+    compare(source, [f"{mesh.name}.{name}" for mesh in case.meshes for name in names], groups, overrides)
+
+
+def test_shape_of_a_stage():
+    compare(CYCLOID, ["two-one.contact_ratio"], ["stage.0.shape.approach_circle", "gear.two.addendum"])
+
+
+@pytest.mark.slow
+def test_losses_of_all_meshes():
+    keys = "operating.input_speed", "operating.output_torque", "gear.wheel-1.addendum", "stage.1.module"
+    compare(TWICE, ["efficiency", "friction_power", "pinion-2-wheel-2.friction_power"], keys)
 
 
 @pytest.mark.soak
-def test_losses_of_all_meshes():
-    """Of a constant coefficient: in proportion to load and speed; the efficiency is what they leave."""
-    law = {"friction.law": "coulomb", "friction.coefficient": 0.05}
+@pytest.mark.parametrize(("name", "gear"), [("two-stage-reducer", "wheel-1"), ("idler-train", "idler")])
+def test_films_and_losses_of_shipped_trains(name, gear):
+    case = td.scenario(name)
+    of = ["efficiency", *(f"{mesh.name}.{of}" for mesh in case.meshes for of in ("film_min", "loss_factor"))]
+    keys = ["operating.input_speed", "operating.output_torque", "lubricant.viscosity_40", "mean_roughness"]
+    compare(shipped(name), of, [*keys, f"gear.{gear}.addendum", "material.youngs_modulus"], rel=1e-4)
+
+
+@pytest.mark.slow
+def test_losses_of_a_constant_coefficient():
+    """In proportion to load and speed; the efficiency does not depend on either."""
+    law = {"friction": {"law": "coulomb", "coefficient": 0.05}}
     keys = ["operating.output_torque", "operating.input_speed"]
-    function = td.differentiable(REDUCER, ["friction_power", "efficiency"], keys, law)
-    (loss, efficiency), slopes = function.jacobian(function.at)
-    case = td.scenario(REDUCER, law)
-    assert loss == pytest.approx(
-        sum(of_mesh(case, f"{m.name}.friction_power") for m in case.meshes), rel=1e-9
-    )
-    np.testing.assert_allclose(slopes[0] * function.at, loss, rtol=1e-8)
+    function = td.differentiable(TWICE | law, ["friction_power", "efficiency"], keys)
+    values, slopes = function.jacobian(function.at)
+    np.testing.assert_allclose(slopes[0] * function.at, values[0], rtol=1e-8)
     np.testing.assert_allclose(slopes[1] * function.at, 0.0, atol=1e-10)
-    power = function.at[0] * function.at[1] * 23.0 / 69.0 * 23.0 / 57.0
-    assert efficiency == pytest.approx(1.0 - loss / (power + loss), rel=1e-12)
+
+
+def test_closed_forms():
+    """Hertz's pressure goes with √T in every mesh, whatever its ratio to the output."""
+    found = td.gradient("two-stage-reducer", "first.hertz_pressure", "operating.output_torque")
+    assert found.sensitivity["operating.output_torque"] == pytest.approx(0.5, rel=1e-10)
+    assert (found.unit, found.about) == (
+        "Pa",
+        "maximum Hertz pressure of one pair at the pitch point, mesh first",
+    )
+    distance = td.gradient(
+        "idler-train", "driver-idler.centre_distance", ["stage.0.module", "stage.1.module"]
+    )
+    assert distance.gradient["stage.1.module"] == 0.0
 
 
 @pytest.mark.parametrize(
     ("of", "wrt", "said"),
     [
-        ("third.hertz_pressure", "operating.output_torque", 'of = "third": no such mesh'),
-        ("hertz_pressure", "operating.output_torque", "is a quantity of a mesh"),
-        ("first.nonsense", "operating.output_torque", "nonsense"),
-        ("first.hertz_pressure", "gear.nobody.addendum", "gear.nobody.addendum"),
-        ("first.hertz_pressure", ["stage.0.module"] * 2, "is named twice"),
+        ("frist.efficiency", "stage.0.module", 'did you mean "first"'),
+        ("first.eficiency", "stage.0.module", 'did you mean "efficiency"'),
+        ("eficiency", "stage.0.module", 'did you mean "efficiency"'),
+        ("contact_ratio", "stage.0.module", 'is a quantity of a mesh; name one: "first.contact_ratio"'),
+        ("efficiency", "stage.0.modul", 'did you mean "stage.0.module"'),
+        ("efficiency", "gear.pinion-1.teeth", "no key to differentiate by"),
+        ("efficiency", "stage.2.module", "no key to differentiate by"),
+        ("efficiency", "bearings.default.stiffness_x", "no key to differentiate by"),
+        ("efficiency", [], "nothing to differentiate by"),
+        ("efficiency", ["stage.0.module"] * 2, "is named twice"),
     ],
 )
-def test_mistakes_are_said(of, wrt, said):
-    with pytest.raises(td.InputError, match=said):
-        td.gradient(REDUCER, of, wrt)
+def test_what_cannot_be_differentiated(of, wrt, said):
+    with pytest.raises(td.InputError) as error:
+        td.gradient("two-stage-reducer", of, wrt)
+    assert said in str(error.value)
+
+
+def test_a_mesh_without_load():
+    """It loses nothing, and has no quantities of loaded teeth."""
+    idle = {"load.0.torque": "0 N*m", "mesh.backlash": "0.1 mm"}
+    function = td.differentiable("two-pinions-bull-gear", "friction_power", "operating.output_torque", idle)
+    assert [name for _, name in function.parts] == ["friction_power"]
+    with pytest.raises(td.InputError, match=r"stage\.1: carries no load"):
+        td.gradient("two-pinions-bull-gear", "bull-pump-b.efficiency", "operating.output_torque", idle)

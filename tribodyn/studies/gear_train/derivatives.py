@@ -33,6 +33,8 @@ TOTALS = {
 _OF_DUTY = ("operating.pinion_speed", "operating.gear_torque")
 #: Tables of a train's scenario that all pairs have alike.
 _COMMON = ("mesh", "lubricant", "film", "friction", "temperature")
+#: Keys of a stage that do not matter to its pair; pairs that are alike share compiled programs.
+_OF_PLACE = ("name", "gears", "azimuth")
 
 
 class _Part(NamedTuple):
@@ -90,7 +92,13 @@ class DifferentiableTrain:
             if not places or not self._duty.numbers.keys().isdisjoint(self.wrt):
                 places |= {key: len(wrt) + i * len(pairs) + mesh for i, key in enumerate(_OF_DUTY)}
             if needed := self._needed(pairs, mesh):
-                function = Differentiable(pair, schema, needed, list(places))
+                try:
+                    function = Differentiable(pair, schema, needed, list(places))
+                except InputError as error:
+                    if error.key != _OF_DUTY[1]:
+                        raise
+                    rule = f"carries no load: {error.rule}"
+                    raise InputError(case.meshes[mesh].key, None, rule, error.remedy) from None
                 self._parts.append(_Part(mesh, function, list(places.values())))
         quantities = [QUANTITIES[ALSO.get(name, name)] for _, name in self._wanted]
         self.units = tuple(quantity.unit for quantity in quantities)
@@ -216,7 +224,7 @@ def _pair(case: TrainCase, train: Moving, table: dict[str, Any], mesh: int) -> L
         group, place = train.parts.meshes[train.motion.meshes[mesh]].key.split(".")
         gears = [train.parts.gears[gear].name for gear in train.motion.gears[mesh]]
         drive = {name: table[name] for name in ("material", "mean_roughness") if name in table}
-        drive |= table[group][int(place)]
+        drive |= {name: own for name, own in table[group][int(place)].items() if name not in _OF_PLACE}
         drive |= {side: table.get("gear", {}).get(name, {}) for side, name in zip(SIDES, gears, strict=True)}
     text = {"drive": drive} | {name: table[name] for name in _COMMON if name in table}
     return replace(case.meshes[mesh].pair, toml=tomli_w.dumps(text))
