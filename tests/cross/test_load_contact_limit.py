@@ -87,7 +87,7 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
     case = run.case
     flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
     flanks = LoadedFlanks(flexible, case.mesh.modifications, 11)
-    roll = cycle.roll_start + cycle.pitch_angle * (phase[:, None] + np.arange(cycle.pairs - 1.0, -1.0, -1.0))
+    roll = cycle.roll_start + cycle.pitch_angle * (phase[:, None] + np.arange(cycle.slots - 1.0, -1.0, -1.0))
     shared = flanks.share(roll, case.operating.gear_torque, np.nan_to_num(found["friction_coefficient"]))
     np.testing.assert_allclose(found["normal_load"], shared.normal_load, atol=0.01 * shared.normal_load.max())
     radius = found["equivalent_radius"][..., None]

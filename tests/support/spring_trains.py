@@ -90,7 +90,7 @@ def scenario_of(
 def one_spring(made: Tabulated) -> Tabulated:
     """Tables in which the newest pair of driving flanks is the only one, and always in contact."""
     cycle = made.cycle
-    newest = np.where(np.arange(cycle.pairs) == cycle.front_pairs - 1, 1.0, 0.0)
+    newest = np.where(np.arange(cycle.slots) == cycle.front_pairs - 1, 1.0, 0.0)
     cycle = cycle._replace(in_contact=np.broadcast_to(newest, np.shape(cycle.in_contact)).copy())
     return made._replace(cycle=cycle, table=polynomials(cycle))
 

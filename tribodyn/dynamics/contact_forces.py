@@ -244,7 +244,7 @@ def _normal_contact(i, place, motion, mesh, model, work):
     load = load_with_damping(work[ELASTIC_LOAD, i], damping, width * stiffness)
     work[NORMAL_LOAD, i] = load
     # the line load at which friction acts as it does along the uneven face
-    line_load = load / table.face_width * cubic(table.channel, segment, cell, i, _UNEVEN, u)
+    line_load = load / table.slice_width * cubic(table.channel, segment, cell, i, _UNEVEN, u)
     if model.options.averaged:
         radius = work[RADIUS, i]
         averaged = averaged_radius(

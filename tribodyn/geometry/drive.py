@@ -34,7 +34,7 @@ Number = Any
 
 
 class GearBody(NamedTuple):
-    """One gear of the drive, external and spur."""
+    """One gear of the drive, external; lengths "in modules" are in transverse modules."""
 
     teeth: Number  # number of teeth
     profile_shift: Number  # shift of the rack away from the axis, in modules (involute only)
@@ -54,10 +54,11 @@ class GearBody(NamedTuple):
 
 
 class Drive(NamedTuple):
-    """A gear pair."""
+    """A gear pair; of helical gears the transverse section, which their path of contact lies in."""
 
-    module: Number  # reference pitch diameter over number of teeth, m
-    pressure_angle: Number  # rad; of the rack for the involute, at the pitch point for every other family
+    module: Number  # m_t, reference pitch diameter over number of teeth, m
+    #: α_t, rad; of the rack for the involute, at the pitch point for every other family
+    pressure_angle: Number
     #: pinion, gear: the driver and the driven gear
     pinion: GearBody
     gear: GearBody
@@ -65,6 +66,7 @@ class Drive(NamedTuple):
     shape: Any = ()
     #: float, optional Between the axes, m, where it is not that of the mesh without backlash (involute only).
     centre_distance: Number = None
+    helix_angle: Number = 0.0  # β on the reference circles, rad; > 0: right-hand pinion, left-hand gear
 
 
 def body_of(drive: Drive, side: Side) -> GearBody:

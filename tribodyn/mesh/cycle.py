@@ -5,6 +5,9 @@ and 1 when the next one does. The set of pairs in contact changes at known phase
 cycle into *segments*, each tabulated on its own uniform grid that includes both ends, so that every
 quantity is smooth inside a segment and every jump sits exactly on a segment's boundary.
 
+Of helical gears every pair is cut into slices along the face, each late against the one before it. A slice
+counts with the part of its width that is on the path of contact, so that nothing jumps; there is one segment.
+
 Speed, load and temperature never enter the table.
 """
 
@@ -21,9 +24,13 @@ from tribodyn.numerics.shapes import Array, Float
 class MeshCycle(NamedTuple):
     """Immutable table of one mesh cycle; a JAX pytree of float64 arrays.
 
-    Dimensions: S segments, N nodes per segment, Q pair slots. The front slots come first, the pair that
-    entered last in the last of them ("pair 1" of two, as Liu & Ni number them); slots of back flanks, if
-    any, follow. Where a slot is out of contact its values are finite but mean nothing.
+    Dimensions: S segments, N nodes per segment, Q slots: of every pair so many as it has slices, the slices
+    of a pair side by side, the one that is earliest first. The front pairs come first, the one that
+    entered last in the last of them ("pair 1" of two, as Liu & Ni number them); back flanks, if any, follow.
+    Where a slot is out of contact its values are finite but mean nothing.
+
+    The helix is that of a right-hand pinion which turns clockwise seen from +z, whose +z side is late; where
+    it is the other way round, `GearMesh.hand` takes z and axial forces from here with the other sign.
 
     `MESH_CYCLE` says what each field is. In the table boundaries are (S + 1,), `in_contact` (S, Q), `side`
     (Q,), `phase` (S, N), `coupling` (S, N, Q, Q) and the other arrays (S, N, Q). Beside that:
@@ -33,7 +40,11 @@ class MeshCycle(NamedTuple):
       A of the load-dependent Hertz deflection A F^0.9, 0 where the Hertz contact is linear;
     - `gap` is positive where material is missing;
     - `coupling` is through the common gear bodies; zero diagonal, symmetric;
-    - `line_load_friction` and `line_load_peak` are those at the load of the table, ≥ 1 (`sharing.slices`);
+    - `line_load_friction` and `line_load_peak` are those at the load of the table over the load per width of
+      a slot, ≥ 1 (`sharing.slices`); of slices per length of the line of contact, so that 1 becomes cos β_b;
+    - of slices: loads act along the flanks' normal, with the slope tan β_w cos α to the transverse plane;
+      `compliance` is of a slice that touches over its whole width; `equivalent_radius` is across the line of
+      contact; distances and speeds are in the middle of the part that touches;
     - back flanks live in the world mirrored about the line of centres;
     - `pitch_point_phase` may exceed 1: the pair that passes the pitch point is then no longer the newest;
     - `pitch_point_length` and `pitch_point_rate` are those of `geometry.pitch_point`, 0 for a regular path;
@@ -65,16 +76,34 @@ class MeshCycle(NamedTuple):
     pitch_point_rate: Any = 0.0
     line_load_friction: Any = 1.0
     line_load_peak: Any = 1.0
+    share: Any = 1.0  # part of a slice's width that is on the path of contact
+    face_position: Any = np.zeros(1)  # (K,), middles of the slices, m from the middle of the face
+    pitch_slope: Any = 0.0  # tan β_w ≥ 0
 
     @property
-    def pairs(self) -> int:
-        """Number of pair slots."""
+    def slices(self) -> int:
+        """Number of slices of a pair."""
+        return self.face_position.shape[0]
+
+    @property
+    def slots(self) -> int:
+        """Number of slots: slices of all pairs, back flanks included."""
         return self.side.shape[0]
 
     @property
-    def front_pairs(self) -> int:
-        """Number of slots of driving flanks, i.e. the contact ratio rounded up."""
+    def front_slots(self) -> int:
+        """Number of slots of driving flanks."""
         return int(np.sum(np.asarray(self.side) > 0))
+
+    @property
+    def front_pairs(self) -> int:
+        """Number of pairs of driving flanks that can be in contact at once: the contact ratio rounded up."""
+        return self.front_slots // self.slices
+
+    @property
+    def slice_width(self) -> Any:
+        """Width of a slice, m."""
+        return self.face_width / self.slices
 
     @property
     def pitch_angle(self) -> Any:
@@ -114,6 +143,8 @@ MESH_CYCLE: dict[str, Variable] = {
         _PAIR, "1", "line load at which friction acts as on the uneven face, over the mean"
     ),
     "line_load_peak": Variable(_PAIR, "1", "maximum line load along the face over the mean, K_Hbeta"),
+    "share": Variable(_PAIR, "1", "part of the slot's width that is on the path of contact"),
+    "face_position": Variable(("slice",), "m", "middles of slices, from the middle of the face"),
     "coupling": Variable(
         ("phase", "pair", "other_pair"),
         "m/N",
@@ -133,6 +164,7 @@ MESH_CYCLE: dict[str, Variable] = {
             "roll_end": "rad",
             "pitch_point_length": "m",
             "pitch_point_rate": "1/rad",
+            "pitch_slope": "1",
         }.items()
     },
 }
@@ -148,6 +180,7 @@ CHANNELS = (
     "sine",
     "line_load_friction",
     "line_load_peak",
+    "share",
 )
 
 
@@ -155,7 +188,8 @@ class Polynomials(NamedTuple):
     """The mesh cycle as piecewise cubics in the form that the right-hand side reads.
 
     Every quantity is the not-a-knot cubic spline through the nodes of its segment: C² inside a segment,
-    fourth-order accurate, free to jump between segments. Coefficients are of powers 0 … 3 of the position
+    fourth-order accurate, free to jump between segments; of slices, which come and go within a segment, the
+    C¹ cubics of Fritsch and Butland, which never overshoot. Coefficients are of powers 0 … 3 of the position
     u ∈ [0, 1] in the cell.
     """
 
@@ -163,13 +197,16 @@ class Polynomials(NamedTuple):
     in_contact: Any  # (S, Q)
     side: Any  # (Q,)
     channel: Any  # (S, N − 1, Q, channels, 4)
-    coupling: Any  # (S, N − 1, Q, Q, 4)
-    stiffness: Any  # (S, N − 1, Q, Q, 4), inverse of the compliance matrix of the pairs in contact
+    coupling: Any  # (S, N − 1, Q, Q, 4); of slices, which are not coupled, empty
+    #: (S, N − 1, Q, Q, 4), inverse of the compliance matrix of the pairs in contact; of slices empty
+    stiffness: Any
     hertz_coefficient: Any
     pinion_pitch_radius: Any
     gear_pitch_radius: Any
     pitch_angle: Any
-    face_width: Any
+    slice_width: Any  # width of a slot, m; that of the face for one slice
+    face_position: Any  # (K,)
+    pitch_slope: Any
     pitch_point_length: Any = 0.0
     pitch_point_rate: Any = 0.0
 
@@ -190,11 +227,24 @@ def derivative_matrix(nodes: int) -> Float[Array, "node node"]:
     return np.linalg.solve(left, right) / spacing
 
 
-def _cubic(values: Any) -> Any:
-    """Coefficients in u of the spline through `values` (S, N, …) -> (S, N − 1, …, 4)."""
+def slopes(values: Any, slices: int = 1) -> Any:
+    """Slopes per cell at the nodes (S, N, …) of the cubics through values (S, N, …); see `Polynomials`."""
     xp = namespace(values)
-    nodes = values.shape[1]
-    slope = xp.einsum("nm,sm...->sn...", derivative_matrix(nodes), values) / (nodes - 1)
+    if slices == 1:
+        nodes = values.shape[1]
+        return xp.einsum("nm,sm...->sn...", derivative_matrix(nodes), values) / (nodes - 1)
+    rise = values[:, 1:] - values[:, :-1]
+    before, after = rise[:, :-1], rise[:, 1:]
+    both = before + after
+    rising = before * after > 0.0
+    inner = xp.where(rising, 2.0 * before * after / xp.where(rising, both, 1.0), 0.0)
+    return xp.concatenate([rise[:, :1], inner, rise[:, -1:]], axis=1)
+
+
+def _cubic(values: Any, slices: int = 1) -> Any:
+    """Coefficients in u of the cubics through `values` (S, N, …) -> (S, N − 1, …, 4)."""
+    xp = namespace(values)
+    slope = slopes(values, slices)
     rise = values[:, 1:] - values[:, :-1]
     start, end = slope[:, :-1], slope[:, 1:]
     return xp.stack([values[:, :-1], start, 3 * rise - 2 * start - end, start + end - 2 * rise], axis=-1)
@@ -205,13 +255,13 @@ def _stiffness(cycle: MeshCycle, xp: Any) -> Any:
     inside = cycle.in_contact[:, None, :]
     # a pair out of contact is left alone on the diagonal, so that the others are inverted without it
     both = inside[..., :, None] * inside[..., None, :]
-    matrix = cycle.coupling * both + xp.eye(cycle.pairs) * cycle.compliance[..., None, :]
+    matrix = cycle.coupling * both + xp.eye(cycle.slots) * cycle.compliance[..., None, :]
     scale = xp.mean(cycle.compliance)
     return xp.linalg.inv(matrix / scale) / scale * both
 
 
 def polynomials(cycle: MeshCycle) -> Polynomials:
-    """Coefficients of the mesh cycle's splines.
+    """Coefficients of the mesh cycle's cubics.
 
     Raises TypeError if the table is not float64: under JAX, switch 64-bit numbers on first.
     """
@@ -223,12 +273,18 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     columns = [xp.broadcast_to(values, cycle.compliance.shape) for values in columns]
     channels = xp.stack(columns, axis=-1)
     kept = {name: getattr(cycle, name) for name in Polynomials._fields if hasattr(cycle, name)}
-    cubics = {"coupling": _cubic(cycle.coupling), "stiffness": _cubic(_stiffness(cycle, xp))}
-    return Polynomials(**kept | cubics, channel=_cubic(channels))
+    if cycle.slices > 1:
+        none = xp.zeros((1, 1, 1, 1, 4))
+        cubics = {"coupling": none, "stiffness": none}
+    else:
+        cubics = {"coupling": _cubic(cycle.coupling), "stiffness": _cubic(_stiffness(cycle, xp))}
+    return Polynomials(**kept | cubics, channel=_cubic(channels, cycle.slices))
 
 
 # 1 wherever the load is even along the face, and then a number may stand for the table.
-_RATIOS = ("line_load_friction", "line_load_peak")
+_RATIOS = ("line_load_friction", "line_load_peak", "share")
+# Fields that records of spur gears may lack.
+_OF_SLICES = (*_RATIOS, "face_position", "pitch_slope")
 
 
 def as_arrays(cycle: MeshCycle) -> dict[str, Any]:
@@ -253,12 +309,12 @@ def from_arrays(arrays: dict[str, Any]) -> MeshCycle:
     nodes = len(arrays["phase"]) // segments
     fields = {}
     for name in MeshCycle._fields:
-        if name in _RATIOS and name not in arrays:
-            continue  # a record of version 0.1.0, whose table lacks the ratios
+        if name in _OF_SLICES and name not in arrays:
+            continue  # a record of an older version, whose table lacks them
         value = np.asarray(arrays[name], dtype=float)
         if name == "in_contact":
             value = value[::nodes]
-        elif name not in ("boundary", "side") and value.ndim >= 1:
+        elif name not in ("boundary", "side", "face_position") and value.ndim >= 1:
             value = value.reshape(segments, nodes, *value.shape[1:])
         fields[name] = value if value.ndim else float(value)
     return MeshCycle(**fields)

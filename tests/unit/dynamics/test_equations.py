@@ -380,7 +380,7 @@ def test_friction_is_that_of_the_uneven_faces_line_load(prepared):
     state, coefficients = static_equilibrium(model), []
     for case, factor in ((model, 1.0), (uneven, 1.6)):
         work, _, _ = evaluate(case, state, 0.3 * float(mesh.table.boundary[1]), 0)
-        load = factor * work[contact.NORMAL_LOAD, 0] / mesh.table.face_width
+        load = factor * work[contact.NORMAL_LOAD, 0] / mesh.table.slice_width
         speeds = work[contact.DRIVER_SPEED, 0], work[contact.DRIVEN_SPEED, 0]
         state_there = local_contact(
             load, 1.0 / work[contact.RADIUS, 0], np.mean(speeds), work[contact.SLIDING, 0], *speeds

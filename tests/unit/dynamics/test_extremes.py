@@ -122,7 +122,7 @@ def test_surfaces_are_those_of_the_highest_line_load(sliding, prepared, rng):
         recorded = {name: values[0] for name, values in outputs(np.array([phase]), y[None], model).items()}
         for i in np.flatnonzero(recorded["normal_load"] > 0.0):
             contact = highest_loaded(i, place, mesh, model, work)
-            line_load = 1.3 * recorded["normal_load"][i] / table.face_width
+            line_load = 1.3 * recorded["normal_load"][i] / table.slice_width
             assert contact.line_load == pytest.approx(line_load, rel=1e-12)
             assert 1.0 / contact.curvature == pytest.approx(work[RADIUS, i], rel=1e-12)
             speeds = work[DRIVER_SPEED, i], work[DRIVEN_SPEED, i]

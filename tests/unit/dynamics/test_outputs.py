@@ -64,7 +64,7 @@ def test_every_sample_is_what_its_name_says(prepared, rng, overrides):
         segment = int(np.searchsorted(table.boundary, phase, side="right")) - 1
         (work,) = work_of_all = contacts_of(model)
         derivatives(phase, whole, segment, states[k], model, work_of_all, {})
-        for i in range(case.cycle.pairs):
+        for i in range(case.cycle.slots):
             inside = table.in_contact[segment, i] > 0
             load = float(work[contact.NORMAL_LOAD, i]) if inside else 0.0
             touching = load > 0.0

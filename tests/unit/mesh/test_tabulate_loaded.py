@@ -94,7 +94,7 @@ def test_without_coupling_pairs_do_not_know_of_each_other():
 def test_back_flanks_mirror_the_front():
     case = load_scenario(NAME, {})
     cycle, front = table(case, backlash=5e-5), table(case)
-    assert cycle.pairs == 4
+    assert cycle.slots == 4
     # a back pair half a table later, in the mirrored world: same gaps plus the backlash
     assert cycle.gap[..., 2:].min() == pytest.approx(5e-5, abs=1e-9)
     assert cycle.gap[..., :2].max() == pytest.approx(front.gap.max(), rel=1e-6)

@@ -22,7 +22,7 @@ def started(prepared, torque, **more):
     state = static_equilibrium(case.model)
     (work,) = works = contacts_of(case.model)
     derivatives(0.0, 0.0, 0, state, case.model, works, {})
-    slots = range(case.cycle.pairs)
+    slots = range(case.cycle.slots)
     loads = np.array([float(work.get((NORMAL_LOAD, i), 0.0)) for i in slots])
     layout = case.model.layout
     rates = accelerations(state, 0.0, 0, case.model)
