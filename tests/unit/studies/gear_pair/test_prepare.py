@@ -16,6 +16,7 @@ from tribodyn.mesh.cycle import polynomials
 from tribodyn.studies.gear_pair import prepare as preparing
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears.tabulated import tables
+from tribodyn.train.links.chain import NoLinkParameters
 
 PINION, GEAR = (1.7, 0.0021), (9.3, 0.047)
 RADII = 0.031, 0.083
@@ -132,9 +133,10 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
         },
     }
     for part, numbers in expected.items():
-        assert set(numbers) == set(getattr(found, part)._fields)
+        assert set(numbers) == set(getattr(found, part)._fields) - {"own"}
         for name, value in numbers.items():
             np.testing.assert_allclose(getattr(getattr(found, part), name), value, rtol=1e-12, err_msg=name)
+    assert found.links.own == NoLinkParameters()
     # c = 2 ζ √(k m) of a stiffness k = 1
     assert found.meshes[0].damping == pytest.approx(2.0 * 0.06 * math.sqrt(mass), rel=1e-12)
     assert found.layout == (PAIR_WITH_MOTOR if shaft else PAIR)
