@@ -45,8 +45,15 @@ TRANSMISSION_ERROR = 19  # along the pair's normal, gap not subtracted, m
 TURNED = 20  # sliding velocity over that at which friction has reversed
 TURNED_BEFORE = 21  # the same at the start of a step, see `march.step_control`
 TURNING_RATE = 22  # its rate in the last step, per mesh cycle
-COUPLING = 23  # deflection per load on slot 0, and on from here per load on the other slots, m/N
-QUANTITIES = 23  # and one more for every slot
+PRESENT = 23  # part of the slot's width that is on the path of contact; 1 or 0 of a whole face
+PRESENT_SLOPE = 24  # its derivative by the driver's rotation, 1/rad
+WHOLE_LOAD = 25  # elastic load if the whole width touched, N
+LINE_LOAD = 26  # normal load per width of what touches, N/m
+LEAN_COS = 27  # of the angle of the normal to the transverse plane
+LEAN_SIN = 28  # positive where the driver pushes the driven flank along +z
+AXIAL_PLACE = 29  # z of the slot from the middle of the face, m
+COUPLING = 30  # deflection per load on slot 0, and on from here per load on the other slots, m/N
+QUANTITIES = 30  # and one more for every slot
 
 # Channels of mesh.cycle.Polynomials.channel.
 _COSINE, _SINE = CHANNELS.index("cosine"), CHANNELS.index("sine")
@@ -54,6 +61,7 @@ _DISTANCE, _RADIUS = CHANNELS.index("signed_distance"), CHANNELS.index("equivale
 _SPEED = CHANNELS.index("pinion_speed")
 _COMPLIANCE, _GAP = CHANNELS.index("compliance"), CHANNELS.index("gap")
 _UNEVEN, PEAK = CHANNELS.index("line_load_friction"), CHANNELS.index("line_load_peak")
+_SHARE = CHANNELS.index("share")
 
 
 class MeshPlace(NamedTuple):
@@ -66,7 +74,12 @@ class MeshPlace(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """How the two bodies of a mesh stand and move against each other, in its frame; driver less driven."""
+    """How the two bodies of a mesh stand and move against each other, in its frame; driver less driven.
+
+    What a point of the driver is ahead of the driven body's there is, at z from the middle of the face and p
+    along and s across from the pitch point, `towards` + z `lean_along` along the pitch tangent, `across` + z
+    `lean_across` across, and `axial` − p `lean_along` − s `lean_across` along z.
+    """
 
     towards: Any  # along the pitch tangent, rotations included, m
     across: Any  # along the line of centres, m
@@ -76,12 +89,36 @@ class Motion(NamedTuple):
     driver_speed: Any  # this and the next: of the bodies, rad/s
     driven_speed: Any
     phase_rate: Any  # nominal speed of the driver at the reference's actual speed, rad/s
+    axial: Any  # along z at the pitch point, m
+    lean_along: Any  # tilt that moves the +z side along the pitch tangent, rad
+    lean_across: Any  # that moves it across, rad
+    axial_rate: Any  # m/s
+    lean_along_rate: Any  # this and the next: rad/s
+    lean_across_rate: Any
 
 
 @law
 def out_of_reach(segment, i, mesh):
     """Whether a slot's pair is off the path of contact in this segment, and may be passed over."""
     return skippable(mesh.table.in_contact[segment, i] == 0.0)
+
+
+@law
+def absent(i, work):
+    """Whether a slot is off the path of contact, after `approach`, and may be passed over."""
+    return skippable(work[PRESENT, i] == 0.0)
+
+
+@law
+def sliced(mesh):
+    """Whether the pairs of a mesh are cut into slices."""
+    return mesh.table.face_position.shape[0] > 1
+
+
+@law
+def coupled(mesh, model):
+    """Whether the pairs of a mesh deflect each other."""
+    return model.options.sweeps > 1 and not sliced(mesh)
 
 
 @law
@@ -109,7 +146,8 @@ def cubic_and_slope(c, segment, cell, slot, channel, u):
 def approach(place, motion, mesh, work):
     """Fill `work` with geometry, approach and its rates for every slot.
 
-    δ = towards cos α + across sin α − gap; back flanks live in the mirrored world, where the pitch tangent
+    δ = towards cos α + across sin α − gap of a spur gear; of slices along the true normal, which leans by
+    tan β_w cos α out of the transverse plane. Back flanks live in the mirrored world, where the pitch tangent
     and rotations change sign.
     """
     table = mesh.table
@@ -117,25 +155,63 @@ def approach(place, motion, mesh, work):
     segment, cell, u, cells_per_radian = place
     ratio = mesh.driver_radius / mesh.driven_radius
     speed = motion.driver_speed
-    towards_rate = motion.along_rate + motion.turning_rate
     for i in range(table.side.shape[0]):
         if out_of_reach(segment, i, mesh):
+            work[PRESENT, i] = 0.0
             continue
+        work[PRESENT, i] = table.in_contact[segment, i]
+        work[PRESENT_SLOPE, i] = 0.0
+        if sliced(mesh):
+            share, share_slope = cubic_and_slope(c, segment, cell, i, _SHARE, u)
+            work[PRESENT, i] = table.in_contact[segment, i] * share
+            work[PRESENT_SLOPE, i] = table.in_contact[segment, i] * share_slope * cells_per_radian
+            if absent(i, work):
+                continue
         side = table.side[i]
         cosine, cosine_slope = cubic_and_slope(c, segment, cell, i, _COSINE, u)
         sine, sine_slope = cubic_and_slope(c, segment, cell, i, _SINE, u)
         gap, gap_slope = cubic_and_slope(c, segment, cell, i, _GAP, u)
         compliance, compliance_slope = cubic_and_slope(c, segment, cell, i, _COMPLIANCE, u)
-        along = side * motion.towards
-        error = along * cosine + motion.across * sine
-        slope = (along * cosine_slope + motion.across * sine_slope - gap_slope) * cells_per_radian
-        distance = cubic(c, segment, cell, i, _DISTANCE, u)
+        distance, distance_slope = cubic_and_slope(c, segment, cell, i, _DISTANCE, u)
+        z = 0.0 * cosine
+        if sliced(mesh):
+            z = z + mesh.hand * table.face_position[i % table.face_position.shape[0]]
+        along = side * (motion.towards + z * motion.lean_along)
+        across = motion.across + z * motion.lean_across
+        along_rate = side * (motion.along_rate + z * motion.lean_along_rate)
+        across_rate = motion.across_rate + z * motion.lean_across_rate
+        error = along * cosine + across * sine
+        slope = along * cosine_slope + across * sine_slope
+        rate = (along_rate + side * motion.turning_rate) * cosine + across_rate * sine
+        lean_cos, lean_sin = 1.0 + z * 0.0, z * 0.0
+        if sliced(mesh):
+            # driver over driven along z where they touch
+            on_along, on_across = side * motion.lean_along, motion.lean_across
+            axial = motion.axial - distance * (cosine * on_along + sine * on_across)
+            axial_rate = motion.axial_rate - distance * (
+                cosine * side * motion.lean_along_rate + sine * motion.lean_across_rate
+            )
+            axial_slope = -distance_slope * (cosine * on_along + sine * on_across)
+            axial_slope = axial_slope - distance * (cosine_slope * on_along + sine_slope * on_across)
+            steep = side * mesh.hand * table.pitch_slope
+            lean_cos = 1.0 / sqrt(1.0 + (steep * cosine) ** 2)
+            lean_sin = steep * cosine * lean_cos
+            cube = lean_cos * lean_cos * lean_cos
+            cos_slope = -steep * steep * cosine * cosine_slope * cube
+            sin_slope = steep * cosine_slope * cube
+            slope = lean_cos * slope + cos_slope * error + lean_sin * axial_slope + sin_slope * axial
+            error = lean_cos * error + lean_sin * axial
+            rate = lean_cos * rate + lean_sin * axial_rate
+        slope = (slope - gap_slope) * cells_per_radian
         flank_speed = cubic(c, segment, cell, i, _SPEED, u)
         driver_lever = distance + mesh.driver_radius * sine
         driven_lever = mesh.driven_radius * sine - distance
 
         work[COS, i] = cosine
         work[SIN, i] = sine
+        work[LEAN_COS, i] = lean_cos
+        work[LEAN_SIN, i] = lean_sin
+        work[AXIAL_PLACE, i] = z
         work[DISTANCE, i] = distance
         work[RADIUS, i] = cubic(c, segment, cell, i, _RADIUS, u)
         work[DRIVER_SPEED, i] = side * speed * flank_speed
@@ -145,14 +221,12 @@ def approach(place, motion, mesh, work):
         work[TRANSMISSION_ERROR, i] = error
         work[APPROACH, i] = error - gap
         work[APPROACH_SLOPE, i] = slope
-        work[APPROACH_RATE, i] = (
-            side * towards_rate * cosine + motion.across_rate * sine + slope * motion.phase_rate
-        )
+        work[APPROACH_RATE, i] = rate + slope * motion.phase_rate
         work[SLIDING, i] = side * speed * (1.0 + ratio) * distance
         work[RELATIVE_VELOCITY, i] = (
             side * (speed * driver_lever - motion.driven_speed * driven_lever)
-            + sine * side * motion.along_rate
-            - cosine * motion.across_rate
+            + sine * along_rate
+            - cosine * across_rate
         )
 
 
@@ -169,17 +243,17 @@ def elastic_loads(place, mesh, model, work):
     pairs = table.side.shape[0]
     width = model.operation.contact_width
     coefficient = table.hertz_coefficient
-    coupled = model.options.sweeps > 1
+    together = coupled(mesh, model)
     for i in range(pairs):
         work[ELASTIC_LOAD, i] = 0.0
-        if out_of_reach(segment, i, mesh):
+        if absent(i, work):
             continue
         work[STIFFNESS, i] = 1.0 / work[COMPLIANCE, i]
-        if not coupled:
+        if not together:
             continue
         load = 0.0
         for j in range(pairs):
-            if out_of_reach(segment, j, mesh):
+            if absent(j, work):
                 continue
             if j < i:
                 work[COUPLING + j, i] = cubic(table.coupling, segment, cell, i, j, u)
@@ -187,14 +261,14 @@ def elastic_loads(place, mesh, model, work):
                 work[COUPLING + j, i] = cubic(table.coupling, segment, cell, j, i, u)
             load = load + cubic(table.stiffness, segment, cell, i, j, u) * work[APPROACH, j]
         work[ELASTIC_LOAD, i] = maximum(load, 0.0)
-    for _ in range(model.options.sweeps):
+    for _ in range(model.options.sweeps if together else 1):
         for i in range(pairs):
-            if out_of_reach(segment, i, mesh):
+            if absent(i, work):
                 continue
             free = work[APPROACH, i]
-            if coupled:
+            if together:
                 for j in range(pairs):
-                    if j != i and not out_of_reach(segment, j, mesh):
+                    if j != i and not absent(j, work):
                         free = free - work[COUPLING + j, i] * work[ELASTIC_LOAD, j]
             if model.options.hertz == HERTZ_POWER_LAW:
                 compliance = work[COMPLIANCE, i]
@@ -206,7 +280,8 @@ def elastic_loads(place, mesh, model, work):
             else:
                 load = positive_part(free, width) * work[STIFFNESS, i]
             work[EFFECTIVE_APPROACH, i] = free
-            work[ELASTIC_LOAD, i] = table.in_contact[segment, i] * load
+            work[WHOLE_LOAD, i] = load
+            work[ELASTIC_LOAD, i] = work[PRESENT, i] * load
 
 
 @law
@@ -226,7 +301,7 @@ def normal_contacts(place, motion, mesh, model, work):
     approach(place, motion, mesh, work)
     elastic_loads(place, mesh, model, work)
     for i in range(mesh.table.side.shape[0]):
-        if out_of_reach(place.segment, i, mesh):
+        if absent(i, work):
             work[NORMAL_LOAD, i] = 0.0
             continue
         _normal_contact(i, place, motion, mesh, model, work)
@@ -240,11 +315,12 @@ def _normal_contact(i, place, motion, mesh, model, work):
     stiffness = work[STIFFNESS, i]
     engaged = ramp(work[EFFECTIVE_APPROACH, i], width)
     damping = mesh.damping * sqrt(stiffness) * work[APPROACH_RATE, i]
-    damping = table.in_contact[segment, i] * engaged * damping
-    load = load_with_damping(work[ELASTIC_LOAD, i], damping, width * stiffness)
-    work[NORMAL_LOAD, i] = load
+    damping = engaged * damping
+    load = load_with_damping(work[WHOLE_LOAD, i], damping, width * stiffness)
+    work[NORMAL_LOAD, i] = work[PRESENT, i] * load
+    work[LINE_LOAD, i] = load / table.slice_width
     # the line load at which friction acts as it does along the uneven face
-    line_load = load / table.slice_width * cubic(table.channel, segment, cell, i, _UNEVEN, u)
+    line_load = work[LINE_LOAD, i] * cubic(table.channel, segment, cell, i, _UNEVEN, u)
     if model.options.averaged:
         radius = work[RADIUS, i]
         averaged = averaged_radius(
@@ -268,7 +344,7 @@ def contact_forces(place, motion, reversals, mesh, model, work):
     approach(place, motion, mesh, work)
     elastic_loads(place, mesh, model, work)
     for i in range(mesh.table.side.shape[0]):
-        if out_of_reach(place.segment, i, mesh):
+        if absent(i, work):
             work[NORMAL_LOAD, i] = 0.0
             work[FRICTION_FORCE, i] = 0.0
             continue

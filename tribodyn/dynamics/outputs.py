@@ -108,7 +108,7 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         contacts = LocalContact(*(np.stack(values, axis=-1) for values in fields))
         surface, limits = surface_and_limits(contacts, model.closure(m))
     friction = per_pair(contact.FRICTION_FORCE)
-    _, _, resisting, driving, *_ = resultants(place, mesh, model, work)
+    _, _, _, _, _, resisting, driving, *_ = resultants(place, mesh, model, work)
     result = {name: contacting(values) for name, values in surface._asdict().items()}
     result |= {
         # of the whole face; the others of the surface are where the line load is highest

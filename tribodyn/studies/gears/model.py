@@ -26,9 +26,14 @@ Frame = tuple[tuple[float, float], tuple[float, float]]
 
 
 def mesh_of(
-    case: LubricatedCase, made: Tabulated, closure: Closure, inertias: tuple[float, float], frame: Frame
+    case: LubricatedCase,
+    made: Tabulated,
+    closure: Closure,
+    inertias: tuple[float, float],
+    frame: Frame,
+    hand: float = 1.0,
 ) -> GearMesh:
-    """A mesh of two bodies with so much inertia each, kg m²."""
+    """A mesh of two bodies with so much inertia each, kg m²; hand as in `GearMesh`."""
     cycle = made.cycle
     radius_1, radius_2 = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
     first, second = inertias
@@ -39,10 +44,12 @@ def mesh_of(
         cycle.gear_pitch_radius,
         *frame[0],
         *frame[1],
-        damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass)),
+        # of slices together that of the pair: √K times as much of a Kth of the stiffness
+        damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass / cycle.slices)),
         surfaces=closure.surfaces,
         film=closure.film.parameters,
         friction=closure.friction.parameters,
+        hand=hand,
     )
 
 
