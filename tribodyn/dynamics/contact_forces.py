@@ -194,7 +194,7 @@ def approach(place, motion, mesh, work):
             axial_slope = -distance_slope * (cosine * on_along + sine * on_across)
             axial_slope = axial_slope - distance * (cosine_slope * on_along + sine_slope * on_across)
             steep = side * mesh.hand * table.pitch_slope
-            lean_cos = 1.0 / sqrt(1.0 + (steep * cosine) ** 2)
+            lean_cos = 1.0 / sqrt(1.0 + steep * cosine * steep * cosine)
             lean_sin = steep * cosine * lean_cos
             cube = lean_cos * lean_cos * lean_cos
             cos_slope = -steep * steep * cosine * cosine_slope * cube

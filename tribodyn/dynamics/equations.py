@@ -157,10 +157,10 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         for direction in range(AXIAL, IN_SPACE):
             if driver < layout.spatial:
                 a = half + place_in_space(driver, direction, layout)
-                dy[a] = dy[a] + on_body(direction, True, along, across, axial, bend_along, bend_across, mesh)
+                dy[a] = dy[a] + on_body(0, direction, along, across, axial, bend_along, bend_across, mesh)
             if driven < layout.spatial:
                 b = half + place_in_space(driven, direction, layout)
-                dy[b] = dy[b] + on_body(direction, False, along, across, axial, bend_along, bend_across, mesh)
+                dy[b] = dy[b] + on_body(1, direction, along, across, axial, bend_along, bend_across, mesh)
         a, b = half + turn_of(driver, layout), half + turn_of(driven, layout)
         dy[a] = dy[a] - resisting
         dy[b] = dy[b] + driving

@@ -17,7 +17,6 @@ from tribodyn.train.structure import (
     TOWARDS,
     TURN,
     X,
-    moved_by,
     place_in_space,
     shift_of,
     tilt_of,
@@ -108,15 +107,11 @@ def _directions(model: Model, m: int) -> Float[Array, "move coordinate"]:
     """What the coordinates move a mesh by: `structure.MOVES`."""
     layout, mesh = model.layout, model.meshes[m]
     rows = np.zeros((MOVES, layout.half))
-    for driver, body, turn in (
-        (True, layout.driver[m], mesh.driver_radius),
-        (False, layout.driven[m], -mesh.driven_radius),
-    ):
+    ends = (layout.driver[m], mesh.driver_radius), (layout.driven[m], -mesh.driven_radius)
+    for end, (body, turn) in enumerate(ends):
         moving = IN_SPACE if body < layout.spatial else 2 if body < layout.planar else 0
-        for which in range(MOVES):
-            for direction in range(moving):
-                place = place_in_space(body, direction, layout)
-                rows[which, place] = moved_by(which, direction, driver, mesh)
+        places = [place_in_space(body, direction, layout) for direction in range(moving)]
+        rows[:, places] = np.asarray(mesh.moves)[end, :, :moving]
         rows[TOWARDS, turn_of(body, layout)] = float(turn)
     return rows
 

@@ -11,7 +11,6 @@ from tribodyn.train.structure import (
     LEAN_ACROSS,
     LEAN_ALONG,
     TOWARDS,
-    moved_by,
     place_in_space,
     shifted,
     shifting,
@@ -91,8 +90,8 @@ def tilted(which, m, first, y, model):
     for direction in range(AXIAL, IN_SPACE):
         if layout.driver[m] < layout.spatial:
             place = first + place_in_space(layout.driver[m], direction, layout)
-            total = total + moved_by(which, direction, True, mesh) * y[place]
+            total = total + mesh.moves[0, which, direction] * y[place]
         if layout.driven[m] < layout.spatial:
             place = first + place_in_space(layout.driven[m], direction, layout)
-            total = total + moved_by(which, direction, False, mesh) * y[place]
+            total = total + mesh.moves[1, which, direction] * y[place]
     return total

@@ -85,8 +85,8 @@ class GearMesh(NamedTuple):
     film: Any  # this and the next: parameters of the laws in use
     friction: Any
     hand: Any = 1.0  # −1 where the +z side is early: left-hand driver that turns clockwise, or the reverse
-    driver_place: Any = 0.0  # this and the next: z of the middle of the face from the body's centre, m
-    driven_place: Any = 0.0
+    #: what x, y, z and the tilts of the driver and of the driven body move it by, see `moves_of`
+    moves: Float[Array, "end move direction"] = np.zeros((2, MOVES, IN_SPACE))
 
 
 class TrainLayout(NamedTuple):
@@ -180,46 +180,42 @@ def place_in_space(body, direction, layout):
 
 
 @law
-def moved_by(which, direction, driver, mesh):
-    """How much a body's x, y, z or tilt (0 … 4) moves the mesh by one of its `MOVES`; of driver or driven."""
-    sign = 1.0 if driver else -1.0
-    place = mesh.driver_place if driver else mesh.driven_place
-    radius = mesh.driver_radius if driver else mesh.driven_radius
-    across = which == ACROSS or which == LEAN_ACROSS or which == ALONG_Z
-    by_x = mesh.across_x if across else mesh.along_x
-    by_y = mesh.across_y if across else mesh.along_y
-    share = 0.0 * by_x
-    if which == ALONG_Z:
-        if direction == AXIAL:
-            share = share + sign
-        elif direction == TILT_X:
-            share = radius * by_y
-        elif direction == TILT_Y:
-            share = -radius * by_x
-    else:
-        leaning = which == LEAN_ALONG or which == LEAN_ACROSS
-        arm = 1.0 if leaning else place
-        if direction == TILT_X:
-            share = -sign * arm * by_y
-        elif direction == TILT_Y:
-            share = sign * arm * by_x
-        elif direction == X and not leaning:
-            share = sign * by_x
-        elif direction == Y and not leaning:
-            share = sign * by_y
-    return share
+def on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh):
+    """Force or moment on x, y, z or a tilt (0 … 4) of a mesh's driver or driven body (0, 1).
 
-
-@law
-def on_body(direction, driver, along, across, axial, leaning_along, leaning_across, mesh):
-    """Force or moment on a body's x, y, z or tilt (0 … 4) of those on the driver that go with `MOVES`."""
+    Of what acts on the driver as `MOVES` go.
+    """
+    moves = mesh.moves
     return (
-        moved_by(TOWARDS, direction, driver, mesh) * along
-        + moved_by(ACROSS, direction, driver, mesh) * across
-        + moved_by(ALONG_Z, direction, driver, mesh) * axial
-        + moved_by(LEAN_ALONG, direction, driver, mesh) * leaning_along
-        + moved_by(LEAN_ACROSS, direction, driver, mesh) * leaning_across
+        moves[end, TOWARDS, direction] * along
+        + moves[end, ACROSS, direction] * across
+        + moves[end, ALONG_Z, direction] * axial
+        + moves[end, LEAN_ALONG, direction] * leaning_along
+        + moves[end, LEAN_ACROSS, direction] * leaning_across
     )
+
+
+def moves_of(
+    frame: tuple[tuple[float, float], tuple[float, float]],
+    radii: tuple[float, float],
+    places: tuple[float, float] = (0.0, 0.0),
+) -> Float[Array, "end move direction"]:
+    """How x, y, z and tilts of driver and driven body move a mesh: the projection rows P.
+
+    A point at (ξ, η, z) from a body's centre moves by ψ × (ξ, η, z) = (ψ_y z, −ψ_x z, ψ_x η − ψ_y ξ). `frame`
+    are the directions along the pitch tangent and across; `places` the z of the faces' middles from the
+    bodies' centres, m.
+    """
+    moves = np.zeros((2, MOVES, IN_SPACE))
+    (along_x, along_y), (across_x, across_y) = frame
+    tilts = np.array([[0.0, 0.0, 0.0, -along_y, along_x], [0.0, 0.0, 0.0, -across_y, across_x]])
+    for end, sign in enumerate((1.0, -1.0)):
+        own = moves[end]
+        own[TOWARDS] = sign * (np.array([along_x, along_y, 0.0, 0.0, 0.0]) + places[end] * tilts[0])
+        own[ACROSS] = sign * (np.array([across_x, across_y, 0.0, 0.0, 0.0]) + places[end] * tilts[1])
+        own[ALONG_Z] = np.array([0.0, 0.0, sign, 0.0, 0.0]) - radii[end] * tilts[1]
+        own[LEAN_ALONG], own[LEAN_ACROSS] = sign * tilts
+    return moves
 
 
 @law

@@ -22,7 +22,8 @@ def loaded(hertz, free, compliance):
         operation=SimpleNamespace(contact_width=WIDTH), options=SimpleNamespace(hertz=hertz, sweeps=1)
     )
     work = {(contact.EFFECTIVE_APPROACH, 0): free, (contact.COMPLIANCE, 0): compliance}
-    work[contact.ELASTIC_LOAD, 0] = load_of(hertz, free, compliance)
+    work[contact.ELASTIC_LOAD, 0] = work[contact.WHOLE_LOAD, 0] = load_of(hertz, free, compliance)
+    work[contact.PRESENT, 0] = 1.0
     work[contact.STIFFNESS, 0] = 1.0 / compliance
     return mesh, model, work
 

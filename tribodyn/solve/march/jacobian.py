@@ -36,7 +36,6 @@ from tribodyn.train.structure import (
     TOWARDS,
     TURN,
     WORKS_OF_MESH,
-    moved_by,
     on_body,
     place_in_space,
     shift_of,
@@ -152,7 +151,7 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
         first = 0 if which < RATES else half
         # columns: x, y, z and tilts of the driver and of the driven body, their rotations
         for k in range(2 * IN_SPACE + 2):
-            direction, of_driver = k % IN_SPACE, k < IN_SPACE
+            direction, end = k % IN_SPACE, k // IN_SPACE
             if k >= 2 * IN_SPACE:
                 turns_driver = k == 2 * IN_SPACE
                 if turns_driver and driver == 0:
@@ -167,20 +166,18 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
                 else:
                     continue
             else:
-                body = driver if of_driver else driven
+                body = driver if end == 0 else driven
                 if not of_bodies or body >= (layout.planar if direction < AXIAL else layout.spatial):
                     continue
                 j = first + place_in_space(body, direction, layout)
-                share = moved_by(move, direction, of_driver, mesh)
+                share = mesh.moves[end, move, direction]
             if share == 0.0:
                 continue
             for row in range(2 * IN_SPACE):
-                direction, of_driver = row % IN_SPACE, row < IN_SPACE
-                body = driver if of_driver else driven
+                direction, end = row % IN_SPACE, row // IN_SPACE
+                body = driver if end == 0 else driven
                 if body < (layout.planar if direction < AXIAL else layout.spatial):
-                    force = on_body(
-                        direction, of_driver, along, across, axial, leaning_along, leaning_across, mesh
-                    )
+                    force = on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh)
                     jacobian[half + place_in_space(body, direction, layout), j] += share * force
             jacobian[half + turn_1, j] -= share * resisting
             jacobian[half + turn_2, j] += share * driving

@@ -10,7 +10,7 @@ from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import Table, monotone_slopes
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.tabulated import Tabulated
-from tribodyn.train.structure import GearMesh, TrainLayout
+from tribodyn.train.structure import GearMesh, TrainLayout, moves_of
 from tribodyn.tribology.closure import Closure
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
@@ -32,8 +32,9 @@ def mesh_of(
     inertias: tuple[float, float],
     frame: Frame,
     hand: float = 1.0,
+    places: tuple[float, float] = (0.0, 0.0),
 ) -> GearMesh:
-    """A mesh of two bodies with so much inertia each, kg m²; hand as in `GearMesh`."""
+    """A mesh of two bodies with so much inertia each, kg m²; `hand`, `places` as in `train.structure`."""
     cycle = made.cycle
     radius_1, radius_2 = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
     first, second = inertias
@@ -50,6 +51,7 @@ def mesh_of(
         film=closure.film.parameters,
         friction=closure.friction.parameters,
         hand=hand,
+        moves=moves_of(frame, (radius_1, radius_2), places),
     )
 
 
