@@ -127,7 +127,9 @@ def check(case: LoadContactCase) -> CheckResult:
     assembly = study.flexible.assembly
     arm = float(assembly.path.gear_pitch_radius) * math.cos(float(assembly.path.pressure_angle(0.0)))
     pair = case.operating.gear_torque / arm, single_pair_stiffness(study)
-    return sheet_and_stiffness(assembly, case.materials, "finite elements", pair)
+    return sheet_and_stiffness(
+        assembly, case.materials, "finite elements", pair, gear_torque=case.operating.gear_torque
+    )
 
 
 def quantities_of(case: LoadContactCase) -> dict[str, Any]:
