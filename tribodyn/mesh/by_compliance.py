@@ -7,11 +7,13 @@ from tribodyn.compliance.foundation import outside_fitted_range
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.helical import slice_layout, tabulate_slices
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 
 #: A body's compliance by the polynomials that differs by this share from the ring's is reported.
 REPORTED_DEVIATION = 0.1
+DEFAULT_SLICES = 11
 
 if TYPE_CHECKING:
     from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
@@ -33,6 +35,9 @@ def mesh_cycle_of(
         from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
         return tabulate_loaded(assembly, materials, mesh, gear_torque, back)
+    if assembly.drive.helix_angle:
+        count = mesh.slices if mesh.slices > 1 else DEFAULT_SLICES
+        return tabulate_slices(assembly, materials, mesh, slice_layout(assembly, mesh, count, back))
     return tabulate(assembly, materials, mesh, pair_slots(assembly), back)
 
 

@@ -110,7 +110,7 @@ def slots(
 def unloaded_gap(
     assembly: Assembly,
     mesh: MeshData,
-    slots: Slots,
+    slots: Any,
     pressure_angle: Float[Array, "segment node pair"],
     begin: float = 0.0,
 ) -> Float[Array, "segment node pair"]:
