@@ -8,11 +8,11 @@ body deflects (`foundation`), between the teeth the Hertz contact does. Plane st
 Widths: the teeth and the contact carry over the common face width only, which leaves out the help of a
 tooth's free ends (on the soft side); each body deflects with its own face width.
 
-Helical teeth: the same in the section normal to the tooth. A tooth bends as a plate about its own slanted axis:
-its thickness is cos β times that of the transverse section, its length the face width over cos β, and the load
-leans to the radius by its own angle, sin α_n1 = cos β_n sin α_1 (the tooth bent in the transverse plane alone
-would be too stiff, in bending by 1/cos⁴ β, since the axial displacement is free). β is that on the reference
-circle; compliances are then along the true normal. Bodies are taken in the normal section too.
+Helical teeth: the same in the section normal to the tooth. A tooth bends as a plate about its own slanted
+axis: its thickness is cos β times that of the transverse section, its length the face width over cos β, and
+the load leans to the radius by its own angle, sin α_n1 = cos β_n sin α_1. (Bent in the transverse plane alone
+it would be too stiff, in bending by 1/cos⁴ β, since the axial displacement is free.) β is that on the
+reference circle; compliances are along the true normal. Bodies are taken in the normal section too.
 """
 
 from typing import Any, NamedTuple

@@ -1,18 +1,18 @@
 """From tooth shape and elasticity to the mesh cycle of helical gears: pairs in slices along the face.
 
-Every slice is a spur pair of its own that is late by z tan β_w/r_w of pinion rotation. It counts with the part
-of its width that is on the path of contact, its *share*: the force of a slice is share · δ_n/C, with the
+Every slice is a spur pair of its own that is late by z tan β_w/r_w of pinion rotation. It counts with the
+part of its width that is on the path of contact, its *share*: the force of a slice is share · δ_n/C, with the
 approach δ_n along the flanks' true normal. The share rises from 0 to 1 while the slice enters and nothing
 jumps, so one segment is enough; its nodes resolve the ramps. Errors go with the square of the slices' width.
 
 The mesh is at phase 0 where the earliest edge of the face enters B_g. `roll_start`, `roll_end` and
-`pitch_point_phase` of the table are of the middle of the face: roll_start is where it stands at phase 0, a half
-overlap before the path of contact, and (roll_end − roll_start)/pitch is the total contact ratio ε_γ.
+`pitch_point_phase` of the table are of the middle of the face: roll_start is where it stands at phase 0, half
+an overlap before the path of contact, and (roll_end − roll_start)/pitch is the total contact ratio ε_γ.
 `contact_ratio` is ε_α.
 
-Back flanks. Whatever happens in one section happens in the section at z by z tan β_w/r_w later, whichever flanks
-touch. In the mirrored world, where a pair's roll angle decreases, the section at z is therefore further on by
-as much: mirrored, the hand of the helix is the other one.
+Back flanks. Whatever happens in one section happens in the section at z by z tan β_w/r_w later, whichever
+flanks touch. In the mirrored world, where a pair's roll angle decreases, the section at z is therefore
+further on by as much: mirrored, the hand of the helix is the other one.
 """
 
 import dataclasses
@@ -37,7 +37,7 @@ from tribodyn.geometry.path import Kinematics, kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.tabulate import RollCurve, check_options, pair_compliance
-from tribodyn.numerics.elementary import absolute, cos, maximum, minimum, namespace, sqrt, within
+from tribodyn.numerics.elementary import absolute, cos, namespace, sqrt, within
 from tribodyn.numerics.shapes import Array, Float
 
 #: Nodes over which a slice comes into contact; fewer where a table would grow beyond `MAXIMUM_NODES`.
@@ -67,7 +67,7 @@ def slice_layout(assembly: Assembly, mesh: table.MeshData, slices: int, back: bo
         raise InputError(
             "mesh.slices",
             slices,
-            f"too few for an overlap ratio of {overlap:.3g} and a transverse contact ratio of {transverse:.3g}",
+            f"too few for contact ratios of {transverse:.3g} (transverse) and {overlap:.3g} (overlap)",
             f'use at least {least}, or "auto"',
         )
     resolved = math.ceil(NODES_PER_RAMP * slices / overlap) + 1 if overlap > 0.0 else MAXIMUM_NODES
