@@ -8,12 +8,12 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.helical import slice_layout, tabulate_slices
+from tribodyn.mesh.slice_number import slices_needed
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 
 #: A body's compliance by the polynomials that differs by this share from the ring's is reported.
 REPORTED_DEVIATION = 0.1
-DEFAULT_SLICES = 11
 
 if TYPE_CHECKING:
     from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
@@ -28,15 +28,18 @@ def mesh_cycle_of(
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a checked pair of plain numbers; `back`: whether back flanks can touch.
 
-    The torque T_g (N m) matters where `mesh.at_load` only. Raises InputError as `tabulate.tabulate` and
+    The torque T_g (N m) matters where `mesh.at_load`, and for the number of slices of a helical pair where it
+    is not given (`slice_number.slices_needed`). Raises InputError as `tabulate.tabulate` and
     `tabulate_loaded.tabulate_loaded`.
     """
     if mesh.at_load:
         from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
         return tabulate_loaded(assembly, materials, mesh, gear_torque, back)
-    if assembly.drive.helix_angle:
-        count = mesh.slices if mesh.slices > 1 else DEFAULT_SLICES
+    if assembly.drive.helix_angle or mesh.slices > 1:
+        count = mesh.slices
+        if assembly.drive.helix_angle and count <= 1:
+            count = slices_needed(assembly, materials, mesh, gear_torque).slices
         return tabulate_slices(assembly, materials, mesh, slice_layout(assembly, mesh, count, back))
     return tabulate(assembly, materials, mesh, pair_slots(assembly), back)
 

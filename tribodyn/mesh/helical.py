@@ -22,9 +22,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.energy import hertz_coefficient, hertz_linear
+from tribodyn.compliance.sharing.flank_gap import lead_gap, profile_gap
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData
+from tribodyn.geometry.flanks.corner_contact import PairGeometry
+from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
 from tribodyn.geometry.helix import (
     curvature_share,
     line_stretch,
@@ -36,8 +39,8 @@ from tribodyn.geometry.helix import (
 from tribodyn.geometry.path import Kinematics, kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.tabulate import RollCurve, check_options, pair_compliance
-from tribodyn.numerics.elementary import absolute, cos, namespace, sqrt, within
+from tribodyn.mesh.tabulate import RollCurve, check_options, pair_compliance, tabulate
+from tribodyn.numerics.elementary import absolute, cos, is_jax, namespace, sqrt, within
 from tribodyn.numerics.shapes import Array, Float
 
 #: Nodes over which a slice comes into contact; fewer where a table would grow beyond `MAXIMUM_NODES`.
@@ -56,13 +59,20 @@ class Layout(NamedTuple):
     back: range = range(0)  # pitches by which back pairs stand apart from the one that enters
 
 
+def minimum_slices(assembly: Assembly) -> int:
+    """Minimum number of slices: a slice is late against the next by half the path of contact at most."""
+    return max(
+        MINIMUM_SLICES, math.ceil(2.0 * float(overlap_ratio(assembly)) / float(assembly.contact_ratio))
+    )
+
+
 def slice_layout(assembly: Assembly, mesh: table.MeshData, slices: int, back: bool = False) -> Layout:
     """Lay out the table of a helical pair of plain numbers.
 
-    Raises InputError where a slice would be late against its neighbour by more than half the path of contact.
+    Raises InputError for fewer slices than `minimum_slices`.
     """
     transverse, overlap = float(assembly.contact_ratio), float(overlap_ratio(assembly))
-    least = max(MINIMUM_SLICES, math.ceil(2.0 * overlap / transverse))
+    least = minimum_slices(assembly)
     if slices < least:
         raise InputError(
             "mesh.slices",
@@ -89,6 +99,8 @@ def tabulate_slices(
     `tabulate.tabulate`.
     """
     check_options(assembly, mesh, bool(layout.back))
+    if not is_jax(assembly.drive.helix_angle) and assembly.drive.helix_angle == 0.0:
+        return _spur_slices(assembly, materials, mesh, layout)
     path = assembly.path
     at = _slots(assembly, layout)
     slope = absolute(pitch_slope(assembly))
@@ -118,6 +130,29 @@ def tabulate_slices(
         share=at.share,
         face_position=face_positions(assembly.common_width, layout.slices),
         pitch_slope=slope,
+    )
+
+
+def _spur_slices(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: table.MeshData, layout: Layout
+) -> MeshCycle:
+    """Slices of a spur pair, all alike, in step with the pair's segments."""
+    apart = dataclasses.replace(mesh, foundation_coupling=False)
+    pair = tabulate(assembly, materials, apart, layout.pairs, bool(layout.back))
+    shape, count = pair.compliance.shape, layout.slices
+    fields = {
+        name: np.repeat(value, count, axis=-1)
+        for name, value in pair._asdict().items()
+        if name in ("in_contact", "side") or np.shape(value) == shape
+    }
+    cycle = pair._replace(**fields, face_position=face_positions(assembly.common_width, count))
+    gap = _modified(assembly, mesh, cycle.gap, cycle.signed_distance, 0.0, layout)
+    return cycle._replace(
+        compliance=cycle.compliance * count,
+        hertz_coefficient=pair.hertz_coefficient * count**0.9,
+        coupling=np.zeros((*shape[:2], 1, 1)),
+        gap=gap,
+        share=np.ones_like(cycle.compliance),
     )
 
 
@@ -224,10 +259,53 @@ def slice_gap(
     A given transmission error is along the true normal; the backlash is that at the pitch point.
     """
     gap = table.unloaded_gap(assembly, mesh, at, motion.pressure_angle)
-    if not layout.back:
+    if layout.back:
+        # conjugate back flanks touch after the same rotation: the distance goes like the arm cos α cos β_n
+        pitch_point = normal_slope(slope, assembly.path.pressure_angle(0.0 * assembly.r_start))
+        leaning = normal_slope(slope, motion.pressure_angle)
+        turned = sqrt((1.0 + pitch_point**2) / (1.0 + leaning**2))
+        gap = namespace(gap, turned).where(at.side > 0, gap, gap * turned)
+    return _modified(assembly, mesh, gap, motion.signed_distance, slope, layout)
+
+
+def _modified(
+    assembly: Assembly, mesh: table.MeshData, gap: Any, r: Any, slope: Any, layout: Layout
+) -> Float[Array, "segment node slot"]:
+    if mesh.modifications == UNMODIFIED:
         return gap
-    # conjugate back flanks touch after the same rotation: the distance goes like the arm cos α cos β_n
-    pitch_point = normal_slope(slope, assembly.path.pressure_angle(0.0 * assembly.r_start))
+    for broken in uneven_teeth(mesh.modifications):
+        raise broken
+    fronts = layout.pairs * layout.slices
+    behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
+    for side, own, flanks in (
+        (1, np.s_[..., :fronts], mesh.modifications),
+        (-1, np.s_[..., fronts:], behind),
+    ):
+        if r[own].size:
+            gap[own] += modified_gap(assembly, flanks, r[own], slope, layout.slices, side)
+    return gap
+
+
+def modified_gap(
+    assembly: Assembly,
+    modifications: Modifications,
+    r: Float[Array, "segment node slot"],
+    slope: float,
+    slices: int,
+    side: int,
+) -> Float[Array, "segment node slot"]:
+    """What modifications and misalignment leave open at slices of one side, m along the true normal.
+
+    Plain numbers; r is the signed distance (m). A gear turned by the angle γ in the plane of action opens the flanks by z γ along the line
+    of action and shifts them by −r γ along the axis: by γ (z cos β_n ∓ r sin β_n) along the normal of driving
+    and back flanks, which is how far the contact is from the pitch point along the line of contact.
+    """
+    z = np.tile(face_positions(float(assembly.common_width), slices), r.shape[-1] // slices)
+    motion = kinematics(assembly.path, r)
+    place = PairGeometry(motion, np.zeros_like(r), r, r, r, r)
+    turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
+    stand = modifications.misalignment
+    angle = stand.in_plane * np.cos(turned) + stand.out_of_plane * np.sin(turned)
     leaning = normal_slope(slope, motion.pressure_angle)
-    turned = sqrt((1.0 + pitch_point**2) / (1.0 + leaning**2))
-    return namespace(gap, turned).where(at.side > 0, gap, gap * turned)
+    opened = angle * (z - side * r * leaning) / np.sqrt(1.0 + leaning**2)
+    return profile_gap(assembly, modifications, place) + lead_gap(assembly, modifications, z) + opened
