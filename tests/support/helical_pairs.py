@@ -8,7 +8,7 @@ from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families import involute
 from tribodyn.geometry.helix import base_helix_angle
-from tribodyn.mesh.helical import Layout, slice_layout, tabulate_slices
+from tribodyn.mesh.helical import SliceLayout, slice_layout, tabulate_slices
 from tribodyn.mesh.table import MeshData
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
@@ -38,7 +38,7 @@ def sliced(
     assembly: Assembly, mesh: MeshData = EVEN, slices: int = 11, back: bool = False, nodes: int | None = None
 ):
     """Table with so many slices, and nodes."""
-    layout: Layout = slice_layout(assembly, mesh, slices, back)
+    layout: SliceLayout = slice_layout(assembly, mesh, slices, back)
     layout = layout if nodes is None else layout._replace(nodes=nodes)
     return tabulate_slices(assembly, (STEEL, STEEL), mesh, layout)
 

@@ -48,7 +48,7 @@ MAXIMUM_NODES = 1025
 MINIMUM_SLICES = 3
 
 
-class Layout(NamedTuple):
+class SliceLayout(NamedTuple):
     """Numbers of slots and nodes of a table of slices: plain, while the drive may be traced."""
 
     slices: int
@@ -64,7 +64,7 @@ def minimum_slices(assembly: Assembly) -> int:
     )
 
 
-def slice_layout(assembly: Assembly, mesh: table.MeshData, slices: int, back: bool = False) -> Layout:
+def slice_layout(assembly: Assembly, mesh: table.MeshData, slices: int, back: bool = False) -> SliceLayout:
     """Lay out the table of a helical pair of plain numbers.
 
     Raises InputError for fewer slices than `minimum_slices`.
@@ -85,11 +85,14 @@ def slice_layout(assembly: Assembly, mesh: table.MeshData, slices: int, back: bo
         enter = float(table.back_entry(assembly.roll_limits[0], assembly.pitch_angle))
         # a back pair n stands at enter − phase + n + (what the section adds, up to ε_β) pitches
         behind = range(math.floor(-overlap - enter) + 1, math.ceil(transverse - enter + 1.0))
-    return Layout(slices, nodes, math.ceil(transverse + overlap - 1e-9), behind)
+    return SliceLayout(slices, nodes, math.ceil(transverse + overlap - 1e-9), behind)
 
 
 def tabulate_slices(
-    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: table.MeshData, layout: Layout
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: table.MeshData,
+    layout: SliceLayout,
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a helical pair whose slices do not hold each other.
 
@@ -132,7 +135,10 @@ def tabulate_slices(
 
 
 def _spur_slices(
-    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: table.MeshData, layout: Layout
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: table.MeshData,
+    layout: SliceLayout,
 ) -> MeshCycle:
     """Slices of a spur pair, all alike, in step with the pair's segments."""
     apart = dataclasses.replace(mesh, foundation_coupling=False)
@@ -174,7 +180,7 @@ class SliceSlots(NamedTuple):
     share: Any  # (1, N, slot)
 
 
-def _slots(assembly: Assembly, layout: Layout) -> SliceSlots:
+def _slots(assembly: Assembly, layout: SliceLayout) -> SliceSlots:
     start, end = assembly.roll_limits
     pitch, count = assembly.pitch_angle, layout.slices
     xp = namespace(start, end, assembly.drive)
@@ -208,7 +214,7 @@ def slice_compliance(
     r_nodes: Any,
     roll: Float[Array, "segment node slot"],
     faces: Faces,
-    layout: Layout,
+    layout: SliceLayout,
 ) -> Float[Array, "segment node slot"]:
     """Compliance of slices that touch over their whole width, along the true normal, m/N.
 

@@ -121,7 +121,9 @@ def test_normals_radii_and_speeds_are_those_of_the_screw_surfaces(pair):
     """Both flanks as surfaces in space, differentiated numerically where a slice touches."""
     cycle = sliced(pair)
     node = 40
-    for slot in np.flatnonzero(cycle.share[0, node, : cycle.front_slots] > WHOLE)[::3]:
+    touching = np.flatnonzero(cycle.share[0, node, : cycle.front_slots] > WHOLE)
+    assert touching.size > 10
+    for slot in touching[::3]:
         z = cycle.face_position[slot % cycle.slices]
         place = cycle.signed_distance[0, node, slot]
         late = z * math.tan(pair.drive.helix_angle) / (pair.drive.module * pair.drive.pinion.teeth / 2)
