@@ -30,8 +30,8 @@ def mesh_cycle_of(
     """Tabulate the mesh cycle of a checked pair of plain numbers; `back`: whether back flanks can touch.
 
     The torque T_g (N m) matters where `mesh.at_load`, and where slices of a helical pair hold each other
-    (`coupled_slices`) or are not counted yet (`slice_number.slices_needed`). Raises InputError as `tabulate.tabulate` and
-    `tabulate_loaded.tabulate_loaded`.
+    (`coupled_slices`) or are not counted yet (`slice_number.slices_needed`). Raises InputError as
+    `tabulate.tabulate` and `tabulate_loaded.tabulate_loaded`.
     """
     if mesh.at_load:
         from tribodyn.mesh.tabulate_loaded import tabulate_loaded

@@ -7,7 +7,7 @@ Mech. Mach. Theory 40 (2005) 677-693), the bodies as a half-space, whose complia
     λ_teeth(k) = C_teeth/(1 + (ℓ_t k)²),  λ_bodies(k) = C_bodies/(1 + ℓ_b k),
 
 k along the tooth. Both lengths are shares of the normal module that are fitted to this package's finite
-elements: they then meet the harmonics of `compliance.sharing.slices.pair_harmonics` within 0.03 of λ(0)
+elements: they meet the harmonics of `compliance.sharing.slices.pair_harmonics` within 0.055 of λ(0)
 (test_helical_coupling). The end faces are planes of symmetry: what free ends add is left out. Slices at
 different heights of the tooth take the geometric mean of their compliances; two pairs on one body hold each
 other section by section, spread like the bodies. The contact is each slice's own.
@@ -30,7 +30,7 @@ from tribodyn.mesh.tabulate import RollCurve, body_coupling
 from tribodyn.numerics.shapes import Array, Float
 
 #: ℓ_t and ℓ_b over the normal module.
-TEETH_LENGTH, BODIES_LENGTH = 1.63, 2.34
+TEETH_LENGTH, BODIES_LENGTH = 1.4, 3.0
 # Loads, over the mean, below which the contact is linearised there; and the least part of an approach that
 # may be left to a slice's own contact.
 _SMALL, _LEAST = 0.05, 0.02

@@ -37,8 +37,8 @@ def slices_needed(
     """Choose the number of slices of a helical pair of plain numbers at a torque T_g ≠ 0, N m.
 
     From `FEWEST` on the number is doubled (K, 2K + 1) until the transmission error, its mean apart, changes
-    by less than `TOLERANCE` of its peak to peak (root mean square); the fewer slices are then enough. Without a torque `FEWEST` is
-    doubled once.
+    by less than `TOLERANCE` of its peak to peak (root mean square); the fewer slices are then enough. Without
+    a torque `FEWEST` is doubled once.
     """
     first = max(FEWEST, minimum_slices(assembly)) | 1
     if gear_torque == 0.0:

@@ -10,10 +10,10 @@ from tribodyn.compliance.energy import loaded_tooth, tooth_compliance
 from tribodyn.compliance.sharing.load_sharing import flexibility
 from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.drive import SIDES, Drive, GearBody
+from tribodyn.geometry.families import involute
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Modifications
-from tribodyn.mesh import coupled_slices
 from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.coupled_slices import BODIES_LENGTH, TEETH_LENGTH, couple_slices, spread
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
@@ -23,10 +23,15 @@ MATERIALS = (STEEL, STEEL)
 TORQUE = 300.0
 
 
-@pytest.mark.parametrize("addendum", [0.8, 1.0])
-def test_harmonics_are_those_of_finite_elements(addendum):
+def coarse_pair():
+    """19/60 of module 5 mm on a wide face, with large bores."""
+    bodies = (GearBody(z, 0.0, 1.0, 1.25, 0.25, 0.08, bore) for z, bore in ((19.0, 0.012), (60.0, 0.05)))
+    return assemble(involute.FAMILY, Drive(0.005, np.radians(20.0), *bodies, helix_angle=0.2))
+
+
+@pytest.mark.parametrize("pair", [helical_pair(2.0), coarse_pair()], ids=["23/47", "19/60"])
+def test_harmonics_are_those_of_finite_elements(pair):
     """Of spur teeth, for wave lengths from the face's down to one and a half modules."""
-    pair = helical_pair(2.0, addendum=addendum)
     spur = assemble(pair.family, pair.drive._replace(helix_angle=0.0))
     start, end = spur.roll_limits
     geometry = pair_geometry(spur, np.array([[0.6 * start], [0.0], [0.6 * end]]))
@@ -38,7 +43,7 @@ def test_harmonics_are_those_of_finite_elements(addendum):
     teeth = sum(part.total for part in parts) - bodies
     wave = np.pi * np.arange(25)[:, None] / flexible.width * spur.drive.module
     model = teeth / (1.0 + (TEETH_LENGTH * wave) ** 2) + bodies / (1.0 + BODIES_LENGTH * wave)
-    np.testing.assert_allclose(model / model[0], harmonics / harmonics[0], atol=0.03)
+    np.testing.assert_allclose(model / model[0], harmonics / harmonics[0], atol=0.055)
 
 
 def test_an_even_load_is_met_by_the_whole_compliance():
@@ -48,22 +53,18 @@ def test_an_even_load_is_met_by_the_whole_compliance():
     np.testing.assert_allclose(spread(middle, share, falling, slices).sum(axis=-1), 1.0, rtol=1e-12)
 
 
-def test_slices_that_do_not_hold_each_other_stay_as_they_are(monkeypatch):
-    """Without spreading and pairs on one body the lumped table is the table."""
-    monkeypatch.setattr(coupled_slices, "TEETH_LENGTH", 0.0)
-    monkeypatch.setattr(coupled_slices, "BODIES_LENGTH", 0.0)
-    monkeypatch.setattr(coupled_slices, "_WAVES", 4000)
-    pair, mesh = helical_pair(1.1), replace(ENERGY, foundation_coupling=False)
-    cycle = sliced(pair, mesh, 3, nodes=9)
-    lumped = couple_slices(pair, MATERIALS, mesh, cycle, TORQUE)
-    alone, held = (quasi_static(table, TORQUE).deflection for table in (cycle, lumped))
-    np.testing.assert_allclose(held, alone, rtol=1e-3)
+def test_slices_that_do_not_hold_each_other_meet_their_own_compliance():
+    """Also while they touch in part: then over less than the slice's width, at its early end."""
+    slices, share = 5, np.array([[0.5, 1.0, 1.0, 0.25, 1.0]])
+    middle = (np.arange(slices) + 0.5 - (1.0 - share) / 2.0) / slices
+    found = spread(middle, share, np.ones(6000), slices)[0]
+    np.testing.assert_allclose(found, np.diag(1.0 / share[0]), atol=5e-3)
 
 
 @pytest.mark.parametrize("hertz", ["linear", "load-dependent"])
 @pytest.mark.parametrize("crowning", [0.0, 15e-6])
 def test_lumped_slices_balance_like_those_that_hold_each_other(hertz, crowning):
-    """Deflection and stiffness of the lumped table at its torque are the difference quotient of the coupled."""
+    """Lumped at a torque, the table deflects under a little more as that which is lumped there."""
     made = Modifications(pinion=FlankModification(lead=LeadRelief(crowning=crowning)))
     pair, mesh = helical_pair(1.1), replace(ENERGY, hertz=hertz, modifications=made)
     cycle = sliced(pair, mesh, 7, nodes=33)
