@@ -101,6 +101,11 @@ class MeshCycle(NamedTuple):
         return self.front_slots // self.slices
 
     @property
+    def pair_side(self) -> Any:
+        """Side of every pair (P,): 1 of driving flanks, −1 of back flanks."""
+        return self.side[:: self.slices]
+
+    @property
     def slice_width(self) -> Any:
         """Width of a slice, m."""
         return self.face_width / self.slices
@@ -281,17 +286,36 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     return Polynomials(**kept | cubics, channel=_cubic(channels, cycle.slices))
 
 
+def described(slices: int) -> dict[str, Variable]:
+    """Fields as a record has them of a mesh cycle with so many slices, see `MESH_CYCLE`."""
+    if slices == 1:
+        return {name: variable for name, variable in MESH_CYCLE.items() if name not in _FACE}
+    found = {}
+    for name, variable in MESH_CYCLE.items():
+        dims = (*_PAIR, "slice") if variable.dims == _PAIR else variable.dims
+        if name != "coupling":
+            found[name] = variable._replace(dims=dims)
+    return found
+
+
 # 1 wherever the load is even along the face, and then a number may stand for the table.
 _RATIOS = ("line_load_friction", "line_load_peak", "share")
 # Fields that records of spur gears may lack.
-_OF_SLICES = (*_RATIOS, "face_position", "pitch_slope")
+_FACE = ("share", "face_position", "pitch_slope")
+_OF_SLICES = (*_RATIOS, *_FACE, "coupling")
 
 
 def as_arrays(cycle: MeshCycle) -> dict[str, Any]:
-    """Flat arrays for a record: dims (phase,), (phase, pair) and (phase, pair, pair); scalars as floats."""
-    segments, nodes, _ = cycle.compliance.shape
+    """Flat arrays for a record: dims (phase,), (phase, pair) and (phase, pair, pair); scalars as floats.
+
+    Of slices (phase, pair, slice), without the coupling, which is nothing.
+    """
+    segments, nodes, slots = cycle.compliance.shape
+    names = described(cycle.slices)
     arrays: dict[str, Any] = {}
     for name, value in cycle._asdict().items():
+        if name not in names:
+            continue
         array = np.asarray(value, dtype=float)
         if name in _RATIOS:
             array = np.broadcast_to(array, cycle.compliance.shape)
@@ -299,6 +323,10 @@ def as_arrays(cycle: MeshCycle) -> dict[str, Any]:
             array = np.repeat(array, nodes, axis=0)
         elif array.ndim >= 2:
             array = array.reshape(segments * nodes, *array.shape[2:])
+        if cycle.slices > 1 and array.ndim == 2:
+            array = array.reshape(segments * nodes, slots // cycle.slices, cycle.slices)
+        if name == "side":
+            array = array[:: cycle.slices]
         arrays[name] = array if array.ndim else float(array)
     return arrays
 
@@ -307,14 +335,20 @@ def from_arrays(arrays: dict[str, Any]) -> MeshCycle:
     """Inverse of `as_arrays`."""
     segments = len(arrays["boundary"]) - 1
     nodes = len(arrays["phase"]) // segments
+    slices = np.size(arrays.get("face_position", 0.0))
     fields = {}
     for name in MeshCycle._fields:
         if name in _OF_SLICES and name not in arrays:
-            continue  # a record of an older version, whose table lacks them
+            continue  # of slices alone, or a record of an older version
         value = np.asarray(arrays[name], dtype=float)
+        if value.ndim == 3 and name != "coupling":
+            value = value.reshape(len(value), -1)
+        if name == "side":
+            value = np.repeat(value, slices)
         if name == "in_contact":
             value = value[::nodes]
         elif name not in ("boundary", "side", "face_position") and value.ndim >= 1:
             value = value.reshape(segments, nodes, *value.shape[1:])
         fields[name] = value if value.ndim else float(value)
+    fields.setdefault("coupling", np.zeros((segments, nodes, 1, 1)))
     return MeshCycle(**fields)

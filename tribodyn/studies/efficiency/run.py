@@ -118,7 +118,7 @@ def run(
     summary["wall_time"] = perf_counter() - begun
     more = {
         "groups": {"mesh_cycle": as_arrays(study.cycle), "geometry": geometry_arrays(study.assembly)},
-        "scales": scales_of(study.cycle.side),
+        "scales": scales_of(study.cycle),
     }
     with writer(case, path, LAYOUT, len(over.turned), force=force, **more) as record:
         record.write(0, record_arrays(over, mesh, state, study.duty))

@@ -14,7 +14,7 @@ from tribodyn.studies.gear_pair.outputs import MESH, recorded
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.by_standard import rated
-from tribodyn.studies.gears.case import LAYOUT
+from tribodyn.studies.gears.case import gears_layout
 from tribodyn.studies.gears.check import check_gears, oil_data
 from tribodyn.studies.gears.marched import record_motion, run_until_warm
 from tribodyn.studies.gears.prepare import (
@@ -75,9 +75,9 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     }
     more = {
         "groups": {"mesh_cycle": as_arrays(cycle), "geometry": geometry_arrays(prepared.assembly)},
-        "scales": scales_of(cycle.side),
+        "scales": scales_of(cycle),
     }
-    with writer(case, path, LAYOUT, cycles * samples + 1, force=force, **more) as record:
+    with writer(case, path, gears_layout(cycle.slices), cycles * samples + 1, force=force, **more) as record:
         try:
             motion = record_motion(
                 case, model, [mesh_of_run(prepared)], window_of(cycles), record, recorded, progress

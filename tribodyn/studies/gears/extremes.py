@@ -35,9 +35,9 @@ class RunningExtremes:
 
     def __init__(self, cycle: MeshCycle) -> None:
         self.by_name: dict[str, Extreme] = {}
-        sides = np.asarray(cycle.side)
+        sides = np.asarray(cycle.pair_side)
         self._slots = {sign: np.flatnonzero(sides * sign > 0) for sign in WORKING}
-        self._pairs = pair_numbers(cycle.front_pairs, np.size(cycle.side))
+        self._pairs = pair_numbers(cycle.front_pairs, np.size(cycle.pair_side))
 
     def add(self, cycles: np.ndarray, time: np.ndarray, block: Mapping[str, np.ndarray]) -> None:
         """Take a block into account: cycles of the mesh since the start, time (s), what is recorded there."""
@@ -90,5 +90,4 @@ class RunningExtremes:
 
 def mesh_force(block: Mapping[str, np.ndarray], slots: np.ndarray) -> np.ndarray:
     """Force of a side's flanks along the pitch tangent (n,), N: the mesh moment over the pitch radius."""
-    angle = np.nan_to_num(block["pressure_angle"][:, slots])
-    return np.sum(block["normal_load"][:, slots] * np.cos(angle), axis=1)
+    return np.sum(block["tangent_load"][:, slots], axis=1)

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics import parameters
+from tribodyn.geometry.drive import Drive
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import Table, monotone_slopes
 from tribodyn.studies.gears.case import LubricatedCase
@@ -53,6 +54,16 @@ def mesh_of(
         hand=hand,
         moves=moves_of(frame, (radius_1, radius_2), places),
     )
+
+
+def hand_of(drive: Drive, clockwise: bool = True) -> float:
+    """`GearMesh.hand` of a pair whose pinion turns clockwise seen from +z, or not; 1 of spur gears."""
+    return 1.0 if (float(drive.helix_angle) >= 0.0) == clockwise else -1.0
+
+
+def tilting_inertia(mass: float, inertia: float, width: float) -> float:
+    """Moment of inertia about a diameter of a gear as wide as its teeth, kg m²: J/2 + m b²/12."""
+    return inertia / 2.0 + mass * width**2 / 12.0
 
 
 def options_of(

@@ -17,7 +17,6 @@ from tribodyn.mesh.quasi_static import (
     efficiency,
     power_put_in,
     single_pair,
-    total_stiffness,
 )
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
 from tribodyn.studies.gears.case import LubricatedCase
@@ -77,11 +76,11 @@ def mesh_quantities(
     touching = load > 0.0
     found = amplitude_spectrum(error, samples)
     spectrum = Spectrum(found.orders / rate, found.amplitudes)
-    stiffness = total_stiffness(window["mesh_stiffness"], window["pressure_angle"])
+    stiffness = np.sum(window["tangent_stiffness"], axis=1)
     # a load that is reversed on the mean has driving flanks to work on where there is no backlash
-    sign = -1.0 if force < 0.0 and np.any(cycle.side < 0) else 1.0
+    sign = -1.0 if force < 0.0 and np.any(cycle.pair_side < 0) else 1.0
     # the last slot of either side holds a pair that is on the path of contact all the time
-    newest = window["transmission_error_normal"][:, np.flatnonzero(cycle.side * sign > 0)[-1]]
+    newest = window["transmission_error_normal"][:, np.flatnonzero(cycle.pair_side * sign > 0)[-1]]
     flanks = WORKING[sign]
     keep = spectrum.orders <= LAST_ORDER + 1e-9
     return {
