@@ -48,7 +48,7 @@ TURNING_RATE = 22  # its rate in the last step, per mesh cycle
 PRESENT = 23  # part of the slot's width that is on the path of contact; 1 or 0 of a whole face
 PRESENT_SLOPE = 24  # its derivative by the driver's rotation, 1/rad
 WHOLE_LOAD = 25  # elastic load if the whole width touched, N
-LINE_LOAD = 26  # normal load per width of what touches, N/m
+LINE_LOAD = 26  # normal load per width of the slot, N/m
 LEAN_COS = 27  # of the angle of the normal to the transverse plane
 LEAN_SIN = 28  # positive where the driver pushes the driven flank along +z
 AXIAL_PLACE = 29  # z of the slot from the middle of the face, m
@@ -317,7 +317,9 @@ def _normal_contact(i, place, motion, mesh, model, work):
     damping = mesh.damping * sqrt(stiffness) * work[APPROACH_RATE, i]
     damping = engaged * damping
     load = load_with_damping(work[WHOLE_LOAD, i], damping, width * stiffness)
-    work[NORMAL_LOAD, i] = work[PRESENT, i] * load
+    load = work[PRESENT, i] * load
+    work[NORMAL_LOAD, i] = load
+    # of a slice that comes or goes over its whole width: what is inside it is not resolved
     work[LINE_LOAD, i] = load / table.slice_width
     # the line load at which friction acts as it does along the uneven face
     line_load = work[LINE_LOAD, i] * cubic(table.channel, segment, cell, i, _UNEVEN, u)

@@ -171,15 +171,22 @@ def transient(record: Record) -> bool:
 
 
 def pair_history(record: Record, name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Find roll angles (0 at the pitch point, increasing, rad) of a driving pair and a quantity over them."""
+    """Find roll angles (0 at the pitch point, increasing, rad) of a driving pair and a quantity over them.
+
+    Of helical gears in the middle of the face.
+    """
     table = record.mesh_cycle
     pitch = 2 * np.pi / table["pinion_teeth"]
     fronts = int(np.sum(table["side"] > 0))
     rolls, values = [], []
     for slot in range(fronts):
-        touching = table["in_contact"][:, slot] > 0
+        values_of, present = table[name][:, slot], table["in_contact"][:, slot]
+        if values_of.ndim > 1:
+            middle = values_of.shape[1] // 2
+            values_of, present = values_of[:, middle], table["share"][:, slot, middle]
+        touching = present > 0
         rolls.append(table["roll_start"] + (table["phase"][touching] + fronts - 1 - slot) * pitch)
-        values.append(table[name][touching, slot])
+        values.append(values_of[touching])
     roll = np.concatenate(rolls)
     order = np.argsort(roll, kind="stable")
     return roll[order], np.concatenate(values)[order]
@@ -195,6 +202,9 @@ def path_limits(record: Record) -> tuple[float, float]:
     reach = (limits[1] - limits[0]) * table["pinion_teeth"] / (2 * np.pi)
     if reach <= table["contact_ratio"] * (1 + 1e-9):
         return limits
+    if "face_position" in table:  # the table begins and ends with the edges of the face
+        overlap = (limits[1] - limits[0]) * (1.0 - table["contact_ratio"] / reach)
+        return limits[0] + overlap / 2.0, limits[1] - overlap / 2.0
     roll, distance = pair_history(record, "signed_distance")
     first, last = (np.hypot(*record.geometry["path_of_contact"][end]) for end in (0, -1))
     return float(np.interp(-first, distance, roll)), float(np.interp(last, distance, roll))
