@@ -6,13 +6,13 @@ slice t the harmonics of `slices` are those of both radii,
     Λ_st = (1/l) Σ_n c_n λ(k_n; r_s, r_t) cos k_n z_s cos k_n z_t
 
 on the length l of a tooth of the elastic section (`section`). For r_s → r_t λ grows like the half-space's
-K_0(k |x_s − x_t|), x along the profile, as far as the local deflection, which is each slice's own. So what is
-interpolated between the radii solved is λ less
+K_0(k |x_s − x_t|), x along the profile, as far as the local deflection, which is each slice's own. So λ less
+the half-space's 2 (1 − ν²)/(π E) K_0(kx) is interpolated between the radii solved, and what is put back is
 
     m(k, x) = B(k) K_0(k √(x² + d²))/K_0(k d),   m(0, x) = −(1 − ν²)/(π E) ln(1 + x²/d²),
 
-which is the surface's B(k) (`fem.gear_compliance`) at x = 0 and follows the half-space beyond d = h exp(−1/(2 (1
-− ν))), where both are the same for small k. End faces are taken as perpendicular to the tooth, and free.
+at x = 0 the surface's B(k) (`fem.gear_compliance`), beyond d = h exp(−1/(2 (1 − ν))) the half-space's; for small
+k both meet. End faces are taken as perpendicular to the tooth, and free.
 """
 
 import numpy as np
@@ -150,10 +150,14 @@ class _OneTooth:
         self._profile = np.hypot(*profile), np.concatenate([[0.0], np.cumsum(steps)])
         along = self.along(gear.radius)
         self.mean = own - self.surface[:, None]
-        smooth = between[:, NEIGHBOURS] - self.half_space(np.abs(along[:, None] - along))
+        apart = np.abs(along[:, None] - along) + np.eye(len(along))
+        softness = 2.0 * (1.0 - poisson_ratio**2) / np.pi
+        line = [np.log(self.near / apart), *(k0(k * apart) for k in wave_number[1:])]
+        smooth = between[:, NEIGHBOURS] - softness * np.stack(line)
         smooth -= (self.mean[:, :, None] + self.mean[:, None, :]) / 2.0
         smooth[:, np.arange(len(along)), np.arange(len(along))] = 0.0
-        self.smooth = (smooth + smooth.swapaxes(1, 2)) / 2.0
+        solved = wave_number <= (0.0 if gear.lead is None else gear.lead.wave_number[-1])
+        self.smooth = solved[:, None, None] * (smooth + smooth.swapaxes(1, 2)) / 2.0
 
     def along(self, radius: Float[Array, "*place"]) -> Float[Array, "*place"]:
         """Length of the profile (m) up to a radius (m)."""
@@ -225,6 +229,12 @@ def _add_free_ends(
                 first, second = (seen[:, pair].reshape(len(seen), slices, -1) for pair in (earlier, later))
                 value = first @ rows @ second.swapaxes(1, 2) / modulus
                 if earlier == later:
+                    at = place[:, later]
+                    missed = np.einsum("tsm,klm->tskl", at, ends.own[parity])
+                    rows = ends.between[parity, :, :, NEIGHBOURS]
+                    missed -= np.einsum("tsm,klmn,tsn->tskl", at, rows, at, optimize=True)
+                    half = np.einsum("sk,tskl,ul->tsu", along[parity], missed, along[parity], optimize=True)
+                    value += (half + half.swapaxes(1, 2)) / (2.0 * modulus)
                     matrix[:, later, :, later] += value
                 else:
                     _add_both(matrix, earlier, later, value)
