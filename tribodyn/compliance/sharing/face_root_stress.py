@@ -48,12 +48,12 @@ def root_stress(
         per_load = at_wave_numbers(gear, wave_number, material.poisson_ratio).root_stress
         place = at_radii(gear.radius, reach)
         ends = gear.ends if len(wave_number) > 1 else None
-        weights = (
-            None if ends is None else (end_modes(ends, length, slices), at_radii(ends.radius, reach))
-        )
+        weights = None if ends is None else (end_modes(ends, length, slices), at_radii(ends.radius, reach))
         for first in range(0, positions, _BATCH):
             rows = slice(first, first + _BATCH)
-            stress = _of_one_gear(per_load, _counted(line_load[rows], basis.T, place[rows], slices), sign) @ basis
+            stress = (
+                _of_one_gear(per_load, _counted(line_load[rows], basis.T, place[rows], slices), sign) @ basis
+            )
             if ends is not None and weights is not None:
                 along, at_ends = weights
                 counted = [_counted(slice_load[rows], along[parity], at_ends[rows]) for parity in (0, 1)]
@@ -84,8 +84,8 @@ def _of_one_gear(
 ) -> Float[Array, "fillet_point position pair wave"]:
     """Amplitudes (point, position, pair, n) of the stress, Pa, at the points of both fillets.
 
-    `per_load` (1 or n, sector, fillet, point, M) per unit line load, `amplitude` (position, pair, M, n) of the
-    line loads, N/m, at the flank's positions.
+    `per_load` (1 or n, sector, fillet, point, M) per unit line load, `amplitude` (position, pair, M, n) of
+    the line loads, N/m, at the flank's positions.
     """
     positions, pairs, _, count = amplitude.shape
     every = np.broadcast_to(per_load, (count, *per_load.shape[1:]))

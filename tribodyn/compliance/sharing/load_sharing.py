@@ -225,7 +225,7 @@ class LoadedFlanks(NamedTuple):
         return flank_gap(self.flexible.assembly, self.modifications, geometry, self.face())
 
     def rolls(self, roll: Float[Array, "*pair"]) -> Float[Array, "..."]:
-        """Pinion angles at which pairs touch, rad: themselves; of a helical pair those of the slices, (…, slice).
+        """Pinion angles at which pairs touch, rad: themselves; of helical pairs the slices', (…, slice).
 
         No further than a pitch outside the path, where nothing touches.
         """

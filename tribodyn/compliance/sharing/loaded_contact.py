@@ -1,8 +1,8 @@
 """A pair of gears in slow rotation under load: line loads along the face, pressures, errors, stiffness.
 
 The load contact model (`load_sharing`) at many positions, with flanks as they are modified and axes as they
-stand. Phase 0 is where a pair passes the beginning of its path of contact, in the middle of its face, whatever
-the load.
+stand. Phase 0 is where a pair passes the beginning of its path of contact, in the middle of its face,
+whatever the load.
 """
 
 import math
@@ -106,8 +106,8 @@ class LoadedContact(NamedTuple):
     #: tension positive and compression negative, Pa (`face_root_stress`)
     root_tension: Float[Array, "2 position pair slice"]
     root_compression: Float[Array, "2 position pair slice"]
-    #: K_Hβ, maximum over mean line load along the face (ISO 6336-1), of helical pairs along the part of it that is
-    #: on the path of contact; NaN where a pair carries nothing
+    #: K_Hβ, maximum over mean line load along the face (ISO 6336-1), of helical pairs along the part of it
+    #: that is on the path of contact; NaN where a pair carries nothing
     face_load_factor: Float[Array, "position pair"]
     mesh_stiffness: Float[Array, " position"]  # dF/dξ on the pitch circles, N/m: of what touches, tangent
     contact_ratio: float  # mean number of pairs that carry load

@@ -11,8 +11,8 @@ the half-space's 2 (1 − ν²)/(π E) K_0(kx) is interpolated between the radii
 
     m(k, x) = B(k) K_0(k √(x² + d²))/K_0(k d),   m(0, x) = −(1 − ν²)/(π E) ln(1 + x²/d²),
 
-at x = 0 the surface's B(k) (`fem.gear_compliance`), beyond d = h exp(−1/(2 (1 − ν))) the half-space's; for small
-k both meet. End faces are taken as perpendicular to the tooth, and free.
+at x = 0 the surface's B(k) (`fem.gear_compliance`), beyond d = h exp(−1/(2 (1 − ν))) the half-space's; for
+small k both meet. End faces are taken as perpendicular to the tooth, and free.
 """
 
 import numpy as np
@@ -37,7 +37,7 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.tooth import Tooth, flank_point
 from tribodyn.numerics.shapes import Array, Float
 
-# Places along the profile at which the half-space's part is tabulated, evenly in asinh(x/d); leaves 1e-5 of it.
+# Places along the profile at which the half-space's part is tabulated, evenly in asinh(x/d).
 _PLACES = 65
 # Points of the profile from which its length over the radius follows.
 _PROFILE = 401
@@ -51,8 +51,8 @@ def oblique_compliance(
     """Λ (position, pair, slice, pair, slice), m/N, without the slices' own local deflection.
 
     `contact`: radii (m) at which the slices of pinion and gear are touched, and the part of the load in the
-    elastic section (`ObliqueFaces.at`); pairs one pitch apart, the one that entered first in front. Not `coupled` each slice is in plane strain by itself, with its neighbours' slices
-    at the same place of the face.
+    elastic section (`ObliqueFaces.at`); pairs one pitch apart, the one that entered first in front. Not
+    `coupled` each slice is in plane strain by itself, with its neighbours' slices at the same place.
     """
     *reach, within = contact
     positions, pairs, slices = within.shape

@@ -1,12 +1,13 @@
-"""The section in which a tooth is elastic: of a helical involute tooth the normal one, else the transverse one.
+"""The section in which a tooth is elastic: of helical involutes the normal one, of others the transverse one.
 
-The helix lies in the flank, so that the normal load of a helical tooth lies in the section across the helix: on
-a length b/cos β the tooth is a straight one of that section, with the normal module and as high as the
-transverse section. Section and load of the transverse plane in its stead would be too stiff, in bending by up to
-1/cos⁴ β: the tooth is thicker there by 1/cos β and cannot move along the axis. The body is the ring with the
-virtual number of teeth z/(cos² β_b cos β), rounded, and with the same ratio of root to bore radius. Of other
-families, whose rack has no normal section, the transverse section stands for it, and of the load
-its transverse part.
+The helix lies in the flank, so that the normal load of a helical tooth lies in the section across the helix:
+on a length b/cos β the tooth is a straight one of that section, with the normal module and as high as in the
+transverse section. The transverse section in its stead would be too stiff, in bending by up to 1/cos⁴ β: the
+tooth is thicker there by 1/cos β, and cannot give way along the axis. The body is the ring with the virtual
+number of teeth z/(cos² β_b cos β), rounded, and with the same ratio of root to bore radius.
+
+Of other families, whose rack has no normal section, the transverse section stands for the tooth, and the
+load's transverse part for the load.
 """
 
 import math
@@ -55,5 +56,5 @@ def elastic_section(assembly: Assembly) -> Assembly:
 
 
 def raised(assembly: Assembly, section: Assembly, side: Side) -> float:
-    """By how much radii (m) in the section are greater than those of the gear, at the same height of a tooth."""
+    """By how much radii (m) in the section are greater than the gear's at the same height of a tooth."""
     return float(reference_radius(section.drive, side)) - float(reference_radius(assembly.drive, side))
