@@ -90,7 +90,7 @@ def face_edges(record: Record) -> Float[Array, " edge"]:
 
 
 def late(record: Record) -> float:
-    """Pinion angle per place along the face by which a place is late, rad/m: of the helix; 0 of spur gears."""
+    """Pinion angle by which places along the face are late, rad/m; 0 of spur gears."""
     numbers = record.mesh_cycle
     return float(numbers.get("pitch_slope", 0.0)) / float(numbers["pinion_pitch_radius"])
 
