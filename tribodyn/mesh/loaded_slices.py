@@ -34,7 +34,7 @@ _LEAST_GROWTH = 0.02
 _UNLOADED = 0.1
 
 
-class Places(NamedTuple):
+class SliceSlots(NamedTuple):
     """Where slices stand at the nodes."""
 
     slots: Slots
@@ -104,7 +104,7 @@ def _with_helix(flanks: LoadedFlanks, angle: float) -> LoadedFlanks:
 
 def _places(
     assembly: Assembly, limits: tuple[float, float], face: Float[Array, " slice"], points: int, back: bool
-) -> Places:
+) -> SliceSlots:
     """Slots over one segment; of back pairs, whose phase runs backwards, one more: none is renumbered."""
     pitch, slices = float(assembly.pitch_angle), len(face)
     half_face = float(roll_shift(assembly, assembly.common_width / 2.0))
@@ -125,7 +125,7 @@ def _places(
     side = np.where(np.arange(middle.shape[1]) < pairs * slices, 1.0, -1.0)
     touching = np.where(np.any(share > 0.0, axis=0), 1.0, 0.0)[None]
     at = Slots(np.array([0.0, 1.0]), phase[None], touching, side, (0.5 * (low + high))[None], limits)
-    return Places(at, tuple(rolls), face, start, share)
+    return SliceSlots(at, tuple(rolls), face, start, share)
 
 
 def _lumped(

@@ -84,7 +84,9 @@ def check(case: LoadContactCase) -> CheckResult:
     assembly = study.flexible.assembly
     arm = float(assembly.path.gear_pitch_radius) * math.cos(float(assembly.path.pressure_angle(0.0)))
     # along the path of contact, as the standard has it: load and deflection are each cos β_n of the normal's
-    cosine = 1.0 / math.hypot(1.0, float(pitch_slope(assembly)) * math.cos(float(assembly.path.pressure_angle(0.0))))
+    cosine = 1.0 / math.hypot(
+        1.0, float(pitch_slope(assembly)) * math.cos(float(assembly.path.pressure_angle(0.0)))
+    )
     pair = case.operating.gear_torque / (arm * cosine), single_pair_stiffness(study) * cosine**2
     return sheet_and_stiffness(assembly, case.materials, "finite elements", pair)
 
