@@ -58,13 +58,16 @@ def oblique_gap(
 ) -> Float[Array, "*pair slice"]:
     """`flank_gap` of slices each with its own geometry (…, slice), along the normal of helical flanks, m.
 
-    Misaligned axes move the gear in the transverse plane, across the line of contact by the cosine of the
-    normal's slope of it; that they move it along the axis too is left out.
+    A gear turned by γ in the plane of action moves by z γ along the line of action and by −r γ along the axis:
+    by γ (z cos β_n − r sin β_n) along the normal.
     """
-    along = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
-    slope = normal_slope(pitch_slope(assembly), geometry.motion.pressure_angle)
-    profile = profile_gap(assembly, modifications, geometry)
-    return profile + lead_gap(assembly, modifications, face_position) + along / np.hypot(1.0, slope)
+    motion, (within, across) = geometry.motion, modifications.misalignment
+    slope = normal_slope(pitch_slope(assembly), motion.pressure_angle)
+    turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
+    angle = within * np.cos(turned) + across * np.sin(turned)
+    opened = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
+    opened = (opened - angle * motion.signed_distance * slope) / np.hypot(1.0, slope)
+    return profile_gap(assembly, modifications, geometry) + lead_gap(assembly, modifications, face_position) + opened
 
 
 def profile_gap(
