@@ -58,8 +58,8 @@ def oblique_gap(
 ) -> Float[Array, "*pair slice"]:
     """`flank_gap` of slices each with its own geometry (…, slice), along the normal of helical flanks, m.
 
-    A gear turned by γ in the plane of action moves by z γ along the line of action and by −r γ along the axis:
-    by γ (z cos β_n − r sin β_n) along the normal.
+    A gear turned by γ in the plane of action moves by z γ along the line of action and by −r γ along the
+    axis: by γ (z cos β_n − r sin β_n) along the normal.
     """
     motion, (within, across) = geometry.motion, modifications.misalignment
     slope = normal_slope(pitch_slope(assembly), motion.pressure_angle)
@@ -67,7 +67,11 @@ def oblique_gap(
     angle = within * np.cos(turned) + across * np.sin(turned)
     opened = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
     opened = (opened - angle * motion.signed_distance * slope) / np.hypot(1.0, slope)
-    return profile_gap(assembly, modifications, geometry) + lead_gap(assembly, modifications, face_position) + opened
+    return (
+        profile_gap(assembly, modifications, geometry)
+        + lead_gap(assembly, modifications, face_position)
+        + opened
+    )
 
 
 def profile_gap(
