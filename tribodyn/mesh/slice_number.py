@@ -35,8 +35,9 @@ def slices_needed(
 ) -> SliceNumber:
     """Choose the number of slices of a helical pair of plain numbers at a torque T_g ≠ 0, N m.
 
-    From `FEWEST` on the number is doubled (K, 2K + 1) until the transmission error, its mean apart, changes by
-    less than `TOLERANCE` anywhere; the fewer slices are then enough. Without a torque `FEWEST` doubled once.
+    From `FEWEST` on the number is doubled (K, 2K + 1) until the transmission error, its mean apart, changes
+    by less than `TOLERANCE` peak to peak; the fewer slices are then enough. Without a torque `FEWEST` is
+    doubled once.
     """
     first = max(FEWEST, minimum_slices(assembly)) | 1
     if gear_torque == 0.0:
