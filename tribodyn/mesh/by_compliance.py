@@ -6,8 +6,9 @@ from tribodyn.compliance.energy import loaded_tooth, polynomials_over_ring
 from tribodyn.compliance.foundation import outside_fitted_range
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData
+from tribodyn.mesh.coupled_slices import tabulate_helical
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.helical import slice_layout, tabulate_slices
+from tribodyn.mesh.helical import slice_layout
 from tribodyn.mesh.slice_number import slices_needed
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
@@ -28,9 +29,9 @@ def mesh_cycle_of(
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a checked pair of plain numbers; `back`: whether back flanks can touch.
 
-    The torque T_g (N m) matters where `mesh.at_load`, and for the number of slices of a helical pair where it
-    is not given (`slice_number.slices_needed`). Raises InputError as `tabulate.tabulate` and
-    `tabulate_loaded.tabulate_loaded`.
+    The torque T_g (N m) matters where `mesh.at_load`, and where slices of a helical pair hold each other
+    (`coupled_slices`) or are not counted yet (`slice_number.slices_needed`). Raises InputError as
+    `tabulate.tabulate` and `tabulate_loaded.tabulate_loaded`.
     """
     if mesh.at_load:
         from tribodyn.mesh.tabulate_loaded import tabulate_loaded
@@ -40,7 +41,9 @@ def mesh_cycle_of(
         count = mesh.slices
         if assembly.drive.helix_angle and count <= 1:
             count = slices_needed(assembly, materials, mesh, gear_torque).slices
-        return tabulate_slices(assembly, materials, mesh, slice_layout(assembly, mesh, count, back))
+        return tabulate_helical(
+            assembly, materials, mesh, slice_layout(assembly, mesh, count, back), gear_torque
+        )
     return tabulate(assembly, materials, mesh, pair_slots(assembly), back)
 
 

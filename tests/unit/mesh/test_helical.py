@@ -29,7 +29,6 @@ from tribodyn.geometry.flanks.modification import (
 from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.cycle import as_arrays, from_arrays
 from tribodyn.mesh.quasi_static import cycle_mean
-from tribodyn.mesh.slice_number import slices_needed
 
 OVERLAPS = [0.3, 0.7, 1.0, 1.4, 2.0, 2.6]
 
@@ -194,22 +193,6 @@ def test_too_few_slices_for_the_overlap():
         InputError, match=r"mesh.slices = 3: too few for contact ratios of 1\.\d+ \(transverse\)"
     ):
         sliced(helical_pair(4.0), slices=3)
-
-
-@pytest.mark.parametrize("overlap", [0.4, 1.1, 2.0])
-def test_number_of_slices_is_that_of_one_per_cent(overlap):
-    """Against a face in many more slices."""
-    from tribodyn.mesh.quasi_static import quasi_static
-
-    pair, torque = helical_pair(overlap), 200.0
-    count, remark = slices_needed(pair, (STEEL, STEEL), ENERGY, torque)
-    assert count % 2 == 1
-    assert str(count) in remark
-    taken, exact = (
-        quasi_static(sliced(pair, ENERGY, k, nodes=513), torque).deflection[0] for k in (count, 167)
-    )
-    change = np.ptp(taken - exact)
-    assert change < 0.015 * max(np.ptp(exact), 0.1 * np.mean(exact))
 
 
 def test_a_path_with_a_corner_in_slices():

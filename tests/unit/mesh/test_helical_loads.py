@@ -104,6 +104,18 @@ def test_single_pair_is_the_whole_face_at_the_pitch_point():
     assert coarse.stiffness == pytest.approx(fine.stiffness, rel=1e-4)
 
 
+@pytest.mark.parametrize("helix", [0.2, 0.35, 0.5])
+def test_single_pair_softens_with_the_cosine_of_the_helix_angle(helix):
+    """ISO 6336-1: in the transverse plane, per face width, c' goes like cos β for one rack."""
+
+    def stiffness(angle):
+        pair = helical_pair(1.0, angle)
+        single = single_pair(sliced(pair, ENERGY, 5), TORQUE).stiffness
+        return single * math.cos(base_angle(pair)) ** 2 / float(pair.common_width)
+
+    assert stiffness(helix) / stiffness(0.02) == pytest.approx(math.cos(helix), rel=0.03)
+
+
 def test_small_helix_is_the_spur_pair():
     """The mean stiffness differs in proportion to the square of the helix angle."""
     overlaps = np.array([0.08, 0.04, 0.02])
