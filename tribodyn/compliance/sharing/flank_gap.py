@@ -22,6 +22,7 @@ from tribodyn.geometry.flanks.modification import (
     Relief,
     broken_flank_rules,
 )
+from tribodyn.geometry.helix import normal_slope, pitch_slope
 from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.curve import check_cover, interpolate
@@ -46,6 +47,26 @@ def flank_gap(
     profile = profile_gap(assembly, modifications, geometry)
     along = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
     return profile[..., None] + lead_gap(assembly, modifications, face_position) + along
+
+
+def oblique_gap(
+    assembly: Assembly,
+    modifications: Modifications,
+    geometry: PairGeometry,
+    face_position: Float[Array, " slice"],
+) -> Float[Array, "*pair slice"]:
+    """`flank_gap` of slices each with its own geometry (…, slice), along the normal of helical flanks, m.
+
+    A gear turned by γ in the plane of action moves by z γ along the line of action and by −r γ along the
+    axis: by γ (z cos β_n − r sin β_n) along the normal.
+    """
+    motion, (within, across) = geometry.motion, modifications.misalignment
+    slope = normal_slope(pitch_slope(assembly), motion.pressure_angle)
+    turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
+    angle = within * np.cos(turned) + across * np.sin(turned)
+    opened = angle * (face_position - motion.signed_distance * slope) / np.hypot(1.0, slope)
+    profile = profile_gap(assembly, modifications, geometry)
+    return profile + lead_gap(assembly, modifications, face_position) + opened
 
 
 def profile_gap(

@@ -35,9 +35,9 @@ def modifications_of(drive: DriveTable, misalignment: MisalignmentTable) -> Modi
     return Modifications(pinion, gear, stand)
 
 
-def slices_of(given: int | None, modifications: Modifications) -> int:
+def slices_of(given: int | None, modifications: Modifications, helical: bool = False) -> int:
     """Return the number of slices along the face."""
-    return given or (SLICES if vary_along_lead(modifications) else 1)
+    return given or (SLICES if helical or vary_along_lead(modifications) else 1)
 
 
 class Face(NamedTuple):
@@ -64,7 +64,7 @@ def broken_modification_rules(drive: DriveTable) -> Iterator[InputError]:
 
 def broken_slice_rules(face: Face) -> Iterator[InputError]:
     """Go through the rules of a run that knows modifications: slices enough for what varies."""
-    varies = vary_along_lead(modifications_of(face.drive, face.misalignment))
+    varies = bool(face.drive.helix_angle) or vary_along_lead(modifications_of(face.drive, face.misalignment))
     if face.slices is not None and (broken := too_few_slices(face.slices, varies)):
         yield broken
 

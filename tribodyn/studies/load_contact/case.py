@@ -1,5 +1,6 @@
 """A case of the static load contact study: what one run needs to know, records and takes; SI units."""
 
+import math
 from dataclasses import dataclass
 from functools import partial
 
@@ -38,14 +39,15 @@ _root = partial(Variable, ("phase", "body", "pair", "slice"))
 SAMPLES: dict[str, Variable] = {
     "pinion_angle": _phase("rad", "rotation of the pinion from the first position"),
     "roll_angle": _pair(
-        "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
+        "rad",
+        "rotation of the pinion since the pair met at the pitch point in mid-face, negative before it",
     ),
     "loaded_transmission_error": _phase("m", "loaded static transmission error, of the gears' rotations"),
     "unloaded_transmission_error": _phase(
         "m", "unloaded (kinematic) transmission error, of the gears' rotations"
     ),
     "normal_load": _pair("N", "normal load of the pair"),
-    "line_load": _face("N/m", "normal load per face width"),
+    "line_load": _face("N/m", "normal load per length of the line of contact"),
     "hertz_pressure": _face("Pa", "maximum Hertz pressure"),
     "half_width": _face("m", "half width of the Hertz contact"),
     "face_load_factor": _pair(
@@ -102,7 +104,11 @@ def estimate(case: LoadContactCase) -> Estimate:
     """What a run of a case takes."""
     positions, slices = case.positions_per_cycle * case.cycles, case.mesh.slices
     torques = len(case.gear_torques)
-    sizes = {"phase": positions, "pair": TOUCHING, "slice": slices, "body": 2}
+    drive = case.drive
+    width = min(float(drive.pinion.face_width), float(drive.gear.face_width))
+    overlap = width * abs(math.tan(float(drive.helix_angle))) / (math.pi * float(drive.module))
+    pairs = TOUCHING + math.ceil(overlap)
+    sizes = {"phase": positions, "pair": pairs, "slice": slices, "body": 2}
     if torques:
         sizes["torque"] = torques
     return total(
@@ -113,6 +119,6 @@ def estimate(case: LoadContactCase) -> Estimate:
             Driver("operating.gear_torques", 1 + torques, 10),
         ),
         recorded(OILED if case.lubricated else LAYOUT, sizes, copies=4.0, outlines=True),
-        load_sharing(float(positions) * (1 + torques), slices, positions),
+        load_sharing(float(positions) * (1 + torques), slices * pairs / TOUCHING, positions),
         FINITE_ELEMENTS,
     )
