@@ -32,7 +32,7 @@ from tribodyn.numerics.shapes import Array, Float
 #: ℓ_t and ℓ_b over the normal module.
 TEETH_LENGTH, BODIES_LENGTH = 1.4, 3.0
 # Loads, over the mean, below which the contact is linearised there; and the least part of an approach that
-# may be left to a slice's own contact.
+# a slice's own contact takes, and leaves.
 _SMALL, _LEAST = 0.05, 0.02
 _STEPS, _SETTLED = 20, 1e-9
 _ROWS = 32  # nodes that are solved at a time
@@ -195,7 +195,8 @@ def _lumped(
     left = active[:, :, None] * (weighed + identity * contact[:, :, None]) * active[:, None, :]
     left = left + identity * (1.0 - active)[:, :, None]
     turned = np.linalg.solve(left, (active * arms)[..., None])[..., 0]
-    left_over = np.maximum(arms - np.einsum("nij,nj->ni", weighed, turned), _LEAST * arms)
+    left_over = arms - np.einsum("nij,nj->ni", weighed, turned)
+    left_over = np.clip(left_over, _LEAST * arms, (1.0 - _LEAST) * arms)
     compliance = contact * arms / left_over - 0.9 * hertz * at**-0.1
     reached = np.einsum("nij,nj->ni", weighed, load) + own * load
     return compliance, gap + reached - compliance * load

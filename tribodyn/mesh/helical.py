@@ -103,7 +103,7 @@ def tabulate_slices(
     if not is_jax(assembly.drive.helix_angle) and assembly.drive.helix_angle == 0.0:
         return _spur_slices(assembly, materials, mesh, layout)
     path = assembly.path
-    at = _slots(assembly, layout)
+    at, share = _slots(assembly, layout)
     slope = absolute(pitch_slope(assembly))
     curve = RollCurve(*assembly.roll_limits)
     r_nodes = path.signed_distance(curve.nodes())
@@ -128,7 +128,7 @@ def tabulate_slices(
     )
     return cycle._replace(
         equivalent_radius=cycle.equivalent_radius / curvature_share(slope, path, r),
-        share=at.share,
+        share=share,
         face_position=face_positions(assembly.common_width, layout.slices),
         pitch_slope=slope,
     )
@@ -168,19 +168,8 @@ class Faces(NamedTuple):
     stretch: Any  # length of the line of contact per width of the face, like the contacts
 
 
-class SliceSlots(NamedTuple):
-    """Where the slices stand, as `table.Slots`; `roll` in the middle of the part that touches."""
-
-    boundary: Any
-    phase: Any
-    in_contact: Any
-    side: Any
-    roll: Any
-    limits: tuple[Any, Any]
-    share: Any  # (1, N, slot)
-
-
-def _slots(assembly: Assembly, layout: SliceLayout) -> SliceSlots:
+def _slots(assembly: Assembly, layout: SliceLayout) -> tuple[table.Slots, Float[Array, "segment node slot"]]:
+    """Where the slices stand, in the middle of the part that touches, and its share of the slice."""
     start, end = assembly.roll_limits
     pitch, count = assembly.pitch_angle, layout.slices
     xp = namespace(start, end, assembly.drive)
@@ -203,7 +192,7 @@ def _slots(assembly: Assembly, layout: SliceLayout) -> SliceSlots:
     side = np.repeat([1.0, -1.0], [layout.pairs * count, len(layout.back) * count])
     limits = begin, end + whole / 2.0
     present = np.ones((1, side.size))
-    return SliceSlots(np.array([0.0, 1.0]), phase, present, side, (low + high) / 2.0, limits, share)
+    return table.Slots(np.array([0.0, 1.0]), phase, present, side, (low + high) / 2.0, limits), share
 
 
 def slice_compliance(

@@ -23,7 +23,7 @@ def face_positions(width: Any, slices: int) -> Float[Array, " slice"]:
 def slice_gap(
     assembly: Assembly,
     mesh: table.MeshData,
-    at: Any,
+    at: table.Slots,
     motion: Kinematics,
     slope: Any,
     layout: Any,

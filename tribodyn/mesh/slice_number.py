@@ -16,8 +16,8 @@ from tribodyn.numerics.shapes import Array, Float
 TOLERANCE = 0.01
 #: Where the error is below this share of the deflection, `TOLERANCE` is of this share of the deflection.
 SMALL_ERROR = 0.1
-#: Minimum and maximum number; odd, so that one slice is in the middle of the face.
-FEWEST, MOST = 5, 47
+#: Minimum and maximum number, unless the overlap asks for more; odd, so that one slice is in the middle.
+FEWEST, MOST = 5, 23
 _NODES = 129
 
 

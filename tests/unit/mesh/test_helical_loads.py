@@ -117,7 +117,7 @@ def test_single_pair_softens_with_the_cosine_of_the_helix_angle(helix):
 
 
 def test_small_helix_is_the_spur_pair():
-    """The mean stiffness differs in proportion to the square of the helix angle."""
+    """The mean stiffness tends to the spur pair's as the helix angle goes to zero, at one face width."""
     overlaps = np.array([0.08, 0.04, 0.02])
     helix = 0.02
     mesh = replace(ENERGY, foundation_coupling=False)
