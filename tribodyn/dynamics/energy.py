@@ -1,7 +1,8 @@
 """Energy that a train stores, and its jump where the set of contacting pairs changes. For all compilers."""
 
+from tribodyn.dynamics.approach import approach
 from tribodyn.dynamics.contact_energy import mesh_energy
-from tribodyn.dynamics.contact_forces import approach, elastic_loads
+from tribodyn.dynamics.contact_forces import elastic_loads
 from tribodyn.dynamics.loads import link_energy
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import locate, motion_of

@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.energy import stored_energy
 from tribodyn.dynamics.equations import derivatives, resultants
 from tribodyn.dynamics.extremes import LOWEST, Extremes, highest_loaded

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.contact_forces import APPROACH, COS, LEAN_COS, PRESENT
+from tribodyn.dynamics.approach import APPROACH, COS, LEAN_COS, PRESENT
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.loads import load_torque
 from tribodyn.dynamics.parameters import Model

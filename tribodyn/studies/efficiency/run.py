@@ -17,8 +17,8 @@ from tribodyn.geometry.flanks.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.geometry.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark, loaded_flanks_of, mesh_cycle_of
-from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.quasi_static import driving_gear, power_put_in
+from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.efficiency.along_path import (
     CycleEfficiency,

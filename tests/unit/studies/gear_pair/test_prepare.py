@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.states import PAIR, PAIR_WITH_MOTOR, TURN_G
 from tribodyn.dynamics import parameters
-from tribodyn.dynamics.contact_forces import ELASTIC_LOAD
+from tribodyn.dynamics.approach import ELASTIC_LOAD
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.dynamics.energy import strain_energy
 from tribodyn.mesh.cycle import polynomials
@@ -112,6 +112,7 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
             "ratio": [1.0, ratio, 1.0] if shaft else [1.0, ratio],
             "load": [0.0, 410.0, 0.0] if shaft else [0.0, 410.0],
             "load_damping": [0.0, 0.0, 0.0] if shaft else [0.0, 0.4],
+            "tilting": [],
         },
         "links": {
             "stiffness": [[3e8, 5e8, 0], [7e8, 11e8, 0], *([[0, 0, 4100.0]] if shaft else [])],
@@ -133,7 +134,11 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
         },
     }
     for part, numbers in expected.items():
-        assert set(numbers) == set(getattr(found, part)._fields) - {"own"}
+        assert set(numbers) == set(getattr(found, part)._fields) - {
+            "own",
+            "stiffness_in_space",
+            "damping_in_space",
+        }
         for name, value in numbers.items():
             np.testing.assert_allclose(getattr(getattr(found, part), name), value, rtol=1e-12, err_msg=name)
     assert found.links.own == NoLinkParameters()
