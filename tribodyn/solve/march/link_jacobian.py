@@ -1,4 +1,4 @@
-"""What the links do in the Jacobian of the right-hand side; laws without slopes of their own by difference."""
+"""What the links do in the Jacobian of the right-hand side; laws without own slopes by differences."""
 
 from tribodyn.dynamics.loads import apart_in_space
 from tribodyn.kernels.native import kernel
