@@ -49,7 +49,11 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
 def described(**operating: Any) -> Any:
     """What a model takes from a case, but the tables and laws."""
     return SimpleNamespace(
-        drive=SimpleNamespace(pinion=SimpleNamespace(teeth=21)),
+        drive=SimpleNamespace(
+            pinion=SimpleNamespace(teeth=21, face_width=0.02),
+            gear=SimpleNamespace(face_width=0.02),
+            helix_angle=0.0,
+        ),
         operating=OperatingData(
             **{"source": "torque", "pinion_speed": 130.0, "gear_torque": 410.0} | operating
         ),
@@ -62,7 +66,13 @@ def described(**operating: Any) -> Any:
 def model_of(case: Any) -> parameters.Model:
     """The model of a case, of tables and laws only what its numbers need."""
     radii = {"pinion_pitch_radius": RADII[0], "gear_pitch_radius": RADII[1]}
-    numbers = {"hertz_coefficient": 0.0, "pitch_point_length": 0.0, "coupling": 0.0, "compliance": 1e-9}
+    numbers = {
+        "hertz_coefficient": 0.0,
+        "pitch_point_length": 0.0,
+        "coupling": 0.0,
+        "compliance": 1e-9,
+        "slices": 1,
+    }
     cycle = SimpleNamespace(**radii, **numbers)
     made: Any = SimpleNamespace(cycle=cycle, table=None, schedule=None)
     law = SimpleNamespace(functions=None, parameters=None)

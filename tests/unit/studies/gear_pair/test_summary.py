@@ -65,7 +65,9 @@ def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
         "transmission_error_rotational": 1e-5 + 4e-6 * np.cos(6.0 * np.pi * phase),
         "transmission_error_normal": error,
         "normal_load": load,
-        "pressure_angle": angle,
+        "tangent_load": load * np.cos(angle),
+        "tangent_stiffness": np.where(load > 0.0, 3e8 + 1e8 * np.cos(2.0 * np.pi * phase)[:, None], 0.0)
+        * np.cos(angle) ** 2,
         "mesh_stiffness": np.where(load > 0.0, 3e8 + 1e8 * np.cos(2.0 * np.pi * phase)[:, None], 0.0),
         "friction_force": np.sign(sliding) * load * np.array([0.1, 0.04, 0.1, 0.04]),
         "sliding_speed": sliding,
