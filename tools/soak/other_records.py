@@ -15,7 +15,7 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 from tribodyn.studies import STUDIES
 from tribodyn.studies.design.layout import REFINEMENT
-from tribodyn.studies.load_contact.run import prepare
+from tribodyn.studies.load_contact.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 #: Largest share by which the torque of the loads may miss the gear's.

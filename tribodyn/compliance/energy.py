@@ -7,6 +7,12 @@ body deflects (`foundation`), between the teeth the Hertz contact does. Plane st
 
 Widths: the teeth and the contact carry over the common face width only, which leaves out the help of a
 tooth's free ends (on the soft side); each body deflects with its own face width.
+
+Helical teeth: the same in the section normal to the tooth. A tooth bends as a plate about its own slanted
+axis: its thickness is cos β times that of the transverse section, its length the face width over cos β, and
+the load leans to the radius by its own angle, sin α_n1 = cos β_n sin α_1. (Bent in the transverse plane alone
+it would be too stiff, in bending by 1/cos⁴ β, since the axial displacement is free.) β is that on the
+reference circle; compliances are along the true normal. Bodies are taken in the normal section too.
 """
 
 from typing import Any, NamedTuple
@@ -16,9 +22,16 @@ import numpy as np
 from tribodyn.compliance.foundation import Foundation, foundation_compliance, ring_compliance, ring_foundation
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import GearBody, MaterialData, Side, body_of
+from tribodyn.geometry.helix import pitch_slope
 from tribodyn.geometry.path import PerContact, distance_at_radius
-from tribodyn.geometry.tooth import Tooth, contact_in_tooth_frame, fillet_point, thickness_half_angle
-from tribodyn.numerics.elementary import cos, maximum, namespace, sin, tan, within
+from tribodyn.geometry.tooth import (
+    Tooth,
+    ToothContact,
+    contact_in_tooth_frame,
+    fillet_point,
+    thickness_half_angle,
+)
+from tribodyn.numerics.elementary import arctan2, cos, is_jax, maximum, namespace, sin, sqrt, tan, within
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
 
@@ -100,11 +113,23 @@ class LoadedTooth(NamedTuple):
     root_half_angle: Any
     body: GearBody  # bore and face width
     side: Side  # {"pinion", "gear"} Which of the two.
+    #: cosine of β on the reference circle and tan β_w on the pitch circle; None for a spur gear
+    helix: tuple[Any, Any] | None = None
+
+    def contact(self, r: PerContact) -> ToothContact:
+        """Contact on the tooth at signed distances r in the body's own view, in the normal section."""
+        at = contact_in_tooth_frame(self.path, self.pitch_half_angle, r)
+        if self.helix is None:
+            return at
+        thinning, pitch_slope = self.helix
+        leaning = pitch_slope * cos(self.path.pressure_angle(r))
+        along = sin(at.load_angle) / sqrt(1.0 + leaning**2)
+        return ToothContact(at.x, at.y * thinning, arctan2(along, sqrt(1.0 - along**2)))
 
 
 def loaded_tooth(assembly: Assembly, side: Side) -> LoadedTooth:
     """Put a tooth to work on the drive's working path."""
-    tooth, path = assembly.tooth(side), assembly.path_of(side)
+    tooth, path, beta = assembly.tooth(side), assembly.path_of(side), assembly.drive.helix_angle
     return LoadedTooth(
         tooth=tooth,
         path=path,
@@ -112,6 +137,7 @@ def loaded_tooth(assembly: Assembly, side: Side) -> LoadedTooth:
         root_half_angle=tooth.half_angle + tooth.corner_x / tooth.path.pinion_pitch_radius,
         body=body_of(assembly.drive, side),
         side=side,
+        helix=(cos(beta), pitch_slope(assembly)) if is_jax(beta) or beta else None,
     )
 
 
@@ -125,19 +151,24 @@ def tooth_compliance(
     tooth, path, root = loaded.tooth, loaded.path, loaded.tooth.root_radius
     unit = 0.5 + 0.5 * _POINTS
     fillet = fillet_point(tooth, np.pi / 2 + unit * (tooth.form_angle - np.pi / 2))
+    root_angle, length, body_length = loaded.root_half_angle, width, loaded.body.face_width
+    if loaded.helix is not None:
+        thinning = loaded.helix[0]
+        fillet = fillet[0], fillet[1] * thinning
+        root_angle, length, body_length = root_angle * thinning, width / thinning, body_length / thinning
     first = distance_at_radius(path, tooth.form_radius)
     last = distance_at_radius(path, tooth.tip_radius)
     own = r if loaded.side == "pinion" else -r
-    x, y, load_angle = contact_in_tooth_frame(path, loaded.pitch_half_angle, own)
+    x, y, load_angle = loaded.contact(own)
     lever = x - y * tan(load_angle) - root
     # s counts from the tip: a load near a thin one has a small arm there, where 1/y³ is large
-    origin = contact_in_tooth_frame(path, loaded.pitch_half_angle, last).x
+    origin = loaded.contact(last).x
     integrals = section_integrals(*fillet, origin).sum(axis=0)
     # Two pieces of flank, for the paths of some families have a corner at the pitch point.
     middle = within(0.0, first + 0.01 * (last - first), last - 0.01 * (last - first))
     lower = first + unit * (middle - first), 2.0 * (within(own, first, middle) - first) / (middle - first)
     for at, along in (lower, *_towards_tip(loaded, middle, last, own)):
-        flank = contact_in_tooth_frame(path, loaded.pitch_half_angle, at)
+        flank = loaded.contact(at)
         integrals = integrals + chebyshev_basis(along - 1.0, _DEGREE + 1) @ section_integrals(
             flank.x, flank.y, origin
         )
@@ -145,12 +176,12 @@ def tooth_compliance(
     bending, shear, axial = beam_compliance(integrals, arm, load_angle, material.poisson_ratio)
     across = cos(load_angle)
     root_load = namespace(x, lever).stack([sin(load_angle), across, across * lever / root], axis=-1)
-    ring = root, loaded.body.bore_radius, loaded.root_half_angle, material.youngs_modulus
+    ring = root, loaded.body.bore_radius, root_angle, material.youngs_modulus
     if body == "ring":
-        foundation = ring_foundation(root_load, *ring, material.poisson_ratio, loaded.body.face_width)
+        foundation = ring_foundation(root_load, *ring, material.poisson_ratio, body_length)
     else:
-        foundation = foundation_compliance(load_angle, lever, *ring, loaded.body.face_width)
-    scale = 1.0 / (material.youngs_modulus * width)
+        foundation = foundation_compliance(load_angle, lever, *ring, body_length)
+    scale = 1.0 / (material.youngs_modulus * length)
     return ToothCompliance(scale * bending, scale * shear, scale * axial, foundation, root_load)
 
 

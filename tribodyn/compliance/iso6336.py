@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData, body_of, reference_radius, tip_circle_radius
+from tribodyn.geometry.helix import base_helix_angle
+from tribodyn.geometry.rack_section import normal_section
 
 _PER_MM_UM = 1e9  # N/(mm µm) in Pa
 #: C_M, by which measured stiffness falls short of the theory.
@@ -152,16 +154,17 @@ def outside(pair: ReferencePair) -> list[str]:
 def pair_of(
     assembly: Assembly, materials: tuple[MaterialData, MaterialData], normal_load: float
 ) -> ReferencePair:
-    """Pair of an involute spur drive, solid discs and K_A = 1, under the normal load (N) of all pairs.
+    """Pair of an involute drive, solid discs and K_A = 1, under the load (N) of all pairs along the normal.
 
     The order is by numbers of teeth, whichever gear drives.
     """
-    drive, path = assembly.drive, assembly.path
+    drive, path = normal_section(assembly.drive), assembly.path
     # of equal numbers of teeth the larger profile shift comes first
     ranks = [(body.teeth, -body.profile_shift) for body in (drive.pinion, drive.gear)]
     order = SIDES if ranks[0] <= ranks[1] else SIDES[::-1]
     bodies = [body_of(drive, side) for side in order]
-    torque = normal_load * float(path.gear_pitch_radius) * math.cos(float(path.pressure_angle(0.0)))
+    transverse = normal_load * math.cos(float(base_helix_angle(assembly.drive)))
+    torque = transverse * float(path.gear_pitch_radius) * math.cos(float(path.pressure_angle(0.0)))
     modulus = dict(zip(SIDES, (material.youngs_modulus for material in materials), strict=True))
     return ReferencePair(
         teeth=(float(bodies[0].teeth), float(bodies[1].teeth)),
@@ -169,19 +172,20 @@ def pair_of(
         dedendum=(float(bodies[0].dedendum), float(bodies[1].dedendum)),
         pressure_angle=float(drive.pressure_angle),
         contact_ratio=float(assembly.contact_ratio),
-        line_load=torque / float(reference_radius(drive, "gear")) / float(assembly.common_width),
+        line_load=torque / float(reference_radius(assembly.drive, "gear")) / float(assembly.common_width),
         youngs_modulus=(modulus[order[0]], modulus[order[1]]),
+        helix_angle=abs(float(drive.helix_angle)),
     )
 
 
 def bodies_outside(assembly: Assembly) -> list[str]:
     """Say where bodies and tips differ from those that the standard's series is for."""
-    drive, found = assembly.drive, []
+    drive, found = normal_section(assembly.drive), []
     module = float(drive.module)
     for side in SIDES:
         body = body_of(drive, side)
-        tip, root = float(tip_circle_radius(drive, side)), float(assembly.tooth(side).root_radius)
-        addendum = (tip - float(reference_radius(drive, side))) / module - float(body.profile_shift)
+        tip, root = float(tip_circle_radius(assembly.drive, side)), float(assembly.tooth(side).root_radius)
+        addendum = (tip - float(reference_radius(assembly.drive, side))) / module - float(body.profile_shift)
         if abs(addendum - _ADDENDUM) > _ADDENDUM_MARGIN:
             found.append(f"addendum of the {side} {addendum:.3g} modules, the series is for {_ADDENDUM:g}")
         heights = (root - float(body.bore_radius)) / (tip - root)

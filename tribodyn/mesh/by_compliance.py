@@ -7,6 +7,8 @@ from tribodyn.compliance.foundation import outside_fitted_range
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.helical import slice_layout, tabulate_slices
+from tribodyn.mesh.slice_number import slices_needed
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 
@@ -26,13 +28,19 @@ def mesh_cycle_of(
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a checked pair of plain numbers; `back`: whether back flanks can touch.
 
-    The torque T_g (N m) matters where `mesh.at_load` only. Raises InputError as `tabulate.tabulate` and
+    The torque T_g (N m) matters where `mesh.at_load`, and for the number of slices of a helical pair where it
+    is not given (`slice_number.slices_needed`). Raises InputError as `tabulate.tabulate` and
     `tabulate_loaded.tabulate_loaded`.
     """
     if mesh.at_load:
         from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
         return tabulate_loaded(assembly, materials, mesh, gear_torque, back)
+    if assembly.drive.helix_angle or mesh.slices > 1:
+        count = mesh.slices
+        if assembly.drive.helix_angle and count <= 1:
+            count = slices_needed(assembly, materials, mesh, gear_torque).slices
+        return tabulate_slices(assembly, materials, mesh, slice_layout(assembly, mesh, count, back))
     return tabulate(assembly, materials, mesh, pair_slots(assembly), back)
 
 

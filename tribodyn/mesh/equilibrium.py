@@ -7,8 +7,8 @@ import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.numerics.elementary import cos, maximum, namespace, sin
+from tribodyn.mesh.quasi_static import normal_arms, quasi_static
+from tribodyn.numerics.elementary import maximum, namespace, sin, within
 from tribodyn.numerics.iteration import iterate
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.law import Closure
@@ -38,7 +38,7 @@ class Contacts(NamedTuple):
     """Contacts of pairs of teeth and the laws in use on them; arrays of one shape (…)."""
 
     closure: Closure
-    face_width: Any  # m
+    face_width: Any  # m; of slices the length of the line of contact of each
     #: radius, pinion_speed, gear_speed: m, and rolling speeds in m/s
     radius: Any
     pinion_speed: Any
@@ -84,10 +84,13 @@ def contacts(
     xp = namespace(*cycle, gear_torque, pinion_speed, *closure.surfaces)
     way = xp.sign(gear_torque)
     r, angle = cycle.signed_distance, cycle.pressure_angle
-    speed, side = way * pinion_speed, way * xp.sign(r[:, r.shape[1] // 2, None])
+    speed, side = way * pinion_speed, way * sliding_side(cycle)
+    normal, length = normal_arms(cycle), cycle.face_width
+    if cycle.slices > 1:
+        length = cycle.slice_width * xp.where(cycle.share > 0.0, cycle.share, 1.0) / cycle.line_load_friction
     return Contacts(
         closure,
-        cycle.face_width,
+        length,
         # at the pitch point itself the laws are evaluated beside it: there the radius may be zero
         maximum(cycle.equivalent_radius, 1e-9),
         speed * cycle.pinion_speed,
@@ -95,9 +98,22 @@ def contacts(
         side,
         (cycle.pitch_point_length, speed * cycle.pitch_point_rate) if averaged else (0.0, 0.0),
         (cycle.in_contact * (cycle.side > 0))[:, None, :],
-        xp.stack([cycle.pinion_pitch_radius * cos(angle), cycle.gear_pitch_radius * cos(angle)]),
+        xp.stack([cycle.pinion_pitch_radius * normal, cycle.gear_pitch_radius * normal]),
         xp.stack([cycle.pinion_pitch_radius * sin(angle) + r, cycle.gear_pitch_radius * sin(angle) - r]),
     )
+
+
+def sliding_side(cycle: MeshCycle) -> Any:
+    """Sign of the sliding, negative in approach, (S, 1, Q); of slices (S, N, Q) its mean over what touches.
+
+    While a slice passes the pitch point its friction thus turns over its width.
+    """
+    xp = namespace(*cycle)
+    r = cycle.signed_distance
+    if cycle.slices == 1:
+        return xp.sign(r[:, r.shape[1] // 2, None])
+    extent = cycle.share * cycle.slice_width * cycle.pitch_slope * xp.cos(cycle.pressure_angle)
+    return within(2.0 * r / maximum(extent, 1e-12 * cycle.pinion_pitch_radius), -1.0, 1.0)
 
 
 def elastic(cycle: MeshCycle, gear_torque: Any) -> Share:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.mesh.cycle import MeshCycle, derivative_matrix
+from tribodyn.mesh.cycle import MeshCycle, slopes
 from tribodyn.numerics.elementary import maximum, namespace, within
 from tribodyn.numerics.iteration import iterate
 from tribodyn.numerics.shapes import Array, Float
@@ -24,7 +24,7 @@ class QuasiStatic(NamedTuple):
     """State of the mesh at every node of the table."""
 
     #: (S, N, Q); load of each pair along its normal, N; 0 where it is not in contact or a gap keeps it from
-    #: touching
+    #: touching. Of slices (`MeshCycle`) that of each slice; `by_pairs` sums them up
     normal_load: Float[Array, "segment node pair"]
     #: (S, N), r_p θ_p − r_g θ_g, by which the pinion is ahead of the gear on the pitch circles, m
     deflection: Float[Array, "segment node"]
@@ -38,6 +38,20 @@ class QuasiStatic(NamedTuple):
         return self.normal_load
 
 
+def by_pairs(values: Float[Array, "... slot"], slices: int) -> Float[Array, "... pair"]:
+    """Sums over the slices of each pair, (…, Q/K)."""
+    return values.reshape(*values.shape[:-1], -1, slices).sum(axis=-1)
+
+
+def normal_arms(cycle: MeshCycle) -> Float[Array, "segment node slot"]:
+    """Torque per load along the flanks' normal, over the pitch radius: h = cos α cos β_n."""
+    xp = namespace(*cycle)
+    cosine = xp.cos(cycle.pressure_angle)
+    if cycle.slices == 1:
+        return cosine
+    return cosine / xp.sqrt(1.0 + (cycle.pitch_slope * cosine) ** 2)
+
+
 def quasi_static(
     cycle: MeshCycle, gear_torque: Any, friction: Float[Array, "segment node pair"] | None = None
 ) -> QuasiStatic:
@@ -47,10 +61,14 @@ def quasi_static(
     the torque (N m, > 0), to which friction adds Σ μ_i F_i (r_g sin α_i − r_i); `friction` is its force over
     the normal load, with the sign of the sliding: negative in approach. Bearings are rigid, and a back flank
     carries nothing. The table may be traced.
+
+    A slice of which the share s_i is on the path of contact has h_i = cos α_i cos β_n,i, and
+    Δ h_i − e_i = C_i F_i/s_i (+ A (F_i/s_i)^0.9).
     """
     xp = namespace(*cycle, gear_torque, friction)
     present = (cycle.in_contact * (cycle.side > 0))[:, None, :] + 0.0 * cycle.compliance
-    arms = xp.cos(cycle.pressure_angle)
+    arms = normal_arms(cycle)
+    weight = cycle.share if cycle.slices > 1 else None
     torque_arms = arms
     if friction is not None:
         lever = xp.sin(cycle.pressure_angle) - cycle.signed_distance / cycle.gear_pitch_radius
@@ -61,23 +79,32 @@ def quasi_static(
     def share(state: tuple[Any, Any, Any, Any]) -> tuple[Any, Any, Any, Any]:
         load, active, *_ = state
         contact = cycle.hertz_coefficient * maximum(load, 1e-9 * force) ** -0.1
+        if weight is not None:  # each slice by itself, with its load as if it touched over its whole width
+            each = active / (cycle.compliance + contact)
+            return settled(active, each * arms, each * cycle.gap)
         diagonal = identity * (cycle.compliance + contact)[..., None]
         loaded = active[..., None] * active[..., None, :]
         matrix = loaded * (cycle.coupling + diagonal) + identity * (1.0 - active)[..., None]
         right = xp.stack([active * arms, active * cycle.gap], axis=-1)
         solution = xp.linalg.solve(matrix, right)
-        per_deflection, by_gap = solution[..., 0], solution[..., 1]
-        stiffness = (active * torque_arms * per_deflection).sum(axis=-1)
-        total = (force + (active * torque_arms * by_gap).sum(axis=-1)) / stiffness
+        return settled(active, solution[..., 0], solution[..., 1])
+
+    def settled(active: Any, per_deflection: Any, by_gap: Any) -> tuple[Any, Any, Any, Any]:
+        pushing = active * torque_arms if weight is None else active * torque_arms * weight
+        stiffness = (pushing * per_deflection).sum(axis=-1)
+        total = (force + (pushing * by_gap).sum(axis=-1)) / stiffness
         load = active * (per_deflection * total[..., None] - by_gap)
-        overlap = arms * total[..., None] - cycle.gap - xp.einsum("...ij,...j->...i", cycle.coupling, load)
+        overlap = arms * total[..., None] - cycle.gap
+        if weight is None:
+            overlap = overlap - xp.einsum("...ij,...j->...i", cycle.coupling, load)
         active = present * xp.where(xp.where(active > 0, load, overlap) > 0, 1.0, 0.0)
         return load, active, total, stiffness
 
-    equal = present * force / (present * torque_arms).sum(axis=-1, keepdims=True)
+    weighed = present if weight is None else present * weight
+    equal = present * force / (weighed * torque_arms).sum(axis=-1, keepdims=True)
     start = (equal, present, equal[..., 0], equal[..., 0])
     load, _, deflection, stiffness = iterate(share, start, _STEPS, _DIFFERENTIATED)
-    return QuasiStatic(load, deflection, stiffness)
+    return QuasiStatic(load if weight is None else load * weight, deflection, stiffness)
 
 
 def cycle_mean(cycle: MeshCycle, values: Float[Array, "segment node *pair"]) -> Float[Array, "*pair"]:
@@ -96,7 +123,7 @@ def cycle_integral(
     flat = values.ndim == 2
     values = values[..., None] if flat else values
     cells = values.shape[1] - 1
-    slope = xp.einsum("nm,smq->snq", derivative_matrix(cells + 1), values) / cells
+    slope = slopes(values, cycle.slices)
     start, end, begin, finish = values[:, :-1], values[:, 1:], slope[:, :-1], slope[:, 1:]
     whole = (start + end) / 2 + (begin - finish) / 12
     before = xp.concatenate([0.0 * whole[:, :1], xp.cumsum(whole, axis=1)], axis=1)
@@ -127,19 +154,29 @@ class SinglePair(NamedTuple):
 
 
 def total_stiffness(
-    stiffness: Float[Array, "sample pair"], pressure_angle: Float[Array, "sample pair"]
+    stiffness: Float[Array, "sample pair"],
+    pressure_angle: Float[Array, "sample pair"],
+    pitch_slope: float = 0.0,
 ) -> Float[Array, " sample"]:
-    """Stiffness of all pairs together along the pitch tangent, Σ k cos² α, N/m.
+    """Stiffness of all pairs together along the pitch tangent, Σ k cos² α cos² β_n, N/m.
 
-    The force along the pitch tangent per rotational transmission error, of a mesh whose pairs deflect apart.
+    The force along the pitch tangent per rotational transmission error, of a mesh whose pairs deflect apart;
+    `pitch_slope` is tan β_w.
     """
-    return np.sum(stiffness * np.cos(np.nan_to_num(pressure_angle)) ** 2, axis=-1)
+    square = np.cos(np.nan_to_num(pressure_angle)) ** 2
+    return np.sum(stiffness * square / (1.0 + pitch_slope**2 * square), axis=-1)
 
 
 def single_pair(cycle: MeshCycle, gear_torque: float) -> SinglePair:
-    """One pair at the pitch point under a gear torque, N m, of either sign, with the load T_g/(r_g cos α)."""
-    roll = np.asarray(cycle.signed_distance)[:, :, : cycle.front_pairs]
-    inside = np.asarray(cycle.in_contact)[:, None, : cycle.front_pairs] > 0
+    """One pair at the pitch point under a gear torque, N m, of either sign, with the load T_g/(r_g cos α).
+
+    In slices: a pair whose slices all stand there, with the load T_g/(r_g cos α cos β_n).
+    """
+    fronts, slices = cycle.front_slots, cycle.slices
+    roll = np.asarray(cycle.signed_distance)[:, :, :fronts]
+    inside = np.asarray(cycle.in_contact)[:, None, :fronts] > 0
+    if slices > 1:
+        inside = inside & (np.asarray(cycle.share)[:, :, :fronts] > 0)
     distance = np.where(inside, np.abs(roll), np.inf)
     segment, _, slot = np.unravel_index(np.argmin(distance), distance.shape)
     near = roll[segment, :, slot]
@@ -149,9 +186,12 @@ def single_pair(cycle: MeshCycle, gear_torque: float) -> SinglePair:
     close = np.argsort(np.abs(near))[:4]
     step = np.ptp(near[close])
     angle = np.polyfit(near[close] / step, np.asarray(cycle.pressure_angle)[segment, close, slot], 3)[-1]
-    load = abs(gear_torque) / (float(cycle.gear_pitch_radius) * float(np.cos(angle)))
-    contact = 0.9 * float(cycle.hertz_coefficient) * max(load, 1.0) ** -0.1
-    return SinglePair(load, 1.0 / (compliance + contact))
+    arm = float(np.cos(angle))
+    if slices > 1:
+        arm = arm / float(np.hypot(1.0, cycle.pitch_slope * arm))
+    load = abs(gear_torque) / (float(cycle.gear_pitch_radius) * arm)
+    contact = 0.9 * float(cycle.hertz_coefficient) * max(load / slices, 1.0) ** -0.1
+    return SinglePair(load, slices / (compliance + contact))
 
 
 def power_put_in(pinion: Any, gear: Any) -> Any:
@@ -188,10 +228,13 @@ def friction_loss(
     the drive's parameters. The table's `side` must not be traced; the loads (N) are smooth in every segment.
     """
     xp = namespace(*cycle, normal_load, friction_coefficient)
-    pairs = cycle.front_pairs
-    sliding = (cycle.pinion_speed - cycle.gear_speed)[..., :pairs]
-    power = (friction_coefficient * cycle.in_contact[:, None, :] * normal_load)[..., :pairs] * sliding
+    pairs, fronts = cycle.front_pairs, cycle.front_slots
+    sliding = (cycle.pinion_speed - cycle.gear_speed)[..., :fronts]
+    power = (friction_coefficient * cycle.in_contact[:, None, :] * normal_load)[..., :fronts] * sliding
     pitch_point = cycle.pitch_point_phase - xp.arange(pairs - 1.0, -1.0, -1.0)
+    if cycle.slices > 1:
+        late = cycle.face_position * cycle.pitch_slope / (cycle.pinion_pitch_radius * cycle.pitch_angle)
+        pitch_point = (pitch_point[:, None] + late).reshape(-1)
     return (cycle_mean(cycle, power) - 2.0 * cycle_integral(cycle, power, pitch_point[None, :])).sum()
 
 

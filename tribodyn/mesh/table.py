@@ -40,9 +40,11 @@ class MeshData:
     #: (order of the mesh frequency, amplitude m, phase rad) of cosines in the static transmission error
     error_harmonics: tuple[tuple[int, float, float], ...] = ()
     error_table: Table | None = None  # static transmission error of a pair over roll angle (rad, m)
-    #: what is missing on the flanks, and misalignment; with ``compliance = "fem"``
+    #: what is missing on the flanks, and misalignment; with ``compliance = "fem"``, or of helical gears
     modifications: Modifications = UNMODIFIED
-    slices: int = 1  # slices along the face, with ``compliance = "fem"``
+    #: slices along the face, with ``compliance = "fem"`` or of helical gears; these take as many as they need
+    #: where it is 1 (`slice_number.slices_needed`)
+    slices: int = 1
     slice_coupling: bool = True  # whether slices of one tooth hold each other
 
     @property
@@ -110,7 +112,7 @@ def slots(
 def unloaded_gap(
     assembly: Assembly,
     mesh: MeshData,
-    slots: Slots,
+    slots: Any,
     pressure_angle: Float[Array, "segment node pair"],
     begin: float = 0.0,
 ) -> Float[Array, "segment node pair"]:

@@ -56,26 +56,27 @@ def tabulate(
     contact, an option lacks its numbers, or options contradict each other.
     """
     path, corner = assembly.path, assembly.family.corner
-    _check_options(assembly, mesh, back)
+    check_options(assembly, mesh, back)
     at = _slots(assembly, pairs, mesh.points, back)
     if corner:  # which side of the pitch point a node there is on must not depend on rounding
         xp = namespace(at.roll)
         at = at._replace(roll=xp.where(xp.abs(at.roll) < _MINIMUM_SEGMENT, 0.0, at.roll))
-    curve = _RollCurve(*assembly.roll_limits)
+    curve = RollCurve(*assembly.roll_limits)
 
     r_nodes = path.signed_distance(curve.nodes())
     r = curve.interpolate(r_nodes, at.roll)
     if corner:  # paths that may be steep at their ends: one of Newton's steps from the series
         r = r - (path.rotation(r) - at.roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
     motion = kinematics(path, r)
-    compliance, coupling = _compliance(assembly, materials, mesh, curve, r_nodes, at.roll, pairs)
+    compliance, coupling = pair_compliance(assembly, materials, mesh, curve, r_nodes, at.roll, pairs)
     gap = table.unloaded_gap(assembly, mesh, at, motion.pressure_angle)
     linear = mesh.compliance != "energy" or mesh.hertz == "linear"
     hertz = 0.0 if linear else hertz_coefficient(*materials, assembly.common_width)
     return table.mesh_table(assembly, at, motion, table.Elasticity(compliance, coupling, gap, hertz))
 
 
-def _check_options(assembly: Assembly, mesh: table.MeshData, back: bool) -> None:
+def check_options(assembly: Assembly, mesh: table.MeshData, back: bool) -> None:
+    """Raise InputError where an option lacks its numbers, or options contradict each other."""
     if mesh.compliance == "energy":
         table.check_bores(assembly.drive)
     if mesh.compliance == "constant" and mesh.stiffness is None:
@@ -121,7 +122,7 @@ def _apart(boundary: Float[Array, " boundary"]) -> Float[Array, " boundary"]:
     return xp.stack(phases)
 
 
-class _RollCurve(NamedTuple):
+class RollCurve(NamedTuple):
     """Interpolation over the roll angle, by a Chebyshev series on either side of the pitch point.
 
     Two pieces, because the paths of some families have a kink there.
@@ -147,11 +148,11 @@ class _RollCurve(NamedTuple):
         return xp.where(approach, basis @ values[0], basis @ values[1])
 
 
-def _compliance(
+def pair_compliance(
     assembly: Assembly,
     materials: tuple[MaterialData, MaterialData],
     mesh: table.MeshData,
-    curve: _RollCurve,
+    curve: RollCurve,
     r_nodes: Float[Array, "2 17"],
     roll: Float[Array, "segment node pair"],
     pairs: int,

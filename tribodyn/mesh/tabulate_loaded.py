@@ -4,7 +4,8 @@ What `tabulate` does with formulas, from finite elements and Hertz. A pair is ta
 contact, as far as corners can touch, with the gap between them. The contact's deflection is not proportional
 to the load; the table holds its secant at the load which the model finds in slow rotation without friction,
 so that the quasi-static mesh at the operating torque is the load contact model's. Faces in slices are
-condensed to one compliance and gap per pair (`sharing.condensed`). Back flanks are driving flanks of the
+condensed to one compliance and gap per pair (`sharing.condensed`), those of helical pairs to one per slice
+(`loaded_slices`). Back flanks are driving flanks of the
 mirrored world, modified as `flanks.modification.back_flanks` says and tabulated at the same torque.
 """
 
@@ -18,11 +19,13 @@ from tribodyn.compliance.sharing.condensed import Condensed, condense
 from tribodyn.compliance.sharing.flank_gap import relief_rolls
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import check_contact, check_resolved, check_torque, reach
+from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import back_flanks, uneven_teeth
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.loaded_slices import tabulate_slices
 from tribodyn.mesh.table import (
     Elasticity,
     MeshData,
@@ -62,6 +65,8 @@ def tabulate_loaded(
     sides = [front, front._replace(modifications=behind)] if back else [front]
     for flanks in sides:
         check_contact(flanks, torque)
+    if is_helical(assembly):
+        return tabulate_slices(front, mesh, torque, back)
     # where the mesh vibrates by more than this reach, contact begins too late in the model
     reaches = [reach(flanks, torque) for flanks in sides]
     limits = min(start for start, _ in reaches), max(end for _, end in reaches)

@@ -16,6 +16,7 @@ from tribodyn.compliance.fem.gear_compliance import (
 from tribodyn.compliance.sharing import face_root_stress
 from tribodyn.compliance.sharing.face_root_stress import _of_free_ends, _of_one_gear
 from tribodyn.compliance.sharing.loaded_contact import _ages
+from tribodyn.compliance.sharing.oblique_faces import oblique_faces
 from tribodyn.compliance.sharing.slices import _add_free_ends, end_modes
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 
@@ -39,11 +40,12 @@ def test_every_tooth_feels_its_own_load_and_its_neighbours(rng, sign):
         if (there := sector(sign, read, loaded)) is not None:
             seen = per_load[n, there].reshape(2 * POINTS, RADII) @ place[t, loaded]
             expected[:, t, read, n] += seen * amplitude[t, loaded, n]
-    np.testing.assert_allclose(_of_one_gear(per_load, place, amplitude, sign), expected, rtol=1e-12)
-    alike = _of_one_gear(per_load[:1], place, amplitude, sign)
+    amplitudes = place[..., None] * amplitude[:, :, None]
+    np.testing.assert_allclose(_of_one_gear(per_load, amplitudes, sign), expected, rtol=1e-12)
+    alike = _of_one_gear(per_load[:1], amplitudes, sign)
     np.testing.assert_allclose(alike[..., 0], expected[..., 0], rtol=1e-12)
     repeated = np.broadcast_to(per_load[:1], per_load.shape)
-    np.testing.assert_allclose(alike, _of_one_gear(repeated, place, amplitude, sign), rtol=1e-12)
+    np.testing.assert_allclose(alike, _of_one_gear(repeated, amplitudes, sign), rtol=1e-12)
 
 
 @pytest.mark.parametrize(("slices", "coupled"), [(1, True), (3, False), (3, True)])
@@ -53,7 +55,8 @@ def test_roots_feel_all_loads_and_ends_at_once(monkeypatch, rng, pair, slices, c
     roll = np.array([[0.11, -0.23], [0.2, -0.14]]) * [[1.0, 1.0]] + [0.0, 0.34 - 2 * np.pi / 18]
     line_load = rng.uniform(1e5, 3e5, (2, 2, slices)) * [[[1.0], [0.3]], [[0.5], [1.0]]]
     geometry = pair_geometry(pair.assembly, roll)
-    tension, compression = face_root_stress.root_stress(pair, geometry, line_load, coupled)
+    faces = oblique_faces(pair.assembly, roll[..., None])
+    tension, compression = face_root_stress.root_stress(pair, faces, line_load, coupled)
     count = slices if coupled else 1
     place = (np.arange(slices) + 0.5) / slices
     for body, (gear, reach) in enumerate(
@@ -110,9 +113,8 @@ def test_free_ends_add_stress_of_either_parity(rng, ends, sign):
             counted = along[parity].T @ load[t, loaded]
             stress = np.einsum("klpm,m,l->pk", rows, place[t, loaded], counted)
             expected[:, t, read] += stress @ along[parity].T
-    np.testing.assert_allclose(
-        _of_free_ends(ends, along, place, load, sign), expected, rtol=1e-11, atol=1e-11
-    )
+    counted = [place[..., None] * (load @ along[parity])[:, :, None] for parity in (0, 1)]
+    np.testing.assert_allclose(_of_free_ends(ends, along, counted, sign), expected, rtol=1e-11, atol=1e-11)
 
 
 def test_waves_are_means_over_slices_of_cosines_from_one_end(ends):

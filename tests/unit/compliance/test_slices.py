@@ -181,7 +181,7 @@ def test_both_gears_add_their_own_and_their_neighbours_deflections(monkeypatch, 
         np.testing.assert_allclose(wave_number, np.arange(count) * np.pi / width)
         return own[gear.number], between[gear.number]
 
-    monkeypatch.setattr(slices_of_faces, "_responses", responses)
+    monkeypatch.setattr(slices_of_faces, "responses", responses)
     materials = [
         SimpleNamespace(youngs_modulus=modulus, poisson_ratio=ratio)
         for modulus, ratio in zip(moduli, ratios, strict=True)
@@ -218,7 +218,7 @@ def test_both_gears_add_their_own_and_their_neighbours_deflections(monkeypatch, 
 
 def test_without_waves_a_gear_answers_as_in_the_plane(pair):
     gear = pair.gears[0]
-    own, between = slices_of_faces._responses(gear, 0.3, np.zeros(1))
+    own, between = slices_of_faces.responses(gear, 0.3, np.zeros(1))
     # what the tooth has more than a half-plane between both depths it has again above
     more = gear.inside[0] - gear.inside[1] - 2 * (1 - 0.3**2) / np.pi * np.log(2.0)
     np.testing.assert_allclose(own, (gear.inside[0] + more)[None], rtol=1e-12)

@@ -14,6 +14,8 @@ PAIRS, NODES = 3, 2
 class Table:
     """What `quasi_static` reads of a table, any numbers: three driving pairs and the back flank of one."""
 
+    slices = 1
+
     def __init__(self, rng: np.random.Generator, hertz: float) -> None:
         shape = (2, NODES, PAIRS + 1)
         self.side = np.array([1.0, 1.0, 1.0, -1.0])
@@ -97,6 +99,7 @@ def test_integrals_are_those_of_scipys_splines(rng):
     values = rng.uniform(-1.0, 1.0, (4, 7, 2))
 
     class Bounds:
+        slices = 1
         boundary = np.array([0.0, 0.2, 0.2, 0.55, 1.0])
 
         def __iter__(self):

@@ -13,7 +13,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
-from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry
+from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import (
     FlankModification,
     LeadRelief,
@@ -22,6 +22,7 @@ from tribodyn.geometry.flanks.modification import (
     Relief,
     broken_flank_rules,
 )
+from tribodyn.geometry.helix import normal_slope, pitch_slope
 from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.curve import check_cover, interpolate
@@ -44,8 +45,26 @@ def flank_gap(
     The places along the axis (slice,), m, are from the middle of the faces, which stand symmetrically.
     """
     profile = profile_gap(assembly, modifications, geometry)
-    along = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
+    whole = part_of(geometry, np.s_[..., None])
+    along = misalignment_gap(assembly, modifications.misalignment, whole, face_position)
     return profile[..., None] + lead_gap(assembly, modifications, face_position) + along
+
+
+def oblique_gap(
+    assembly: Assembly,
+    modifications: Modifications,
+    geometry: PairGeometry,
+    face_position: Float[Array, " slice"],
+) -> Float[Array, "*pair slice"]:
+    """`flank_gap` of slices each with its own geometry (…, slice), along the normal of helical flanks, m.
+
+    Misaligned axes move the gear in the transverse plane, across the line of contact by the cosine of the
+    normal's slope of it; that they move it along the axis too is left out.
+    """
+    along = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
+    slope = normal_slope(pitch_slope(assembly), geometry.motion.pressure_angle)
+    profile = profile_gap(assembly, modifications, geometry)
+    return profile + lead_gap(assembly, modifications, face_position) + along / np.hypot(1.0, slope)
 
 
 def profile_gap(
@@ -81,9 +100,11 @@ def misalignment_gap(
     assembly: Assembly,
     misalignment: Misalignment,
     geometry: PairGeometry,
-    face_position: Float[Array, " slice"],
-) -> Float[Array, "*pair slice"]:
-    """Gap (…, slice) that inclined axes leave, m; 0 in the middle of the face, negative on its nearer half.
+    face_position: Float[Array, "..."],
+) -> Float[Array, "..."]:
+    """Gap that inclined axes leave, m; 0 in the middle of the face, negative on its nearer half.
+
+    In the transverse plane; geometry and places along the face broadcast.
 
     At z the gear stands off the pinion by d = z γ_in along the line of action of the pitch point and by
     s = z γ_out across it. At a contact whose normal is turned from there by β the distance along the normal
@@ -92,11 +113,11 @@ def misalignment_gap(
     nanometres, because spur flanks are straight along the axis.
     """
     motion = geometry.motion
-    turned = (motion.pressure_angle - float(assembly.path.pressure_angle(0.0)))[..., None]
+    turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
     within, across = misalignment.in_plane * face_position, misalignment.out_of_plane * face_position
     shift = across * np.cos(turned) - within * np.sin(turned)
     curvature = motion.pinion_curvature * motion.gear_curvature / motion.relative_curvature
-    bend = shift * curvature[..., None]
+    bend = shift * curvature
     return within * np.cos(turned) + across * np.sin(turned) + shift * bend / (1.0 + np.hypot(1.0, bend))
 
 
@@ -121,7 +142,8 @@ def lead_amounts(lead: LeadRelief) -> dict[str, float]:
 def maximum_along_lead(assembly: Assembly, modifications: Modifications) -> tuple[str, str]:
     """Key and value of what opens the flanks most along the face: an angle of the axes, or a relief."""
     width = min(float(body_of(assembly.drive, side).face_width) for side in SIDES)
-    ends, geometry = np.array([-width, width]) / 2.0, pair_geometry(assembly, np.array(assembly.roll_limits))
+    ends = np.array([-width, width]) / 2.0
+    geometry = pair_geometry(assembly, np.array(assembly.roll_limits)[:, None])
     openings = []
     for name, angle in modifications.misalignment._asdict().items():
         opened = np.max(np.abs(misalignment_gap(assembly, Misalignment(**{name: angle}), geometry, ends)))

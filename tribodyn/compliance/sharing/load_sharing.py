@@ -20,12 +20,16 @@ from tribodyn.compliance.fem.cache import cached_gear_compliance
 from tribodyn.compliance.fem.gear_compliance import ElasticGear
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.compliance.sharing.active_set import press
-from tribodyn.compliance.sharing.flank_gap import flank_gap
+from tribodyn.compliance.sharing.flank_gap import flank_gap, oblique_gap
+from tribodyn.compliance.sharing.oblique import oblique_compliance
+from tribodyn.compliance.sharing.oblique_faces import oblique_faces
+from tribodyn.compliance.sharing.section import elastic_section, is_helical, length_per_width
 from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions, slice_compliance
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData, body_of
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
+from tribodyn.geometry.helix import roll_shift
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
@@ -70,19 +74,20 @@ def flexibility(
     The assembly is checked (`limits.checks`), bores > 0; the depth of the local region is in modules. With
     `lead` also for loads that vary along the teeth, with free end faces, and with root stress.
     """
-    drive = assembly.drive
+    section = elastic_section(assembly)
+    drive = section.drive
     width = float(assembly.common_width)
     gears = [
         cached_gear_compliance(
             ElasticGear(
-                assembly.tooth(side),
+                section.tooth(side),
                 round(float(body_of(drive, side).teeth)),
                 float(body_of(drive, side).bore_radius),
                 material.poisson_ratio,
                 depth * float(drive.module),
                 level,
             ),
-            width if lead else None,
+            width * length_per_width(assembly) if lead else None,
         )
         for side, material in steps(list(zip(SIDES, materials, strict=True)))
     ]
@@ -136,27 +141,39 @@ def press_pairs(
 
     `compliance` (position, pair, slice, pair, slice) as made by `slices.slice_compliance`.
     """
-    positions, pairs, slices = gap.shape
-    places = pairs * slices
-    width = flexible.width / slices
-    bent = np.repeat(curvature, slices, axis=-1)
+    even = np.ones(gap.shape)
+    slices = gap.shape[-1]
+    width = flexible.width / slices * even
+    bent, arms, levers = (field[..., None] * even for field in (curvature, arm, lever))
+    return press_slices(flexible, bent, width, compliance, arms, levers, gap, torque)
+
+
+def press_slices(
+    flexible: PairFlexibility,
+    curvature: Float[Array, "position pair slice"],
+    contact_length: Float[Array, "position pair slice"],
+    compliance: Float[Array, "position pair slice pair slice"],
+    arm: Float[Array, "position pair slice"],
+    lever: Float[Array, "position pair slice"],
+    gap: Float[Array, "position pair slice"],
+    torque: Float[Array, " position"],
+) -> SharedLoad:
+    """Share torques (position,) among slices, each with its own geometry and length of contact (m)."""
+    positions = len(gap)
+    flat = [field.reshape(positions, -1) for field in (curvature, contact_length, arm, lever, gap)]
+    bent, length, arms, levers, gaps = flat
+    places = gaps.shape[1]
 
     def local(
         chosen: Int[Array, " row"], load: Float[Array, "row place"]
     ) -> tuple[Float[Array, "row place"], Float[Array, "row place"]]:
-        value, slope = contact_deflection(flexible, bent[chosen], load / width)
-        return value, slope / width
+        value, slope = contact_deflection(flexible, bent[chosen], load / length[chosen])
+        return value, slope / length[chosen]
 
-    load, deflection, overlap, stiffness = press(
-        compliance.reshape(positions, places, places),
-        local,
-        np.repeat(arm, slices, axis=-1),
-        np.repeat(lever, slices, axis=-1),
-        gap.reshape(positions, places),
-        torque,
-    )
+    matrix = compliance.reshape(positions, places, places)
+    load, deflection, overlap, stiffness = press(matrix, local, arms, levers, gaps, torque)
     load = load.reshape(gap.shape)
-    taken, _ = contact_deflection(flexible, curvature[..., None], load / width)
+    taken, _ = contact_deflection(flexible, curvature, load / contact_length)
     return SharedLoad(load, deflection, overlap.reshape(gap.shape), taken, stiffness)
 
 
@@ -199,8 +216,25 @@ class LoadedFlanks(NamedTuple):
         return face_positions(self.flexible.width, self.slices)
 
     def gap(self, geometry: PairGeometry) -> Float[Array, "*pair slice"]:
-        """What modifications and misalignment leave open, `flank_gap`, m; pitch errors apart."""
+        """What modifications and misalignment leave open, `flank_gap`, m; pitch errors apart.
+
+        Of a helical pair the geometry is that at `rolls`.
+        """
+        if is_helical(self.flexible.assembly):
+            return oblique_gap(self.flexible.assembly, self.modifications, geometry, self.face())
         return flank_gap(self.flexible.assembly, self.modifications, geometry, self.face())
+
+    def rolls(self, roll: Float[Array, "*pair"]) -> Float[Array, "..."]:
+        """Pinion angles at which pairs touch, rad: themselves; of helical pairs the slices', (…, slice).
+
+        No further than a pitch outside the path, where nothing touches.
+        """
+        assembly = self.flexible.assembly
+        if not is_helical(assembly):
+            return roll
+        (start, end), pitch = assembly.roll_limits, assembly.pitch_angle
+        late = roll[..., None] - np.asarray(roll_shift(assembly, self.face()))
+        return np.clip(late, start - pitch, end + pitch)
 
     @one_blas_thread()
     def share(
@@ -223,6 +257,8 @@ class LoadedFlanks(NamedTuple):
             way
         gap : what is missing between the flanks beside the corners' gap, m; default: that of `gap`
         """
+        if is_helical(self.flexible.assembly):
+            return self._share_oblique(roll, gear_torque, friction_coefficient, gap)
         geometry = pair_geometry(self.flexible.assembly, roll)
         motion = geometry.motion
         side = np.sign(motion.signed_distance)
@@ -237,6 +273,34 @@ class LoadedFlanks(NamedTuple):
                 slice_compliance(self.flexible, part_of(geometry, rows), self.slices, self.coupled),
                 np.cos(motion.pressure_angle[rows]),
                 lever[rows],
+                whole[rows],
+                np.full(len(roll[rows]), float(gear_torque)),
+            )
+            for rows in in_batches(whole.shape)
+        ]
+        return SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
+
+    def _share_oblique(
+        self,
+        roll: Float[Array, "position pair"],
+        gear_torque: float,
+        friction_coefficient: Float[Array, "..."] | float,
+        gap: Float[Array, "..."] | None,
+    ) -> SharedLoad:
+        """Share among slices that touch at different angles."""
+        faces = oblique_faces(self.flexible.assembly, self.rolls(roll), friction_coefficient)
+        extra = self.gap(faces.geometry) if gap is None else np.asarray(gap, dtype=float)
+        extra = extra if extra.ndim == 3 else extra[..., None]
+        whole = faces.corner_gap + extra
+        length = self.flexible.width / self.slices * faces.length
+        parts = [
+            press_slices(
+                self.flexible,
+                faces.curvature[rows],
+                length[rows],
+                oblique_compliance(self.flexible, faces.at(rows), self.coupled),
+                faces.arm[rows],
+                faces.lever[rows],
                 whole[rows],
                 np.full(len(roll[rows]), float(gear_torque)),
             )

@@ -1,7 +1,8 @@
 """A pair of gears in slow rotation under load: line loads along the face, pressures, errors, stiffness.
 
 The load contact model (`load_sharing`) at many positions, with flanks as they are modified and axes as they
-stand. Phase 0 is where a pair passes the beginning of its path of contact, whatever the load.
+stand. Phase 0 is where a pair passes the beginning of its path of contact, in the middle of its face,
+whatever the load.
 """
 
 import math
@@ -10,11 +11,19 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.compliance.sharing.face_root_stress import root_stress
-from tribodyn.compliance.sharing.flank_gap import check_modifications, maximum_along_lead, pitch_gap
+from tribodyn.compliance.sharing.flank_gap import (
+    check_modifications,
+    flank_gap,
+    maximum_along_lead,
+    pitch_gap,
+)
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, SharedLoad, half_width
+from tribodyn.compliance.sharing.oblique_faces import ObliqueFaces, oblique_faces
+from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, roll_at_gap
+from tribodyn.geometry.flanks.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.flanks.modification import MINIMUM_SLICES, too_few_slices, vary_along_lead
+from tribodyn.geometry.helix import roll_shift
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
 
@@ -36,7 +45,8 @@ def check_contact(flanks: LoadedFlanks, gear_torque: float) -> None:
     flexible, modifications, slices, _ = flanks
     check_torque(gear_torque)
     check_modifications(flexible.assembly, modifications)
-    if broken := too_few_slices(slices, vary_along_lead(modifications)):
+    varies = vary_along_lead(modifications) or is_helical(flexible.assembly)
+    if broken := too_few_slices(slices, varies):
         raise broken
     motion = pair_geometry(flexible.assembly, np.zeros(1)).motion
     line_load = gear_torque / motion.gear_normal_arm / flexible.width
@@ -89,14 +99,15 @@ class LoadedContact(NamedTuple):
     #: the same without load: the kinematic error, m; the load's deflection is the difference
     unloaded: Float[Array, " position"]
     normal_load: Float[Array, "position pair"]  # N
-    line_load: Float[Array, "position pair slice"]  # N/m
+    line_load: Float[Array, "position pair slice"]  # per length of the line of contact, N/m
     pressure: Float[Array, "position pair slice"]  # maximum Hertz pressure, Pa
     half_width: Float[Array, "position pair slice"]  # of the contact, m
     #: root_tension, root_compression: maximum stress along the root of each pair's tooth of pinion and gear,
     #: tension positive and compression negative, Pa (`face_root_stress`)
     root_tension: Float[Array, "2 position pair slice"]
     root_compression: Float[Array, "2 position pair slice"]
-    #: K_Hβ, maximum over mean line load along the face (ISO 6336-1); NaN where a pair carries nothing
+    #: K_Hβ, maximum over mean line load along the face (ISO 6336-1), of helical pairs along the part of it
+    #: that is on the path of contact; NaN where a pair carries nothing
     face_load_factor: Float[Array, "position pair"]
     mesh_stiffness: Float[Array, " position"]  # dF/dξ on the pitch circles, N/m: of what touches, tangent
     contact_ratio: float  # mean number of pairs that carry load
@@ -127,21 +138,28 @@ def roll_through(
     cycles : more than one where pitch errors make teeth differ
     friction_coefficient : μ, the same for all
     """
-    phase, roll, geometry, gap, shared = _rolled(flanks, gear_torque, positions, cycles, friction_coefficient)
+    phase, roll, gap, shared = _rolled(flanks, gear_torque, positions, cycles, friction_coefficient)
     flexible, _, slices, coupled = flanks
-    line_load = shared.slice_load * (slices / flexible.width)
-    half = half_width(flexible, geometry.motion.relative_curvature[..., None], line_load)
+    seen = slice_contacts(flanks, roll)
+    per_width = shared.slice_load * (slices / flexible.width)
+    line_load = per_width / seen.length
+    half = half_width(flexible, seen.curvature, line_load)
     total = shared.normal_load
-    tension, compression = root_stress(flexible, geometry, line_load, coupled)
+    tension, compression = root_stress(flexible, seen, per_width, coupled)
+    # of helical pairs the mean is over the part of the face that is on the path of contact
+    start, end = flexible.assembly.roll_limits
+    rolls = flanks.rolls(roll)
+    rolls_alike, on_path = rolls.ndim == 2, (rolls >= start) & (rolls <= end)
     with np.errstate(invalid="ignore", divide="ignore"):
         pressure = np.where(line_load > 0, 2.0 * line_load / (np.pi * half), 0.0)
-        factor = np.max(shared.slice_load, axis=-1) * slices / total
+        spread = slices if rolls_alike else np.sum(on_path | (line_load > 0.0), axis=-1)
+        factor = np.max(shared.slice_load, axis=-1) * spread / total
     return LoadedContact(
         phase=phase,
         roll=roll,
         slice_position=flanks.face(),
         deflection=shared.deflection,
-        unloaded=_unloaded(geometry, gap),
+        unloaded=np.min((seen.corner_gap + gap) / seen.arm, axis=(1, 2)),
         normal_load=total,
         line_load=line_load,
         pressure=pressure,
@@ -173,25 +191,25 @@ def _rolled(
 ) -> tuple[
     Float[Array, " position"],
     Float[Array, "position pair"],
-    PairGeometry,
     Float[Array, "position pair slice"],
     SharedLoad,
 ]:
-    """Phase, roll, geometry and gap of the pairs at all positions, and the state of their contact."""
+    """Phase, roll and gap of the pairs at all positions, and the state of their contact."""
     check_contact(flanks, gear_torque)
     limits = reach(flanks, gear_torque)
     assembly = flanks.flexible.assembly
     pitch = assembly.pitch_angle
     start, _ = assembly.roll_limits
-    ages = _ages(limits, start, pitch)
+    late = face_shift(flanks)
+    ages = _ages((limits[0] - late, limits[1] + late), start, pitch)
     phase = np.arange(positions * cycles) / positions
     cycle = np.arange(positions * cycles) // positions
     roll = start + pitch * ((phase - cycle)[:, None] + ages)
-    geometry = pair_geometry(assembly, roll)
-    gap = flanks.gap(geometry) + pitch_gap(flanks.modifications, cycle[:, None] - ages)[..., None]
+    gap = flanks.gap(pair_geometry(assembly, flanks.rolls(roll)))
+    gap = gap + pitch_gap(flanks.modifications, cycle[:, None] - ages)[..., None]
     shared = flanks.share(roll, gear_torque, friction_coefficient, gap)
     check_resolved(flanks, shared, gear_torque)
-    return phase, roll, geometry, gap, shared
+    return phase, roll, gap, shared
 
 
 def reach(flanks: LoadedFlanks, gear_torque: float, factor: float = REACH) -> tuple[float, float]:
@@ -202,10 +220,9 @@ def reach(flanks: LoadedFlanks, gear_torque: float, factor: float = REACH) -> tu
     """
     assembly, modifications = flanks.flexible.assembly, flanks.modifications
     at_pitch_point = np.zeros((1, 1))
-    geometry = pair_geometry(assembly, at_pitch_point)
-    gap = flanks.gap(geometry)
+    gap = flanks.gap(pair_geometry(assembly, flanks.rolls(at_pitch_point)))
     single = flanks.share(at_pitch_point, gear_torque, 0.0, gap)
-    arm = np.cos(geometry.motion.pressure_angle[0, 0])
+    arm = np.cos(pair_geometry(assembly, at_pitch_point).motion.pressure_angle[0, 0])
     deflection = float(single.deflection[0] * arm - np.min(gap))
 
     start, end = assembly.roll_limits
@@ -226,6 +243,20 @@ def reach(flanks: LoadedFlanks, gear_torque: float, factor: float = REACH) -> tu
     return roll_at_gap(assembly, (most - float(before), most - float(beyond)))
 
 
+def face_shift(flanks: LoadedFlanks) -> float:
+    """Pinion angle (rad) by which the outermost slices are late or early, ≥ 0."""
+    assembly = flanks.flexible.assembly
+    return float(np.max(np.abs(np.asarray(roll_shift(assembly, flanks.face())))))
+
+
+def slice_contacts(
+    flanks: LoadedFlanks, roll: Float[Array, "position pair"], friction_coefficient: float = 0.0
+) -> ObliqueFaces:
+    """Where the slices of pairs touch; of spur gears all slices of a pair are alike, (position, pair, 1)."""
+    assembly, rolls = flanks.flexible.assembly, flanks.rolls(roll)
+    return oblique_faces(assembly, rolls if rolls.ndim == 3 else rolls[..., None], friction_coefficient)
+
+
 def _ages(limits: tuple[float, float], start: float, pitch: float) -> Int[Array, " pair"]:
     """Whole pitches since the pairs that can touch began their path, the pair that entered first in front."""
     first, last = math.floor((limits[0] - start) / pitch), math.ceil((limits[1] - start) / pitch) - 1
@@ -234,13 +265,9 @@ def _ages(limits: tuple[float, float], start: float, pitch: float) -> Int[Array,
 
 def _nearest(flanks: LoadedFlanks, roll: Float[Array, "*pair"]) -> Float[Array, "*pair"]:
     """Minimum gap along the face at each angle on the path, m."""
-    return np.min(flanks.gap(pair_geometry(flanks.flexible.assembly, roll)), axis=-1)
-
-
-def _unloaded(geometry: PairGeometry, gap: Float[Array, "position pair slice"]) -> Float[Array, " position"]:
-    """ξ (position,) at which the first place touches, m."""
-    whole = (geometry.gap[..., None] + gap) / np.cos(geometry.motion.pressure_angle)[..., None]
-    return np.min(whole, axis=(1, 2))
+    assembly = flanks.flexible.assembly
+    gap = flank_gap(assembly, flanks.modifications, pair_geometry(assembly, roll), flanks.face())
+    return np.min(gap, axis=-1)
 
 
 def mean_pairs(overlap: Float[Array, "position pair"], positions: int) -> float:

@@ -84,7 +84,7 @@ def pair_harmonics(
     reaches = geometry.pinion_radius, geometry.gear_radius
     # On the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other.
     for gear, material, reach, sign in zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True):
-        own, between = _responses(gear, material.poisson_ratio, wave_number)
+        own, between = responses(gear, material.poisson_ratio, wave_number)
         at = np.clip(reach, gear.radius[0], gear.radius[-1])
         scale = material.youngs_modulus * flexible.width
         diagonal += np.moveaxis(CubicSpline(gear.radius, own.T)(at), -1, 0) / scale
@@ -111,7 +111,7 @@ def by_slices(
     return spread.reshape(positions, pairs, pairs, slices, slices).swapaxes(2, 3)
 
 
-def _responses(
+def responses(
     gear: GearCompliance, poisson_ratio: float, wave_number: Float[Array, " mode"]
 ) -> tuple[Float[Array, "mode radius"], Float[Array, "mode sector radius radius"]]:
     """Compliances freed of the local region (n, M) and of neighbours (n, sector, M, M) for E = b = 1."""

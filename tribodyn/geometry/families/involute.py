@@ -7,6 +7,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radii, reference_radius
 from tribodyn.geometry.families import Family
 from tribodyn.geometry.path import Path, PerContact
+from tribodyn.geometry.rack_section import normal_section
 from tribodyn.numerics.elementary import arctan2, cos, maximum, namespace, sin, sqrt, tan
 from tribodyn.numerics.iteration import newton
 
@@ -143,10 +144,11 @@ def check(drive: Drive) -> None:
     shift = drive.pinion.profile_shift + drive.gear.profile_shift
     minimum = -(math.tan(alpha) - alpha) * teeth / (2 * math.tan(alpha))
     if shift <= minimum:
-        needed = minimum - drive.gear.profile_shift
+        written = normal_section(drive)
+        needed = minimum / math.cos(drive.helix_angle) - written.gear.profile_shift
         raise InputError(
             "drive.pinion.profile_shift",
-            drive.pinion.profile_shift,
+            written.pinion.profile_shift,
             "with this sum of profile shifts the gears would be closer than their base circles allow",
             f"use more than {math.ceil(1000.0 * needed) / 1000.0:g}",
         )

@@ -102,6 +102,16 @@ def back_flanks(modifications: Modifications, pressure_angle: float) -> Modifica
     return Modifications(pinion, gear, misalignment)
 
 
+def turned_round(modifications: Modifications) -> Modifications:
+    """The same looked at from the other end face, z the other way round."""
+    pinion, gear = (
+        flank._replace(lead=flank.lead._replace(start=flank.lead.end, end=flank.lead.start))
+        for flank in (modifications.pinion, modifications.gear)
+    )
+    within, across = modifications.misalignment
+    return Modifications(pinion, gear, Misalignment(-within, -across))
+
+
 def vary_along_lead(modifications: Modifications) -> bool:
     """Whether anything differs from place to place along the face."""
     both = (modifications.pinion, modifications.gear)

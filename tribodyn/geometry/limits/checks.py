@@ -16,9 +16,10 @@ from tribodyn.geometry.assembly import (
     tip_clearance,
     tip_corner_gap,
 )
-from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, tip_circle_radius
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_circle_radius
 from tribodyn.geometry.families import Family
 from tribodyn.geometry.limits.sizes import advice, boundary, check_sizes, millimetres, replaced, require
+from tribodyn.geometry.rack_section import as_written, from_written
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
 # An overlap below this share of the module is the chord error of the fillet's points.
@@ -35,8 +36,8 @@ def check(family: Family, drive: Drive) -> Assembly:
 
     Raises InputError, which names the key, the rule and, where known, a value that obeys it.
     """
-    check_sizes(drive, family.pressure_angle)
     with np.errstate(all="ignore"):
+        check_sizes(as_written(family, drive), family.pressure_angle)
         _check_centre_distance(family, drive)
         family.check(drive)
         assembly = Assembly(family, drive)
@@ -69,7 +70,7 @@ def _check_backlash(assembly: Assembly) -> None:
     overlap = -normal_backlash(assembly)
     if not overlap <= _ROUNDING * assembly.drive.module:
         thicker = max(SIDES, key=lambda side: body_of(assembly.drive, side).thickness_allowance)
-        given = body_of(assembly.drive, thicker).thickness_allowance
+        given = _written(assembly, thicker).thickness_allowance
         raise InputError(
             f"drive.{thicker}.thickness_allowance",
             f"{1e6 * given:.4g} um",
@@ -79,7 +80,7 @@ def _check_backlash(assembly: Assembly) -> None:
 
 
 def _check_root(assembly: Assembly, side: Side) -> None:
-    body, root = body_of(assembly.drive, side), assembly.tooth(side).root_radius
+    body, root = _written(assembly, side), assembly.tooth(side).root_radius
     if not root > 0:
         rule = "the teeth would be cut past the axis"
         raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, "use a smaller one or more teeth")
@@ -88,9 +89,19 @@ def _check_root(assembly: Assembly, side: Side) -> None:
         raise InputError(f"drive.{side}.bore_radius", millimetres(body.bore_radius), rule, "use less")
 
 
+def _written(assembly: Assembly, side: Side) -> GearBody:
+    """One body with the numbers of its keys, without the last digits' rounding of a helical one."""
+    body = body_of(as_written(assembly.family, assembly.drive), side)
+    if body is body_of(assembly.drive, side):
+        return body
+    return GearBody(*(None if value is None else float(f"{value:.12g}") for value in body))
+
+
 def _changed(assembly: Assembly, side: Side, **changes: float) -> Assembly:
-    """Put the drive together with some numbers of one body changed."""
-    return Assembly(assembly.family, replaced(assembly.drive, side, **changes))
+    """Put the drive together with some numbers of one body changed, as its keys have them."""
+    family = assembly.family
+    changed = replaced(as_written(family, assembly.drive), side, **changes)
+    return Assembly(family, from_written(family, changed))
 
 
 def _check_rack_corners(assembly: Assembly, side: Side) -> None:
@@ -100,7 +111,7 @@ def _check_rack_corners(assembly: Assembly, side: Side) -> None:
 
     if fits():
         return
-    body = body_of(assembly.drive, side)
+    body = _written(assembly, side)
     maximum = boundary(lambda value: fits(fillet_radius=value), body.fillet_radius, 0.0)
     if maximum is not None:
         rule = "the rounded corners of the rack's tip overlap"
@@ -117,7 +128,7 @@ def _check_undercut(assembly: Assembly, side: Side) -> None:
     """Refuse undercut that reaches the active flank; below the lowest contact it does no harm."""
     if not _undercut(assembly, side):
         return
-    body, tooth = body_of(assembly.drive, side), assembly.tooth(side)
+    body, tooth = _written(assembly, side), assembly.tooth(side)
 
     def sound(shift: float) -> bool:
         return bool(_changed(assembly, side, profile_shift=shift).tooth(side).overrun <= 0)
@@ -151,7 +162,7 @@ def _undercut(assembly: Assembly, side: Side) -> bool:
 
 
 def _check_tip(assembly: Assembly, side: Side) -> None:
-    drive, tooth, body = assembly.drive, assembly.tooth(side), body_of(assembly.drive, side)
+    tooth, body = assembly.tooth(side), _written(assembly, side)
 
     def thickness(pair: Assembly) -> float:
         cut = pair.tooth(side)
@@ -159,7 +170,7 @@ def _check_tip(assembly: Assembly, side: Side) -> None:
 
     if not tooth.tip_radius > tooth.form_radius:
         rule = f"nothing is left of the flank, which begins at the radius {millimetres(tooth.form_radius)}"
-        raise InputError(*_tip_key(drive, side), rule, "use a larger one")
+        raise InputError(*_tip_key(assembly, side), rule, "use a larger one")
     if thickness(assembly) > 0:
         _check_rounding(assembly, side)
         return
@@ -190,9 +201,9 @@ def _check_rounding(assembly: Assembly, side: Side) -> None:
         raise InputError(f"drive.{side}.tip_rounding", millimetres(given), rule, remedy)
 
 
-def _tip_key(drive: Drive, side: Side) -> tuple[str, Any]:
+def _tip_key(assembly: Assembly, side: Side) -> tuple[str, Any]:
     """Key and value of what sets the tip circle."""
-    body = body_of(drive, side)
+    body = _written(assembly, side)
     if body.tip_radius is None:
         return f"drive.{side}.addendum", body.addendum
     return f"drive.{side}.tip_radius", millimetres(body.tip_radius)
@@ -200,7 +211,7 @@ def _tip_key(drive: Drive, side: Side) -> tuple[str, Any]:
 
 def _refuse_tip(assembly: Assembly, side: Side, rule: str, holds: Callable[[Assembly], bool]) -> None:
     """Refuse a tip circle that is too large, naming the largest usable one above the form circle."""
-    body = body_of(assembly.drive, side)
+    body = _written(assembly, side)
 
     def usable_at(size: float) -> bool:
         changes = {"addendum": size} if body.tip_radius is None else {"tip_radius": size / 1e3}
@@ -212,7 +223,7 @@ def _refuse_tip(assembly: Assembly, side: Side, rule: str, holds: Callable[[Asse
         smallest = 1e3 * assembly.tooth(side).form_radius
         usable, unit = boundary(usable_at, 1e3 * body.tip_radius, smallest), " mm"
     remedy = "use a smaller one" if usable is None else f"use at most {usable:.7g}{unit}"
-    raise InputError(*_tip_key(assembly.drive, side), rule, remedy)
+    raise InputError(*_tip_key(assembly, side), rule, remedy)
 
 
 def _check_clearance(assembly: Assembly, side: Side) -> None:
@@ -231,7 +242,7 @@ def _check_contact_ratio(assembly: Assembly) -> None:
         if distance is not None and (usable := _usable_centre_distance(assembly, distance)) is not None:
             remedy = f"use at most {usable:.7g} mm, or larger addenda"
             raise InputError("drive.centre_distance", millimetres(distance), rule, remedy)
-        raise InputError(*_tip_key(assembly.drive, "pinion"), rule, remedy)
+        raise InputError(*_tip_key(assembly, "pinion"), rule, remedy)
 
 
 def _usable_centre_distance(assembly: Assembly, given: float) -> float | None:

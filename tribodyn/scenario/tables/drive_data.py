@@ -16,9 +16,16 @@ from tribodyn.geometry.assembly import Assembly, normal_backlash, tip_break
 from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.geometry.families.involute import overlap, shift_sensitivity, tight_centre_distance
+from tribodyn.geometry.rack_section import from_written
 from tribodyn.scenario.quantity import shift_rounding
 from tribodyn.scenario.tables.model_files import DriveTable, Gear, Material
-from tribodyn.scenario.tables.tooth_data import gear_body, gives_thickness, pressure_angle_of, shape_of
+from tribodyn.scenario.tables.tooth_data import (
+    gear_body,
+    gives_thickness,
+    helix_of,
+    pressure_angle_of,
+    shape_of,
+)
 
 #: Rounding that is believed, at most, modules: about the backlash that gears are given. A larger overlap is a
 #: mistake, whatever the digits ("0.1 m").
@@ -54,9 +61,11 @@ def rounded_distance(table: DriveTable, drive: Drive) -> RoundedDistance | None:
         return None
     printed, rounding = table.centre_distance
     with np.errstate(all="ignore"):  # where there is no such mesh: refused where the pair is put together
+        # the shifts are in normal modules
+        slope = float(shift_sensitivity(drive)) * math.cos(drive.helix_angle)
         if not overlap(drive._replace(centre_distance=printed)):
             return None
-        meant, slope = float(tight_centre_distance(drive)), float(shift_sensitivity(drive))
+        meant = float(tight_centre_distance(drive))
     for side in SIDES:
         gear = getattr(table, side)
         if gear.span is None and gear.over_pins is None:  # measured teeth have their thickness at any shift
@@ -101,16 +110,18 @@ def teeth_of(drive: DriveTable) -> dict[str, Any]:
 
 
 def drive_of(drive: DriveTable) -> Drive:
-    """Return the geometry of a drive file."""
+    """Return the geometry of a drive file: its transverse section."""
     teeth = family(drive.family)
-    sharp = Drive(
+    written = Drive(
         drive.module,
         pressure_angle_of(drive) or 0.0,
         gear_body(drive, drive.pinion),
         gear_body(drive, drive.gear),
         shape_of(drive, teeth),
         None if drive.centre_distance is None else drive.centre_distance.value,
+        helix_of(drive),
     )
+    sharp = from_written(teeth, written)
     if rounded := rounded_distance(drive, sharp):
         sharp = sharp._replace(centre_distance=rounded.meant)
     rounded = sharp

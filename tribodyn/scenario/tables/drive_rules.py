@@ -1,10 +1,10 @@
 """Rules that tie several keys of a drive together: what contradicts, what needs what, which run knows it."""
 
 from collections.abc import Iterator
-from math import degrees
+from math import asin, degrees, pi, sin
 from typing import NamedTuple
 
-from tribodyn.errors import InputError, unknown_name
+from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.flanks.modification import (
     Misalignment,
@@ -19,7 +19,7 @@ from tribodyn.geometry.flanks.modification import (
 from tribodyn.scenario.scope import outside
 from tribodyn.scenario.tables.model_files import DriveTable, MisalignmentTable, flank_of
 from tribodyn.scenario.tables.quality import broken_quality_rules, helix_allowance
-from tribodyn.scenario.tables.tooth_data import broken_tooth_rules, shape_errors
+from tribodyn.scenario.tables.tooth_data import broken_tooth_rules, modules_of, shape_errors
 
 #: Slices along the face where nothing is said and anything varies along it.
 SLICES = 21
@@ -35,9 +35,9 @@ def modifications_of(drive: DriveTable, misalignment: MisalignmentTable) -> Modi
     return Modifications(pinion, gear, stand)
 
 
-def slices_of(given: int | None, modifications: Modifications) -> int:
+def slices_of(given: int | None, modifications: Modifications, helical: bool = False) -> int:
     """Return the number of slices along the face."""
-    return given or (SLICES if vary_along_lead(modifications) else 1)
+    return given or (SLICES if helical or vary_along_lead(modifications) else 1)
 
 
 class Face(NamedTuple):
@@ -64,7 +64,7 @@ def broken_modification_rules(drive: DriveTable) -> Iterator[InputError]:
 
 def broken_slice_rules(face: Face) -> Iterator[InputError]:
     """Go through the rules of a run that knows modifications: slices enough for what varies."""
-    varies = vary_along_lead(modifications_of(face.drive, face.misalignment))
+    varies = bool(face.drive.helix_angle) or vary_along_lead(modifications_of(face.drive, face.misalignment))
     if face.slices is not None and (broken := too_few_slices(face.slices, varies)):
         yield broken
 
@@ -110,6 +110,56 @@ def _deviations(face: Face) -> Iterator[tuple[str, str | None]]:
         yield "mesh.slice_coupling", "false"
 
 
+#: Helix angle below which gears are cylindrical gears of parallel axes in practice, and the overlap ratio.
+STEEPEST, MOST_OVERLAP = 45.0, 10.0
+
+
+def broken_helix_rules(drive: DriveTable) -> Iterator[InputError]:
+    """Go through what is wrong with the helix: its angle, its hands, and teeth that it lays over the face."""
+    yield from _broken_hands(drive)
+    if not drive.helix_angle:
+        return
+    key, beta = "drive.helix_angle", degrees(drive.helix_angle)
+    shown = f"{beta:.6g} deg"
+    if beta < 0.0:
+        remedy = f'write helix_angle = "{-beta:.6g} deg" and hand = "left", the hand of the pinion'
+        yield InputError(key, shown, "must not be negative: the hand gives the direction", remedy)
+    elif beta >= STEEPEST:
+        rule = "must be less than 45 deg: beyond, a transverse section says little of the teeth"
+        yield InputError(key, shown, rule, 'use 8 to 35 deg, as in helix_angle = "20 deg"')
+    else:
+        width = min(drive.pinion.face_width, drive.gear.face_width)
+        module, _ = modules_of(drive)
+        most = MOST_OVERLAP * pi * module / width
+        if (ratio := sin(drive.helix_angle) * width / (pi * module)) > MOST_OVERLAP:
+            rule = f"gives an overlap ratio of {ratio:.4g} over the common face of {shown_length(width)}"
+            remedy = f"keep it to {MOST_OVERLAP:g}: at most {degrees(asin(most)):.4g} deg, or a smaller face"
+            yield InputError(key, shown, rule, remedy)
+
+
+def _broken_hands(drive: DriveTable) -> Iterator[InputError]:
+    """Hands without a helix, and hands that contradict each other."""
+    other = {"right": "left", "left": "right"}
+    given = [
+        (f"drive.{part}", hand, hand if part != "gear.hand" else other[hand])
+        for part, hand in (
+            ("hand", drive.hand),
+            ("pinion.hand", drive.pinion.hand),
+            ("gear.hand", drive.gear.hand),
+        )
+        if hand is not None
+    ]
+    if given and not drive.helix_angle:
+        key, hand, _ = given[0]
+        remedy = 'add helix_angle = "20 deg" to [drive], or leave it out'
+        yield InputError(key, quoted(hand), "is the hand of a helix, and the gears are spur gears", remedy)
+        return
+    for key, hand, of_pinion in given[1:]:
+        if of_pinion != given[0][2]:
+            rule = f"contradicts {given[0][0]} = {quoted(given[0][1])}: external gears have opposite hands"
+            yield InputError(key, quoted(hand), rule, f"write {quoted(other[hand])}, or leave it out")
+
+
 def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
     """Go through the rules that a drive breaks by itself."""
     for name in ("pinion", "gear"):
@@ -117,6 +167,7 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
         if drive.material is None and gear.material is None:
             remedy = "give the name of a file in models/materials here, or drive.material for both gears"
             yield InputError(f"drive.{name}.material", rule="missing", remedy=remedy)
+    yield from broken_helix_rules(drive)
     yield from broken_tooth_rules(drive)
     yield from broken_modification_rules(drive)
     yield from broken_quality_rules(drive)

@@ -127,6 +127,9 @@ class Material(Described):
 MaterialReference = Annotated[Material, quantity.model_file("materials")]
 
 
+Hand = Literal["right", "left"]
+
+
 class Gear(quantity.Table):
     """One gear of a drive."""
 
@@ -166,17 +169,29 @@ class Gear(quantity.Table):
     inertia: Inertia | None = Field(None, description="polar; default: from outline, bore and width")
     material: MaterialReference | None = Field(None, description="default: the drive's")
     quality: Grade | None = Field(None, description="its tolerance class; default: the drive's")
+    hand: Hand | None = Field(None, description="of its helix; default: by the drive's")
     modification: Modification = quantity.written({})
 
 
 #: Keys of a pair of gears, in a drive file and in a stage of a train.
 PressureAngle = Annotated[
     Angle | None,
-    Field(description="of the rack for involutes; at the pitch point for other families, if they take one"),
+    Field(
+        description="of the rack's normal section for involutes; at the pitch point, in the transverse "
+        "section, for other families, if they take one"
+    ),
 ]
 CentreDistance = Annotated[
     Annotated[quantity.Printed, quantity.PrintedQuantity(units.positive(units.LENGTH))] | None,
     Field(description="of involutes; default: that of nominal teeth in mesh without backlash"),
+]
+HelixAngle = Annotated[
+    Annotated[float, quantity.InUnit(units.ANGLE_KIND)] | None,
+    Field(
+        description="of the reference circles, 0 to below 45 deg; module, pressure angle and rack of "
+        "involutes are then of the normal section, those of other families of the transverse section; "
+        "default: spur gears"
+    ),
 ]
 Rack = Annotated[
     Annotated[quantity.Text, quantity.Names(PROFILES)] | None,
@@ -199,8 +214,10 @@ class DriveTable(Described):
     family: Annotated[quantity.Text, quantity.Names(FAMILIES)] = Field(
         description="family of the path of contact"
     )
-    module: Length
+    module: Length = Field(description="of involutes the normal module")
     pressure_angle: PressureAngle = None
+    helix_angle: HelixAngle = None
+    hand: Hand | None = Field(None, description="of the pinion's helix; default: right")
     centre_distance: CentreDistance = None
     rack: Rack = None
     shape: FamilyKeys = None

@@ -23,6 +23,7 @@ from tribodyn.numerics.curve import Table
 from tribodyn.scenario.quantity import Draws
 from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable, Gear, MisalignmentTable
+from tribodyn.scenario.tables.tooth_data import modules_of
 from tribodyn.standards.flank_tolerances import FlankTolerances, flank_tolerances, outside, rounded
 
 DeviationSample = Annotated[int, Field(strict=True, ge=0, le=2**31 - 1), Draws()]
@@ -132,7 +133,8 @@ def broken_quality_rules(drive: DriveTable) -> Iterator[InputError]:
         if (grade := grade_of(drive, gear)) is None:
             continue
         key = "drive.quality" if gear.quality is None else f"drive.{name}.quality"
-        for said in outside(gear.teeth, drive.module, drive.module * gear.teeth, gear.face_width):
+        normal, transverse = modules_of(drive)
+        for said in outside(gear.teeth, normal, transverse * gear.teeth, gear.face_width):
             rule = f"the tolerances of ISO 1328-1 do not cover the {name}: {said}"
             yield InputError(key, grade, rule, "leave the quality out, and give deviations of your own")
 
@@ -146,4 +148,5 @@ def _tolerances(drive: DriveTable, gear: Gear) -> FlankTolerances | None:
     grade = grade_of(drive, gear)
     if grade is None:
         return None
-    return flank_tolerances(grade, drive.module, drive.module * gear.teeth, gear.face_width)
+    normal, transverse = modules_of(drive)
+    return flank_tolerances(grade, normal, transverse * gear.teeth, gear.face_width)

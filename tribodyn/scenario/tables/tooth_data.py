@@ -11,7 +11,7 @@ from tribodyn.geometry.drive import PROFILES, GearBody
 from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.geometry.sheet import Gauge, Involute, allowance_of_pins, allowance_of_span, over_pins, span
 from tribodyn.scenario.own_keys import Owner, own_key_errors, own_values
-from tribodyn.scenario.tables.model_files import DriveTable, Gear
+from tribodyn.scenario.tables.model_files import DriveTable, Gear, Hand
 
 #: Heights and rounding where neither the gear nor a rack says them.
 USUAL = PROFILES["ISO 53 C"]
@@ -40,8 +40,29 @@ def pressure_angle_of(drive: DriveTable) -> float | None:
     return drive.pressure_angle
 
 
+def helix_of(drive: DriveTable) -> float:
+    """Return the helix angle, rad: positive with a right-hand pinion, 0 of spur gears."""
+    return (drive.helix_angle or 0.0) * (1.0 if pinion_hand(drive) == "right" else -1.0)
+
+
+def pinion_hand(drive: DriveTable) -> Hand:
+    """Return the hand of the pinion, whose mate has the other: the first that is said, else right."""
+    given = drive.hand or drive.pinion.hand
+    if given is None and drive.gear.hand is not None:
+        return "left" if drive.gear.hand == "right" else "right"
+    return given or "right"
+
+
+def modules_of(drive: DriveTable) -> tuple[float, float]:
+    """Return the normal and the transverse module, m."""
+    stretch = math.cos(drive.helix_angle or 0.0)
+    if drive.family in FAMILIES and FAMILIES[drive.family].involute:
+        return drive.module, drive.module / stretch
+    return drive.module * stretch, drive.module
+
+
 def gear_body(drive: DriveTable, gear: Gear) -> GearBody:
-    """Return one body of a drive that breaks no rule; without the rounding of its tip."""
+    """Return one body of a drive that breaks no rule, as its keys have it; without its tip's rounding."""
     rack = PROFILES.get(drive.rack or "", USUAL)
     bore = _radius(gear, "bore")
     return GearBody(
@@ -51,7 +72,7 @@ def gear_body(drive: DriveTable, gear: Gear) -> GearBody:
         dedendum=rack.dedendum if gear.dedendum is None else gear.dedendum,
         fillet_radius=rack.fillet_radius if gear.fillet_radius is None else gear.fillet_radius,
         face_width=gear.face_width,
-        bore_radius=USUAL_BORE * drive.module * gear.teeth / 2 if bore is None else bore,
+        bore_radius=USUAL_BORE * modules_of(drive)[1] * gear.teeth / 2 if bore is None else bore,
         tip_radius=_radius(gear, "tip"),
         thickness_allowance=_allowance(drive, gear),
     )
@@ -145,7 +166,13 @@ def _allowance(drive: DriveTable, gear: Gear) -> float:
 
 def _involute(drive: DriveTable, gear: Gear) -> Involute:
     angle = pressure_angle_of(drive)
-    return Involute(drive.module, math.nan if angle is None else angle, float(gear.teeth), gear.profile_shift)
+    return Involute(
+        drive.module,
+        math.nan if angle is None else angle,
+        float(gear.teeth),
+        gear.profile_shift,
+        drive.helix_angle or 0.0,
+    )
 
 
 def _radius(gear: Gear, what: str) -> float | None:

@@ -112,9 +112,10 @@ def mesh_of(scenario: Any, *, every_tooth: bool = False, error: Any = None, **ow
         modifications = with_sample(drive, modifications, sample, every_tooth=every_tooth, slices=slices)
     else:
         error = error_with_sample(drive, error, sample)
+    helical = bool(drive.helix_angle) and getattr(mesh, "compliance", "fem") == "fem"
     given = {field.name for field in fields(MeshData)} & set(type(mesh).model_fields)
     values = {"compliance": "fem", "damping_ratio": 0.0} | {name: getattr(mesh, name) for name in given}
-    values |= {"modifications": modifications, "slices": slices_of(slices, modifications)}
+    values |= {"modifications": modifications, "slices": slices_of(slices, modifications, helical)}
     return MeshData(**values | {"error_table": error} | own)
 
 

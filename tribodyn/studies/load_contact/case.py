@@ -38,14 +38,15 @@ _root = partial(Variable, ("phase", "body", "pair", "slice"))
 SAMPLES: dict[str, Variable] = {
     "pinion_angle": _phase("rad", "rotation of the pinion from the first position"),
     "roll_angle": _pair(
-        "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
+        "rad",
+        "rotation of the pinion since the pair met at the pitch point in mid-face, negative before it",
     ),
     "loaded_transmission_error": _phase("m", "loaded static transmission error, of the gears' rotations"),
     "unloaded_transmission_error": _phase(
         "m", "unloaded (kinematic) transmission error, of the gears' rotations"
     ),
     "normal_load": _pair("N", "normal load of the pair"),
-    "line_load": _face("N/m", "normal load per face width"),
+    "line_load": _face("N/m", "normal load per length of the line of contact"),
     "hertz_pressure": _face("Pa", "maximum Hertz pressure"),
     "half_width": _face("m", "half width of the Hertz contact"),
     "face_load_factor": _pair(

@@ -89,6 +89,12 @@ def face_edges(record: Record) -> Float[Array, " edge"]:
     return np.linspace(-width / 2, width / 2, len(record["slice"]) + 1)
 
 
+def late(record: Record) -> float:
+    """Pinion angle by which places along the face are late, rad/m; 0 of spur gears."""
+    numbers = record.mesh_cycle
+    return float(numbers.get("pitch_slope", 0.0)) / float(numbers["pinion_pitch_radius"])
+
+
 def at_pitch_point(record: Record, name: str) -> Float[Array, " slice"]:
     """Give a quantity over the face (slices,) where a pair is nearest to the pitch point."""
     roll = np.abs(record["roll_angle"])
@@ -161,7 +167,8 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
         for color, width in (("white", 2.4), (INK, 1.0)):
             place = roll[at[0]], face_values.face[at[1]] * 1e3
             axes.plot(*place, "x", color=color, markersize=6, markeredgewidth=width)
-    axes.axvline(0.0, color="white", linewidth=0.7, linestyle=":")
+    pitch_line = np.degrees(late(record) * across)
+    axes.plot(pitch_line, across * 1e3, color="white", linewidth=0.7, linestyle=":", scalex=False)
     axes.grid(visible=False)
     axes.margins(0)
     axes.set_xlabel("Roll angle from the pitch point (°)")

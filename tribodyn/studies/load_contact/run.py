@@ -4,72 +4,29 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
-from tribodyn.compliance.sharing.loaded_contact import LoadedContact, loaded_error, roll_through
-from tribodyn.compliance.sharing.slices import PairFlexibility
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
+from tribodyn.compliance.sharing.loaded_contact import (
+    LoadedContact,
+    loaded_error,
+    slice_contacts,
+)
+from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.body import geometry_arrays
-from tribodyn.geometry.drive import Drive, MaterialData
-from tribodyn.geometry.families import family
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.pitch_point import pitch_point
-from tribodyn.numerics.remembered import remembered
+from tribodyn.geometry.helix import pitch_slope
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.gears.check import sheet_and_stiffness
 from tribodyn.studies.load_contact.case import BODIES, LAYOUT, OILED, LoadContactCase
+from tribodyn.studies.load_contact.film import film_over_face
+from tribodyn.studies.load_contact.prepare import PreparedTeeth, contact_of, flanks_of, prepare, roll
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
-from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities
-from tribodyn.tribology.surface_state import contact_friction, fraction_in_range, range_shares
-
-
-class PreparedTeeth(NamedTuple):
-    """A case made ready: its teeth put together, and their elasticity."""
-
-    case: LoadContactCase
-    flexible: PairFlexibility
-
-
-def prepare(case: LoadContactCase) -> PreparedTeeth:
-    """Check geometry and modifications, and find the elasticity of both gears.
-
-    Raises InputError where the teeth cannot be made, or cannot run together as they are modified.
-    """
-    from tribodyn.compliance.sharing.flank_gap import check_modifications
-
-    flexible = _flexible(case.family, case.drive, case.materials)
-    check_modifications(flexible.assembly, case.mesh.modifications)
-    return PreparedTeeth(case, flexible)
-
-
-@remembered(2)
-def _flexible(name: str, drive: Drive, materials: tuple[MaterialData, MaterialData]) -> PairFlexibility:
-    """The pair as it is without modifications: cases that differ in those, or in their load, share it."""
-    from tribodyn.geometry.limits.checks import check
-
-    return flexibility(check(family(name), drive), materials, lead=True)
-
-
-def roll(study: PreparedTeeth, gear_torque: float) -> LoadedContact:
-    """Roll the study's teeth through its mesh cycles at a torque, N m.
-
-    Raises InputError if the slices do not resolve what carries, SimulationError if no contact is found.
-    """
-    return roll_through(*_contact(study, gear_torque))
-
-
-def _contact(study: PreparedTeeth, gear_torque: float) -> tuple[Any, ...]:
-    """Arguments of `roll_through` and `loaded_error`."""
-    case = study.case
-    mesh = case.mesh
-    flanks = LoadedFlanks(study.flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
-    return flanks, gear_torque, case.positions_per_cycle, case.cycles, case.friction_coefficient
 
 
 def run(
@@ -107,7 +64,7 @@ def run(
         spread = []
         for row, torque in enumerate(case.gear_torques):
             try:
-                error_at = loaded_error(*_contact(study, torque))
+                error_at = loaded_error(*contact_of(study, torque))
             except SimulationError as error:
                 failure = f"at operating.gear_torques.{row} = {torque:g} N*m: {error.reason}"
                 return RunResult(record.fail(failure, summary), "failed", failure, summary)
@@ -126,7 +83,11 @@ def check(case: LoadContactCase) -> CheckResult:
     study = prepare(case)
     assembly = study.flexible.assembly
     arm = float(assembly.path.gear_pitch_radius) * math.cos(float(assembly.path.pressure_angle(0.0)))
-    pair = case.operating.gear_torque / arm, single_pair_stiffness(study)
+    # along the path of contact, as the standard has it: load and deflection are each cos β_n of the normal's
+    cosine = 1.0 / math.hypot(
+        1.0, float(pitch_slope(assembly)) * math.cos(float(assembly.path.pressure_angle(0.0)))
+    )
+    pair = case.operating.gear_torque / (arm * cosine), single_pair_stiffness(study) * cosine**2
     return sheet_and_stiffness(assembly, case.materials, "finite elements", pair)
 
 
@@ -143,52 +104,6 @@ def _evaluated(
     arrays, film = film_over_face(study, loaded)
     summary = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
     return arrays, summary | loaded_quantities(study, loaded) | film | _judged(study, loaded, film)
-
-
-def film_over_face(
-    study: PreparedTeeth, loaded: LoadedContact
-) -> tuple[dict[str, Float[Array, "position pair slice"]], dict[str, Any]]:
-    """Datasets and summary of the film law at the load of every slice, the oil as it enters the mesh.
-
-    Film by the law in use, m, and whether that is inside its range; NaN where a slice carries nothing. Empty
-    without a lubricant.
-
-    Each slice is a line contact of its own line load, with the radii and speeds of its pair: no flow along
-    the face. Beyond the path of contact the flanks have the curvature of the path's end.
-    """
-    assembly, case = study.flexible.assembly, study.case.lubricated
-    if case is None:
-        return {}, {}
-    closure = closure_of(case)
-    motion = pair_geometry(assembly, loaded.roll).motion
-    speed = case.operating.pinion_speed
-    carries = loaded.line_load > 0.0
-    position, pair, _ = np.nonzero(carries)
-    vanishing = pitch_point(assembly.path)
-    contact = contact_friction(
-        closure,
-        loaded.line_load[carries],
-        1.0 / motion.relative_curvature[position, pair],
-        speed * motion.pinion_speed[position, pair],
-        speed * motion.gear_speed[position, pair],
-        float(vanishing.length),
-        speed * float(vanishing.speed_per_radius),
-    )
-    film, inside = contact.surface.central_film_thickness, contact.surface.closure_in_range
-    thickness, in_range = (np.full(carries.shape, np.nan) for _ in range(2))
-    thickness[carries], in_range[carries] = film, inside
-    least = int(np.argmin(film))
-    laws = {name: value for name, value in law_quantities(case).items() if name.startswith("film")}
-    outside = exceeded_limits(case, *range_shares(contact.contact, closure))
-    arrays = {"central_film_thickness": thickness, "closure_in_range": in_range}
-    return arrays, {
-        "film_min": float(film[least]),
-        "film_parameter_min": float(film[least] / closure.surfaces.roughness),
-        "film_parameter_min_roll_angle": float(loaded.roll[position[least], pair[least]]),
-        "closure_in_range_fraction": fraction_in_range(inside),
-        **{name: value for name, value in outside.items() if name == "closure_exceeded"},
-        **laws,
-    }
 
 
 def record_arrays(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Float[Array, "position ..."]]:
@@ -214,10 +129,14 @@ def record_arrays(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Floa
 
 def torque_residual(study: PreparedTeeth, loaded: LoadedContact) -> Float[Array, " position"]:
     """Torque of the pairs' loads, friction included, over the gear's torque, less 1, at every position."""
-    motion = pair_geometry(study.flexible.assembly, loaded.roll).motion
-    side = np.sign(motion.signed_distance)
-    lever = motion.gear_normal_arm + side * study.case.friction_coefficient * motion.gear_friction_arm
-    return np.sum(loaded.normal_load * lever, axis=1) / study.case.operating.gear_torque - 1.0
+    flanks = flanks_of(study)
+    seen = slice_contacts(flanks, loaded.roll, study.case.friction_coefficient)
+    if seen.lever.shape[-1] == 1:
+        torque = np.sum(loaded.normal_load * seen.lever[..., 0], axis=1)
+    else:
+        load = loaded.line_load * seen.length * study.flexible.width / flanks.slices
+        torque = np.sum(load * seen.lever, axis=(1, 2))
+    return torque / study.case.operating.gear_torque - 1.0
 
 
 def loaded_quantities(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Any]:
@@ -238,7 +157,7 @@ def loaded_quantities(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, 
         "normal_load_max": float(np.max(loaded.normal_load)),
         **({"shared_load_max": shared} if np.isfinite(shared) else {}),
         "line_load_max": float(loaded.line_load[worst]),
-        "face_load_factor": float(loaded.face_load_factor[worst[0], worst[1]]),
+        "face_load_factor": face_load_factor(study, loaded),
         "face_load_factor_pitch_point": float(loaded.face_load_factor[position, pair]),
         "hertz_pressure_max": float(np.max(loaded.pressure)),
         "pinion_root_tension_max": float(np.max(tension[0])),
@@ -249,6 +168,19 @@ def loaded_quantities(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, 
         "gear_torque": study.case.operating.gear_torque,
         "slices": study.case.mesh.slices,
     }
+
+
+def face_load_factor(study: PreparedTeeth, loaded: LoadedContact) -> float:
+    """K_Hβ: of the pair with the maximum line load; of helical pairs of the loads' means over the mesh cycle.
+
+    At an instant the line of contact of a helical pair covers a part of the face, and the line load varies
+    along it as the stiffness does along the path, whatever the axes: the face is evenly loaded all the same.
+    """
+    if is_helical(study.flexible.assembly):
+        mean = np.mean(np.sum(loaded.line_load, axis=1), axis=0)
+        return float(np.max(mean) / np.mean(mean))
+    worst = np.unravel_index(np.argmax(loaded.line_load), loaded.line_load.shape)
+    return float(loaded.face_load_factor[worst[0], worst[1]])
 
 
 def _judged(study: PreparedTeeth, loaded: LoadedContact, film: Mapping[str, Any]) -> dict[str, Any]:
@@ -262,11 +194,14 @@ def _judged(study: PreparedTeeth, loaded: LoadedContact, film: Mapping[str, Any]
 
 
 def single_pair_stiffness(study: PreparedTeeth) -> float:
-    """Load over deflection along the normal of one unmodified pair alone at the pitch point, N/m."""
-    alone = np.zeros((1, 1))
-    shared = LoadedFlanks(study.flexible).share(alone, study.case.operating.gear_torque)
-    angle = pair_geometry(study.flexible.assembly, alone).motion.pressure_angle
-    return float(shared.normal_load[0, 0] / (shared.deflection[0] * np.cos(angle[0, 0])))
+    """Load over deflection along the normal of one unmodified pair alone at the pitch point, N/m.
+
+    Of helical teeth as if all their width touched there at once, as c' of ISO 6336-1 is meant.
+    """
+    alone, flanks = np.zeros((1, 1)), LoadedFlanks(study.flexible)
+    shared = flanks.share(alone, study.case.operating.gear_torque)
+    arm = slice_contacts(flanks, alone).arm[0, 0, 0]
+    return float(shared.normal_load[0, 0] / (shared.deflection[0] * arm))
 
 
 def _numbers(study: PreparedTeeth) -> dict[str, float]:
@@ -281,6 +216,7 @@ def _numbers(study: PreparedTeeth) -> dict[str, float]:
         "contact_ratio": float(assembly.contact_ratio),
         "roll_start": start,
         "roll_end": end,
+        "pitch_slope": float(pitch_slope(assembly)),
     }
 
 

@@ -1,0 +1,311 @@
+"""From tooth shape and elasticity to the mesh cycle of helical gears: pairs in slices along the face.
+
+Every slice is a spur pair of its own that is late by z tan β_w/r_w of pinion rotation. It counts with the
+part of its width that is on the path of contact, its *share*: the force of a slice is share · δ_n/C, with the
+approach δ_n along the flanks' true normal. The share rises from 0 to 1 while the slice enters and nothing
+jumps, so one segment is enough; its nodes resolve the ramps. Errors go with the square of the slices' width.
+
+The mesh is at phase 0 where the earliest edge of the face enters B_g. `roll_start`, `roll_end` and
+`pitch_point_phase` of the table are of the middle of the face: roll_start is where it stands at phase 0, half
+an overlap before the path of contact, and (roll_end − roll_start)/pitch is the total contact ratio ε_γ.
+`contact_ratio` is ε_α.
+
+Back flanks. Whatever happens in one section happens in the section at z by z tan β_w/r_w later, whichever
+flanks touch. In the mirrored world, where a pair's roll angle decreases, the section at z is therefore
+further on by as much: mirrored, the hand of the helix is the other one.
+"""
+
+import dataclasses
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.energy import hertz_coefficient, hertz_linear
+from tribodyn.compliance.sharing.flank_gap import lead_gap, profile_gap
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import MaterialData
+from tribodyn.geometry.flanks.corner_contact import PairGeometry
+from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
+from tribodyn.geometry.helix import (
+    curvature_share,
+    line_stretch,
+    normal_slope,
+    overlap_ratio,
+    pitch_slope,
+    speed_share,
+)
+from tribodyn.geometry.path import Kinematics, kinematics
+from tribodyn.mesh import table
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.tabulate import RollCurve, check_options, pair_compliance, tabulate
+from tribodyn.numerics.elementary import absolute, cos, is_jax, namespace, sqrt, within
+from tribodyn.numerics.shapes import Array, Float
+
+#: Nodes over which a slice comes into contact; fewer where a table would grow beyond `MAXIMUM_NODES`.
+NODES_PER_RAMP = 12
+MAXIMUM_NODES = 1025
+#: Minimum number of slices of a helical pair.
+MINIMUM_SLICES = 3
+
+
+class Layout(NamedTuple):
+    """Numbers of slots and nodes of a table of slices: plain, while the drive may be traced."""
+
+    slices: int
+    nodes: int
+    pairs: int  # of driving flanks that can be in contact at once, ⌈ε_γ⌉
+    back: range = range(0)  # pitches by which back pairs stand apart from the one that enters
+
+
+def minimum_slices(assembly: Assembly) -> int:
+    """Minimum number of slices: a slice is late against the next by half the path of contact at most."""
+    return max(
+        MINIMUM_SLICES, math.ceil(2.0 * float(overlap_ratio(assembly)) / float(assembly.contact_ratio))
+    )
+
+
+def slice_layout(assembly: Assembly, mesh: table.MeshData, slices: int, back: bool = False) -> Layout:
+    """Lay out the table of a helical pair of plain numbers.
+
+    Raises InputError for fewer slices than `minimum_slices`.
+    """
+    transverse, overlap = float(assembly.contact_ratio), float(overlap_ratio(assembly))
+    least = minimum_slices(assembly)
+    if slices < least:
+        raise InputError(
+            "mesh.slices",
+            slices,
+            f"too few for contact ratios of {transverse:.3g} (transverse) and {overlap:.3g} (overlap)",
+            f'use at least {least}, or "auto"',
+        )
+    resolved = math.ceil(NODES_PER_RAMP * slices / overlap) + 1 if overlap > 0.0 else MAXIMUM_NODES
+    nodes = max(mesh.points, min(resolved, MAXIMUM_NODES))
+    behind = range(0)
+    if back:
+        enter = float(table.back_entry(assembly.roll_limits[0], assembly.pitch_angle))
+        # a back pair n stands at enter − phase + n + (what the section adds, up to ε_β) pitches
+        behind = range(math.floor(-overlap - enter) + 1, math.ceil(transverse - enter + 1.0))
+    return Layout(slices, nodes, math.ceil(transverse + overlap - 1e-9), behind)
+
+
+def tabulate_slices(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: table.MeshData, layout: Layout
+) -> MeshCycle:
+    """Tabulate the mesh cycle of a helical pair whose slices do not hold each other.
+
+    Every number of the drive may be traced, unless flanks are modified. Raises InputError as
+    `tabulate.tabulate`.
+    """
+    check_options(assembly, mesh, bool(layout.back))
+    if not is_jax(assembly.drive.helix_angle) and assembly.drive.helix_angle == 0.0:
+        return _spur_slices(assembly, materials, mesh, layout)
+    path = assembly.path
+    at = _slots(assembly, layout)
+    slope = absolute(pitch_slope(assembly))
+    curve = RollCurve(*assembly.roll_limits)
+    r_nodes = path.signed_distance(curve.nodes())
+    r = curve.interpolate(r_nodes, at.roll)
+    if assembly.family.corner:
+        r = r - (path.rotation(r) - at.roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
+    motion = kinematics(path, r)
+    faces = Faces(slope, normal_slope(slope, motion.pressure_angle), line_stretch(slope, path, r))
+    speed = speed_share(slope, path, r)
+    cycle = table.mesh_table(
+        assembly,
+        at,
+        motion._replace(pinion_speed=motion.pinion_speed * speed, gear_speed=motion.gear_speed * speed),
+        table.Elasticity(
+            slice_compliance(assembly, materials, mesh, curve, r_nodes, at.roll, faces, layout),
+            np.zeros((*at.phase.shape, 1, 1)),
+            slice_gap(assembly, mesh, at, motion, slope, layout),
+            _hertz_coefficient(assembly, materials, mesh, slope, layout.slices),
+            line_load_friction=1.0 / faces.stretch,
+            line_load_peak=1.0 / faces.stretch,
+        ),
+    )
+    return cycle._replace(
+        equivalent_radius=cycle.equivalent_radius / curvature_share(slope, path, r),
+        share=at.share,
+        face_position=face_positions(assembly.common_width, layout.slices),
+        pitch_slope=slope,
+    )
+
+
+def _spur_slices(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: table.MeshData, layout: Layout
+) -> MeshCycle:
+    """Slices of a spur pair, all alike, in step with the pair's segments."""
+    apart = dataclasses.replace(mesh, foundation_coupling=False)
+    pair = tabulate(assembly, materials, apart, layout.pairs, bool(layout.back))
+    shape, count = pair.compliance.shape, layout.slices
+    fields = {
+        name: np.repeat(value, count, axis=-1)
+        for name, value in pair._asdict().items()
+        if name in ("in_contact", "side") or np.shape(value) == shape
+    }
+    cycle = pair._replace(**fields, face_position=face_positions(assembly.common_width, count))
+    gap = _modified(assembly, mesh, cycle.gap, cycle.signed_distance, 0.0, layout)
+    return cycle._replace(
+        compliance=cycle.compliance * count,
+        hertz_coefficient=pair.hertz_coefficient * count**0.9,
+        coupling=np.zeros((*shape[:2], 1, 1)),
+        gap=gap,
+        share=np.ones_like(cycle.compliance),
+    )
+
+
+class Faces(NamedTuple):
+    """How the flanks lean at the contacts."""
+
+    pitch_slope: Any  # tan β_w ≥ 0
+    normal_slope: Any  # tan β_n, shaped like the contacts
+    stretch: Any  # length of the line of contact per width of the face, like the contacts
+
+
+def face_positions(width: Any, slices: int) -> Float[Array, " slice"]:
+    """Middles of the slices (K,), m from the middle of the face."""
+    return ((np.arange(slices) + 0.5) / slices - 0.5) * width
+
+
+class SliceSlots(NamedTuple):
+    """Where the slices stand, as `table.Slots`; `roll` in the middle of the part that touches."""
+
+    boundary: Any
+    phase: Any
+    in_contact: Any
+    side: Any
+    roll: Any
+    limits: tuple[Any, Any]
+    share: Any  # (1, N, slot)
+
+
+def _slots(assembly: Assembly, layout: Layout) -> SliceSlots:
+    start, end = assembly.roll_limits
+    pitch, count = assembly.pitch_angle, layout.slices
+    xp = namespace(start, end, assembly.drive)
+    whole = pitch * overlap_ratio(assembly)  # by which the one end of the face is late against the other
+    late = whole * face_positions(1.0, count)
+    phase = np.linspace(0.0, 1.0, layout.nodes)[None]
+    begin = start - whole / 2.0
+    ages = np.arange(layout.pairs - 1.0, -1.0, -1.0)
+    middle = begin + pitch * (phase[..., None] + ages)
+    rolls = [middle[..., None] - late]
+    if layout.back:
+        numbers = np.array(layout.back[::-1], dtype=float)
+        # z = 0 is late by a half overlap against the edge that the phase counts from
+        turned = start + pitch * (table.back_entry(start, pitch) - phase[..., None] + numbers) + whole / 2.0
+        rolls.append(turned[..., None] + late)
+    roll = xp.concatenate([part.reshape(1, layout.nodes, -1) for part in rolls], axis=-1)
+    width = whole / count
+    low, high = within(roll - width / 2.0, start, end), within(roll + width / 2.0, start, end)
+    share = (high - low) / width
+    side = np.repeat([1.0, -1.0], [layout.pairs * count, len(layout.back) * count])
+    limits = begin, end + whole / 2.0
+    present = np.ones((1, side.size))
+    return SliceSlots(np.array([0.0, 1.0]), phase, present, side, (low + high) / 2.0, limits, share)
+
+
+def slice_compliance(
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: table.MeshData,
+    curve: RollCurve,
+    r_nodes: Any,
+    roll: Float[Array, "segment node slot"],
+    faces: Faces,
+    layout: Layout,
+) -> Float[Array, "segment node slot"]:
+    """Compliance of slices that touch over their whole width, along the true normal, m/N.
+
+    A given stiffness is that of a pair which touches over its whole face, along the true normal. The energy
+    method takes the normal section of the tooth (`compliance.energy`), the contact the line's true length.
+    """
+    teeth = dataclasses.replace(mesh, hertz="load-dependent", foundation_coupling=False)
+    pair, _ = pair_compliance(assembly, materials, teeth, curve, r_nodes, roll, layout.pairs)
+    if mesh.compliance == "energy" and mesh.hertz == "linear":
+        pair = pair + hertz_linear(*materials, assembly.common_width) / faces.stretch
+    return pair * layout.slices
+
+
+def _hertz_coefficient(
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: table.MeshData,
+    slope: Any,
+    slices: int,
+) -> Any:
+    """Coefficient of a slice's deflection: a slice deflects as the whole face under the same line load.
+
+    With the length of the line of contact at the pitch point.
+    """
+    if mesh.compliance != "energy" or mesh.hertz == "linear":
+        return 0.0
+    stretch = line_stretch(slope, assembly.path, 0.0 * assembly.r_start)
+    return hertz_coefficient(*materials, assembly.common_width * stretch) * slices**0.9
+
+
+def slice_gap(
+    assembly: Assembly,
+    mesh: table.MeshData,
+    at: SliceSlots,
+    motion: Kinematics,
+    slope: Any,
+    layout: Layout,
+) -> Float[Array, "segment node slot"]:
+    """Gap between the unloaded slices along the true normal, m.
+
+    A given transmission error is along the true normal; the backlash is that at the pitch point.
+    """
+    gap = table.unloaded_gap(assembly, mesh, at, motion.pressure_angle)
+    if layout.back:
+        # conjugate back flanks touch after the same rotation: the distance goes like the arm cos α cos β_n
+        pitch_point = normal_slope(slope, assembly.path.pressure_angle(0.0 * assembly.r_start))
+        leaning = normal_slope(slope, motion.pressure_angle)
+        turned = sqrt((1.0 + pitch_point**2) / (1.0 + leaning**2))
+        gap = namespace(gap, turned).where(at.side > 0, gap, gap * turned)
+    return _modified(assembly, mesh, gap, motion.signed_distance, slope, layout)
+
+
+def _modified(
+    assembly: Assembly, mesh: table.MeshData, gap: Any, r: Any, slope: Any, layout: Layout
+) -> Float[Array, "segment node slot"]:
+    if mesh.modifications == UNMODIFIED:
+        return gap
+    for broken in uneven_teeth(mesh.modifications):
+        raise broken
+    fronts = layout.pairs * layout.slices
+    behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
+    for side, own, flanks in (
+        (1, np.s_[..., :fronts], mesh.modifications),
+        (-1, np.s_[..., fronts:], behind),
+    ):
+        if r[own].size:
+            gap[own] += modified_gap(assembly, flanks, r[own], slope, layout.slices, side)
+    return gap
+
+
+def modified_gap(
+    assembly: Assembly,
+    modifications: Modifications,
+    r: Float[Array, "segment node slot"],
+    slope: float,
+    slices: int,
+    side: int,
+) -> Float[Array, "segment node slot"]:
+    """What modifications and misalignment leave open at slices of one side, m along the true normal.
+
+    Plain numbers; r is the signed distance (m). A gear turned by the angle γ in the plane of action opens the flanks by z γ along the line
+    of action and shifts them by −r γ along the axis: by γ (z cos β_n ∓ r sin β_n) along the normal of driving
+    and back flanks, which is how far the contact is from the pitch point along the line of contact.
+    """
+    z = np.tile(face_positions(float(assembly.common_width), slices), r.shape[-1] // slices)
+    motion = kinematics(assembly.path, r)
+    place = PairGeometry(motion, np.zeros_like(r), r, r, r, r)
+    turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
+    stand = modifications.misalignment
+    angle = stand.in_plane * np.cos(turned) + stand.out_of_plane * np.sin(turned)
+    leaning = normal_slope(slope, motion.pressure_angle)
+    opened = angle * (z - side * r * leaning) / np.sqrt(1.0 + leaning**2)
+    return profile_gap(assembly, modifications, place) + lead_gap(assembly, modifications, z) + opened

@@ -1,0 +1,66 @@
+"""How many slices a helical pair needs: as many as its transmission error in slow rotation takes for 1 %."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import MaterialData
+from tribodyn.mesh.helical import minimum_slices, slice_layout, tabulate_slices
+from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.table import MeshData
+from tribodyn.numerics.shapes import Array, Float
+
+#: Share of its peak to peak by which the transmission error may differ from that with twice the slices.
+TOLERANCE = 0.01
+#: Where the error is below this share of the deflection, `TOLERANCE` is of this share of the deflection.
+SMALL_ERROR = 0.1
+#: Minimum and maximum number; odd, so that one slice is in the middle of the face.
+FEWEST, MOST = 5, 83
+_PHASE = np.linspace(0.0, 1.0, 401)
+
+
+class SliceNumber(NamedTuple):
+    """Number of slices of a helical pair, and why."""
+
+    slices: int
+    remark: str
+
+
+def slices_needed(
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: MeshData,
+    gear_torque: float,
+) -> SliceNumber:
+    """Choose the number of slices of a helical pair of plain numbers at a torque T_g ≠ 0, N m.
+
+    From `FEWEST` on the number is doubled (K, 2K + 1) until the transmission error, its mean apart, changes by
+    less than `TOLERANCE` anywhere; the fewer slices are then enough. Without a torque `FEWEST` doubled once.
+    """
+    first = max(FEWEST, minimum_slices(assembly)) | 1
+    if gear_torque == 0.0:
+        return SliceNumber(
+            2 * first + 1, f"{2 * first + 1} slices along the face, without a torque to judge by."
+        )
+
+    def error(slices: int) -> tuple[Float[Array, " phase"], float]:
+        cycle = tabulate_slices(assembly, materials, mesh, slice_layout(assembly, mesh, slices))
+        deflection = quasi_static(cycle, abs(gear_torque)).deflection[0]
+        mean = float(np.mean(deflection))
+        return np.interp(_PHASE, cycle.phase[0], deflection) - mean, mean
+
+    slices, (now, _) = first, error(first)
+    while True:
+        finer, mean = error(2 * slices + 1)
+        size = max(float(np.ptp(finer)), SMALL_ERROR * abs(mean))
+        change = float(np.ptp(finer - now)) / size
+        if change <= TOLERANCE or 2 * slices + 1 > MOST:
+            break
+        slices, now = 2 * slices + 1, finer
+    what = "the transmission error" if size > SMALL_ERROR * abs(mean) else "a tenth of the deflection"
+    return SliceNumber(
+        slices,
+        f"{slices} slices along the face: twice as many change the transmission error by {change:.2g} of "
+        f"{'its peak to peak' if what == 'the transmission error' else what}.",
+    )
