@@ -140,7 +140,7 @@ def test_time_without_contact_and_without_load():
 
 def test_extremes_of_blocks_are_those_of_the_whole(rng):
     values = {name: rng.normal(size=(30, 4)) for name, _ in RECORDED.values()}
-    values |= {name: rng.normal(size=(30, 4)) for name in ("transmission_error_normal", "pressure_angle")}
+    values |= {name: rng.normal(size=(30, 4)) for name in ("transmission_error_normal", "tangent_load")}
     values |= {name: rng.normal(size=30) for name in ("transmission_error_rotational", "time")}
     values["film_parameter"][:10] = np.nan
     extremes = RunningExtremes(CYCLE)
