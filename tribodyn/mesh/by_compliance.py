@@ -1,5 +1,6 @@
 """The mesh cycle of a pair of gears by the compliance that a case chooses for it."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tribodyn.compliance.energy import loaded_tooth, polynomials_over_ring
@@ -38,13 +39,23 @@ def mesh_cycle_of(
 
         return tabulate_loaded(assembly, materials, mesh, gear_torque, back)
     if assembly.drive.helix_angle or mesh.slices > 1:
-        count = mesh.slices
-        if assembly.drive.helix_angle and count <= 1:
-            count = slices_needed(assembly, materials, mesh, gear_torque).slices
-        return tabulate_helical(
-            assembly, materials, mesh, slice_layout(assembly, mesh, count, back), gear_torque
-        )
+        mesh, _ = with_slices(assembly, materials, mesh, gear_torque)
+        layout = slice_layout(assembly, mesh, mesh.slices, back)
+        return tabulate_helical(assembly, materials, mesh, layout, gear_torque)
     return tabulate(assembly, materials, mesh, pair_slots(assembly), back)
+
+
+def with_slices(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: MeshData, gear_torque: float
+) -> tuple[MeshData, str]:
+    """Count the slices that a helical pair needs where they are left open; the remark says why, or is empty.
+
+    Of `compliance = "fem"`, and of spur gears, the number stays.
+    """
+    if mesh.at_load or not assembly.drive.helix_angle or mesh.slices > 1:
+        return mesh, ""
+    found = slices_needed(assembly, materials, mesh, gear_torque)
+    return replace(mesh, slices=found.slices), found.remark
 
 
 def loaded_flanks_of(

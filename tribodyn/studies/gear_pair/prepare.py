@@ -39,7 +39,8 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> PreparedPair:
     cycle, (pinion, gear), assembly = made.cycle, made.masses, made.assembly
     warm, thermal = at_tooth_temperature(case, assembly, quasi_static_loss(made))
     model = _model(case, made, closure_of(warm), (pinion, gear))
-    return PreparedPair(warm, assembly, cycle, thermal, model, (pinion, gear), case)
+    masses, remark = (pinion, gear), made.slice_remark
+    return PreparedPair(warm, assembly, cycle, thermal, model, masses, case, slice_remark=remark)
 
 
 def _model(

@@ -63,7 +63,7 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     model, cycle = prepared.model, prepared.cycle
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
     summary: dict[str, Any] = {
-        **at_rest(case, prepared.assembly, cycle),
+        **at_rest(case, prepared),
         "pinion_mass": prepared.masses[0][0],
         "gear_mass": prepared.masses[1][0],
         "pinion_inertia": prepared.masses[0][1],

@@ -15,6 +15,7 @@ RECORDED = {
     "film_parameter_min": ("film_parameter", -1),
     "hertz_pressure_max": ("hertz_pressure", 1),
     "flash_temperature_max": ("flash_temperature_rise", 1),
+    "line_load_max": ("line_load", 1),
 }
 
 #: Prefix of the names of extremes of the driving flanks (1) and of the back flanks (−1).
@@ -45,7 +46,8 @@ class RunningExtremes:
             return
         error = block["transmission_error_rotational"]
         for name, (recorded, sign) in RECORDED.items():
-            self._add(name, sign, block[recorded], cycles, time)
+            if recorded in block:  # line loads: of helical pairs
+                self._add(name, sign, block[recorded], cycles, time)
         for name, sign in (("max", 1), ("min", -1)):
             self._add(f"transmission_error_{name}", sign, error, cycles, time)
         for side, slots in self._slots.items():

@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.dynamics.outputs import UNRECORDED
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.helix import overlap_ratio
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import (
@@ -21,6 +22,8 @@ from tribodyn.mesh.quasi_static import (
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.extremes import WORKING, RunningExtremes
+from tribodyn.studies.gears.prepare import PreparedGears
+from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
@@ -104,17 +107,33 @@ def mesh_quantities(
         "contact_loss_fraction": float(np.mean(~np.any(touching, axis=1))),
         "spectrum_frequencies": spectrum.orders[keep] * frequency,
         "spectrum_amplitudes": spectrum.amplitudes[keep],
+        **({"axial_force_mean": float(np.mean(window["axial_force"]))} if cycle.slices > 1 else {}),
     }
 
 
-def at_rest(case: LubricatedCase, assembly: Assembly, cycle: MeshCycle) -> dict[str, Any]:
+def at_rest(case: LubricatedCase, made: Tabulated | PreparedGears[Any]) -> dict[str, Any]:
     """Quantities of a mesh that do not depend on its motion, and the laws in use."""
+    cycle, assembly = made.cycle, made.assembly
     return {
         "contact_ratio": float(cycle.contact_ratio),
+        **_of_the_face(cycle, assembly, made.slice_remark),
         **({} if case.mesh.backlash is None else {"normal_backlash": case.mesh.backlash}),
         "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
         "compliance_remark": compliance_remark(assembly, case.materials, case.mesh) or None,
         **law_quantities(case),
+    }
+
+
+def _of_the_face(cycle: MeshCycle, assembly: Assembly, remark: str) -> dict[str, Any]:
+    """What helical teeth have besides; nothing of spur gears."""
+    if not assembly.drive.helix_angle:
+        return {}
+    overlap = float(overlap_ratio(assembly))
+    return {
+        "overlap_ratio": overlap,
+        "total_contact_ratio": float(cycle.contact_ratio) + overlap,
+        "slices": cycle.slices,
+        "slice_remark": remark or None,
     }
 
 
