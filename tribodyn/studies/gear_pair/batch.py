@@ -26,6 +26,8 @@ from tribodyn.train.structure import TrainLayout
 
 #: Modes without a compliant shaft, and with one.
 MODES, MODES_WITH_SHAFT = 5, 6
+#: And further ones of gears that move in space.
+MODES_IN_SPACE = 6
 #: Names of the states of a pair with a motor behind a shaft, as `train.structure.TrainLayout` has them.
 STATE_NAMES = (
     *("x_p", "y_p", "lag", "x_g", "y_g", "turn_g", "turn_m"),
@@ -33,24 +35,33 @@ STATE_NAMES = (
     *("work_in", "work_out", "work_damping", "work_parametric", "work_friction", "work_sliding"),
 )
 _OF_MOTOR = ("turn_m", "spin_m")
+_IN_SPACE = tuple(f"{name}_{gear}" for gear in "pg" for name in ("z", "tilt_x", "tilt_y"))
+#: Names of the states where the gears move in space.
+STATE_NAMES_IN_SPACE = (
+    *(*STATE_NAMES[:7], *_IN_SPACE, *STATE_NAMES[7:14], *(f"v{name}" for name in _IN_SPACE)),
+    *STATE_NAMES[14:],
+)
 
 
-def state_places(layout: TrainLayout) -> list[int]:
-    """Places of a pair's states among `STATE_NAMES`; without a shaft those of the motor are NaN."""
-    motor = layout.bodies > 2
-    return [i for i, name in enumerate(STATE_NAMES) if motor or name not in _OF_MOTOR]
+def state_places(layout: TrainLayout, names: Sequence[str] = STATE_NAMES) -> list[int]:
+    """Places of a pair's states among the names of a sweep's; of what it has not they are NaN there."""
+    own = STATE_NAMES_IN_SPACE if layout.spatial else STATE_NAMES
+    without = () if layout.bodies > 2 else _OF_MOTOR
+    return [names.index(name) for name in own if name not in without]
 
 
 class GearPairs(SweptKind):
     """See `gears.batch.evaluate.SweptKind`."""
 
     swept = SWEPT
-    most_states = len(STATE_NAMES)
+    most_states = len(STATE_NAMES_IN_SPACE)
 
     def form(self, cases: Sequence[Case]) -> Form:
-        """A mode more where a shaft gives way."""
+        """A mode more where a shaft gives way, and more of helical gears."""
         shaft = any(case.operating.shaft_stiffness is not None for case in cases)
-        return Form(MODES_WITH_SHAFT if shaft else MODES, STATE_NAMES)
+        helical = any(float(case.drive.helix_angle) != 0.0 for case in cases)
+        modes = MODES_WITH_SHAFT if shaft else MODES
+        return Form(modes + MODES_IN_SPACE * helical, STATE_NAMES_IN_SPACE if helical else STATE_NAMES)
 
     def table_key(self, case: Case) -> Hashable:
         """See `same_table`."""
@@ -74,7 +85,7 @@ class GearPairs(SweptKind):
 
     def places(self, prepared: PreparedPair, settings: SweepSettings) -> list[int]:
         """See `state_places`."""
-        return state_places(prepared.model.layout)
+        return state_places(prepared.model.layout, settings.states)
 
     def steady_quantities(
         self,
