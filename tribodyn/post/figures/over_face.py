@@ -15,7 +15,7 @@ from tribodyn.post.figures.panel import View, abscissa, abscissa_label, record_l
 from tribodyn.post.figures.scale import scale
 from tribodyn.record.reader import Record
 
-#: Places of the map along the path of contact.
+#: Places of the map along the path of contact, and across the face.
 _PLACES = 241
 #: Dash patterns of pinion and gear.
 _LINES = {"p": "-", "g": (0, (5, 2))}
@@ -81,10 +81,11 @@ def _draw_map(axes: Axes, record: Record, found: FlankMap, top: float) -> object
     table = record.mesh_cycle
     edge = 1e3 * float(table["face_width"]) / 2.0
     roll, face, values = np.degrees(found.roll), 1e3 * found.face, 1e-3 * found.values
+    across = np.linspace(-edge, edge, _PLACES)
     image = axes.pcolormesh(
         roll,
-        np.concatenate([[-edge], face, [edge]]),
-        np.concatenate([values[:1], values, values[-1:]]),
+        across,
+        np.stack([np.interp(across, face, column) for column in values.T], axis=1),
         vmin=0.0,
         vmax=top,
         cmap="viridis",
