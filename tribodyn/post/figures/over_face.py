@@ -125,7 +125,7 @@ def in_space_figure(records: Sequence[Record], view: View) -> Figure:
         window = last_cycles(record, view.cycles)
         x, dof = abscissa(window, view), list(record["dof"])
         moved = 1e6 * record["displacement"][window.part]
-        name = f"{record_label(record)}: " if len(records) > 1 else ""
+        name = record_label(record) if len(records) > 1 else ""
         curves = [(0, "", record["axial_force"][window.part], "-", 0)]
         for body, side in (("p", "pinion"), ("g", "gear")):
             curves.append((1, side, moved[:, dof.index(f"z_{body}")], _LINES[body], 0))
@@ -135,7 +135,7 @@ def in_space_figure(records: Sequence[Record], view: View) -> Figure:
             ]
         for row, label, values, line, shade in curves:
             color = style.PALETTE[(2 * number + shade) % len(style.PALETTE)]
-            rows[row].plot(x, values, color=color, linestyle=line, label=f"{name}{label}")
+            rows[row].plot(x, values, color=color, linestyle=line, label=": ".join(part for part in (name, label) if part))
             shown[row].append(values)
     labels = (
         ("Axial force of the teeth on the pinion", "$F_a$ (N)"),
