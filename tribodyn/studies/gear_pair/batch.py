@@ -26,8 +26,6 @@ from tribodyn.train.structure import TrainLayout
 
 #: Modes without a compliant shaft, and with one.
 MODES, MODES_WITH_SHAFT = 5, 6
-#: And further ones of gears that move in space.
-MODES_IN_SPACE = 6
 #: Names of the states of a pair with a motor behind a shaft, as `train.structure.TrainLayout` has them.
 STATE_NAMES = (
     *("x_p", "y_p", "lag", "x_g", "y_g", "turn_g", "turn_m"),
@@ -35,19 +33,26 @@ STATE_NAMES = (
     *("work_in", "work_out", "work_damping", "work_parametric", "work_friction", "work_sliding"),
 )
 _OF_MOTOR = ("turn_m", "spin_m")
-_IN_SPACE = tuple(f"{name}_{gear}" for gear in "pg" for name in ("z", "tilt_x", "tilt_y"))
-#: Names of the states where the gears move in space.
+#: Modes that helical pairs have besides; their states along and about the axes, and the rates.
+MODES_IN_SPACE = 6
+_IN_SPACE, _RATES_IN_SPACE = (
+    tuple(f"{name}_{body}" for body in "pg" for name in names)
+    for names in (("z", "tilt_x", "tilt_y"), ("vz", "spin_x", "spin_y"))
+)
+_RATES, _WORKS = STATE_NAMES.index("vx_p"), STATE_NAMES.index("work_in")
+#: And of sweeps in which there is a helical pair.
 STATE_NAMES_IN_SPACE = (
-    *(*STATE_NAMES[:7], *_IN_SPACE, *STATE_NAMES[7:14], *(f"v{name}" for name in _IN_SPACE)),
-    *STATE_NAMES[14:],
+    *(*STATE_NAMES[:_RATES], *_IN_SPACE),
+    *(*STATE_NAMES[_RATES:_WORKS], *_RATES_IN_SPACE),
+    *STATE_NAMES[_WORKS:],
 )
 
 
 def state_places(layout: TrainLayout, names: Sequence[str] = STATE_NAMES) -> list[int]:
-    """Places of a pair's states among the names of a sweep's; of what it has not they are NaN there."""
-    own = STATE_NAMES_IN_SPACE if layout.spatial else STATE_NAMES
-    without = () if layout.bodies > 2 else _OF_MOTOR
-    return [names.index(name) for name in own if name not in without]
+    """Places of a pair's states among `names`; those of a motor or of space that it lacks are NaN."""
+    lacking = () if layout.bodies > 2 else _OF_MOTOR
+    lacking += () if layout.spatial else (*_IN_SPACE, *_RATES_IN_SPACE)
+    return [i for i, name in enumerate(names) if name not in lacking]
 
 
 class GearPairs(SweptKind):
@@ -57,11 +62,12 @@ class GearPairs(SweptKind):
     most_states = len(STATE_NAMES_IN_SPACE)
 
     def form(self, cases: Sequence[Case]) -> Form:
-        """A mode more where a shaft gives way, and more of helical gears."""
+        """A mode more where a shaft gives way; more modes and states where a pair is helical."""
         shaft = any(case.operating.shaft_stiffness is not None for case in cases)
-        helical = any(float(case.drive.helix_angle) != 0.0 for case in cases)
         modes = MODES_WITH_SHAFT if shaft else MODES
-        return Form(modes + MODES_IN_SPACE * helical, STATE_NAMES_IN_SPACE if helical else STATE_NAMES)
+        if any(case.drive.helix_angle for case in cases):
+            return Form(modes + MODES_IN_SPACE, STATE_NAMES_IN_SPACE)
+        return Form(modes, STATE_NAMES)
 
     def table_key(self, case: Case) -> Hashable:
         """See `same_table`."""

@@ -136,9 +136,8 @@ def state_names(
             rate += [f"vx_{body}", f"vy_{body}"]
         displacement.append(f"turn_{body}" if b else "lag")
         rate.append(f"spin_{body}" if b else "slip")
-    in_space = [f"{name}_{body}" for body in bodies[:spatial] for name in ("z", "tilt_x", "tilt_y")]
-    displacement += in_space
-    rate += [f"v{name}" for name in in_space]
+    displacement += [f"{name}_{body}" for body in bodies[:spatial] for name in ("z", "tilt_x", "tilt_y")]
+    rate += [f"{name}_{body}" for body in bodies[:spatial] for name in ("vz", "spin_x", "spin_y")]
     works = ["work_in", "work_out", "work_damping", "work_parametric"]
     works += [f"work_{what}_{mesh}" for mesh in meshes for what in ("friction", "sliding")]
     return *displacement, *rate, *works
