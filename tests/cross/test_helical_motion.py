@@ -43,9 +43,9 @@ def test_mirrored_hands_move_as_mirror_images():
     np.testing.assert_allclose(factors * other, ours, rtol=1e-9, atol=1e-20)
 
 
-@pytest.mark.parametrize(
-    "method", ["rodas4", "switching", "radau", pytest.param("tsit5", marks=pytest.mark.soak)]
-)
+X
+
+
 def test_solvers_agree(method):
     model = pair().model
     exact, ours = marched(model, "dop853", 1e-11), marched(model, method, 1e-8)
@@ -91,7 +91,7 @@ def test_energy_is_balanced_and_the_axial_force_is_statics(tmp_path, keys):
     assert abs(made.summary["energy_residual"]) < 1e-7
     case = pair()
     radius = float(case.model.meshes[0].driven_radius)
-    force = case.case.operating.gear_torque / radius * np.tan(np.radians(20.0))
+    force = float(case.model.bodies.load[1]) / radius * np.tan(np.radians(20.0))
     assert made.summary["axial_force_mean"] == pytest.approx(-force, rel=0.03)
 
 
