@@ -43,9 +43,9 @@ def test_mirrored_hands_move_as_mirror_images():
     np.testing.assert_allclose(factors * other, ours, rtol=1e-9, atol=1e-20)
 
 
-X
-
-
+@pytest.mark.parametrize(
+    "method", ["rodas4", "switching", "radau", pytest.param("tsit5", marks=pytest.mark.soak)]
+)
 def test_solvers_agree(method):
     model = pair().model
     exact, ours = marched(model, "dop853", 1e-11), marched(model, method, 1e-8)
