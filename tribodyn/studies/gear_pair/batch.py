@@ -24,8 +24,8 @@ from tribodyn.studies.protocol.cost import Driver, Estimate
 from tribodyn.studies.sweeping.batch import Batch
 from tribodyn.train.structure import TrainLayout
 
-#: Modes without a compliant shaft, and with one.
-MODES, MODES_WITH_SHAFT = 5, 6
+#: Modes without a compliant shaft, and with one; and how many more where the gears move in space.
+MODES, MODES_WITH_SHAFT, MODES_IN_SPACE = 5, 6, 6
 #: Names of the states of a pair with a motor behind a shaft, as `train.structure.TrainLayout` has them.
 STATE_NAMES = (
     *("x_p", "y_p", "lag", "x_g", "y_g", "turn_g", "turn_m"),
@@ -33,24 +33,35 @@ STATE_NAMES = (
     *("work_in", "work_out", "work_damping", "work_parametric", "work_friction", "work_sliding"),
 )
 _OF_MOTOR = ("turn_m", "spin_m")
+#: And of helical gears, behind the others.
+IN_SPACE_NAMES = tuple(f"{name}_{body}" for body in "pg" for name in ("z", "tilt_x", "tilt_y"))
+RATES_IN_SPACE_NAMES = tuple(f"v{name}" for name in IN_SPACE_NAMES)
+ALL_NAMES = (*STATE_NAMES, *IN_SPACE_NAMES, *RATES_IN_SPACE_NAMES)
 
 
 def state_places(layout: TrainLayout) -> list[int]:
-    """Places of a pair's states among `STATE_NAMES`; without a shaft those of the motor are NaN."""
-    motor = layout.bodies > 2
-    return [i for i, name in enumerate(STATE_NAMES) if motor or name not in _OF_MOTOR]
+    """Places of a pair's states among `ALL_NAMES`; without a shaft those of the motor are NaN."""
+    motor, half = layout.bodies > 2, len(STATE_NAMES) // 2 - 3
+    names = [*STATE_NAMES]
+    if layout.spatial:
+        names = [*names[:half], *IN_SPACE_NAMES, *names[half : 2 * half], *RATES_IN_SPACE_NAMES]
+        names += STATE_NAMES[2 * half :]
+    return [ALL_NAMES.index(name) for name in names if motor or name not in _OF_MOTOR]
 
 
 class GearPairs(SweptKind):
     """See `gears.batch.evaluate.SweptKind`."""
 
     swept = SWEPT
-    most_states = len(STATE_NAMES)
+    most_states = len(ALL_NAMES)
 
     def form(self, cases: Sequence[Case]) -> Form:
-        """A mode more where a shaft gives way."""
+        """A mode more where a shaft gives way; six and their states more where teeth are helical."""
         shaft = any(case.operating.shaft_stiffness is not None for case in cases)
-        return Form(MODES_WITH_SHAFT if shaft else MODES, STATE_NAMES)
+        modes = MODES_WITH_SHAFT if shaft else MODES
+        if any(case.mesh.slices > 1 or float(case.drive.helix_angle) for case in cases):
+            return Form(modes + MODES_IN_SPACE, ALL_NAMES)
+        return Form(modes, STATE_NAMES)
 
     def table_key(self, case: Case) -> Hashable:
         """See `same_table`."""
