@@ -10,7 +10,7 @@ from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, tra
 from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.train.flow import tree
 from tribodyn.train.schedule import Schedule
-from tribodyn.train.structure import GROUND, TURN, layout_of, shift_of, tilt_of, turn_of, works
+from tribodyn.train.structure import GROUND, TURN, layout_of, shift_of, turn_of, works
 
 #: Ends of the bearings of pinion and gear, and layouts of a pair: alone, and with a motor behind a shaft.
 _BEARINGS = [(0, GROUND), (1, GROUND)]
@@ -34,7 +34,7 @@ def random_state(rng: np.random.Generator, model: Model, speed: float = 10.0) ->
         y[x : x + 2] = rng.uniform(-8e-6, 8e-6, 2)
         y[layout.half + x : layout.half + x + 2] = rng.uniform(-0.05, 0.05, 2)
     for body in range(layout.spatial):
-        z = tilt_of(body, layout)
+        z = layout.tilts + 3 * body
         y[z : z + 3] = rng.uniform(-1.0, 1.0, 3) * [8e-6, 2e-4, 2e-4]
         y[layout.half + z : layout.half + z + 3] = rng.uniform(-1.0, 1.0, 3) * [0.05, 1.0, 1.0]
     y[layout.lag] = rng.uniform(-1e-6, 1e-6)
