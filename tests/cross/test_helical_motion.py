@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.support.helical_motion import EVEN, HELICAL, mirrored
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.support.states import altered, recorded, sampled
-from tests.unit.dynamics.test_helical_equations import EVEN, HELICAL, mirrored
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.transient import TransientSettings

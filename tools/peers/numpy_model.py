@@ -90,7 +90,7 @@ class NumpyModel:
         if self.dynamic:
             sliding = sliding + towards_rate * sine - across_rate * cosine + y[9] * r
         turned = np.clip(sliding / self.reversed_at, -1.0, 1.0)
-        tangential = self.friction(normal / t.face_width, radius, u_p, u_g, np.abs(sliding))
+        tangential = self.friction(normal / t.slice_width, radius, u_p, u_g, np.abs(sliding))
         tangential = tangential * normal * 0.5 * turned * (3.0 - turned * turned)
 
         force_x = -np.sum(normal * cosine + tangential * sine)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.support.helical_motion import EVEN, HELICAL, mirrored
 from tests.support.plain_kernels import make_plain, plain
 from tests.support.states import altered, random_state
 from tribodyn.dynamics import approach as contact
@@ -18,25 +19,14 @@ from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.train.structure import moves_of, place_in_space, shift_of, tilt_of, turn_of
+from tribodyn.train.structure import moves_of, place_in_space, shift_of, turn_of
 
-EVEN = {"mesh.compliance": "constant", "mesh.stiffness": "4e8 N/m", "friction.law": "none"}
-HELICAL = {"drive.helix_angle": "20 deg", "mesh.slices": 5, **EVEN}
 E_X, E_Y, E_Z = np.eye(3)
 
 
 @pytest.fixture
 def pair(prepared):
     return lambda **more: prepared("involute-23-47", **{**HELICAL, **more})
-
-
-def mirrored(model):
-    """Factors on the states where +z becomes −z."""
-    layout, factors = model.layout, np.ones(model.layout.states)
-    for body in range(layout.spatial):
-        z = tilt_of(body, layout)
-        factors[z : z + 3] = factors[layout.half + z : layout.half + z + 3] = -1.0
-    return factors
 
 
 def row_by_hand(slot, work, mesh, layout, at):
@@ -88,8 +78,8 @@ def test_approach_and_forces_are_those_of_rigid_bodies_in_space(pair, rng, angle
     inertia = np.zeros(layout.half)
     for body in range(2):
         inertia[shift_of(body) : shift_of(body) + 2] = bodies.mass[body]
-        inertia[tilt_of(body, layout)] = bodies.mass[body]
-        inertia[tilt_of(body, layout) + 1 : tilt_of(body, layout) + 3] = bodies.tilting[body]
+        inertia[layout.tilts + 3 * body] = bodies.mass[body]
+        inertia[layout.tilts + 3 * body + 1 : layout.tilts + 3 * body + 3] = bodies.tilting[body]
     inertia[turn_of(1, layout)] = bodies.inertia[1]
     forces = inertia * np.array([rates[layout.half + i] for i in range(layout.half)]) / rate
     expected, sides = np.zeros(layout.half), set()

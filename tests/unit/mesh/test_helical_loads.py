@@ -222,7 +222,7 @@ def test_contacts_of_slices_are_as_long_as_the_lines():
     """With friction: loads by the equilibrium balance the torque of load and friction."""
     cycle = sliced(helical_pair(1.2))
     seen = contacts(cycle, TORQUE, 100.0, coulomb(0.08))
-    length = np.sum(np.where(cycle.share > 0.0, seen.face_width, 0.0), axis=-1)
+    length = np.sum(cycle.share * seen.face_width, axis=-1)
     np.testing.assert_allclose(length[0], line_length(cycle), rtol=1e-12)
     found = settled(seen, elastic(cycle, TORQUE))
     torque = np.sum(found.normal_load * seen.arms(found.friction_coefficient)[1], axis=-1)
