@@ -14,7 +14,7 @@ from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.writer import RecordWriter
 from tribodyn.studies.gears.case import LAYOUT
-from tribodyn.studies.gears.recorded import DOF, SAMPLES, scales_of
+from tribodyn.studies.gears.recorded import DOF, SAMPLES, pair_numbers
 
 
 def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:
@@ -72,9 +72,9 @@ def gear_pair_writer(
     """The writer of a gear pair's record; its mesh cycle is that of `mesh_cycle` where none is given."""
     table = mesh_cycle() if table is None else table
     groups = {"mesh_cycle": table, "geometry": outlines}
-    head = Head(
-        "gear-pair", LAYOUT, scenario_toml, sha256, datetime.now(UTC), groups, scales_of(table["side"])
-    )
+    side = np.asarray(table["side"])
+    scales = {"pair": np.array(pair_numbers(int(np.sum(side > 0)), side.size)), "dof": np.array(DOF)}
+    head = Head("gear-pair", LAYOUT, scenario_toml, sha256, datetime.now(UTC), groups, scales)
     return RecordWriter(path, head, samples, force=force)
 
 
