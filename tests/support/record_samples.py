@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.mesh.record_arrays import from_arrays
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.layout import Head
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter
 from tribodyn.record.writer import RecordWriter
 from tribodyn.studies.gears.case import LAYOUT
-from tribodyn.studies.gears.recorded import DOF, SAMPLES, pair_numbers
+from tribodyn.studies.gears.recorded import DOF, SAMPLES, scales_of
 
 
 def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:
@@ -72,9 +73,9 @@ def gear_pair_writer(
     """The writer of a gear pair's record; its mesh cycle is that of `mesh_cycle` where none is given."""
     table = mesh_cycle() if table is None else table
     groups = {"mesh_cycle": table, "geometry": outlines}
-    side = np.asarray(table["side"])
-    scales = {"pair": np.array(pair_numbers(int(np.sum(side > 0)), side.size)), "dof": np.array(DOF)}
-    head = Head("gear-pair", LAYOUT, scenario_toml, sha256, datetime.now(UTC), groups, scales)
+    head = Head(
+        "gear-pair", LAYOUT, scenario_toml, sha256, datetime.now(UTC), groups, scales_of(from_arrays(table))
+    )
     return RecordWriter(path, head, samples, force=force)
 
 

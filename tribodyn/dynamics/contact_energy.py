@@ -3,7 +3,7 @@
 Written for all compilers, as `contact_forces`, whose `work` it reads.
 """
 
-from tribodyn.dynamics.contact_forces import (
+from tribodyn.dynamics.approach import (
     APPROACH_SLOPE,
     COMPLIANCE,
     COMPLIANCE_SLOPE,
@@ -16,10 +16,10 @@ from tribodyn.dynamics.contact_forces import (
     STIFFNESS,
     WHOLE_LOAD,
     absent,
-    coupled,
     cubic_slope,
     sliced,
 )
+from tribodyn.dynamics.contact_forces import coupled
 from tribodyn.dynamics.parameters import HERTZ_POWER_LAW
 from tribodyn.dynamics.smooth import (
     onset_integral,

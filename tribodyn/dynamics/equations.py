@@ -5,8 +5,7 @@ A pair of gears on two bearings is the six-degree model of Liu & Ni, Mechanics &
 component. Of several meshes each adds its own.
 """
 
-from tribodyn.dynamics.contact_energy import parametric_torque
-from tribodyn.dynamics.contact_forces import (
+from tribodyn.dynamics.approach import (
     APPROACH_RATE,
     AXIAL_PLACE,
     COS,
@@ -20,10 +19,10 @@ from tribodyn.dynamics.contact_forces import (
     SIN,
     SLIDING,
     absent,
-    contact_forces,
-    reversals_per_velocity,
     sliced,
 )
+from tribodyn.dynamics.contact_energy import parametric_torque
+from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.loads import link_forces, load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import motion_of, place_in_mesh
@@ -44,7 +43,6 @@ from tribodyn.train.structure import (
     slip_of,
     slip_of_body,
     speed_of,
-    tilt_of,
     turn_of,
 )
 from tribodyn.train.structure import SLIDING as WORK_SLIDING
@@ -218,7 +216,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
             dy[x] = rate * y[half + x]
             dy[x + 1] = rate * y[half + x + 1]
         if b < layout.spatial:
-            z = tilt_of(b, layout)
+            z = layout.tilts + 3 * b
             dy[half + z] = rate / bodies.mass[b] * dy[half + z]
             dy[z] = rate * y[half + z]
             for i in range(z + 1, z + 3):

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.contact_forces import (
+from tribodyn.dynamics.approach import (
     COS,
     DRIVEN_SPEED,
     DRIVER_SPEED,

@@ -1,6 +1,6 @@
 """Where a mesh stands in its table, and how its two bodies move against each other. For all compilers."""
 
-from tribodyn.dynamics.contact_forces import MeshPlace, Motion
+from tribodyn.dynamics.approach import MeshPlace, Motion
 from tribodyn.numerics.elementary import law, maximum, minimum, truncate
 from tribodyn.train.schedule import phase_of
 from tribodyn.train.structure import (

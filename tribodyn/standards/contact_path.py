@@ -22,7 +22,8 @@ class ContactPath(NamedTuple):
     base_radius: tuple[float, float]
     tip_radius: tuple[float, float]
     pressure_angle: float  # α_wt, transverse, at the working pitch circles, rad
-    base_helix_angle: float = 0.0  # β_b, rad
+    base_helix_angle: float = 0.0  # β_b, rad, ≥ 0
+    overlap_ratio: float = 0.0  # ε_β
 
     @property
     def ratio(self) -> float:
@@ -54,6 +55,11 @@ class ContactPath(NamedTuple):
     def contact_ratio(self) -> float:
         """Transverse contact ratio ε_α."""
         return self.length / self.base_pitch
+
+    @property
+    def total_contact_ratio(self) -> float:
+        """Total contact ratio ε_γ = ε_α + ε_β."""
+        return self.contact_ratio + self.overlap_ratio
 
     @property
     def tip_contact_ratios(self) -> tuple[float, float]:
@@ -115,7 +121,28 @@ def loss_factor(path: ContactPath) -> float:
 
 
 def load_share(path: ContactPath, distance: Any, quality: float = 7.0) -> Any:
-    """Load sharing factor X_Y of unmodified spur gears with ε_α < 2: ISO/TR 15144-1:2014, (46) to (48).
+    """Load sharing factor X_Y of unmodified gears with ε_α < 2: ISO/TR 15144-1:2014, clause 11.
+
+    Spur gears have `single_pair_share`. Helical gears have the same times `buttressing` up to ε_β = 0.8, and
+    `buttressing` over ε_α from ε_β = 1.2 on; between both X_Y is linear in ε_β. From memory of the report.
+    """
+    share = min(max((path.overlap_ratio - 0.8) / 0.4, 0.0), 1.0)
+    single = (1.0 - share) * single_pair_share(path, distance, quality)
+    return (single + share / path.contact_ratio) * buttressing(path, distance)
+
+
+def flash_share(path: ContactPath, distance: Any, quality: float = 7.0) -> Any:
+    """Load sharing factor X_Γ of unmodified gears with ε_α < 2: ISO/TS 6336-20:2017, clause 9.
+
+    As `load_share`, but narrow helical gears are those with ε_γ < 2, wide ones all others; there is a step.
+    """
+    wide = path.overlap_ratio > 0.0 and path.total_contact_ratio >= 2.0
+    single = 1.0 / path.contact_ratio if wide else single_pair_share(path, distance, quality)
+    return single * buttressing(path, distance)
+
+
+def single_pair_share(path: ContactPath, distance: Any, quality: float = 7.0) -> Any:
+    """Share of a pair that meets over the whole face at once: ISO/TR 15144-1:2014, (46) to (48).
 
     From (Q − 2)/15 at A and E it grows by a third up to B and D, between which one pair carries all. Q is the
     grade of the coarser gear by ISO 1328-1, and 7 for finer ones.
@@ -123,23 +150,26 @@ def load_share(path: ContactPath, distance: Any, quality: float = 7.0) -> Any:
     first = (max(quality, 7.0) - 2.0) / 15.0
     length, pitch = path.length, path.base_pitch
     double = length - pitch
+    if double <= 0.0:
+        return np.ones_like(np.asarray(distance, dtype=float))
     rising, falling = np.asarray(distance) / double, (length - np.asarray(distance)) / double
     shared = np.minimum(first + np.minimum(rising, falling) / 3.0, 1.0)
     # B and D belong to the single pair; rounding decides nothing
     return np.where(np.minimum(rising, falling) > 1.0 - 1e-9, 1.0, shared)
 
 
-def mean_share_with_buttressing(path: ContactPath, distance: Any, overlap_ratio: float) -> Any:
-    """Load sharing factor of unmodified helical gears, ε_γ > 2: X_but/ε_α, ISO/TS 6336-20:2017 (9.4, 9.6).
+def buttressing(path: ContactPath, distance: Any) -> Any:
+    """Factor X_but by which the ends of a tooth of helical gears carry more; 1 of spur gears.
 
-    X_but is 1.3 at both ends (less where ε_β < 1) and falls to 1 over 0.2 sin β_b of the parameter Γ of the
-    path, which is 0 at C and −1 at the pinion's base tangent point.
+    1.3 at both ends, 1 + 0.3 ε_β where ε_β < 1; it falls to 1 over 0.2 sin β_b of the parameter Γ of the
+    path, which is 0 at C and −1 at the pinion's base tangent point. ISO/TS 6336-20:2017, clause 9.
     """
-    peak = 1.0 + 0.3 * min(overlap_ratio, 1.0)
-    tangent = path.base_radius[0] * np.tan(path.pressure_angle)
-    from_ends = np.minimum(distance, path.length - np.asarray(distance)) / tangent
-    width = 0.2 * np.sin(path.base_helix_angle)
-    return np.maximum(peak - (peak - 1.0) * from_ends / width, 1.0) / path.contact_ratio
+    peak = 1.0 + 0.3 * min(path.overlap_ratio, 1.0)
+    width = 0.2 * np.sin(path.base_helix_angle) * path.base_radius[0] * np.tan(path.pressure_angle)
+    from_ends = np.minimum(distance, path.length - np.asarray(distance))
+    if width == 0.0:
+        return np.ones_like(from_ends)
+    return np.maximum(peak - (peak - 1.0) * from_ends / width, 1.0)
 
 
 def helical_load_factor(total_contact_ratio: float) -> float:

@@ -15,7 +15,6 @@ from tribodyn.standards.contact_path import (
     helical_load_factor,
     load_share,
     loss_factor,
-    mean_share_with_buttressing,
     point_distances,
     rolling_speeds,
 )
@@ -150,43 +149,36 @@ def film_thickness(
     return 1.6 * radius * material**0.6 * speed**0.7 * load**-0.13 * sliding**0.22
 
 
-def method_b(path: ContactPath, flanks: Flanks, load: Load, oil: Oil, overlap_ratio: float = 0.0) -> Films:
+def method_b(path: ContactPath, flanks: Flanks, load: Load, oil: Oil) -> Films:
     """Films at the points of the path (`contact_path.POINTS`) by method B, flanks without tip relief.
 
-    Spur gears with ε_α < 2 share the load by (46) to (48), helical ones with ε_γ > 2 by the mean with
-    buttressing. An adequate tip relief enters the bulk temperature alone.
+    The load is shared by `contact_path.load_share`. An adequate tip relief enters the bulk temperature alone.
     """
     distance = point_distances(path)
     speeds = rolling_speeds(path, distance, load.pinion_speed)
     radius = equivalent_radius(path, distance)
-    total = path.contact_ratio + overlap_ratio
     in_base_plane = load.pinion_torque / path.base_radius[0]
-    friction = pair_friction(path, flanks, load, oil, total)
+    friction = pair_friction(path, flanks, load, oil)
     power = load.pinion_torque * load.pinion_speed
     supply = LUBRICATION_FACTORS[load.lubrication] / load.tip_relief
     bulk = load.oil_temperature + bulk_rise(
         power, friction, loss_factor(path), path.centre_distance, load.face_width, supply
     )
-    if overlap_ratio > 0.0:
-        share = mean_share_with_buttressing(path, distance, overlap_ratio)
-    else:
-        share = load_share(path, distance, flanks.quality)
+    share = load_share(path, distance, flanks.quality)
     pressure = hertz_pressure(
         load.factor * in_base_plane * share / load.face_width, radius, flanks.reduced_modulus
     )
     return at_places(pressure, radius, speeds, friction, bulk, flanks, oil)
 
 
-def pair_friction(
-    path: ContactPath, flanks: Flanks, load: Load, oil: Oil, total_contact_ratio: float
-) -> float:
+def pair_friction(path: ContactPath, flanks: Flanks, load: Load, oil: Oil) -> float:
     """Mean friction coefficient of a pair at a load, see `mean_friction`."""
     at_pitch = path.base_radius[0] * float(np.tan(path.pressure_angle))
     pitch_point = path.length - path.tip_contact_ratios[0] * path.base_pitch
     radius = float(equivalent_radius(path, pitch_point))
     line_load = load.factor * load.pinion_torque / path.base_radius[0] / load.face_width
     return mean_friction(
-        line_load * helical_load_factor(total_contact_ratio),
+        line_load * helical_load_factor(path.total_contact_ratio),
         2.0 * load.pinion_speed * at_pitch,
         radius,
         float(oil.viscosity(load.oil_temperature)),

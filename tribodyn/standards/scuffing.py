@@ -99,7 +99,6 @@ class ScuffingMesh(NamedTuple):
     lubrication: float = 1.0
     tip_relief: float = 1.0
     run_in: float = 1.0  # φ_E: 1 after running in, 0 of new flanks
-    overlap_ratio: float = 0.0  # ε_β
 
 
 def contact_ratio_factor(first: float, second: float) -> float:
@@ -146,7 +145,7 @@ def integral_temperature(path: ContactPath, mesh: ScuffingMesh) -> IntegralTempe
     tip under the whole load, μ_mC X_M X_BE X_αβ (K_Bγ w_Bt)^¾ √v/a^¼ X_E/(X_Q X_Ca) in N/mm, m/s, mm.
     """
     ratio, first, second = path.ratio, *path.tip_contact_ratios
-    helical = helical_load_factor(path.contact_ratio + mesh.overlap_ratio)
+    helical = helical_load_factor(path.total_contact_ratio)
     working, base_helix = path.pressure_angle, path.base_helix_angle
     transverse = math.atan(math.tan(mesh.pressure_angle) / math.cos(mesh.helix_angle))
     pitch_radius = (

@@ -27,8 +27,8 @@ from tribodyn.geometry.flanks.modification import (
     Relief,
 )
 from tribodyn.mesh.by_compliance import mesh_cycle_of
-from tribodyn.mesh.cycle import as_arrays, from_arrays
 from tribodyn.mesh.quasi_static import cycle_mean
+from tribodyn.mesh.record_arrays import as_arrays, from_arrays
 
 OVERLAPS = [0.3, 0.7, 1.0, 1.4, 2.0, 2.6]
 

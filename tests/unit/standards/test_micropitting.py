@@ -8,22 +8,35 @@ import math
 import numpy as np
 import pytest
 
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families import family
 from tribodyn.standards import contact_path as paths
 from tribodyn.standards import micropitting as films
-from tribodyn.standards.contact_path import ContactPath
+from tribodyn.standards import scuffing
 from tribodyn.standards.micropitting import Flanks, Load, Oil
+from tribodyn.studies.assessment.standard import path_of, tooth_forces
 
-TEETH, HELIX = (24.0, 95.0), math.radians(10.0)
-TRANSVERSE = math.atan(math.tan(math.radians(20.0)) / math.cos(HELIX))
-BASE = [z * 14e-3 / math.cos(HELIX) / 2.0 * math.cos(TRANSVERSE) for z in TEETH]
-PATH = ContactPath(
-    TEETH,
-    (BASE[0], BASE[1]),
-    (380.747e-3 / 2.0, 1395.376e-3 / 2.0),
-    math.acos(sum(BASE) / 0.861),
-    math.asin(math.sin(HELIX) * math.cos(math.radians(20.0))),
+HELIX, RACK = math.radians(10.0), math.radians(20.0)
+
+
+def body(teeth, shift, tip):
+    """A gear from its drawing, in the transverse section; the flanks end at the tip diameter, m."""
+    normal = math.cos(HELIX)  # m_n/m_t
+    return GearBody(
+        teeth, shift * normal, normal, 1.25 * normal, 0.25 * normal, 0.36, 0.05, tip_radius=tip / 2.0
+    )
+
+
+DRIVE = Drive(
+    14e-3 / math.cos(HELIX),
+    math.atan(math.tan(RACK) / math.cos(HELIX)),
+    body(24.0, 0.48, 380.747e-3),
+    body(95.0, 0.6691, 1395.376e-3),
+    centre_distance=0.861,
+    helix_angle=HELIX,
 )
-OVERLAP = 0.360 * math.sin(HELIX) / (math.pi * 14e-3)
+PATH = path_of(assemble(family("involute"), DRIVE))
 SPEED = 1165.9 * math.pi / 30.0
 FLANKS = Flanks(0.6e-6, 226_374e6, (13_780.0, 13_780.0))
 LOAD = Load(5e6 / SPEED, SPEED, 0.360, 353.15, 1.25, 1.092, 1.069, 1.15)
@@ -48,19 +61,43 @@ OIL = Oil(viscosity, pressure_viscosity)
 
 
 def test_path_of_the_published_stage():
+    """From drawing data alone: helix, working angle, base circles, overlap."""
+    assert PATH.contact_ratio == pytest.approx(1.463, abs=5e-4)
+    assert PATH.overlap_ratio == pytest.approx(1.421, abs=5e-4)
     assert paths.loss_factor(PATH) == pytest.approx(0.106, abs=5e-4)
     assert paths.curvature_radii(PATH, 0.0)[0] == pytest.approx(41.865e-3, abs=1e-6)
     assert paths.equivalent_radius(PATH, 0.0) == pytest.approx(37.12e-3, abs=5e-6)
-    total = PATH.contact_ratio + OVERLAP
-    assert paths.helical_load_factor(total) == pytest.approx(1.274, abs=5e-4)
-    assert paths.mean_share_with_buttressing(PATH, 0.0, OVERLAP) == pytest.approx(0.889, abs=5e-4)
+    assert paths.helical_load_factor(PATH.total_contact_ratio) == pytest.approx(1.274, abs=5e-4)
+    assert paths.load_share(PATH, 0.0) == pytest.approx(0.889, abs=5e-4)
+
+
+def test_tooth_forces_of_the_published_stage():
+    # printed: F_t 240 064, F_a 42 330, F_r 88 724 N; the report rounds the torque
+    forces = tooth_forces(DRIVE, 5e6 / SPEED)
+    for name, printed in {"F_t": 240_064.0, "F_a": 42_330.0, "F_r": 88_724.0}.items():
+        assert forces[name] == pytest.approx(printed, rel=2e-5), name
+
+
+def test_flash_temperature_of_the_published_stage():
+    """Printed: greatest rise with X_Γ 0.889 at Γ 0.529, which is E; A has the same within 1e-3."""
+    ends = np.array([0.0, PATH.length])
+    assert paths.flash_share(PATH, ends) == pytest.approx([0.889, 0.889], abs=5e-4)
+    tangent = PATH.base_radius[0] * math.tan(PATH.pressure_angle)
+    last = paths.curvature_radii(PATH, PATH.length)[0] / tangent - 1.0
+    assert last == pytest.approx(0.529, abs=5e-4)
+    distance = np.linspace(0.0, PATH.length, 101)
+    radius, speeds = paths.equivalent_radius(PATH, distance), paths.rolling_speeds(PATH, distance, SPEED)
+    load = 1e6 * paths.flash_share(PATH, distance)
+    width = np.sqrt(8.0 * load * radius / (math.pi * FLANKS.reduced_modulus))
+    rise = scuffing.flash_rise(0.05, load, width, speeds, FLANKS.thermal_contact)
+    assert rise[-1] == pytest.approx(np.max(rise), rel=1e-3)
 
 
 def test_films_of_the_published_stage():
     # printed: X_R 0.712, μ_m 0.0300, θ_M 85.0 °C, p_H 783.1, p_dyn 1014.7 MPa, h 0.632 µm, λ 1.053 at A
     pitch = paths.equivalent_radius(PATH, paths.point_distances(PATH)[3])
     assert films.roughness_factor(0.6e-6, pitch) == pytest.approx(0.712, abs=5e-4)
-    found = films.method_b(PATH, FLANKS, LOAD, OIL, OVERLAP)
+    found = films.method_b(PATH, FLANKS, LOAD, OIL)
     assert found.friction_coefficient == pytest.approx(0.0300, abs=5e-5)
     assert found.bulk_temperature - 273.15 == pytest.approx(85.0, abs=0.05)
     assert found.pressure[0] / 1e6 == pytest.approx(1014.7, rel=3e-4)  # the report rounds E_r and X_Y
@@ -79,7 +116,7 @@ def test_above_the_range_of_the_pressure_viscosity_there_is_no_film():
 
 
 def test_either_method_gives_the_same_film_from_the_same_pressure():
-    found = films.method_b(PATH, FLANKS, LOAD, OIL, OVERLAP)
+    found = films.method_b(PATH, FLANKS, LOAD, OIL)
     distance = paths.point_distances(PATH)
     same = films.at_places(
         found.pressure,
@@ -94,7 +131,7 @@ def test_either_method_gives_the_same_film_from_the_same_pressure():
 
 
 def test_spur_gears_share_by_thirds_and_one_pair_carries_all_between():
-    spur = PATH._replace(base_helix_angle=0.0)
+    spur = PATH._replace(base_helix_angle=0.0, overlap_ratio=0.0)
     share = paths.load_share(spur, paths.point_distances(spur))
     np.testing.assert_allclose(share, [1 / 3, 1 / 2, 1, 1, 1, 1 / 2, 1 / 3])
     assert paths.load_share(spur, 0.0, 9.0) == pytest.approx(7 / 15)
@@ -108,10 +145,24 @@ def test_spur_gears_share_by_thirds_and_one_pair_carries_all_between():
 
 def test_the_bulk_rises_with_the_way_the_oil_comes_and_less_with_relief():
     def rise(**change):
-        return films.method_b(PATH, FLANKS, LOAD._replace(**change), OIL, OVERLAP).bulk_temperature - 353.15
+        return films.method_b(PATH, FLANKS, LOAD._replace(**change), OIL).bulk_temperature - 353.15
 
     assert rise(lubrication="spray") == pytest.approx(1.2 * rise())
     assert rise(lubrication="submerged") == pytest.approx(0.2 * rise())
     relief = films.tip_relief_factor(PATH.tip_contact_ratios, adequate=True)
     assert rise(tip_relief=relief) == pytest.approx(rise() / relief)
     assert films.tip_relief_factor(PATH.tip_contact_ratios, adequate=False) == 1.0
+
+
+def test_narrow_helical_gears_share_as_spur_gears_and_wide_ones_by_the_mean():
+    distance, ends = paths.point_distances(PATH), 1.0 + 0.3 * 0.5
+    narrow = PATH._replace(overlap_ratio=0.5)
+    spread = ends / 3.0, 1.0, ends / 3.0  # at A, C and E; buttressing at the ends alone
+    assert paths.load_share(narrow, distance)[[0, 3, 6]] == pytest.approx(spread)
+    assert paths.flash_share(narrow, distance)[[0, 3, 6]] == pytest.approx(spread)
+    wide = paths.load_share(PATH, distance)
+    assert wide[[0, 3, 6]] * PATH.contact_ratio == pytest.approx([1.3, 1.0, 1.3])
+    # from ε_β 0.8 to 1.2 linear: at 1.0 half of either
+    middle = paths.load_share(PATH._replace(overlap_ratio=1.0), distance)
+    assert middle[3] == pytest.approx((1.0 + 1.0 / PATH.contact_ratio) / 2.0)
+    assert middle[0] == pytest.approx(1.3 * (1.0 / 3.0 + 1.0 / PATH.contact_ratio) / 2.0)

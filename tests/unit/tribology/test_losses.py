@@ -180,3 +180,25 @@ def test_only_what_is_asked_for_is_lost():
     assert set(found) == {"churning", "bearings"}
     assert found["churning"].power == iso_14179_1(WHEEL, *OIL).power
     assert found["bearings"].power == palmgren(drag, WHEEL.speed, *OIL).power
+
+
+def test_a_helix_wets_longer_flanks_and_lessens_the_losses_of_agmas_teeth():
+    helical = WHEEL._replace(helix_angle=math.radians(30.0))
+
+    def toothless(wheel):
+        return wheel._replace(teeth=0.0)
+
+    def flanks(wheel):
+        both = changenet_velex(wheel, 0.05, 870.0, 1e-3).power
+        return both - changenet_velex(toothless(wheel), 0.05, 870.0, 1e-3).power
+
+    assert flanks(helical) == pytest.approx(flanks(WHEEL) / math.cos(math.radians(30.0)))
+    sides = 1.474 * (2e3 * WHEEL.tip_radius) ** 5.7
+    spur, inclined = (iso_14179_1(wheel, 0.05, 870.0).power for wheel in (WHEEL, helical))
+    teeth = 7.37 * (2e3 * WHEEL.tip_radius) ** 4.7 * 24.0 * (7.93 - 4.648 / 3.0)
+    share = (teeth / math.sqrt(math.tan(math.pi / 6.0)) + sides) / (
+        teeth / math.sqrt(math.tan(math.pi / 18.0)) + sides
+    )
+    assert inclined / spur == pytest.approx(share)
+    least = WHEEL._replace(helix_angle=math.radians(9.0))
+    assert iso_14179_1(least, 0.05, 870.0) == iso_14179_1(WHEEL, 0.05, 870.0)

@@ -135,13 +135,8 @@ def in_space_figure(records: Sequence[Record], view: View) -> Figure:
             ]
         for row, label, values, line, shade in curves:
             color = style.PALETTE[(2 * number + shade) % len(style.PALETTE)]
-            rows[row].plot(
-                x,
-                values,
-                color=color,
-                linestyle=line,
-                label=": ".join(part for part in (name, label) if part),
-            )
+            said = ": ".join(part for part in (name, label) if part)
+            rows[row].plot(x, values, color=color, linestyle=line, label=said)
             shown[row].append(values)
     labels = (
         ("Axial force of the teeth on the pinion", "$F_a$ (N)"),

@@ -11,7 +11,8 @@ tried again with its own rate. At creep speeds the width is no more than the tol
 then is left to the error control, which takes steps by the force.
 """
 
-from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics import approach as contact
+from tribodyn.dynamics.contact_forces import reversals_per_velocity
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, where
 from tribodyn.solve.integrator import Status
@@ -182,7 +183,7 @@ def resolves_turns(atol, model):
 def reversals_in(m, model):
     """`contact_forces.reversals_per_velocity` of a mesh."""
     ratio = model.bodies.ratio[model.options.layout.driver[m]]
-    return contact.reversals_per_velocity(ratio, model.meshes[m], model)
+    return reversals_per_velocity(ratio, model.meshes[m], model)
 
 
 @law

@@ -8,13 +8,14 @@ import numpy as np
 from tribodyn.compliance.iso6336 import ReferenceStiffness
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
-from tribodyn.geometry.drive import MaterialData, reference_radius, tip_radius
+from tribodyn.geometry.drive import Drive, MaterialData, reference_radius, tip_radius
+from tribodyn.geometry.helix import base_helix_angle, normal_pressure_angle, overlap_ratio
 from tribodyn.standards import fzg, micropitting, scuffing
 from tribodyn.standards.contact_path import (
     POINTS,
     ContactPath,
     equivalent_radius,
-    load_share,
+    flash_share,
     loss_factor,
     point_distances,
     rolling_speeds,
@@ -111,7 +112,9 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
     )
     dynamic, stiffness = by.dynamic, by.stiffness
     load = by.line_load * dynamic.factor * face
-    transverse = transverse_factor_b((path.contact_ratio, 0.0), stiffness.mesh, by.base_pitch_deviation, load)
+    transverse = transverse_factor_b(
+        (path.contact_ratio, path.overlap_ratio), stiffness.mesh, by.base_pitch_deviation, load
+    )
     duty = Load(
         torque,
         case.operating.pinion_speed,
@@ -137,7 +140,8 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
             case.mean_roughness,
             flanks.reduced_modulus,
             sum(flanks.thermal_contact) / 2.0,
-            float(drive.pressure_angle),
+            float(normal_pressure_angle(drive)),
+            abs(float(drive.helix_angle)),
             lubricant=oil.lubricant_factor,
             lubrication=micropitting.LUBRICATION_FACTORS[settings.lubrication],
             tip_relief=duty.tip_relief,
@@ -163,7 +167,7 @@ def _flash(
         scuffing.lubricant_factor(oil.lubricant_factor, float(oil.viscosity(load.oil_temperature))),
         flanks.mean_roughness,
     )
-    normal = line_load * load_share(path, distance, flanks.quality)
+    normal = line_load * flash_share(path, distance, flanks.quality)
     width = np.sqrt(8.0 * normal * radius / (np.pi * flanks.reduced_modulus))
     rise = scuffing.flash_rise(friction, normal, width, speeds, flanks.thermal_contact)
     supply = micropitting.LUBRICATION_FACTORS[load.lubrication]
@@ -181,7 +185,19 @@ def path_of(assembly: Assembly) -> ContactPath:
         (float(path.pinion_pitch_radius) * cosine, float(path.gear_pitch_radius) * cosine),
         (float(tip_radius(drive, "pinion")), float(tip_radius(drive, "gear"))),
         angle,
+        abs(float(base_helix_angle(drive))),
+        float(overlap_ratio(assembly)),
     )
+
+
+def tooth_forces(drive: Drive, pinion_torque: float) -> dict[str, float]:
+    """F_t, F_r, F_a at the reference circle, N: T_1/r_1, F_t tan α_t, F_t tan |β|."""
+    tangential = pinion_torque / float(reference_radius(drive, "pinion"))
+    return {
+        "F_t": tangential,
+        "F_r": tangential * math.tan(float(drive.pressure_angle)),
+        "F_a": tangential * math.tan(abs(float(drive.helix_angle))),
+    }
 
 
 def iso_part(case: AssessmentCase, found: Standard) -> dict[str, Any]:

@@ -11,17 +11,20 @@ import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.slices import friction_ratio, peak_ratio
+from tribodyn.dynamics.faces import over_faces
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, contacts, settled
 from tribodyn.mesh.quasi_static import efficiency, quasi_static
 from tribodyn.studies.efficiency.places import Array, Places, Sharing, piecewise, places
-from tribodyn.studies.gears.recorded import SAMPLES
+from tribodyn.studies.gears.recorded import samples_of
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import range_shares
 
 #: Nodes between two breaks of the integrand.
 POINTS = 20
+#: Datasets that have no slots.
+NOT_OF_SLOTS = ("displacement", "velocity")
 #: What a `PathState` has of `SurfaceState`.
 _OF_SURFACE = (
     *("asperity_load_ratio", "central_film_thickness", "flash_temperature_rise", "hertz_pressure"),
@@ -145,9 +148,26 @@ def cycle_efficiency(
     and crowds towards the pitch points, so that the degenerate contact there is resolved. Arguments as in
     `places`.
     """
+    if cycle.slices > 1:  # nothing jumps, and each slice passes its pitch point by itself
+        nodes, weights = np.polynomial.legendre.leggauss(points)
+        start = np.arange(cycle.slices)[:, None]
+        phase = ((start + (1.0 + nodes) / 2.0) / cycle.slices).ravel()
+        weight = np.tile(weights / 2.0 / cycle.slices, cycle.slices)
+        return _means(cycle, path, duty, phase, weight, flanks)
     pitch = cycle.pitch_point_phase - np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
     breaks = np.unique(np.concatenate([cycle.boundary, (cycle.pitch_point_phase + np.array([0.5])) % 1.0]))
     phase, weight = piecewise(breaks, pitch, points)
+    return _means(cycle, path, duty, phase, weight, flanks)
+
+
+def _means(
+    cycle: MeshCycle,
+    path: Path,
+    duty: MeshDuty,
+    phase: Array,
+    weight: Array,
+    flanks: LoadedFlanks | None,
+) -> CycleEfficiency:
     state = engage(places(cycle, path, phase, duty.sharing, flanks), duty)
     power_in, power_out, lost = (
         float(weight @ power) for power in (state.power_in, state.power_out, state.power_friction)
@@ -191,6 +211,17 @@ def samples(cycle: MeshCycle, count: int, way: float) -> Samples:
     return Samples(turned, np.where(later, falling + 1.0, falling), later, way)
 
 
+def _share_of(cycle: MeshCycle) -> Any:
+    """Part of every slot that touches (K, Q); 1 of whole faces."""
+    return cycle.share[:, 0] if cycle.slices > 1 else 1.0
+
+
+def normal_lean(cycle: MeshCycle) -> Array:
+    """Sine of the angle of the flanks' normal to the transverse plane, (S, N, Q)."""
+    slope = cycle.pitch_slope * np.cos(cycle.pressure_angle)
+    return slope / np.sqrt(1.0 + slope**2)
+
+
 def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty) -> dict[str, Any]:
     """Datasets at the samples; what a quasi-static state has not stays out."""
     cycle = mesh.cycle
@@ -220,7 +251,7 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
         "entrainment_speed": contacting(state.entrainment),
         "sliding_speed": contacting(state.sliding),
         "pressure_angle": contacting(cycle.pressure_angle[:, 0]),
-        "mesh_stiffness": np.where(touching, 1.0 / cycle.compliance[:, 0], 0.0),
+        "mesh_stiffness": np.where(touching, _share_of(cycle) / cycle.compliance[:, 0], 0.0),
         **{name: contacting(getattr(state, name)) for name in _OF_SURFACE},
         "drive_torque": state.pinion_torque,
         "power_in": state.power_in,
@@ -230,5 +261,13 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
         "power_parametric": zero,
         "efficiency": efficiency(state.power_in, state.power_out, state.power_friction),
     }
-    of_pairs = {name for name, sample in SAMPLES.items() if sample.dims == ("time", "pair")}
+    if cycle.slices > 1:
+        whole = np.where(touching, state.normal_load / cycle.slice_width * cycle.line_load_peak[:, 0], 0.0)
+        arrays = over_faces(arrays, cycle.front_pairs, whole, NOT_OF_SLOTS)
+        arrays["displacement"], arrays["velocity"] = (
+            np.concatenate([arrays[name], np.zeros((len(angle), 6))], axis=1)
+            for name in ("displacement", "velocity")
+        )
+        arrays["axial_force"] = -duty.way * np.sum(state.normal_load * normal_lean(cycle)[:, 0], axis=-1)
+    of_pairs = {name for name, sample in samples_of(cycle.slices).items() if sample.dims[1:2] == ("pair",)}
     return {name: over.by_pair(values) if name in of_pairs else values for name, values in arrays.items()}

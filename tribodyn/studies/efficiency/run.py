@@ -17,8 +17,9 @@ from tribodyn.geometry.flanks.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.geometry.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark, loaded_flanks_of, mesh_cycle_of
-from tribodyn.mesh.cycle import as_arrays
-from tribodyn.mesh.quasi_static import driving_gear, power_put_in
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.quasi_static import by_pairs, driving_gear, power_put_in
+from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.efficiency.along_path import (
     CycleEfficiency,
@@ -33,7 +34,7 @@ from tribodyn.studies.efficiency.along_path import (
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
 from tribodyn.studies.efficiency.published import exact, hoehn, path_contact, tip_contact_ratios, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
-from tribodyn.studies.gears.case import LAYOUT
+from tribodyn.studies.gears.case import gears_layout
 from tribodyn.studies.gears.check import check_gears, oil_data
 from tribodyn.studies.gears.prepare import (
     PreparedGears,
@@ -120,7 +121,8 @@ def run(
         "groups": {"mesh_cycle": as_arrays(study.cycle), "geometry": geometry_arrays(study.assembly)},
         "scales": scales_of(study.cycle),
     }
-    with writer(case, path, LAYOUT, len(over.turned), force=force, **more) as record:
+    layout = gears_layout(study.cycle.slices)
+    with writer(case, path, layout, len(over.turned), force=force, **more) as record:
         record.write(0, record_arrays(over, mesh, state, study.duty))
         if progress:
             progress(1.0)
@@ -179,13 +181,15 @@ def efficiencies(
     Höhn's formula where friction is not one mean coefficient, are left out.
     """
     results = {}
-    for sharing in SHARINGS:
+    for sharing in SHARINGS if study.cycle.slices == 1 else ("elastic",):
         duty = study.duty._replace(sharing=sharing)
         try:
             means = known.get(sharing) or cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
         except InputError:
             continue
         results[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
+    if study.cycle.slices > 1:
+        return results
     case, duty = study.case, study.duty
     ratio = float(study.cycle.gear_pitch_radius) / float(study.cycle.pinion_pitch_radius)
     single = torque_ratio(
@@ -244,7 +248,9 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
         **under_load,
         "load_sharing": duty.sharing,
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
-        "normal_load_max": float(np.max(along("normal_load"))),
+        "normal_load_max": float(
+            max(np.max(by_pairs(part.normal_load, cycle.slices)) for part in (state, jumps))
+        ),
         "film_min": float(np.min(film)),
         "film_parameter_min": float(np.min(film)) / duty.closure.surfaces.roughness,
         "film_parameter_min_roll_angle": float(
@@ -253,7 +259,7 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
         "hertz_pressure_max": float(np.max(along("hertz_pressure"))),
         "flash_temperature_max": flash,
         "friction_coefficient_mean": means.friction_coefficient,
-        "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
+        "friction_force_mean": _friction_of_pairs(over, cycle, state)[:-1].sum(axis=0) * share,
         "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
         **law_quantities(study.case),
         "lubricant": oil_data(study.case.lubricant),
@@ -278,13 +284,21 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
     return summary | _trust(study, mesh, state, summary)
 
 
+def _friction_of_pairs(over: Samples, cycle: MeshCycle, state: PathState) -> np.ndarray:
+    """Magnitude of the friction force of every pair of the record (K, pairs), N."""
+    return over.by_pair(by_pairs(np.abs(state.friction_force), cycle.slices))
+
+
 def _trust(
     study: PreparedEfficiency, mesh: Places, state: PathState, summary: dict[str, Any]
 ) -> dict[str, Any]:
     """Whether the study lies within its model, see `record.trust`."""
     loaded, judge = state.normal_load > 0, Judge()
+    share = mesh.cycle.share[:, 0] if mesh.cycle.slices > 1 else 1.0
     quantities = {
-        "deflection": state.normal_load * mesh.cycle.compliance[:, 0] / study.case.drive.module,
+        "deflection": np.where(loaded, mesh.cycle.compliance[:, 0] / np.where(loaded, share, 1.0), 0.0)
+        * state.normal_load
+        / study.case.drive.module,
         "friction_coefficient": state.friction_coefficient,
         "hertz_pressure": state.hertz_pressure,
         **heat_of(state.flash_temperature_rise, study.case.lubricant.temperature),

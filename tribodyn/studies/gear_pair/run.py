@@ -7,7 +7,7 @@ from typing import Any
 from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.body import geometry_arrays
-from tribodyn.mesh.cycle import as_arrays
+from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.record.trust import judge_tribology
 from tribodyn.studies.gear_pair.case import Case, window_of
 from tribodyn.studies.gear_pair.outputs import MESH, recorded

@@ -7,7 +7,8 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import GEOMETRY, geometry_arrays
-from tribodyn.mesh.cycle import MeshCycle, as_arrays, described
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.record_arrays import as_arrays, described
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from tribodyn.compliance.iso6336 import ReferenceStiffness, pair_of, reference_stiffness
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData, reference_radius
+from tribodyn.geometry.helix import overlap_ratio
 from tribodyn.standards.flank_tolerances import FlankTolerances
 from tribodyn.standards.load_factors import DynamicFactor, DynamicMesh, dynamic_factor, reduced_mass
 
@@ -46,8 +47,8 @@ def quality_of(
 def base_pitch_deviation(assembly: Assembly, quality: Quality) -> tuple[float, float]:
     """f_pb and f_pb − y_α, m: new and after running in; f_pb = f_pT cos α, y_α = 0.075 f_pb up to 3 µm.
 
-    y_α is that of case-hardened and nitrided teeth. α is the pressure angle at the reference circle of
-    involutes; of other families it is that of the pitch point.
+    y_α is that of case-hardened and nitrided teeth. α is the transverse pressure angle at the reference
+    circle of involutes; of other families it is that of the pitch point.
     """
     path = assembly.path
     base = float(path.pinion_pitch_radius) * math.cos(float(path.pressure_angle(0.0)))
@@ -87,7 +88,7 @@ def rated(
             pair.line_load,
             pitch,
             quality.profile_form,
-            float(assembly.contact_ratio),
+            float(assembly.contact_ratio) + float(overlap_ratio(assembly)),
             0.0,
             max(quality.grade, 6.0),
         )

@@ -9,7 +9,7 @@ from typing import Self
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
-from tribodyn.mesh.cycle import described
+from tribodyn.mesh.record_arrays import described
 from tribodyn.mesh.table import MeshData
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.schema import TIME, Layout

@@ -125,6 +125,7 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
             float(drive.module),
             float(body.teeth),
             depths[place],
+            abs(float(drive.helix_angle)),
         )
 
     wheels = wheel("pinion"), wheel("gear")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from tribodyn.geometry.body import GEOMETRY
-from tribodyn.mesh.cycle import MESH_CYCLE
+from tribodyn.mesh.record_arrays import MESH_CYCLE
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.gears.case import GearCase, LubricatedCase

@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.states import PAIR, PAIR_WITH_MOTOR, TURN_G
 from tribodyn.dynamics import parameters
-from tribodyn.dynamics.contact_forces import ELASTIC_LOAD
+from tribodyn.dynamics.approach import ELASTIC_LOAD
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.dynamics.energy import strain_energy
 from tribodyn.mesh.cycle import polynomials
@@ -49,7 +49,11 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
 def described(**operating: Any) -> Any:
     """What a model takes from a case, but the tables and laws."""
     return SimpleNamespace(
-        drive=SimpleNamespace(pinion=SimpleNamespace(teeth=21)),
+        drive=SimpleNamespace(
+            pinion=SimpleNamespace(teeth=21, face_width=0.02),
+            gear=SimpleNamespace(face_width=0.02),
+            helix_angle=0.0,
+        ),
         operating=OperatingData(
             **{"source": "torque", "pinion_speed": 130.0, "gear_torque": 410.0} | operating
         ),
@@ -62,7 +66,13 @@ def described(**operating: Any) -> Any:
 def model_of(case: Any) -> parameters.Model:
     """The model of a case, of tables and laws only what its numbers need."""
     radii = {"pinion_pitch_radius": RADII[0], "gear_pitch_radius": RADII[1]}
-    numbers = {"hertz_coefficient": 0.0, "pitch_point_length": 0.0, "coupling": 0.0, "compliance": 1e-9}
+    numbers = {
+        "hertz_coefficient": 0.0,
+        "pitch_point_length": 0.0,
+        "coupling": 0.0,
+        "compliance": 1e-9,
+        "slices": 1,
+    }
     cycle = SimpleNamespace(**radii, **numbers)
     made: Any = SimpleNamespace(cycle=cycle, table=None, schedule=None)
     law = SimpleNamespace(functions=None, parameters=None)
@@ -112,6 +122,7 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
             "ratio": [1.0, ratio, 1.0] if shaft else [1.0, ratio],
             "load": [0.0, 410.0, 0.0] if shaft else [0.0, 410.0],
             "load_damping": [0.0, 0.0, 0.0] if shaft else [0.0, 0.4],
+            "tilting": [],
         },
         "links": {
             "stiffness": [[3e8, 5e8, 0], [7e8, 11e8, 0], *([[0, 0, 4100.0]] if shaft else [])],
@@ -133,7 +144,11 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
         },
     }
     for part, numbers in expected.items():
-        assert set(numbers) == set(getattr(found, part)._fields) - {"own"}
+        assert set(numbers) == set(getattr(found, part)._fields) - {
+            "own",
+            "stiffness_in_space",
+            "damping_in_space",
+        }
         for name, value in numbers.items():
             np.testing.assert_allclose(getattr(getattr(found, part), name), value, rtol=1e-12, err_msg=name)
     assert found.links.own == NoLinkParameters()
