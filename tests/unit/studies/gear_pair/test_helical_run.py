@@ -71,8 +71,8 @@ def test_figures_are_drawn(record, name: str):
 def test_a_sweep_has_the_modes_and_states_in_space():
     data = td.sweep("helical-23-47", {"operating.gear_torque": ["200 N*m", "300 N*m"]}, overrides=SHORT)
     assert data.sizes["mode"] == 11
-    assert data.sizes["state_variable"] == 32
-    assert np.isfinite(np.asarray(data["mode_frequency"])).all()
+    # 12 coordinates, their rates and 6 works; a motor's angle and speed are missing without a shaft
+    assert np.isfinite(np.asarray(data["state"])).sum(axis=-1).tolist() == [30, 30]
 
 
 def test_gradients_are_refused():

@@ -197,7 +197,12 @@ def failed_record(path: Path, samples: int) -> Path:
         return record.fail("gave up")
 
 
-@pytest.mark.parametrize("name", sorted({*STUDIES["gear-pair"].drawings()} - {"spectrum", "orders"}))
+HELICAL = {"line-load", "in-space"}
+
+
+@pytest.mark.parametrize(
+    "name", sorted({*STUDIES["gear-pair"].drawings()} - {"spectrum", "orders"} - HELICAL)
+)
 def test_a_run_that_failed_early_is_drawn(tmp_path: Path, name: str):
     with Record(failed_record(tmp_path / "run.h5", 60)) as record:
         figure(name, [record]).draw_without_rendering()
