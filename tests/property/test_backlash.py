@@ -12,6 +12,8 @@ from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import involute
 from tribodyn.geometry.gauges import Involute, allowance_of_pins, allowance_of_span, over_pins, span
 from tribodyn.geometry.limits.checks import check
+from tribodyn.geometry.rack_section import transverse_section
+from tribodyn.geometry.sheet import geometry_sheet
 
 ALLOWANCES = st.floats(-0.04, 0.0)
 
@@ -69,3 +71,19 @@ def test_measures_are_taken_back(drawn):
     assert allowance_of_span(gear, 3, span(gear, 3, allowance)) == pytest.approx(allowance, abs=scale)
     over = over_pins(gear, pin, allowance)
     assert allowance_of_pins(gear, pin, over) == pytest.approx(allowance, abs=1e3 * scale)
+
+
+@settings(max_examples=25)
+@given(pairs())
+def test_a_vanishing_helix_leaves_the_spur_sheet(drawn):
+    drive, _ = drawn
+    try:
+        spur = geometry_sheet(check(involute.FAMILY, drive))
+    except InputError:
+        assume(False)
+    helical = geometry_sheet(check(involute.FAMILY, transverse_section(drive._replace(helix_angle=1e-6))))
+    for found, expected in ((helical, spur), *((helical[side], spur[side]) for side in ("pinion", "gear"))):
+        for name in found.keys() & expected.keys() - {"pinion", "gear"}:
+            assert found[name][0] == pytest.approx(expected[name][0], rel=1e-6, abs=1e-6), name
+        renamed = {"module", "pressure angle of the rack on its rolling line", "pin diameter"}
+        assert expected.keys() - found.keys() <= renamed | {"dimension over pins"}

@@ -1,5 +1,6 @@
 """Files for CAD and wire erosion, in millimetres: DXF of gears, cutters and the pair, CSV of a profile.
 
+Of helical gears the transverse section, and DXF files say so in a text on a layer of its own.
 Outlines are closed polylines (LWPOLYLINE); circles are circles, so that a bore can be picked. What writes a
 file raises as `write_output`.
 """
@@ -23,6 +24,7 @@ from tribodyn.geometry.body import (
     tooth_outline,
 )
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
+from tribodyn.geometry.helix import hand_of, lead
 from tribodyn.numerics.output_files import MARKS, write_output
 
 #: Layer -> (AutoCAD colour index, line type).
@@ -35,6 +37,7 @@ LAYERS = {
     "ROLLING_LINE": (8, "CENTER2"),
     "CENTRE_LINE": (8, "CENTER2"),
     "PATH_OF_CONTACT": (1, "CONTINUOUS"),
+    "TEXT": (8, "CONTINUOUS"),
 }
 #: Teeth of a rack cutter's drawing, and the height of its body above the root, in pitches.
 RACK_TEETH, RACK_BACK = 5, 0.5
@@ -49,6 +52,7 @@ def write_gear(
     """Draw one gear about its own axis, turned as it is while a pair touches at the pitch point."""
     drawing = _drawing()
     _add_gear(drawing, assembly, side, gear_polygon(assembly, side, flank_points), (0.0, 0.0))
+    _say_section(drawing, assembly, (side,))
     return _saved(drawing, path, force)
 
 
@@ -66,6 +70,7 @@ def write_rack(
     outline = np.stack([np.append(x, [x[-1], x[0]]), np.append(y, [back, back])], axis=1)
     _add_outline(drawing, outline)
     _add_line(drawing, "ROLLING_LINE", np.array([[x[0], 0.0], [x[-1], 0.0]]))
+    _say_section(drawing, assembly, (side,))
     return _saved(drawing, path, force)
 
 
@@ -78,7 +83,26 @@ def write_pair(path: Path, assembly: Assembly, flank_points: int = 60, *, force:
         _add_gear(drawing, assembly, side, outline, centre)
     _add_line(drawing, "CENTRE_LINE", np.array(centres))
     _add_line(drawing, "PATH_OF_CONTACT", mesh.path)
+    _say_section(drawing, assembly, SIDES)
     return _saved(drawing, path, force)
+
+
+def _say_section(drawing: Any, assembly: Assembly, sides: tuple[Side, ...]) -> None:
+    """Say of helical gears which section is drawn, and how it turns along the axis."""
+    drive = assembly.drive
+    if not drive.helix_angle:
+        return
+    turns = ", ".join(
+        f"{side} {hand_of(drive, side)}-hand, lead {_MILLIMETRES * float(lead(drive, side)):.6g} mm"
+        for side in sides
+    )
+    text = f"Transverse section. Helix angle {np.degrees(abs(drive.helix_angle)):.6g} deg; {turns}"
+    below = -2.0 * max(float(tip_circle_radius(drive, side)) for side in sides)
+    drawing.modelspace().add_text(
+        text,
+        height=_MILLIMETRES * float(drive.module),
+        dxfattribs={"layer": "TEXT", "insert": (0.0, _MILLIMETRES * below)},
+    )
 
 
 def _saved(drawing: Any, path: Path, force: bool) -> Path:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import Drive, reference_radius
+from tribodyn.geometry.drive import Drive, Side, reference_radius
 from tribodyn.geometry.path import Path, PerContact
 from tribodyn.numerics.elementary import arctan2, cos, sin, sqrt, tan
 
@@ -82,6 +82,11 @@ def overlap_ratio(assembly: Assembly) -> Any:
     """ε_β = b tan β/(π m_t) ≥ 0 over the common face width."""
     slope = tan(assembly.drive.helix_angle)
     return sqrt(slope**2) * assembly.common_width / (np.pi * assembly.drive.module)
+
+
+def hand_of(drive: Drive, side: Side) -> str:
+    """Hand of a gear's helix, "right" or "left": the gear's is the other than the pinion's."""
+    return "right" if (drive.helix_angle > 0) == (side == "pinion") else "left"
 
 
 def lead(drive: Drive, side: Any) -> Any:

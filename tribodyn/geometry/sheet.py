@@ -15,7 +15,7 @@ from tribodyn.geometry.contact_lines import contact_lines
 from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius, tip_circle_radius
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.geometry.gauges import Gauge, Quantity, involute_of, thickness_lines
-from tribodyn.geometry.helix import base_helix_angle, lead, overlap_ratio, pitch_slope
+from tribodyn.geometry.helix import base_helix_angle, hand_of, lead, overlap_ratio, pitch_slope
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.rack_section import as_written
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
@@ -128,8 +128,9 @@ def _helix_lines(assembly: Assembly, gear_torque: float) -> dict[str, Quantity]:
     """What the helix adds to the sheet of the pair."""
     drive, overlap = assembly.drive, float(overlap_ratio(assembly))
     involute = assembly.family.involute
-    reference = circumferential_backlash(assembly) * reference_radius(drive, "pinion")
-    reference = max(float(reference / assembly.path.pinion_pitch_radius), 0.0)
+    backlash = float(circumferential_backlash(assembly))
+    backlash *= float(reference_radius(drive, "pinion") / assembly.path.pinion_pitch_radius)
+    open_by = backlash if backlash > 1e-9 * drive.module else 0.0
     lines = contact_lines(assembly)
     return {
         "overlap ratio": (overlap, ""),
@@ -137,7 +138,7 @@ def _helix_lines(assembly: Assembly, gear_torque: float) -> dict[str, Quantity]:
         "helix angle": _degrees(abs(drive.helix_angle)),
         "helix angle on working pitch circle": _degrees(math.atan(abs(float(pitch_slope(assembly))))),
         **({"base helix angle": _degrees(abs(base_helix_angle(drive)))} if involute else {}),
-        "circumferential backlash on reference circle": _millimetres(reference),
+        "circumferential backlash on reference circle": _millimetres(open_by),
         **{f"{name} length of contact lines": _millimetres(value) for name, value in lines._asdict().items()},
         **(_force_lines(assembly, abs(gear_torque)) if involute and gear_torque else {}),
     }
@@ -161,9 +162,8 @@ def _force_lines(assembly: Assembly, gear_torque: float) -> dict[str, Quantity]:
 def _hand_lines(assembly: Assembly, side: Side) -> dict[str, Quantity]:
     """What the helix adds to the sheet of one gear."""
     drive = assembly.drive
-    right = (drive.helix_angle > 0) == (side == "pinion")
     lines: dict[str, Quantity] = {
-        "hand of helix": ("right" if right else "left", ""),
+        "hand of helix": (hand_of(drive, side), ""),
         "lead": _millimetres(lead(drive, side)),
     }
     if assembly.family.involute:
