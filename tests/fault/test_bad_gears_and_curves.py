@@ -39,10 +39,7 @@ def test_gears_that_cannot_be(
 
 #: As users ask for gears that are not modelled: setting, what is said of it.
 OTHER_GEARS = {
-    'drive.helix_angle="15 deg"': "helical gears",
-    "drive.pinion.helix=15": "helical gears",
-    'drive.beta="15 deg"': "helical gears",
-    "drive.family=helical": "helical gears",
+    "drive.type=herringbone": "double helical gears",
     "drive.gear.teeth=-60": "internal gears",
     "drive.gear.type=internal": "internal gears",
     "drive.ring.teeth=80": "internal gears",
@@ -51,6 +48,47 @@ OTHER_GEARS = {
     "drive.carrier.speed=1": "planetary gears",
     "drive.type=bevel": "bevel, worm and hypoid gears",
 }
+
+
+@pytest.mark.parametrize("setting", ["drive.pinion.helix=15", 'drive.beta="15 deg"', "drive.family=helical"])
+def test_a_helix_has_one_key(refused: Refused, scenario: Path, setting: str):
+    code, (line,) = refused("check", str(scenario), "--set", setting)
+    assert code == 2
+    assert "the key of a helix is helix_angle" in line
+    assert 'write helix_angle = "20 deg" in [drive]' in line
+
+
+#: A helix that cannot be: settings, key of the message, rule, remedy.
+HELICES = {
+    "too steep": (['helix_angle="45 deg"'], "helix_angle = 45 deg", "less than 45 deg", "8 to 35 deg"),
+    "negative": (['helix_angle="-15 deg"'], "helix_angle = -15 deg", "not be negative", 'hand = "left"'),
+    "one hand": (
+        ['helix_angle="15 deg"', "hand=left", "gear.hand=left"],
+        'gear.hand = "left"',
+        "opposite hands",
+        'write "right"',
+    ),
+    "no angle": (["pinion.hand=left"], 'pinion.hand = "left"', "spur gears", 'helix_angle = "20 deg"'),
+    "no such hand": (['helix_angle="15 deg"', "hand=up"], 'hand = "up"', "not one of", '"right" or "left"'),
+    "wide": (
+        ['helix_angle="30 deg"', 'pinion.face_width="0.9 m"', 'gear.face_width="0.9 m"'],
+        "helix_angle = 30 deg",
+        "an overlap ratio of",
+        "at most",
+    ),
+}
+
+
+@pytest.mark.parametrize(("settings", "key", "rule", "remedy"), HELICES.values(), ids=list(HELICES))
+def test_a_helix_that_cannot_be(
+    refused: Refused, scenario: Path, settings: list[str], key: str, rule: str, remedy: str
+):
+    given = [part for setting in settings for part in ("--set", f"drive.{setting}")]
+    code, (line,) = refused("check", str(scenario), *given)
+    assert code == 2
+    assert f": drive.{key}: " in line
+    assert rule in line
+    assert remedy in line
 
 
 #: As users ask for several stages of a pair of gears: setting, key of the message.
@@ -72,7 +110,7 @@ def test_gears_that_are_not_modelled(refused: Refused, scenario: Path, setting: 
     key = setting.partition("=")[0]
     assert code == 2
     assert f": {key}" in line or f": {key.rpartition('.')[0]} = " in line
-    assert f"{what} are not modelled: this version computes external spur gears" in line
+    assert f"{what} are not modelled: this version computes external spur and helical gears" in line
 
 
 @pytest.mark.parametrize(("setting", "key"), SEVERAL_STAGES.items())
@@ -87,8 +125,6 @@ def test_several_stages_are_sent_to_the_kind_that_has_them(
 
 #: As users ask for other gears of a train: setting, what is said of it.
 OTHER_TRAINS = {
-    'gear.wheel-1.helix_angle="10 deg"': "helical gears",
-    'stage.1.helix_angle="10 deg"': "helical gears",
     "gear.wheel-1.teeth=-69": "internal gears",
     "planets=3": "planetary gears",
     "carrier.speed=1": "planetary gears",
@@ -99,7 +135,7 @@ OTHER_TRAINS = {
 def test_trains_that_are_not_modelled(refused: Refused, setting: str, what: str):
     code, (line,) = refused("check", "two-stage-reducer", "--set", setting)
     assert code == 2
-    assert f"{what} are not modelled: this version computes external spur gears" in line
+    assert f"{what} are not modelled: this version computes external spur and helical gears" in line
 
 
 def test_a_planetary_gearbox_is_refused_once(refused: Refused, scenario: Path):

@@ -7,11 +7,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import circumferential_backlash, normal_backlash
+from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import involute
+from tribodyn.geometry.gauges import Involute, allowance_of_pins, allowance_of_span, over_pins, span
 from tribodyn.geometry.limits.checks import check
-from tribodyn.geometry.sheet import Involute, allowance_of_pins, allowance_of_span, over_pins, span
 
 ALLOWANCES = st.floats(-0.04, 0.0)
 

@@ -161,22 +161,6 @@ def _polar(x: Any, y: Any) -> tuple[Any, Any]:
     return sqrt(x * x + y * y), arctan2(y, x)
 
 
-def circumferential_backlash(assembly: Assembly) -> Any:
-    """Arc j_wt of the working pitch circle by which a gear can turn, m: pitch less both tooth thicknesses."""
-    radius = assembly.path.pinion_pitch_radius
-    pitch = 2 * np.pi * radius / assembly.drive.pinion.teeth
-    thicknesses = 0.0
-    for side in SIDES:
-        radius = assembly.path_of(side).pinion_pitch_radius
-        thicknesses = thicknesses + 2 * radius * thickness_half_angle(assembly.tooth(side), radius)
-    return pitch - thicknesses
-
-
-def normal_backlash(assembly: Assembly) -> Any:
-    """Distance j_bn between the back flanks along their normal at the pitch point, m; negative: overlap."""
-    return circumferential_backlash(assembly) * cos(assembly.path.pressure_angle(0.0))
-
-
 def flank_angle_at_tip(family: Family, drive: Drive, side: Side) -> Any:
     """Sine and cosine of the angle between the flank at the tip circle and the radius there.
 

@@ -1,162 +1,24 @@
-"""The geometry of a drive in the engineer's quantities and units, measured tooth thickness included."""
+"""The geometry of a drive in the engineer's quantities and units, measured tooth thickness included.
+
+Of helical teeth in the transverse section where nothing else is said, with what the helix adds to it.
+"""
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from tribodyn.geometry.assembly import (
-    Assembly,
-    circumferential_backlash,
-    lowest_contact_radius,
-    normal_backlash,
-    tip_clearance,
-)
+from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
+from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
+from tribodyn.geometry.contact_lines import contact_lines
 from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius, tip_circle_radius
-from tribodyn.geometry.families.involute import inverse_involute, involute_function, tight_centre_distance
+from tribodyn.geometry.families.involute import tight_centre_distance
+from tribodyn.geometry.gauges import Gauge, Quantity, involute_of, thickness_lines
+from tribodyn.geometry.helix import base_helix_angle, lead, overlap_ratio, pitch_slope
 from tribodyn.geometry.path import kinematics
+from tribodyn.geometry.rack_section import as_written
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
-
-
-class Involute(NamedTuple):
-    """A spur gear as its tooth thickness needs it: module m, pressure angle rad, teeth, profile shift."""
-
-    module: float
-    pressure_angle: float
-    teeth: float
-    profile_shift: float
-
-    @property
-    def base_diameter(self) -> float:
-        """d_b, m."""
-        return self.module * self.teeth * math.cos(self.pressure_angle)
-
-
-def span(gear: Involute, span_teeth: int, allowance: float = 0.0) -> float:
-    """W_k over k teeth: m cos α [π (k − 1/2) + z inv α + 2 x tan α] + A_sn cos α."""
-    alpha = gear.pressure_angle
-    turns = math.pi * (span_teeth - 0.5) + gear.teeth * float(involute_function(alpha))
-    nominal = gear.module * (turns + 2 * gear.profile_shift * math.tan(alpha))
-    return (nominal + allowance) * math.cos(alpha)
-
-
-def allowance_of_span(gear: Involute, span_teeth: int, measured: float) -> float:
-    """A_sn of a measured span: the inverse of `span`."""
-    return (measured - span(gear, span_teeth)) / math.cos(gear.pressure_angle)
-
-
-def usual_span_teeth(gear: Involute) -> int:
-    """Number of teeth k at which the anvils touch nearest to the circle d + 2 x m."""
-    alpha = gear.pressure_angle
-    middle = gear.module * (gear.teeth + 2 * gear.profile_shift)
-    chord = math.sqrt(max(middle**2 - gear.base_diameter**2, 0.0)) / (gear.module * math.cos(alpha))
-    turns = gear.teeth * float(involute_function(alpha)) + 2 * gear.profile_shift * math.tan(alpha)
-    return max(round((chord - turns) / math.pi + 0.5), 1)
-
-
-def span_contact_diameter(gear: Involute, measured: float) -> float:
-    """Diameter of the circle on which the anvils touch the flanks, symmetrically: √(d_b² + W_k²)."""
-    return math.hypot(gear.base_diameter, measured)
-
-
-def over_pins(gear: Involute, pin_diameter: float, allowance: float = 0.0) -> float:
-    """Dimension M over two pins of diameter D_M in opposite gaps.
-
-    M = d_b/cos α_K + D_M with inv α_K = inv α + D_M/(m z cos α) − (π/2 − 2 x tan α − A_sn/m)/z; for an odd
-    number of teeth d_b is taken times cos(π/(2 z)). NaN for pins so thin that they drop between the flanks.
-    """
-    centre = gear.base_diameter / math.cos(_pin_angle(gear, pin_diameter, allowance))
-    return centre * _opposite(gear) + pin_diameter
-
-
-def allowance_of_pins(gear: Involute, pin_diameter: float, measured: float) -> float:
-    """A_sn of a measured dimension over pins: the inverse of `over_pins`; NaN where no gear has it."""
-    cosine = gear.base_diameter * _opposite(gear) / (measured - pin_diameter)
-    if not 0.0 < cosine <= 1.0:
-        return math.nan
-    opened = float(involute_function(math.acos(cosine)))
-    return gear.module * gear.teeth * (opened - _pin_involute(gear, pin_diameter, 0.0))
-
-
-def pin_contact_diameter(gear: Involute, pin_diameter: float, allowance: float = 0.0) -> float:
-    """Diameter of the circle on which the pins touch the flanks: tan α_y = tan α_K − D_M/d_b."""
-    tangent = math.tan(_pin_angle(gear, pin_diameter, allowance)) - pin_diameter / gear.base_diameter
-    return gear.base_diameter * math.hypot(1.0, tangent)
-
-
-def _pin_angle(gear: Involute, pin_diameter: float, allowance: float) -> float:
-    """α_K; NaN for pins that touch no involute: they drop between the flanks."""
-    involute = _pin_involute(gear, pin_diameter, allowance)
-    return float(inverse_involute(involute)) if involute > 0.0 else math.nan
-
-
-def _pin_involute(gear: Involute, pin_diameter: float, allowance: float) -> float:
-    gap = math.pi / 2 - 2 * gear.profile_shift * math.tan(gear.pressure_angle) - allowance / gear.module
-    opened = float(involute_function(gear.pressure_angle)) + pin_diameter / gear.base_diameter
-    return opened - gap / gear.teeth
-
-
-def _opposite(gear: Involute) -> float:
-    """Share of the diameter that opposite gaps stand apart: 1 for an even number of teeth."""
-    return 1.0 if round(gear.teeth) % 2 == 0 else math.cos(math.pi / (2 * gear.teeth))
-
-
-Quantity = tuple[float, str]
-
-#: Pin over module where none is given: the usual wire of external spur gears (Van Keuren).
-USUAL_PIN = 1.728
-
-
-class Gauge(NamedTuple):
-    """What a tooth thickness is measured with; None: usual."""
-
-    span_teeth: int | None = None
-    pin_diameter: float | None = None  # m
-
-
-def backlash_lines(assembly: Assembly) -> dict[str, Quantity]:
-    """Backlash of the pair and, of involutes, the centre distance at which it has none."""
-    lines: dict[str, Quantity] = {}
-    if assembly.family.involute:
-        lines["centre distance without backlash"] = 1e3 * float(tight_centre_distance(assembly.drive)), "mm"
-    rounding = 1e-9 * float(assembly.drive.module)
-    for name, backlash in (
-        ("normal backlash", normal_backlash(assembly)),
-        ("circumferential backlash", circumferential_backlash(assembly)),
-    ):
-        lines[name] = 1e3 * (float(backlash) if abs(backlash) > rounding else 0.0), "mm"
-    return lines
-
-
-def thickness_lines(assembly: Assembly, side: Side, gauge: Gauge = Gauge()) -> dict[str, Quantity]:
-    """Deviation of the tooth thickness and, of involutes, what gauges measure that touch on the flank."""
-    drive, body = assembly.drive, body_of(assembly.drive, side)
-    lines: dict[str, Quantity] = {
-        "deviation of tooth thickness": (1e3 * float(body.thickness_allowance), "mm")
-    }
-    if not assembly.family.involute:
-        return lines
-    numbers = map(float, (drive.module, drive.pressure_angle, body.teeth, body.profile_shift))
-    gear, allowance = Involute(*numbers), float(body.thickness_allowance)
-    count = usual_span_teeth(gear) if gauge.span_teeth is None else gauge.span_teeth
-    measured = span(gear, count, allowance)
-    if _on_flank(assembly, side, span_contact_diameter(gear, measured)):
-        lines |= {"teeth of the span": (float(count), ""), "span": (1e3 * measured, "mm")}
-    pin = USUAL_PIN * gear.module if gauge.pin_diameter is None else gauge.pin_diameter
-    if _on_flank(assembly, side, pin_contact_diameter(gear, pin, allowance)):
-        lines |= {
-            "pin diameter": (1e3 * pin, "mm"),
-            "dimension over pins": (1e3 * over_pins(gear, pin, allowance), "mm"),
-        }
-    return lines
-
-
-def _on_flank(assembly: Assembly, side: Side, diameter: Any) -> bool:
-    tooth = assembly.tooth(side)
-    radius = float(diameter) / 2
-    return math.isfinite(radius) and bool(tooth.form_radius <= radius <= tooth.tip_radius)
-
 
 _SAMPLES = 400
 
@@ -165,11 +27,13 @@ def geometry_sheet(
     assembly: Assembly,
     masses: Sequence[tuple[float, float]] | None = None,
     gauges: tuple[Gauge, Gauge] = (Gauge(), Gauge()),
+    gear_torque: float = 0.0,
 ) -> dict[str, Any]:
     """Summarise a drive that has passed `checks.check`; lengths in mm, angles in degrees.
 
     Name -> (value, unit) for the pair, in reading order, and under "pinion" and "gear" the same for each
-    body. Masses (kg) and inertias (kg m²) of pinion and gear stand there where they are given.
+    body. Masses (kg) and inertias (kg m²) of pinion and gear stand there where they are given, and with a
+    torque on the gear (N m) the forces of helical involutes.
     """
     path, drive = assembly.path, assembly.drive
     ends = {"start of contact": assembly.r_start, "pitch point": 0.0, "end of contact": assembly.r_end}
@@ -178,15 +42,16 @@ def geometry_sheet(
     operating = operating if assembly.family.involute else {}
     pitch_angle = 2 * math.pi / drive.pinion.teeth
     pair: dict[str, Any] = {
-        "module": _millimetres(drive.module),
+        **_module_lines(assembly),
         "gear ratio": (float(drive.gear.teeth / drive.pinion.teeth), ""),
         "centre distance": _millimetres(path.pinion_pitch_radius + path.gear_pitch_radius),
         **operating,
         **backlash_lines(assembly),
-        "pressure angle of the rack on its rolling line": _degrees(assembly.pinion.path.pressure_angle(0.0)),
+        **_rack_angle_lines(assembly),
         "contact ratio": (assembly.contact_ratio, ""),
         "approach contact ratio": (-assembly.roll_limits[0] / pitch_angle, ""),
         "recess contact ratio": (assembly.roll_limits[1] / pitch_angle, ""),
+        **(_helix_lines(assembly, gear_torque) if drive.helix_angle else {}),
         "start of contact from pitch point": _millimetres(assembly.r_start),
         "end of contact from pitch point": _millimetres(assembly.r_end),
         **{f"pressure angle at {name}": _degrees(at.pressure_angle) for name, at in places.items()},
@@ -203,7 +68,8 @@ def geometry_sheet(
         rounded = {"tip form diameter": _millimetres(2 * tooth.tip_radius)}
         pair[side] = {
             "teeth": (float(body.teeth), ""),
-            "profile shift": (float(body.profile_shift), ""),
+            "profile shift": (float(body_of(as_written(assembly.family, drive), side).profile_shift), ""),
+            **(_hand_lines(assembly, side) if drive.helix_angle else {}),
             "reference diameter": _millimetres(2 * reference_radius(drive, side)),
             "working pitch diameter": _millimetres(2 * working),
             **_base_diameter(assembly, side),
@@ -224,6 +90,7 @@ def geometry_sheet(
             ),
             "tip thickness": _millimetres(2 * flank_point(tooth, tooth.tip_distance)[1]),
             "tip clearance": _millimetres(tip_clearance(assembly, side)),
+            **(_thickness_on_reference(assembly, side) if drive.helix_angle else {}),
             **thickness_lines(assembly, side, gauges[number]),
             **sliding[side],
         }
@@ -231,6 +98,103 @@ def geometry_sheet(
             mass, inertia = masses[number]
             pair[side] |= {"mass": (float(mass), "kg"), "moment of inertia": (1e6 * float(inertia), "kg mm²")}
     return pair
+
+
+def _module_lines(assembly: Assembly) -> dict[str, Quantity]:
+    """The module, of helical teeth in both sections."""
+    drive = assembly.drive
+    transverse = _millimetres(drive.module)
+    if not drive.helix_angle:
+        return {"module": transverse}
+    return {
+        "normal module": _millimetres(drive.module * math.cos(drive.helix_angle)),
+        "transverse module": transverse,
+    }
+
+
+def _rack_angle_lines(assembly: Assembly) -> dict[str, Quantity]:
+    """The rack's pressure angle, of helical involutes in both sections."""
+    of_rack, angle = (
+        "pressure angle of the rack on its rolling line",
+        assembly.pinion.path.pressure_angle(0.0),
+    )
+    if not (assembly.drive.helix_angle and assembly.family.involute):
+        return {of_rack: _degrees(angle)}
+    normal = as_written(assembly.family, assembly.drive).pressure_angle
+    return {f"normal {of_rack}": _degrees(normal), f"transverse {of_rack}": _degrees(angle)}
+
+
+def _helix_lines(assembly: Assembly, gear_torque: float) -> dict[str, Quantity]:
+    """What the helix adds to the sheet of the pair."""
+    drive, overlap = assembly.drive, float(overlap_ratio(assembly))
+    involute = assembly.family.involute
+    reference = circumferential_backlash(assembly) * reference_radius(drive, "pinion")
+    reference = max(float(reference / assembly.path.pinion_pitch_radius), 0.0)
+    lines = contact_lines(assembly)
+    return {
+        "overlap ratio": (overlap, ""),
+        "total contact ratio": (float(assembly.contact_ratio) + overlap, ""),
+        "helix angle": _degrees(abs(drive.helix_angle)),
+        "helix angle on working pitch circle": _degrees(math.atan(abs(float(pitch_slope(assembly))))),
+        **({"base helix angle": _degrees(abs(base_helix_angle(drive)))} if involute else {}),
+        "circumferential backlash on reference circle": _millimetres(reference),
+        **{f"{name} length of contact lines": _millimetres(value) for name, value in lines._asdict().items()},
+        **(_force_lines(assembly, abs(gear_torque)) if involute and gear_torque else {}),
+    }
+
+
+def _force_lines(assembly: Assembly, gear_torque: float) -> dict[str, Quantity]:
+    """Forces between involutes without friction: tangential, radial and axial; N."""
+    drive = assembly.drive
+    nominal = gear_torque / float(reference_radius(drive, "gear"))
+    working = gear_torque / float(assembly.path.gear_pitch_radius)
+    angle = float(assembly.path.pressure_angle(0.0))
+    return {
+        "tangential force on reference circle": (nominal, "N"),
+        "radial force on reference circle": (nominal * math.tan(drive.pressure_angle), "N"),
+        "tangential force on working pitch circle": (working, "N"),
+        "radial force on working pitch circle": (working * math.tan(angle), "N"),
+        "axial force": (nominal * math.tan(abs(drive.helix_angle)), "N"),
+    }
+
+
+def _hand_lines(assembly: Assembly, side: Side) -> dict[str, Quantity]:
+    """What the helix adds to the sheet of one gear."""
+    drive = assembly.drive
+    right = (drive.helix_angle > 0) == (side == "pinion")
+    lines: dict[str, Quantity] = {
+        "hand of helix": ("right" if right else "left", ""),
+        "lead": _millimetres(lead(drive, side)),
+    }
+    if assembly.family.involute:
+        lines["virtual number of teeth"] = involute_of(drive, side)[0].virtual_teeth, ""
+    return lines
+
+
+def _thickness_on_reference(assembly: Assembly, side: Side) -> dict[str, Quantity]:
+    """Tooth thickness on the reference circle in both sections, arcs; s_n = s_t cos β."""
+    radius = reference_radius(assembly.drive, side)
+    arc = 2 * radius * thickness_half_angle(assembly.tooth(side), radius)
+    return {
+        "normal tooth thickness on reference circle": _millimetres(
+            arc * math.cos(assembly.drive.helix_angle)
+        ),
+        "transverse tooth thickness on reference circle": _millimetres(arc),
+    }
+
+
+def backlash_lines(assembly: Assembly) -> dict[str, Quantity]:
+    """Backlash of the pair and, of involutes, the centre distance at which it has none."""
+    lines: dict[str, Quantity] = {}
+    if assembly.family.involute:
+        lines["centre distance without backlash"] = 1e3 * float(tight_centre_distance(assembly.drive)), "mm"
+    rounding = 1e-9 * float(assembly.drive.module)
+    for name, backlash in (
+        ("normal backlash", normal_backlash(assembly)),
+        ("circumferential backlash", circumferential_backlash(assembly)),
+    ):
+        lines[name] = 1e3 * (float(backlash) if abs(backlash) > rounding else 0.0), "mm"
+    return lines
 
 
 def specific_sliding_max(assembly: Assembly) -> float:

@@ -1,11 +1,14 @@
 """The free-form path nearest to another family's: where a search for a better tooth begins."""
 
+import math
+
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, body_of, tip_radius
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.spline import FEWEST, SplineShape, working_path
+from tribodyn.geometry.helix import pitch_slope
 from tribodyn.geometry.path import Path, distance_at_radius
 from tribodyn.geometry.tooth import thickness_half_angle
 
@@ -21,8 +24,8 @@ def fit_spline(assembly: Assembly, values: int) -> Assembly:
 
     The angles, at least `spline.FEWEST` of them, are the linear least squares over the contact; at P the
     angle is the path's own. Paths that may have a corner at P are fitted with one. A pair of any family at a
-    centre distance of its own becomes one of the module 2 r_w/z; the thickness of its teeth, and so its
-    backlash, stays. `flank_deviation` says how near it comes.
+    centre distance of its own becomes one of the module 2 r_w/z and the helix angle β_w; the thickness of
+    its teeth, and so its backlash, stays. `flank_deviation` says how near it comes.
     """
     path, contact = assembly.path, (float(assembly.r_start), float(assembly.r_end))
     start = max(min(contact[0], float(assembly.pinion.form_distance)), _FURTHEST * contact[0])
@@ -37,7 +40,8 @@ def fit_spline(assembly: Assembly, values: int) -> Assembly:
     angle = float(path.pressure_angle(0.0))
     bodies = _bodies(assembly, module, angle)
     shape = SplineShape(np.zeros(len(knots)), knots, None, 0.0)
-    drive = Drive(module, 0.0, bodies[0], bodies[1], shape)
+    helix = math.atan(pitch_slope(assembly)) if assembly.drive.helix_angle else 0.0
+    drive = Drive(module, 0.0, bodies[0], bodies[1], shape, helix_angle=helix)
 
     r = np.linspace(start, end, _SAMPLES)
     r = r[np.abs(r) > 1e-6 * module]

@@ -5,10 +5,14 @@ from typing import Any
 
 from tribodyn.errors import InputError
 
-INTERNAL, STAGES = "internal gears", "several stages"
+INTERNAL, STAGES, HELIX = "internal gears", "several stages", "a helix"
 #: What is asked for -> the keys and names that ask for it, and what to do about it.
 _OUTSIDE = {
-    "helical gears": (r"helix|helical|herringbone|^beta(_|$)", "omit it"),
+    "double helical gears": (r"herringbone|double_?heli", "describe one half of it, with helix_angle"),
+    HELIX: (
+        r"helix|helical|^beta(_|$)",
+        'write helix_angle = "20 deg" in [drive] of a gear pair, and hand = "left" of a left-hand pinion',
+    ),
     INTERNAL: (r"^internal(_(gears?|teeth|mesh))?$|annulus|^ring(_|$)", "describe an external gear"),
     "planetary gears": (
         r"planet|epicyclic|^(sun|carrier)s?(_|$)",
@@ -42,9 +46,12 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
     if what == STAGES:
         rule = f"{STAGES} are of another kind of study"
         return InputError(error.key, error.value, rule, _OUTSIDE[STAGES][1], error.file)
+    if what == HELIX:
+        rule = "the key of a helix is helix_angle, of both gears together"
+        return InputError(error.key, error.value, rule, _OUTSIDE[HELIX][1], error.file)
     rule = (
-        f"{what} are not modelled: this version computes external spur gears, "
-        "not helical, internal or planetary gears"
+        f"{what} are not modelled: this version computes external spur and helical gears, "
+        "not internal or planetary gears"
     )
     return InputError(error.key, error.value, rule, remedy or _OUTSIDE[what][1], error.file)
 

@@ -5,7 +5,8 @@ import math
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly, circumferential_backlash, normal_backlash, tip_clearance
+from tribodyn.geometry.assembly import Assembly, tip_clearance
+from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
 from tribodyn.geometry.limits.checks import check

@@ -9,7 +9,7 @@ from tests.support.sample_drives import SHIFTED, STANDARD
 from tribodyn.geometry.assembly import assemble, tip_break
 from tribodyn.geometry.drive import PROFILES, body_of
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.sheet import (
+from tribodyn.geometry.gauges import (
     Gauge,
     Involute,
     allowance_of_pins,

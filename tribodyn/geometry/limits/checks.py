@@ -12,10 +12,10 @@ from tribodyn.geometry.assembly import (
     lowest_contact_radius,
     lowest_contact_speed,
     mate_of,
-    normal_backlash,
     tip_clearance,
     tip_corner_gap,
 )
+from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_circle_radius
 from tribodyn.geometry.families import Family
 from tribodyn.geometry.limits.sizes import advice, boundary, check_sizes, millimetres, replaced, require

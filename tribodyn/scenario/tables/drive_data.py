@@ -12,7 +12,8 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from tribodyn.geometry.assembly import Assembly, normal_backlash, tip_break
+from tribodyn.geometry.assembly import Assembly, tip_break
+from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.geometry.families.involute import overlap, shift_sensitivity, tight_centre_distance

@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.geometry.drive import PROFILES, GearBody
 from tribodyn.geometry.families import FAMILIES, Family
-from tribodyn.geometry.sheet import Gauge, Involute, allowance_of_pins, allowance_of_span, over_pins, span
+from tribodyn.geometry.gauges import Gauge, Involute, allowance_of_pins, allowance_of_span, over_pins, span
 from tribodyn.scenario.own_keys import Owner, own_key_errors, own_values
 from tribodyn.scenario.tables.model_files import DriveTable, Gear, Hand
 

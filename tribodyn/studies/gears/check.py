@@ -130,10 +130,11 @@ def check_gears(
     `masses`, (mass kg, inertia kg m²) of pinion and gear, stand in the sheet where they are given.
     """
     case, assembly = prepared.case, prepared.assembly
-    pair = single_pair(prepared.cycle, case.operating.gear_torque)
+    torque = case.operating.gear_torque
+    pair = single_pair(prepared.cycle, torque)
     method = f'compliance = "{case.mesh.compliance}"'
     remark = compliance_remark(assembly, case.materials, case.mesh)
-    checked = sheet_and_stiffness(assembly, case.materials, method, pair, masses, remark)
+    checked = sheet_and_stiffness(assembly, case.materials, method, pair, masses, remark, torque)
     checked = with_oil(checked, case.lubricant)
     return checked if closure is None else _with_laws(checked, case, closure)
 
@@ -193,11 +194,13 @@ def sheet_and_stiffness(
     pair: tuple[float, float],
     masses: Any = None,
     remark: str = "",
+    gear_torque: float = 0.0,
 ) -> CheckResult:
     """The sheet of gears that were checked, and how stiff they are.
 
     `pair` is the normal load of a single pair at the pitch point, N, and its stiffness at that load, N/m, by
-    a `method`, with a `remark` on it; `masses` are those of `check_gears`.
+    a `method`, with a `remark` on it; `masses` are those of `check_gears`. With the torque on the gear, N m,
+    the sheet has the forces of helical teeth.
     """
     from tribodyn.geometry.sheet import geometry_sheet
 
@@ -213,7 +216,7 @@ def sheet_and_stiffness(
         tables.append(table)
         remarks.append(remark_on_reference)
     by = {name: {"per_width": value, "stiffness": value * width} for name, value in per_width.items()}
-    sheet = geometry_sheet(assembly, masses)
+    sheet = geometry_sheet(assembly, masses, gear_torque=gear_torque)
     line_load = normal_load / width
     table = TextTable(
         f"Stiffness of a single pair at the pitch point, at {line_load * 1e-3:.0f} N/mm",

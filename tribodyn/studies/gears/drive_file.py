@@ -17,8 +17,9 @@ from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.spline import FEWEST, MOST
+from tribodyn.geometry.gauges import Gauge
 from tribodyn.geometry.limits.checks import check
-from tribodyn.geometry.sheet import Gauge, geometry_sheet
+from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.geometry.spline_fit import fit_spline, flank_deviation
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.quantity import Table
@@ -169,6 +170,8 @@ def as_spline(model: DriveModel, values: int, key: str = "n") -> SplineDrive:
         "family": "spline",
         "module": f"{1e3 * drive.module:.12g} mm",
     }
+    if drive.helix_angle:
+        table["helix_angle"] = f"{np.degrees(abs(drive.helix_angle)):.12g} deg"
     table["shape"] = {
         "angles": [f"{angle:.10g} deg" for angle in np.degrees(shape.angles)],
         "knots": [f"{knot:.10g} mm" for knot in 1e3 * shape.knots],

@@ -88,7 +88,9 @@ def check(case: LoadContactCase) -> CheckResult:
         1.0, float(pitch_slope(assembly)) * math.cos(float(assembly.path.pressure_angle(0.0)))
     )
     pair = case.operating.gear_torque / (arm * cosine), single_pair_stiffness(study) * cosine**2
-    return sheet_and_stiffness(assembly, case.materials, "finite elements", pair)
+    return sheet_and_stiffness(
+        assembly, case.materials, "finite elements", pair, gear_torque=case.operating.gear_torque
+    )
 
 
 def quantities_of(case: LoadContactCase) -> dict[str, Any]:

@@ -10,7 +10,8 @@ import pytest
 
 from tests.support.turning_outlines import Turning, assert_touching
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly, normal_backlash
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family
 from tribodyn.studies.gear_train.teeth import check_same_teeth, engagement
