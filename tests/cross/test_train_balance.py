@@ -12,7 +12,7 @@ import pytest
 from tests.support.mesh_balance import forces_on_bodies, mesh_actions, residuals
 from tests.support.states import sampled
 from tests.support.train_matrices import Body, Mesh
-from tribodyn.dynamics import contact_forces
+from tribodyn.dynamics import approach
 from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.solve.initial import accelerations
 from tribodyn.solve.transient import TransientSettings
@@ -69,7 +69,7 @@ def run(name: str) -> Balanced:
     record["signed_distance"] = np.stack(
         [
             np.stack(
-                [np.broadcast_to(work[contact_forces.DISTANCE, i], len(cycles)) for i in range(model.pairs)],
+                [np.broadcast_to(work[approach.DISTANCE, i], len(cycles)) for i in range(model.pairs)],
                 1,
             )
             for work in seen.work

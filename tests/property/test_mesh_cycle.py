@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from tests.support.random_drives import drives
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.mesh.cycle import as_arrays, from_arrays
 from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.record_arrays import as_arrays, from_arrays
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 

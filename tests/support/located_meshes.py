@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from tribodyn.dynamics.contact_forces import NORMAL_LOAD
+from tribodyn.dynamics.approach import NORMAL_LOAD
 from tribodyn.dynamics.parameters import CLASSICAL, Model
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.right_hand_side import rhs, work_array

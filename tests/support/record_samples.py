@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.mesh.record_arrays import from_arrays
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.layout import Head
 from tribodyn.record.sweep_schema import DONE, SweepLayout, VariedKey
@@ -73,7 +74,7 @@ def gear_pair_writer(
     table = mesh_cycle() if table is None else table
     groups = {"mesh_cycle": table, "geometry": outlines}
     head = Head(
-        "gear-pair", LAYOUT, scenario_toml, sha256, datetime.now(UTC), groups, scales_of(table["side"])
+        "gear-pair", LAYOUT, scenario_toml, sha256, datetime.now(UTC), groups, scales_of(from_arrays(table))
     )
     return RecordWriter(path, head, samples, force=force)
 

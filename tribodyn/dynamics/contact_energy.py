@@ -3,7 +3,7 @@
 Written for all compilers, as `contact_forces`, whose `work` it reads.
 """
 
-from tribodyn.dynamics.contact_forces import (
+from tribodyn.dynamics.approach import (
     APPROACH_SLOPE,
     COMPLIANCE,
     COMPLIANCE_SLOPE,
@@ -11,10 +11,15 @@ from tribodyn.dynamics.contact_forces import (
     EFFECTIVE_APPROACH,
     ELASTIC_LOAD,
     NORMAL_LOAD,
+    PRESENT,
+    PRESENT_SLOPE,
     STIFFNESS,
+    WHOLE_LOAD,
+    absent,
     cubic_slope,
-    out_of_reach,
+    sliced,
 )
+from tribodyn.dynamics.contact_forces import coupled
 from tribodyn.dynamics.parameters import HERTZ_POWER_LAW
 from tribodyn.dynamics.smooth import (
     onset_integral,
@@ -28,10 +33,10 @@ from tribodyn.numerics.elementary import law, skippable, where
 
 @law
 def pair_energy(i, mesh, model, work):
-    """Strain energy of one pair without the coupling, J."""
+    """Strain energy of one pair without the coupling, of a slice as if its whole width touched, J."""
     width = model.operation.contact_width
     free = work[EFFECTIVE_APPROACH, i]
-    load = work[ELASTIC_LOAD, i]
+    load = work[WHOLE_LOAD, i]
     if model.options.hertz == HERTZ_POWER_LAW:
         compliance, coefficient = work[COMPLIANCE, i], mesh.table.hertz_coefficient
         at_width = power_law_force(width, compliance, coefficient)
@@ -61,7 +66,7 @@ def compliance_force(i, mesh, model, work):
         hertz = (1.0 / stiffness - compliance) / 0.9
         load_slope = at_width * stiffness
         stiffness_slope = stiffness * stiffness * (1.0 + 0.09 * hertz * stiffness)
-        load = work[ELASTIC_LOAD, i]
+        load = work[WHOLE_LOAD, i]
         above = 0.5 * (load * load - at_width * at_width)
         whole = onset_integral(free, width, load_slope, stiffness_slope) + where(free > width, above, 0.0)
         return where(load > 0.0, whole, 0.0)
@@ -76,8 +81,8 @@ def mesh_energy(mesh, model, work):
     for i in range(pairs):
         if skippable(work[ELASTIC_LOAD, i] == 0.0):
             continue
-        energy = energy + pair_energy(i, mesh, model, work)
-        if model.options.sweeps > 1:
+        energy = energy + work[PRESENT, i] * pair_energy(i, mesh, model, work)
+        if coupled(mesh, model):
             for j in range(i):
                 if skippable(work[ELASTIC_LOAD, j] == 0.0):
                     continue
@@ -89,21 +94,26 @@ def mesh_energy(mesh, model, work):
 def parametric_torque(place, mesh, model, work):
     """Torque ∂V/∂φ on the driver at fixed coordinates that the classical equations leave out, N m.
 
-    Σ (½ k_i' δ_i² + F_i ∂δ_i/∂φ) with the coupling's share (Oh, Grosh & Barber 2005); the damping part of
-    F_i belongs to it, so that damping dissipates c_i δ_i'² and nothing else.
+    Σ (½ k_i' δ_i² + F_i ∂δ_i/∂φ), k_i by the part of a slice that touches, with the coupling's share (Oh,
+    Grosh & Barber 2005); the damping part of F_i belongs to it, so that damping dissipates c_i δ_i'² and
+    nothing else.
     """
     segment, cell, u, cells_per_radian = place
     pairs = mesh.table.side.shape[0]
     torque = 0.0
     for i in range(pairs):
-        if out_of_reach(segment, i, mesh):
+        if absent(i, work):
             continue
         load = work[ELASTIC_LOAD, i]
-        torque = torque - compliance_force(i, mesh, model, work) * work[COMPLIANCE_SLOPE, i]
+        torque = torque - work[PRESENT, i] * (
+            compliance_force(i, mesh, model, work) * work[COMPLIANCE_SLOPE, i]
+        )
         torque = torque + work[NORMAL_LOAD, i] * work[APPROACH_SLOPE, i]
-        if model.options.sweeps > 1:
+        if sliced(mesh):
+            torque = torque + work[PRESENT_SLOPE, i] * pair_energy(i, mesh, model, work)
+        if coupled(mesh, model):
             for j in range(i):
-                if out_of_reach(segment, j, mesh):
+                if absent(j, work):
                     continue
                 slope = cubic_slope(mesh.table.coupling, segment, cell, i, j, u) * cells_per_radian
                 torque = torque - slope * load * work[ELASTIC_LOAD, j]

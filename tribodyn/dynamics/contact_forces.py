@@ -4,8 +4,31 @@ Written once for all compilers: `work` is whatever takes `work[quantity, slot] =
 native kernel, a dict everywhere else, so that the same lines run on floats, arrays and under JAX tracing.
 """
 
-from typing import Any, NamedTuple
-
+from tribodyn.dynamics.approach import (
+    APPROACH,
+    APPROACH_RATE,
+    COMPLIANCE,
+    COUPLING,
+    DRIVEN_SPEED,
+    DRIVER_SPEED,
+    EFFECTIVE_APPROACH,
+    ELASTIC_LOAD,
+    FRICTION_COEFFICIENT,
+    FRICTION_FORCE,
+    LINE_LOAD,
+    NORMAL_LOAD,
+    PRESENT,
+    RADIUS,
+    RELATIVE_VELOCITY,
+    SLIDING,
+    STIFFNESS,
+    TURNED,
+    WHOLE_LOAD,
+    absent,
+    approach,
+    cubic,
+    sliced,
+)
 from tribodyn.dynamics.parameters import HERTZ_POWER_LAW, SLIDING_DYNAMIC
 from tribodyn.dynamics.smooth import (
     load_with_damping,
@@ -17,143 +40,17 @@ from tribodyn.dynamics.smooth import (
     sign,
 )
 from tribodyn.mesh.cycle import CHANNELS
-from tribodyn.numerics.elementary import last_axis_of_four, law, maximum, skippable, sqrt, where
+from tribodyn.numerics.elementary import law, maximum, skippable, sqrt, where
 from tribodyn.tribology.contact import averaged_radius, local_contact
 from tribodyn.tribology.law import ActiveLaw
 
-# Quantities of one contact, rows of `work`.
-DISTANCE = 0  # signed distance r from the pitch point, m
-RADIUS = 1  # equivalent radius ρ; where it vanishes at P, averaged over the contact's width, m
-DRIVER_SPEED = 2  # speed along the driver's flank, averaged with the radius, m/s
-DRIVEN_SPEED = 3
-COMPLIANCE = 4  # of the pair, without the load-dependent Hertz contact, m/N
-APPROACH = 5  # δ, m
-APPROACH_RATE = 6  # dδ/dt, m/s
-APPROACH_SLOPE = 7  # ∂δ/∂φ at fixed coordinates, m/rad
-COMPLIANCE_SLOPE = 8  # dC/dφ, m/(N rad)
-EFFECTIVE_APPROACH = 9  # δ less what the loads on neighbouring pairs deflect, m
-ELASTIC_LOAD = 10  # N
-NORMAL_LOAD = 11  # elastic and damping, N
-STIFFNESS = 12  # of one pair at its load, below the contact width at that of the width, N/m
-SLIDING = 13  # nominal sliding velocity, driver less driven, along t, m/s
-RELATIVE_VELOCITY = 14  # the same with the vibration, m/s
-FRICTION_FORCE = 15  # on the driver along +t, N
-FRICTION_COEFFICIENT = 16
-COS = 17  # of the pressure angle
-SIN = 18
-TRANSMISSION_ERROR = 19  # along the pair's normal, gap not subtracted, m
-TURNED = 20  # sliding velocity over that at which friction has reversed
-TURNED_BEFORE = 21  # the same at the start of a step, see `march.step_control`
-TURNING_RATE = 22  # its rate in the last step, per mesh cycle
-COUPLING = 23  # deflection per load on slot 0, and on from here per load on the other slots, m/N
-QUANTITIES = 23  # and one more for every slot
-
-# Channels of mesh.cycle.Polynomials.channel.
-_COSINE, _SINE = CHANNELS.index("cosine"), CHANNELS.index("sine")
-_DISTANCE, _RADIUS = CHANNELS.index("signed_distance"), CHANNELS.index("equivalent_radius")
-_SPEED = CHANNELS.index("pinion_speed")
-_COMPLIANCE, _GAP = CHANNELS.index("compliance"), CHANNELS.index("gap")
-_UNEVEN, PEAK = CHANNELS.index("line_load_friction"), CHANNELS.index("line_load_peak")
-
-
-class MeshPlace(NamedTuple):
-    """Where a mesh stands in its table."""
-
-    segment: Any  # whole
-    cell: Any  # whole
-    u: Any  # position in the cell, 0 … 1
-    cells_per_radian: Any  # cells per rotation of the driver
-
-
-class Motion(NamedTuple):
-    """How the two bodies of a mesh stand and move against each other, in its frame; driver less driven."""
-
-    towards: Any  # along the pitch tangent, rotations included, m
-    across: Any  # along the line of centres, m
-    along_rate: Any  # rate of the translation along the pitch tangent, m/s
-    turning_rate: Any  # rate of r_1 ϑ_1 − r_2 ϑ_2, m/s
-    across_rate: Any  # m/s
-    driver_speed: Any  # this and the next: of the bodies, rad/s
-    driven_speed: Any
-    phase_rate: Any  # nominal speed of the driver at the reference's actual speed, rad/s
+_UNEVEN = CHANNELS.index("line_load_friction")
 
 
 @law
-def out_of_reach(segment, i, mesh):
-    """Whether a slot's pair is off the path of contact in this segment, and may be passed over."""
-    return skippable(mesh.table.in_contact[segment, i] == 0.0)
-
-
-@law
-def cubic(c, segment, cell, slot, channel, u):
-    """Value at u ∈ [0, 1] of one channel's spline in a cell."""
-    c0, c1, c2, c3 = last_axis_of_four(c, segment, cell, slot, channel)
-    return c0 + u * (c1 + u * (c2 + u * c3))
-
-
-@law
-def cubic_slope(c, segment, cell, slot, channel, u):
-    """Its derivative with respect to u."""
-    _, c1, c2, c3 = last_axis_of_four(c, segment, cell, slot, channel)
-    return c1 + u * (2.0 * c2 + 3.0 * u * c3)
-
-
-@law
-def cubic_and_slope(c, segment, cell, slot, channel, u):
-    """Both at once."""
-    c0, c1, c2, c3 = last_axis_of_four(c, segment, cell, slot, channel)
-    return c0 + u * (c1 + u * (c2 + u * c3)), c1 + u * (2.0 * c2 + 3.0 * u * c3)
-
-
-@law
-def approach(place, motion, mesh, work):
-    """Fill `work` with geometry, approach and its rates for every slot.
-
-    δ = towards cos α + across sin α − gap; back flanks live in the mirrored world, where the pitch tangent
-    and rotations change sign.
-    """
-    table = mesh.table
-    c = table.channel
-    segment, cell, u, cells_per_radian = place
-    ratio = mesh.driver_radius / mesh.driven_radius
-    speed = motion.driver_speed
-    towards_rate = motion.along_rate + motion.turning_rate
-    for i in range(table.side.shape[0]):
-        if out_of_reach(segment, i, mesh):
-            continue
-        side = table.side[i]
-        cosine, cosine_slope = cubic_and_slope(c, segment, cell, i, _COSINE, u)
-        sine, sine_slope = cubic_and_slope(c, segment, cell, i, _SINE, u)
-        gap, gap_slope = cubic_and_slope(c, segment, cell, i, _GAP, u)
-        compliance, compliance_slope = cubic_and_slope(c, segment, cell, i, _COMPLIANCE, u)
-        along = side * motion.towards
-        error = along * cosine + motion.across * sine
-        slope = (along * cosine_slope + motion.across * sine_slope - gap_slope) * cells_per_radian
-        distance = cubic(c, segment, cell, i, _DISTANCE, u)
-        flank_speed = cubic(c, segment, cell, i, _SPEED, u)
-        driver_lever = distance + mesh.driver_radius * sine
-        driven_lever = mesh.driven_radius * sine - distance
-
-        work[COS, i] = cosine
-        work[SIN, i] = sine
-        work[DISTANCE, i] = distance
-        work[RADIUS, i] = cubic(c, segment, cell, i, _RADIUS, u)
-        work[DRIVER_SPEED, i] = side * speed * flank_speed
-        work[DRIVEN_SPEED, i] = side * speed * (flank_speed - (1.0 + ratio) * distance)
-        work[COMPLIANCE, i] = compliance
-        work[COMPLIANCE_SLOPE, i] = compliance_slope * cells_per_radian
-        work[TRANSMISSION_ERROR, i] = error
-        work[APPROACH, i] = error - gap
-        work[APPROACH_SLOPE, i] = slope
-        work[APPROACH_RATE, i] = (
-            side * towards_rate * cosine + motion.across_rate * sine + slope * motion.phase_rate
-        )
-        work[SLIDING, i] = side * speed * (1.0 + ratio) * distance
-        work[RELATIVE_VELOCITY, i] = (
-            side * (speed * driver_lever - motion.driven_speed * driven_lever)
-            + sine * side * motion.along_rate
-            - cosine * motion.across_rate
-        )
+def coupled(mesh, model):
+    """Whether the pairs of a mesh deflect each other."""
+    return model.options.sweeps > 1 and not sliced(mesh)
 
 
 @law
@@ -169,17 +66,17 @@ def elastic_loads(place, mesh, model, work):
     pairs = table.side.shape[0]
     width = model.operation.contact_width
     coefficient = table.hertz_coefficient
-    coupled = model.options.sweeps > 1
+    together = coupled(mesh, model)
     for i in range(pairs):
         work[ELASTIC_LOAD, i] = 0.0
-        if out_of_reach(segment, i, mesh):
+        if absent(i, work):
             continue
         work[STIFFNESS, i] = 1.0 / work[COMPLIANCE, i]
-        if not coupled:
+        if not together:
             continue
         load = 0.0
         for j in range(pairs):
-            if out_of_reach(segment, j, mesh):
+            if absent(j, work):
                 continue
             if j < i:
                 work[COUPLING + j, i] = cubic(table.coupling, segment, cell, i, j, u)
@@ -187,14 +84,14 @@ def elastic_loads(place, mesh, model, work):
                 work[COUPLING + j, i] = cubic(table.coupling, segment, cell, j, i, u)
             load = load + cubic(table.stiffness, segment, cell, i, j, u) * work[APPROACH, j]
         work[ELASTIC_LOAD, i] = maximum(load, 0.0)
-    for _ in range(model.options.sweeps):
+    for _ in range(model.options.sweeps if together else 1):
         for i in range(pairs):
-            if out_of_reach(segment, i, mesh):
+            if absent(i, work):
                 continue
             free = work[APPROACH, i]
-            if coupled:
+            if together:
                 for j in range(pairs):
-                    if j != i and not out_of_reach(segment, j, mesh):
+                    if j != i and not absent(j, work):
                         free = free - work[COUPLING + j, i] * work[ELASTIC_LOAD, j]
             if model.options.hertz == HERTZ_POWER_LAW:
                 compliance = work[COMPLIANCE, i]
@@ -206,7 +103,8 @@ def elastic_loads(place, mesh, model, work):
             else:
                 load = positive_part(free, width) * work[STIFFNESS, i]
             work[EFFECTIVE_APPROACH, i] = free
-            work[ELASTIC_LOAD, i] = table.in_contact[segment, i] * load
+            work[WHOLE_LOAD, i] = load
+            work[ELASTIC_LOAD, i] = work[PRESENT, i] * load
 
 
 @law
@@ -226,7 +124,7 @@ def normal_contacts(place, motion, mesh, model, work):
     approach(place, motion, mesh, work)
     elastic_loads(place, mesh, model, work)
     for i in range(mesh.table.side.shape[0]):
-        if out_of_reach(place.segment, i, mesh):
+        if absent(i, work):
             work[NORMAL_LOAD, i] = 0.0
             continue
         _normal_contact(i, place, motion, mesh, model, work)
@@ -240,11 +138,14 @@ def _normal_contact(i, place, motion, mesh, model, work):
     stiffness = work[STIFFNESS, i]
     engaged = ramp(work[EFFECTIVE_APPROACH, i], width)
     damping = mesh.damping * sqrt(stiffness) * work[APPROACH_RATE, i]
-    damping = table.in_contact[segment, i] * engaged * damping
-    load = load_with_damping(work[ELASTIC_LOAD, i], damping, width * stiffness)
+    damping = engaged * damping
+    load = load_with_damping(work[WHOLE_LOAD, i], damping, width * stiffness)
+    load = work[PRESENT, i] * load
     work[NORMAL_LOAD, i] = load
+    # of a slice that comes or goes over its whole width: what is inside it is not resolved
+    work[LINE_LOAD, i] = load / table.slice_width
     # the line load at which friction acts as it does along the uneven face
-    line_load = load / table.slice_width * cubic(table.channel, segment, cell, i, _UNEVEN, u)
+    line_load = work[LINE_LOAD, i] * cubic(table.channel, segment, cell, i, _UNEVEN, u)
     if model.options.averaged:
         radius = work[RADIUS, i]
         averaged = averaged_radius(
@@ -268,7 +169,7 @@ def contact_forces(place, motion, reversals, mesh, model, work):
     approach(place, motion, mesh, work)
     elastic_loads(place, mesh, model, work)
     for i in range(mesh.table.side.shape[0]):
-        if out_of_reach(place.segment, i, mesh):
+        if absent(i, work):
             work[NORMAL_LOAD, i] = 0.0
             work[FRICTION_FORCE, i] = 0.0
             continue

@@ -20,6 +20,10 @@ class BearingData:
     stiffness_y: float
     damping_ratio_x: float
     damping_ratio_y: float
+    stiffness_axial: float | None = None  # along z, N/m; None: the smaller of x and y
+    #: stiffness against tilts about x and y, N m/rad; None: that of two bearings at the `span`
+    stiffness_tilt: float | None = None
+    span: float | None = None  # distance of the bearings, m; None: twice the face width
 
 
 @dataclass(frozen=True)
@@ -43,6 +47,21 @@ class OperatingData:
     torque_harmonics: tuple[tuple[float, float, float], ...] = ()
     load_inertia: float = 0.0  # on the gear's shaft, kg m²
     load_damping: float = 0.0  # load torque per gear speed above nominal, N m s/rad
+
+
+def in_space(bearing: BearingData, width: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Stiffness and damping ratio of bearings in x, y, z and tilts about x and y; face width in m.
+
+    Two bearings, half of the stiffness each, at ± span/2 resist a tilt about x by k_y span²/4. z and tilts
+    are damped by the smaller of the ratios.
+    """
+    arm = ((2.0 * width if bearing.span is None else bearing.span) / 2.0) ** 2
+    x, y = bearing.stiffness_x, bearing.stiffness_y
+    axial = min(x, y) if bearing.stiffness_axial is None else bearing.stiffness_axial
+    given = bearing.stiffness_tilt
+    tilts = (y * arm, x * arm) if given is None else (given, given)
+    ratio = min(bearing.damping_ratio_x, bearing.damping_ratio_y)
+    return (x, y, axial, *tilts), (bearing.damping_ratio_x, bearing.damping_ratio_y, ratio, ratio, ratio)
 
 
 BearingType = Literal[

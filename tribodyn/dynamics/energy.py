@@ -1,12 +1,13 @@
 """Energy that a train stores, and its jump where the set of contacting pairs changes. For all compilers."""
 
+from tribodyn.dynamics.approach import approach
 from tribodyn.dynamics.contact_energy import mesh_energy
-from tribodyn.dynamics.contact_forces import approach, elastic_loads
+from tribodyn.dynamics.contact_forces import elastic_loads
 from tribodyn.dynamics.loads import link_energy
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import locate, motion_of
 from tribodyn.numerics.elementary import law, maximum, skippable, sqrt, truncate
-from tribodyn.train.structure import shift_of, slip_of, speed_of
+from tribodyn.train.structure import shift_of, slip_of, speed_of, tilt_of
 
 
 @law
@@ -67,4 +68,9 @@ def stored_energy(y, model, work):
         if b < layout.planar:
             x, z = y[half + shift_of(b)], y[half + shift_of(b) + 1]
             energy = energy + 0.5 * bodies.mass[b] * (x * x + z * z)
+        if b < layout.spatial:
+            first = half + tilt_of(b, layout)
+            energy = energy + 0.5 * bodies.mass[b] * y[first] * y[first]
+            for i in range(first + 1, first + 3):
+                energy = energy + 0.5 * bodies.tilting[b] * y[i] * y[i]
     return energy + link_energy(y, model)

@@ -5,37 +5,45 @@ A pair of gears on two bearings is the six-degree model of Liu & Ni, Mechanics &
 component. Of several meshes each adds its own.
 """
 
-from tribodyn.dynamics.contact_energy import parametric_torque
-from tribodyn.dynamics.contact_forces import (
+from tribodyn.dynamics.approach import (
     APPROACH_RATE,
+    AXIAL_PLACE,
     COS,
     DISTANCE,
     ELASTIC_LOAD,
     FRICTION_FORCE,
+    LEAN_COS,
+    LEAN_SIN,
     NORMAL_LOAD,
     RELATIVE_VELOCITY,
     SIN,
     SLIDING,
-    contact_forces,
-    out_of_reach,
-    reversals_per_velocity,
+    absent,
+    sliced,
 )
+from tribodyn.dynamics.contact_energy import parametric_torque
+from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.loads import link_forces, load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.numerics.elementary import law
 from tribodyn.train.structure import (
+    AXIAL,
     DAMPING,
     FRICTION,
     IN,
+    IN_SPACE,
     OF_MESHES,
     OUT,
     PARAMETRIC,
     WORKS_OF_MESH,
+    on_body,
+    place_in_space,
     shift_of,
     slip_of,
     slip_of_body,
     speed_of,
+    tilt_of,
     turn_of,
 )
 from tribodyn.train.structure import SLIDING as WORK_SLIDING
@@ -45,32 +53,56 @@ from tribodyn.train.structure import SLIDING as WORK_SLIDING
 def resultants(place, mesh, model, work):
     """What the contacts of a mesh add up to, from `work` as `contact_forces` left it.
 
-    Force on the driver along the pitch tangent and across (N), moments that resist the driver and drive the
-    driven body (N m), powers of friction on the moving bodies, on bodies that only rotate, of damping (W).
+    Forces and moments on the driver that go with `structure.MOVES` (N, N m); moments that resist the driver
+    and drive the driven body (N m), powers of friction on the moving bodies, on bodies that only rotate, of
+    damping (W).
     """
     table = mesh.table
     along = 0.0
     across = 0.0
+    axial = 0.0
+    bend_along = 0.0
+    bend_across = 0.0
     resisting = 0.0
     driving = 0.0
     friction = 0.0
     sliding = 0.0
     damping = 0.0
     for i in range(table.side.shape[0]):
-        if out_of_reach(place.segment, i, mesh):
+        if absent(i, work):
             continue
         normal, tangential = work[NORMAL_LOAD, i], work[FRICTION_FORCE, i]
         cosine, sine, side = work[COS, i], work[SIN, i], table.side[i]
         driver_lever = work[DISTANCE, i] + mesh.driver_radius * sine
         driven_lever = mesh.driven_radius * sine - work[DISTANCE, i]
+        damping = damping + (normal - work[ELASTIC_LOAD, i]) * work[APPROACH_RATE, i]
+        if sliced(mesh):
+            push = -work[LEAN_SIN, i] * normal  # along z
+            normal = work[LEAN_COS, i] * normal
+            on_along = -side * (normal * cosine + tangential * sine)
+            on_across = tangential * cosine - normal * sine
+            z, distance = work[AXIAL_PLACE, i], work[DISTANCE, i]
+            axial = axial + push
+            bend_along = bend_along + z * on_along - side * distance * cosine * push
+            bend_across = bend_across + z * on_across - distance * sine * push
         along = along - side * (normal * cosine + tangential * sine)
         across = across - normal * sine + tangential * cosine
         resisting = resisting + side * (normal * mesh.driver_radius * cosine + tangential * driver_lever)
         driving = driving + side * (normal * mesh.driven_radius * cosine + tangential * driven_lever)
         friction = friction + tangential * work[RELATIVE_VELOCITY, i]
         sliding = sliding + tangential * work[SLIDING, i]
-        damping = damping + (normal - work[ELASTIC_LOAD, i]) * work[APPROACH_RATE, i]
-    return along, across, resisting, driving, friction, sliding, damping
+    return (
+        along,
+        across,
+        axial,
+        bend_along,
+        bend_across,
+        resisting,
+        driving,
+        friction,
+        sliding,
+        damping,
+    )
 
 
 @law
@@ -99,9 +131,18 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         place = place_in_mesh(m, phase, interval, model)
         reversals = reversals_per_velocity(bodies.ratio[driver], mesh, model)
         contact_forces(place, motion_of(m, y, model), reversals, mesh, model, work[m])
-        along, across, resisting, driving, friction, sliding, damping = resultants(
-            place, mesh, model, work[m]
-        )
+        (
+            along,
+            across,
+            axial,
+            bend_along,
+            bend_across,
+            resisting,
+            driving,
+            friction,
+            sliding,
+            damping,
+        ) = resultants(place, mesh, model, work[m])
         x = mesh.along_x * along + mesh.across_x * across
         z = mesh.along_y * along + mesh.across_y * across
         if driver < layout.planar:
@@ -112,6 +153,13 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
             b = half + shift_of(driven)
             dy[b] = dy[b] - x
             dy[b + 1] = dy[b + 1] - z
+        for direction in range(AXIAL, IN_SPACE):
+            if driver < layout.spatial:
+                a = half + place_in_space(driver, direction, layout)
+                dy[a] = dy[a] + on_body(0, direction, along, across, axial, bend_along, bend_across, mesh)
+            if driven < layout.spatial:
+                b = half + place_in_space(driven, direction, layout)
+                dy[b] = dy[b] + on_body(1, direction, along, across, axial, bend_along, bend_across, mesh)
         a, b = half + turn_of(driver, layout), half + turn_of(driven, layout)
         dy[a] = dy[a] - resisting
         dy[b] = dy[b] + driving
@@ -168,6 +216,13 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
             dy[half + x + 1] = share * dy[half + x + 1]
             dy[x] = rate * y[half + x]
             dy[x + 1] = rate * y[half + x + 1]
+        if b < layout.spatial:
+            z = tilt_of(b, layout)
+            dy[half + z] = rate / bodies.mass[b] * dy[half + z]
+            dy[z] = rate * y[half + z]
+            for i in range(z + 1, z + 3):
+                dy[half + i] = rate / bodies.tilting[b] * dy[half + i]
+                dy[i] = rate * y[half + i]
     works = layout.mechanical
     dy[works + IN] = rate * power_in
     dy[works + OUT] = rate * power_out

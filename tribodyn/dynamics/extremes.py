@@ -8,16 +8,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.contact_forces import (
+from tribodyn.dynamics.approach import (
     COS,
     DRIVEN_SPEED,
     DRIVER_SPEED,
+    LEAN_COS,
+    LINE_LOAD,
     NORMAL_LOAD,
     PEAK,
     RADIUS,
     RELATIVE_VELOCITY,
     SLIDING,
     TRANSMISSION_ERROR,
+    absent,
     cubic,
     out_of_reach,
 )
@@ -100,13 +103,20 @@ def highest_loaded(i, place, mesh, model, work):
     peak = cubic(mesh.table.channel, place.segment, place.cell, i, PEAK, place.u)
     speed_1, speed_2 = work[DRIVER_SPEED, i], work[DRIVEN_SPEED, i]
     return local_contact(
-        work[NORMAL_LOAD, i] / mesh.table.slice_width * peak,
+        work[LINE_LOAD, i] * peak,
         1.0 / work[RADIUS, i],
         0.5 * (speed_1 + speed_2),
         sliding,
         speed_1,
         speed_2,
     )
+
+
+@law
+def _nothing(first, measures):
+    """Measures of a slice that is off the path of contact."""
+    for j in range(PRESSURE, OF_PAIR):
+        measures[first + j] = LOWEST
 
 
 @law
@@ -124,10 +134,11 @@ def measure(phase, interval, y, model, work, measures):
         mesh = model.meshes[m]
         place = place_in_mesh(m, phase, interval, model)
         for i in range(mesh.table.side.shape[0]):
-            if out_of_reach(place.segment, i, mesh):
+            first = m * of_mesh + OF_MESH + OF_PAIR * i
+            if absent(i, work[m]):
+                _nothing(first, measures)
                 continue
             contact = highest_loaded(i, place, mesh, model, work[m])
-            first = m * of_mesh + OF_MESH + OF_PAIR * i
             measures[first + PRESSURE] = contact.line_load * contact.curvature
             measure_surfaces(first, contact, mesh, model, measures)
 
@@ -140,26 +151,31 @@ def measure_loads(interval, y, model, work, measures):
     for m in range(layout.meshes):
         mesh, contacts, first = model.meshes[m], work[m], m * of_mesh
         table = mesh.table
-        segment = truncate(model.schedule.segment[interval, m])
         error = mesh.driver_radius * turned(layout.driver[m], y, layout)
         error = error - mesh.driven_radius * turned(layout.driven[m], y, layout)
         measures[first + ERROR_UP] = error
         measures[first + ERROR_DOWN] = -error
         driving, back = 0.0 * error, 0.0 * error
+        slices = table.face_position.shape[0]
         for i in range(table.side.shape[0]):
-            if out_of_reach(segment, i, mesh):
+            if i % slices == 0 and slices > 1:  # of a pair that is cut into slices, the sum
+                measures[first + OF_MESH + OF_PAIR * i + LOAD] = 0.0 * error
+            if absent(i, contacts):
                 continue
             load = contacts[NORMAL_LOAD, i]
             side = DRIVING
             if table.side[i] > 0.0:
-                driving = driving + load * contacts[COS, i]
+                driving = driving + load * contacts[LEAN_COS, i] * contacts[COS, i]
             else:
                 side = BACK
-                back = back + load * contacts[COS, i]
+                back = back + load * contacts[LEAN_COS, i] * contacts[COS, i]
             # slots follow each other by age
             measures[first + side + NEWEST_UP] = contacts[TRANSMISSION_ERROR, i]
             measures[first + side + NEWEST_DOWN] = -contacts[TRANSMISSION_ERROR, i]
-            measures[first + OF_MESH + OF_PAIR * i + LOAD] = load
+            place_of_load = first + OF_MESH + OF_PAIR * (i - i % slices) + LOAD
+            if slices > 1:
+                load = load + measures[place_of_load]
+            measures[place_of_load] = load
         measures[first + DRIVING + FORCE] = driving
         measures[first + BACK + FORCE] = back
 
@@ -225,10 +241,11 @@ def measure_end(idle, phase, step, interval, y, model, work, measures):
         mesh = model.meshes[m]
         place = place_in_mesh(m, phase, interval, model)
         for i in range(mesh.table.side.shape[0]):
-            if out_of_reach(place.segment, i, mesh):
+            first = m * of_mesh + OF_MESH + OF_PAIR * i
+            if absent(i, work[m]):
+                _nothing(first, measures[END])
                 continue
             contact = highest_loaded(i, place, mesh, model, work[m])
-            first = m * of_mesh + OF_MESH + OF_PAIR * i
             measures[END, first + PRESSURE] = contact.line_load * contact.curvature
             far = idle | ((count < EVERY) & (phase + step <= measures[SEEN, first + UNTIL]))
             _measure_unless(far, first, contact, mesh, model, measures[END])
@@ -245,9 +262,10 @@ def measure_inside(idle, row, phase, interval, y, model, work, measures):
         mesh = model.meshes[m]
         place = place_in_mesh(m, phase, interval, model)
         for i in range(mesh.table.side.shape[0]):
-            if out_of_reach(place.segment, i, mesh):
-                continue
             first = m * of_mesh + OF_MESH + OF_PAIR * i
+            if absent(i, work[m]):
+                _nothing(first, measures[row])
+                continue
             far = idle | (minimum(measures[START, first + FILM], measures[END, first + FILM]) <= LOWEST)
             contact = highest_loaded(i, place, mesh, model, work[m])
             measures[row, first + PRESSURE] = contact.line_load * contact.curvature

@@ -1,7 +1,7 @@
 """What acts on the bodies beside the meshes: links, and the load that varies in time. For all compilers."""
 
 from tribodyn.numerics.elementary import last_at_or_below, law, maximum, minimum, sin
-from tribodyn.train.structure import TURN, shift_of, turn_of, turned, turning
+from tribodyn.train.structure import IN_SPACE, TURN, place_in_space, shift_of, turn_of, turned, turning
 
 
 @law
@@ -26,6 +26,15 @@ def load_torque(time, operation):
 
 
 @law
+def apart_in_space(first, second, direction, rates, y, layout):
+    """How far the ends of a link are apart in x, y, z or a tilt; `rates` is 0, or `half` for the rate."""
+    apart = y[rates + place_in_space(first, direction, layout)]
+    if second >= 0:
+        apart = apart - y[rates + place_in_space(second, direction, layout)]
+    return apart
+
+
+@law
 def link_forces(y, model, dy):
     """Add the forces of all links to those in `dy`; returns the power that they take by damping, W."""
     layout, links = model.options.layout, model.links
@@ -33,7 +42,21 @@ def link_forces(y, model, dy):
     power = 0.0 * y[0]
     for k in range(layout.links):
         first, second = layout.first[k], layout.second[k]
-        if first < layout.planar and second < layout.planar:
+        if first < layout.spatial and second < layout.spatial:
+            for row in range(IN_SPACE):
+                force, damping = 0.0 * y[0], 0.0 * y[0]
+                for direction in range(IN_SPACE):
+                    moved = apart_in_space(first, second, direction, 0, y, layout)
+                    moving = apart_in_space(first, second, direction, half, y, layout)
+                    force = force + links.stiffness_in_space[k, row, direction] * moved
+                    damping = damping + links.damping_in_space[k, row, direction] * moving
+                power = power + damping * apart_in_space(first, second, row, half, y, layout)
+                i = half + place_in_space(first, row, layout)
+                dy[i] = dy[i] - (force + damping)
+                if second >= 0:
+                    j = half + place_in_space(second, row, layout)
+                    dy[j] = dy[j] + (force + damping)
+        elif first < layout.planar and second < layout.planar:
             for direction in range(TURN):
                 i = shift_of(first) + direction
                 apart, apart_rate = y[i], y[half + i]
@@ -68,7 +91,13 @@ def link_energy(y, model):
     energy = 0.0 * y[0]
     for k in range(layout.links):
         first, second = layout.first[k], layout.second[k]
-        if first < layout.planar and second < layout.planar:
+        if first < layout.spatial and second < layout.spatial:
+            for row in range(IN_SPACE):
+                own = apart_in_space(first, second, row, 0, y, layout)
+                for direction in range(IN_SPACE):
+                    other = apart_in_space(first, second, direction, 0, y, layout)
+                    energy = energy + 0.5 * links.stiffness_in_space[k, row, direction] * own * other
+        elif first < layout.planar and second < layout.planar:
             for direction in range(TURN):
                 apart = y[shift_of(first) + direction]
                 if second >= 0:

@@ -11,7 +11,17 @@ from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.train.flow import flow
 from tribodyn.train.links.chain import tangent_stiffness
-from tribodyn.train.structure import TURN, shift_of, turn_of
+from tribodyn.train.structure import (
+    IN_SPACE,
+    MOVES,
+    TOWARDS,
+    TURN,
+    X,
+    place_in_space,
+    shift_of,
+    tilt_of,
+    turn_of,
+)
 
 
 class Modes(NamedTuple):
@@ -43,11 +53,22 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
         mass[turn_of(body, layout)] = bodies.inertia[body]
         if body < layout.planar:
             mass[shift_of(body) : shift_of(body) + 2] = bodies.mass[body]
+        if body < layout.spatial:
+            first = tilt_of(body, layout)
+            mass[first] = bodies.mass[body]
+            mass[first + 1 : first + 3] = bodies.tilting[body]
     still = model._replace(options=model.options._replace(drive=DRIVE_SPEED))
     torques = flow(still)
     for k, (first, second) in enumerate(zip(layout.first, layout.second, strict=True)):
-        for direction in range(TURN + 1):
-            ends = [body for body in (first, second) if body >= 0]
+        ends = [body for body in (first, second) if body >= 0]
+        in_space = max(ends) < layout.spatial
+        if in_space:
+            rows = np.zeros((IN_SPACE, layout.half))
+            for sign, body in zip((1.0, -1.0), ends, strict=False):
+                places = [place_in_space(body, direction, layout) for direction in range(IN_SPACE)]
+                rows[np.arange(IN_SPACE), places] = sign
+            stiffness += rows.T @ np.asarray(links.stiffness_in_space)[k] @ rows
+        for direction in range(TURN if in_space else X, TURN + 1):
             turns = direction == TURN
             if (turns and len(ends) < 2) or (not turns and max(ends) >= layout.planar):
                 continue
@@ -76,23 +97,22 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
 
 def _body_of(place: int, model: Model) -> int:
     """Body that a coordinate belongs to."""
-    planar = model.layout.planar
-    return place // 3 if place < 3 * planar else place - 2 * planar
+    layout = model.layout
+    if place >= tilt_of(0, layout):
+        return (place - tilt_of(0, layout)) // 3
+    return place // 3 if place < 3 * layout.planar else place - 2 * layout.planar
 
 
-def _directions(model: Model, m: int) -> Float[Array, "2 coordinate"]:
-    """What the coordinates move a mesh along its pitch tangent and across."""
+def _directions(model: Model, m: int) -> Float[Array, "move coordinate"]:
+    """What the coordinates move a mesh by: `structure.MOVES`."""
     layout, mesh = model.layout, model.meshes[m]
-    rows = np.zeros((2, layout.half))
-    for sign, body, radius in (
-        (1.0, layout.driver[m], mesh.driver_radius),
-        (-1.0, layout.driven[m], mesh.driven_radius),
-    ):
-        if body < layout.planar:
-            place = shift_of(body)
-            rows[0, place : place + 2] = sign * np.array([mesh.along_x, mesh.along_y])
-            rows[1, place : place + 2] = sign * np.array([mesh.across_x, mesh.across_y])
-        rows[0, turn_of(body, layout)] = sign * float(radius)
+    rows = np.zeros((MOVES, layout.half))
+    ends = (layout.driver[m], mesh.driver_radius), (layout.driven[m], -mesh.driven_radius)
+    for end, (body, turn) in enumerate(ends):
+        moving = IN_SPACE if body < layout.spatial else 2 if body < layout.planar else 0
+        places = [place_in_space(body, direction, layout) for direction in range(moving)]
+        rows[:, places] = np.asarray(mesh.moves)[end, :, :moving]
+        rows[TOWARDS, turn_of(body, layout)] = float(turn)
     return rows
 
 
@@ -113,10 +133,17 @@ def _support(model: Model, m: int) -> float:
     return total
 
 
-def _mean_stiffness(model: Model, m: int, cycle: MeshCycle, on_driven: float) -> Float[Array, "2 2"]:
-    """Mean over the mesh cycle of Σ_ij k_ij n_i n_jᵀ of the pairs that carry, n = (cos α, sin α); N/m."""
+def _mean_stiffness(model: Model, m: int, cycle: MeshCycle, on_driven: float) -> Float[Array, "move move"]:
+    """Mean over the mesh cycle of Σ_ij k_ij n_i n_jᵀ of the pairs that carry; N/m, N, N m.
+
+    n is what the `MOVES` press a contact by: (cos α, sin α, 0, 0, 0) of a spur gear.
+    """
     if on_driven < 0.0:  # it presses the back flanks together, in the mirrored world
         cycle = cycle._replace(side=-cycle.side)
+    # N m; 1 N on the pitch circle where there is no load
+    torque = max(abs(on_driven), float(model.meshes[m].driven_radius))
+    if cycle.slices > 1:
+        return _mean_of_slices(model, m, cycle, torque)
     still = np.sin(cycle.pressure_angle)
     # what a load on one pair moves the axes apart, it takes from the others: one more compliance they share
     shared = _support(model, m) * still[..., :, None] * still[..., None, :]
@@ -125,8 +152,6 @@ def _mean_stiffness(model: Model, m: int, cycle: MeshCycle, on_driven: float) ->
         compliance=cycle.compliance + own,
         coupling=cycle.coupling + shared - own[..., None] * np.eye(own.shape[-1]),
     )
-    # N m; 1 N on the pitch circle where there is no load
-    torque = max(abs(on_driven), float(model.meshes[m].driven_radius))
     load = quasi_static(moving, torque).normal_load
     carrying = np.where(load > 0.0, 1.0, 0.0)
     contact = carrying * 0.9 * float(cycle.hertz_coefficient) * np.maximum(load, 1e-6) ** -0.1
@@ -134,7 +159,29 @@ def _mean_stiffness(model: Model, m: int, cycle: MeshCycle, on_driven: float) ->
     tangent = cycle.coupling * both + np.eye(own.shape[-1]) * (cycle.compliance + contact)[..., None]
     scale = float(np.mean(cycle.compliance))
     stiffness = np.linalg.inv(tangent / scale) / scale * both
-    normal = np.stack([np.cos(cycle.pressure_angle), np.sin(cycle.pressure_angle)], axis=-1)
+    nothing = 0.0 * still
+    normal = np.stack([np.cos(cycle.pressure_angle), still, nothing, nothing, nothing], axis=-1)
     matrix = np.einsum("snij,snik,snjl->snkl", stiffness, normal, normal)
+    inside = (matrix[:, 1:] + matrix[:, :-1]).mean(axis=1) / 2.0
+    return np.tensordot(np.diff(cycle.boundary), inside, axes=1)
+
+
+def _mean_of_slices(model: Model, m: int, cycle: MeshCycle, torque: float) -> Float[Array, "move move"]:
+    """`_mean_stiffness` of slices, which deflect one by one; those that carry with rigid bearings."""
+    load = quasi_static(cycle, torque).normal_load
+    whole = np.maximum(load, 1e-6) / np.maximum(cycle.share, 1e-12)
+    contact = 0.9 * float(cycle.hertz_coefficient) * whole**-0.1
+    stiffness = np.where(load > 0.0, cycle.share, 0.0) / (cycle.compliance + contact)
+    hand = float(model.meshes[m].hand)
+    cosine, sine = np.cos(cycle.pressure_angle), np.sin(cycle.pressure_angle)
+    steep = cycle.side * hand * cycle.pitch_slope * cosine
+    lean = 1.0 / np.sqrt(1.0 + steep**2)
+    z = hand * np.tile(cycle.face_position, cycle.slots // cycle.slices)
+    along, across, axial = cycle.side * cosine * lean, sine * lean, steep * lean
+    at_along, at_across = cycle.side * cycle.signed_distance * cosine, cycle.signed_distance * sine
+    normal = np.stack(
+        [along, across, axial, z * along - at_along * axial, z * across - at_across * axial], axis=-1
+    )
+    matrix = np.einsum("sni,snik,snil->snkl", stiffness, normal, normal)
     inside = (matrix[:, 1:] + matrix[:, :-1]).mean(axis=1) / 2.0
     return np.tensordot(np.diff(cycle.boundary), inside, axes=1)

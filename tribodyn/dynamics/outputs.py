@@ -4,10 +4,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.energy import stored_energy
 from tribodyn.dynamics.equations import derivatives, resultants
 from tribodyn.dynamics.extremes import LOWEST, Extremes, highest_loaded
+from tribodyn.dynamics.faces import over_faces
 from tribodyn.dynamics.parameters import Model
 from tribodyn.dynamics.places import place_in_mesh
 from tribodyn.mesh.quasi_static import efficiency
@@ -21,6 +22,7 @@ from tribodyn.train.structure import (
     rotational_error,
     shift_of,
     speed_of,
+    tilt_of,
     turned,
     work_of,
     works_of_meshes,
@@ -33,6 +35,8 @@ from tribodyn.tribology.surface_state import limits_last, surface_and_limits
 POWERS = ("power_in", "power_out", "power_friction", "power_damping", "power_parametric", "drive_torque")
 #: What is worked out with them for the summary alone: shares allowed by each limit of film and friction law.
 UNRECORDED = ("closure_shares", "friction_shares")
+#: What bodies that move in space do beside moving in the plane.
+IN_SPACE_NAMES = ("z", "tilt_x", "tilt_y")
 
 
 class Evaluated(NamedTuple):
@@ -79,7 +83,7 @@ def evaluated(
 
 
 def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, np.ndarray]:
-    """Datasets of one mesh by name: (n,) or (n, pairs), SI.
+    """Datasets of one mesh by name: (n,) or (n, pairs), SI; of slices also `line_load` (n, pairs, slices).
 
     Quantities of a pair that carries no load are NaN where they mean nothing then (film, pressure, …) and 0
     where the loss of contact itself is the answer (loads, stiffness). `shares` says whether those of
@@ -92,10 +96,10 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
     pairs = range(table.side.shape[0])
 
     def per_pair(row: int) -> np.ndarray:
-        return np.stack([np.broadcast_to(work[row, i], count) for i in pairs], axis=-1)
+        return np.stack([np.broadcast_to(work.get((row, i), np.nan), count) for i in pairs], axis=-1)
 
     load = per_pair(contact.NORMAL_LOAD)
-    inside = np.asarray(table.in_contact)[place.segment] > 0
+    inside = per_pair(contact.PRESENT) > 0.0
     touching = inside & (load > 0.0)
     speeds = per_pair(contact.DRIVER_SPEED) + per_pair(contact.DRIVEN_SPEED)
 
@@ -108,7 +112,9 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         contacts = LocalContact(*(np.stack(values, axis=-1) for values in fields))
         surface, limits = surface_and_limits(contacts, model.closure(m))
     friction = per_pair(contact.FRICTION_FORCE)
-    _, _, resisting, driving, *_ = resultants(place, mesh, model, work)
+    _, _, axial, _, _, resisting, driving, *_ = resultants(place, mesh, model, work)
+    arm = per_pair(contact.LEAN_COS) * per_pair(contact.COS)
+    stiffness = per_pair(contact.PRESENT) * per_pair(contact.STIFFNESS)
     result = {name: contacting(values) for name, values in surface._asdict().items()}
     result |= {
         # of the whole face; the others of the surface are where the line load is highest
@@ -127,7 +133,11 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         "equivalent_radius": contacting(per_pair(contact.RADIUS), inside),
         "entrainment_speed": contacting(0.5 * speeds, inside),
         "sliding_speed": contacting(contacts.sliding, inside),
-        "mesh_stiffness": np.where(touching, per_pair(contact.STIFFNESS), 0.0),
+        "mesh_stiffness": np.where(touching, stiffness, 0.0),
+        # along the pitch tangent
+        "tangent_load": np.where(touching, load * arm, 0.0),
+        "tangent_stiffness": np.where(touching, stiffness * arm**2, 0.0),
+        "axial_force": np.broadcast_to(axial, count),
         # where the film law states a range, 1 also where there is no contact
         "closure_in_range": np.where(
             touching, result["closure_in_range"], 1.0 + 0.0 * surface.closure_in_range
@@ -139,7 +149,17 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
     }
     if shares:
         result |= {name: limits_last(law) for name, law in zip(UNRECORDED, limits, strict=True)}
-    return result
+    slices = np.shape(table.face_position)[0]
+    line_load = np.where(touching, per_pair(contact.LINE_LOAD) * peak_of(m, place, model), 0.0)
+    return over_faces(result, len(pairs) // slices, line_load)
+
+
+def peak_of(m: int, place: Any, model: Model) -> Float[Array, "sample slot"]:
+    """Largest line load along a slot over its load per width."""
+    channel = model.meshes[m].table.channel
+    slots = range(model.meshes[m].table.side.shape[0])
+    values = [contact.cubic(channel, place.segment, place.cell, i, contact.PEAK, place.u) for i in slots]
+    return np.stack([np.broadcast_to(value, np.shape(place.u)) for value in values], axis=-1)
 
 
 def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> dict[str, np.ndarray]:
@@ -167,6 +187,11 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
     return {
         "time": samples.cycles * operation.pitch_angle / operation.nominal_speed + y[layout.lag],
         "reference_angle": angle,
+        **{
+            name + end: over(y[first + tilt_of(b, layout) + i] for b in range(layout.spatial))
+            for i, name in enumerate(IN_SPACE_NAMES)
+            for first, end in ((0, ""), (layout.half, "_rate"))
+        },
         "x": over(y[shift_of(b)] for b in planar),
         "y": over(y[shift_of(b) + 1] for b in planar),
         "angle": over(ratio[b] * angle + turned(b, y, layout) for b in bodies),

@@ -1,9 +1,24 @@
 """Where a mesh stands in its table, and how its two bodies move against each other. For all compilers."""
 
-from tribodyn.dynamics.contact_forces import MeshPlace, Motion
+from tribodyn.dynamics.approach import MeshPlace, Motion
 from tribodyn.numerics.elementary import law, maximum, minimum, truncate
 from tribodyn.train.schedule import phase_of
-from tribodyn.train.structure import shifted, shifting, slip_of, speed_of, turned, turning
+from tribodyn.train.structure import (
+    ACROSS,
+    ALONG_Z,
+    AXIAL,
+    IN_SPACE,
+    LEAN_ACROSS,
+    LEAN_ALONG,
+    TOWARDS,
+    place_in_space,
+    shifted,
+    shifting,
+    slip_of,
+    speed_of,
+    turned,
+    turning,
+)
 
 
 @law
@@ -38,13 +53,45 @@ def motion_of(m, y, model):
     turn = mesh.driver_radius * turned(driver, y, layout) - mesh.driven_radius * turned(driven, y, layout)
     turning_rate = mesh.driver_radius * turning(driver, y, layout)
     turning_rate = turning_rate - mesh.driven_radius * turning(driven, y, layout)
-    return Motion(
-        turn + mesh.along_x * x + mesh.along_y * z,
+    along, along_rate = mesh.along_x * x + mesh.along_y * z, mesh.along_x * x_rate + mesh.along_y * z_rate
+    across, across_rate = (
         mesh.across_x * x + mesh.across_y * z,
-        mesh.along_x * x_rate + mesh.along_y * z_rate,
-        turning_rate,
         mesh.across_x * x_rate + mesh.across_y * z_rate,
+    )
+    zero = 0.0 * y[0]
+    if layout.spatial > 0:
+        along = along + tilted(TOWARDS, m, 0, y, model)
+        across = across + tilted(ACROSS, m, 0, y, model)
+        along_rate = along_rate + tilted(TOWARDS, m, layout.half, y, model)
+        across_rate = across_rate + tilted(ACROSS, m, layout.half, y, model)
+    return Motion(
+        turn + along,
+        across,
+        along_rate,
+        turning_rate,
+        across_rate,
         speed_of(driver, y, model),
         speed_of(driven, y, model),
         model.bodies.ratio[driver] * (model.operation.nominal_speed + slip_of(y, layout)),
+        tilted(ALONG_Z, m, 0, y, model) if layout.spatial > 0 else zero,
+        tilted(LEAN_ALONG, m, 0, y, model) if layout.spatial > 0 else zero,
+        tilted(LEAN_ACROSS, m, 0, y, model) if layout.spatial > 0 else zero,
+        tilted(ALONG_Z, m, layout.half, y, model) if layout.spatial > 0 else zero,
+        tilted(LEAN_ALONG, m, layout.half, y, model) if layout.spatial > 0 else zero,
+        tilted(LEAN_ACROSS, m, layout.half, y, model) if layout.spatial > 0 else zero,
     )
+
+
+@law
+def tilted(which, m, first, y, model):
+    """One of a mesh's `MOVES` by z and tilts of its bodies, m, rad; `first` is 0, or `half` for the rate."""
+    layout, mesh = model.options.layout, model.meshes[m]
+    total = 0.0 * y[0]
+    for direction in range(AXIAL, IN_SPACE):
+        if layout.driver[m] < layout.spatial:
+            place = first + place_in_space(layout.driver[m], direction, layout)
+            total = total + mesh.moves[0, which, direction] * y[place]
+        if layout.driven[m] < layout.spatial:
+            place = first + place_in_space(layout.driven[m], direction, layout)
+            total = total + mesh.moves[1, which, direction] * y[place]
+    return total

@@ -1,13 +1,15 @@
 """The mesh cycle of a pair of gears by the compliance that a case chooses for it."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tribodyn.compliance.energy import loaded_tooth, polynomials_over_ring
 from tribodyn.compliance.foundation import outside_fitted_range
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData
+from tribodyn.mesh.coupled_slices import tabulate_helical
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.helical import slice_layout, tabulate_slices
+from tribodyn.mesh.helical import slice_layout
 from tribodyn.mesh.slice_number import slices_needed
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
@@ -28,20 +30,32 @@ def mesh_cycle_of(
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a checked pair of plain numbers; `back`: whether back flanks can touch.
 
-    The torque T_g (N m) matters where `mesh.at_load`, and for the number of slices of a helical pair where it
-    is not given (`slice_number.slices_needed`). Raises InputError as `tabulate.tabulate` and
-    `tabulate_loaded.tabulate_loaded`.
+    The torque T_g (N m) matters where `mesh.at_load`, and where slices of a helical pair hold each other
+    (`coupled_slices`) or are not counted yet (`slice_number.slices_needed`). Raises InputError as
+    `tabulate.tabulate` and `tabulate_loaded.tabulate_loaded`.
     """
     if mesh.at_load:
         from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
         return tabulate_loaded(assembly, materials, mesh, gear_torque, back)
     if assembly.drive.helix_angle or mesh.slices > 1:
-        count = mesh.slices
-        if assembly.drive.helix_angle and count <= 1:
-            count = slices_needed(assembly, materials, mesh, gear_torque).slices
-        return tabulate_slices(assembly, materials, mesh, slice_layout(assembly, mesh, count, back))
+        mesh, _ = with_slices(assembly, materials, mesh, gear_torque)
+        layout = slice_layout(assembly, mesh, mesh.slices, back)
+        return tabulate_helical(assembly, materials, mesh, layout, gear_torque)
     return tabulate(assembly, materials, mesh, pair_slots(assembly), back)
+
+
+def with_slices(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: MeshData, gear_torque: float
+) -> tuple[MeshData, str]:
+    """Count the slices that a helical pair needs where they are left open; the remark says why, or is empty.
+
+    Of `compliance = "fem"`, and of spur gears, the number stays.
+    """
+    if mesh.at_load or not assembly.drive.helix_angle or mesh.slices > 1:
+        return mesh, ""
+    found = slices_needed(assembly, materials, mesh, gear_torque)
+    return replace(mesh, slices=found.slices), found.remark
 
 
 def loaded_flanks_of(

@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.elementary import namespace
-from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.shapes import Array, Float
 
 
@@ -32,8 +31,8 @@ class MeshCycle(NamedTuple):
     The helix is that of a right-hand pinion which turns clockwise seen from +z, whose +z side is late; where
     it is the other way round, `GearMesh.hand` takes z and axial forces from here with the other sign.
 
-    `MESH_CYCLE` says what each field is. In the table boundaries are (S + 1,), `in_contact` (S, Q), `side`
-    (Q,), `phase` (S, N), `coupling` (S, N, Q, Q) and the other arrays (S, N, Q). Beside that:
+    `record_arrays.MESH_CYCLE` says what each field is. In the table boundaries are (S + 1,), `in_contact`
+    (S, Q), `side` (Q,), `phase` (S, N), `coupling` (S, N, Q, Q) and the other arrays (S, N, Q). Beside that:
 
     - `equivalent_radius` is 0 at the pitch point of a path whose pressure angle is zero there;
     - `compliance` is of both teeth, bodies and, where it is linear, the Hertz contact; `hertz_coefficient` is
@@ -101,6 +100,11 @@ class MeshCycle(NamedTuple):
         return self.front_slots // self.slices
 
     @property
+    def pair_side(self) -> Any:
+        """Side of every pair (P,): 1 of driving flanks, −1 of back flanks."""
+        return self.side[:: self.slices]
+
+    @property
     def slice_width(self) -> Any:
         """Width of a slice, m."""
         return self.face_width / self.slices
@@ -110,64 +114,6 @@ class MeshCycle(NamedTuple):
         """Pinion rotation in one mesh cycle, rad (Liu & Ni (1) times the speed)."""
         return 2 * np.pi / self.pinion_teeth
 
-
-_PAIR = ("phase", "pair")
-#: Fields of a `MeshCycle` as a record has them: dimensions, unit, meaning; (phase,) is (S, N) in the table.
-MESH_CYCLE: dict[str, Variable] = {
-    "boundary": Variable(
-        ("boundary",), "1", "phases, in mesh cycles, at which the set of contacting pairs changes"
-    ),
-    "phase": Variable(
-        ("phase",),
-        "1",
-        "phase of the mesh in mesh cycles; boundaries of segments stand twice, before and after",
-    ),
-    "side": Variable(("pair",), "1", "+1 driving flanks, -1 back flanks"),
-    "in_contact": Variable(
-        _PAIR,
-        "1",
-        "1 where the pair is on the theoretical path of contact; elsewhere its values mean nothing",
-    ),
-    "pressure_angle": Variable(_PAIR, "rad", "angle of the common normal to the pitch tangent"),
-    "signed_distance": Variable(_PAIR, "m", "distance from pitch point to contact, negative in approach"),
-    "equivalent_radius": Variable(
-        _PAIR, "m", "one over the sum of the flanks' curvatures, at the very point of contact"
-    ),
-    "pinion_speed": Variable(
-        _PAIR, "m/rad", "speed of the contact along the pinion's flank per pinion speed"
-    ),
-    "gear_speed": Variable(_PAIR, "m/rad", "speed of the contact along the gear's flank per pinion speed"),
-    "compliance": Variable(_PAIR, "m/N", "deflection of one pair along its normal per normal load"),
-    "gap": Variable(_PAIR, "m", "static transmission error; for back flanks the backlash along the normal"),
-    "line_load_friction": Variable(
-        _PAIR, "1", "line load at which friction acts as on the uneven face, over the mean"
-    ),
-    "line_load_peak": Variable(_PAIR, "1", "maximum line load along the face over the mean, K_Hbeta"),
-    "share": Variable(_PAIR, "1", "part of the slot's width that is on the path of contact"),
-    "face_position": Variable(("slice",), "m", "middles of slices, from the middle of the face"),
-    "coupling": Variable(
-        ("phase", "pair", "other_pair"),
-        "m/N",
-        "deflection of a pair per load on the other pair, through the gear bodies",
-    ),
-    **{
-        name: Variable((), unit, name.replace("_", " "))
-        for name, unit in {
-            "hertz_coefficient": "m/N^0.9",
-            "pinion_pitch_radius": "m",
-            "gear_pitch_radius": "m",
-            "pinion_teeth": "1",
-            "face_width": "m",
-            "contact_ratio": "1",
-            "pitch_point_phase": "1",
-            "roll_start": "rad",
-            "roll_end": "rad",
-            "pitch_point_length": "m",
-            "pitch_point_rate": "1/rad",
-            "pitch_slope": "1",
-        }.items()
-    },
-}
 
 #: Channels of `Polynomials.channel`, in order; cosine and sine of the pressure angle.
 CHANNELS = (
@@ -279,42 +225,3 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     else:
         cubics = {"coupling": _cubic(cycle.coupling), "stiffness": _cubic(_stiffness(cycle, xp))}
     return Polynomials(**kept | cubics, channel=_cubic(channels, cycle.slices))
-
-
-# 1 wherever the load is even along the face, and then a number may stand for the table.
-_RATIOS = ("line_load_friction", "line_load_peak", "share")
-# Fields that records of spur gears may lack.
-_OF_SLICES = (*_RATIOS, "face_position", "pitch_slope")
-
-
-def as_arrays(cycle: MeshCycle) -> dict[str, Any]:
-    """Flat arrays for a record: dims (phase,), (phase, pair) and (phase, pair, pair); scalars as floats."""
-    segments, nodes, _ = cycle.compliance.shape
-    arrays: dict[str, Any] = {}
-    for name, value in cycle._asdict().items():
-        array = np.asarray(value, dtype=float)
-        if name in _RATIOS:
-            array = np.broadcast_to(array, cycle.compliance.shape)
-        if name == "in_contact":
-            array = np.repeat(array, nodes, axis=0)
-        elif array.ndim >= 2:
-            array = array.reshape(segments * nodes, *array.shape[2:])
-        arrays[name] = array if array.ndim else float(array)
-    return arrays
-
-
-def from_arrays(arrays: dict[str, Any]) -> MeshCycle:
-    """Inverse of `as_arrays`."""
-    segments = len(arrays["boundary"]) - 1
-    nodes = len(arrays["phase"]) // segments
-    fields = {}
-    for name in MeshCycle._fields:
-        if name in _OF_SLICES and name not in arrays:
-            continue  # a record of an older version, whose table lacks them
-        value = np.asarray(arrays[name], dtype=float)
-        if name == "in_contact":
-            value = value[::nodes]
-        elif name not in ("boundary", "side", "face_position") and value.ndim >= 1:
-            value = value.reshape(segments, nodes, *value.shape[1:])
-        fields[name] = value if value.ndim else float(value)
-    return MeshCycle(**fields)

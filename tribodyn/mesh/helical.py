@@ -22,12 +22,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.energy import hertz_coefficient, hertz_linear
-from tribodyn.compliance.sharing.flank_gap import lead_gap, profile_gap
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.geometry.flanks.corner_contact import PairGeometry
-from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
 from tribodyn.geometry.helix import (
     curvature_share,
     line_stretch,
@@ -36,11 +33,12 @@ from tribodyn.geometry.helix import (
     pitch_slope,
     speed_share,
 )
-from tribodyn.geometry.path import Kinematics, kinematics
+from tribodyn.geometry.path import kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.slice_gaps import face_positions, modified, slice_gap
 from tribodyn.mesh.tabulate import RollCurve, check_options, pair_compliance, tabulate
-from tribodyn.numerics.elementary import absolute, cos, is_jax, namespace, sqrt, within
+from tribodyn.numerics.elementary import absolute, cos, is_jax, namespace, within
 from tribodyn.numerics.shapes import Array, Float
 
 #: Nodes over which a slice comes into contact; fewer where a table would grow beyond `MAXIMUM_NODES`.
@@ -50,7 +48,7 @@ MAXIMUM_NODES = 1025
 MINIMUM_SLICES = 3
 
 
-class Layout(NamedTuple):
+class SliceLayout(NamedTuple):
     """Numbers of slots and nodes of a table of slices: plain, while the drive may be traced."""
 
     slices: int
@@ -66,7 +64,7 @@ def minimum_slices(assembly: Assembly) -> int:
     )
 
 
-def slice_layout(assembly: Assembly, mesh: table.MeshData, slices: int, back: bool = False) -> Layout:
+def slice_layout(assembly: Assembly, mesh: table.MeshData, slices: int, back: bool = False) -> SliceLayout:
     """Lay out the table of a helical pair of plain numbers.
 
     Raises InputError for fewer slices than `minimum_slices`.
@@ -87,11 +85,14 @@ def slice_layout(assembly: Assembly, mesh: table.MeshData, slices: int, back: bo
         enter = float(table.back_entry(assembly.roll_limits[0], assembly.pitch_angle))
         # a back pair n stands at enter − phase + n + (what the section adds, up to ε_β) pitches
         behind = range(math.floor(-overlap - enter) + 1, math.ceil(transverse - enter + 1.0))
-    return Layout(slices, nodes, math.ceil(transverse + overlap - 1e-9), behind)
+    return SliceLayout(slices, nodes, math.ceil(transverse + overlap - 1e-9), behind)
 
 
 def tabulate_slices(
-    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: table.MeshData, layout: Layout
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: table.MeshData,
+    layout: SliceLayout,
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a helical pair whose slices do not hold each other.
 
@@ -102,7 +103,7 @@ def tabulate_slices(
     if not is_jax(assembly.drive.helix_angle) and assembly.drive.helix_angle == 0.0:
         return _spur_slices(assembly, materials, mesh, layout)
     path = assembly.path
-    at = _slots(assembly, layout)
+    at, share = _slots(assembly, layout)
     slope = absolute(pitch_slope(assembly))
     curve = RollCurve(*assembly.roll_limits)
     r_nodes = path.signed_distance(curve.nodes())
@@ -127,14 +128,17 @@ def tabulate_slices(
     )
     return cycle._replace(
         equivalent_radius=cycle.equivalent_radius / curvature_share(slope, path, r),
-        share=at.share,
+        share=share,
         face_position=face_positions(assembly.common_width, layout.slices),
         pitch_slope=slope,
     )
 
 
 def _spur_slices(
-    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: table.MeshData, layout: Layout
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: table.MeshData,
+    layout: SliceLayout,
 ) -> MeshCycle:
     """Slices of a spur pair, all alike, in step with the pair's segments."""
     apart = dataclasses.replace(mesh, foundation_coupling=False)
@@ -146,7 +150,7 @@ def _spur_slices(
         if name in ("in_contact", "side") or np.shape(value) == shape
     }
     cycle = pair._replace(**fields, face_position=face_positions(assembly.common_width, count))
-    gap = _modified(assembly, mesh, cycle.gap, cycle.signed_distance, 0.0, layout)
+    gap = modified(assembly, mesh, cycle.gap, cycle.signed_distance, 0.0, layout)
     return cycle._replace(
         compliance=cycle.compliance * count,
         hertz_coefficient=pair.hertz_coefficient * count**0.9,
@@ -164,24 +168,8 @@ class Faces(NamedTuple):
     stretch: Any  # length of the line of contact per width of the face, like the contacts
 
 
-def face_positions(width: Any, slices: int) -> Float[Array, " slice"]:
-    """Middles of the slices (K,), m from the middle of the face."""
-    return ((np.arange(slices) + 0.5) / slices - 0.5) * width
-
-
-class SliceSlots(NamedTuple):
-    """Where the slices stand, as `table.Slots`; `roll` in the middle of the part that touches."""
-
-    boundary: Any
-    phase: Any
-    in_contact: Any
-    side: Any
-    roll: Any
-    limits: tuple[Any, Any]
-    share: Any  # (1, N, slot)
-
-
-def _slots(assembly: Assembly, layout: Layout) -> SliceSlots:
+def _slots(assembly: Assembly, layout: SliceLayout) -> tuple[table.Slots, Float[Array, "segment node slot"]]:
+    """Where the slices stand, in the middle of the part that touches, and its share of the slice."""
     start, end = assembly.roll_limits
     pitch, count = assembly.pitch_angle, layout.slices
     xp = namespace(start, end, assembly.drive)
@@ -204,7 +192,7 @@ def _slots(assembly: Assembly, layout: Layout) -> SliceSlots:
     side = np.repeat([1.0, -1.0], [layout.pairs * count, len(layout.back) * count])
     limits = begin, end + whole / 2.0
     present = np.ones((1, side.size))
-    return SliceSlots(np.array([0.0, 1.0]), phase, present, side, (low + high) / 2.0, limits, share)
+    return table.Slots(np.array([0.0, 1.0]), phase, present, side, (low + high) / 2.0, limits), share
 
 
 def slice_compliance(
@@ -215,7 +203,7 @@ def slice_compliance(
     r_nodes: Any,
     roll: Float[Array, "segment node slot"],
     faces: Faces,
-    layout: Layout,
+    layout: SliceLayout,
 ) -> Float[Array, "segment node slot"]:
     """Compliance of slices that touch over their whole width, along the true normal, m/N.
 
@@ -244,68 +232,3 @@ def _hertz_coefficient(
         return 0.0
     stretch = line_stretch(slope, assembly.path, 0.0 * assembly.r_start)
     return hertz_coefficient(*materials, assembly.common_width * stretch) * slices**0.9
-
-
-def slice_gap(
-    assembly: Assembly,
-    mesh: table.MeshData,
-    at: SliceSlots,
-    motion: Kinematics,
-    slope: Any,
-    layout: Layout,
-) -> Float[Array, "segment node slot"]:
-    """Gap between the unloaded slices along the true normal, m.
-
-    A given transmission error is along the true normal; the backlash is that at the pitch point.
-    """
-    gap = table.unloaded_gap(assembly, mesh, at, motion.pressure_angle)
-    if layout.back:
-        # conjugate back flanks touch after the same rotation: the distance goes like the arm cos α cos β_n
-        pitch_point = normal_slope(slope, assembly.path.pressure_angle(0.0 * assembly.r_start))
-        leaning = normal_slope(slope, motion.pressure_angle)
-        turned = sqrt((1.0 + pitch_point**2) / (1.0 + leaning**2))
-        gap = namespace(gap, turned).where(at.side > 0, gap, gap * turned)
-    return _modified(assembly, mesh, gap, motion.signed_distance, slope, layout)
-
-
-def _modified(
-    assembly: Assembly, mesh: table.MeshData, gap: Any, r: Any, slope: Any, layout: Layout
-) -> Float[Array, "segment node slot"]:
-    if mesh.modifications == UNMODIFIED:
-        return gap
-    for broken in uneven_teeth(mesh.modifications):
-        raise broken
-    fronts = layout.pairs * layout.slices
-    behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
-    for side, own, flanks in (
-        (1, np.s_[..., :fronts], mesh.modifications),
-        (-1, np.s_[..., fronts:], behind),
-    ):
-        if r[own].size:
-            gap[own] += modified_gap(assembly, flanks, r[own], slope, layout.slices, side)
-    return gap
-
-
-def modified_gap(
-    assembly: Assembly,
-    modifications: Modifications,
-    r: Float[Array, "segment node slot"],
-    slope: float,
-    slices: int,
-    side: int,
-) -> Float[Array, "segment node slot"]:
-    """What modifications and misalignment leave open at slices of one side, m along the true normal.
-
-    Plain numbers; r is the signed distance (m). A gear turned by the angle γ in the plane of action opens the flanks by z γ along the line
-    of action and shifts them by −r γ along the axis: by γ (z cos β_n ∓ r sin β_n) along the normal of driving
-    and back flanks, which is how far the contact is from the pitch point along the line of contact.
-    """
-    z = np.tile(face_positions(float(assembly.common_width), slices), r.shape[-1] // slices)
-    motion = kinematics(assembly.path, r)
-    place = PairGeometry(motion, np.zeros_like(r), r, r, r, r)
-    turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
-    stand = modifications.misalignment
-    angle = stand.in_plane * np.cos(turned) + stand.out_of_plane * np.sin(turned)
-    leaning = normal_slope(slope, motion.pressure_angle)
-    opened = angle * (z - side * r * leaning) / np.sqrt(1.0 + leaning**2)
-    return profile_gap(assembly, modifications, place) + lead_gap(assembly, modifications, z) + opened

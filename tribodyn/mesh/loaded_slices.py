@@ -25,6 +25,7 @@ from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import back_flanks, turned_round
 from tribodyn.geometry.helix import pitch_slope, roll_shift, speed_share
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.helical import slice_layout
 from tribodyn.mesh.table import Elasticity, MeshData, Slots, mesh_table, unloaded_gap
 from tribodyn.numerics.shapes import Array, Float
 
@@ -34,7 +35,7 @@ _LEAST_GROWTH = 0.02
 _UNLOADED = 0.1
 
 
-class SliceSlots(NamedTuple):
+class LoadedSlots(NamedTuple):
     """Where slices stand at the nodes."""
 
     slots: Slots
@@ -49,7 +50,7 @@ class SliceSlots(NamedTuple):
 def tabulate_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, back: bool) -> MeshCycle:
     """Tabulate a helical pair at an operating torque T_g > 0, N m; the flanks are checked.
 
-    Phase 0 is where the earliest slice enters; the table reaches as far out as corners can touch.
+    As `helical.tabulate_slices`, but for the path of contact, which reaches as far out as corners can touch.
     """
     front = canonical(flanks)
     assembly = front.flexible.assembly
@@ -60,7 +61,8 @@ def tabulate_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, ba
         sides.append(_with_helix(front, -float(assembly.drive.helix_angle))._replace(modifications=behind))
     reaches = [reach(side, gear_torque) for side in sides]
     limits = min(start for start, _ in reaches), max(end for _, end in reaches)
-    places = _places(assembly, limits, front.face(), mesh.points, back)
+    nodes = slice_layout(assembly, mesh, front.slices).nodes
+    places = _places(assembly, limits, front.face(), nodes, back)
 
     at = places.slots
     motion = pair_geometry(assembly, at.roll).motion
@@ -81,7 +83,6 @@ def tabulate_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, ba
         equivalent_radius=1.0 / seen.curvature,
         pinion_speed=motion.pinion_speed * across,
         gear_speed=motion.gear_speed * across,
-        pitch_point_phase=-places.start / float(assembly.pitch_angle),
         share=places.share[None],
         face_position=places.face,
         pitch_slope=float(pitch_slope(assembly)),
@@ -104,7 +105,7 @@ def _with_helix(flanks: LoadedFlanks, angle: float) -> LoadedFlanks:
 
 def _places(
     assembly: Assembly, limits: tuple[float, float], face: Float[Array, " slice"], points: int, back: bool
-) -> SliceSlots:
+) -> LoadedSlots:
     """Slots over one segment; of back pairs, whose phase runs backwards, one more: none is renumbered."""
     pitch, slices = float(assembly.pitch_angle), len(face)
     half_face = float(roll_shift(assembly, assembly.common_width / 2.0))
@@ -124,8 +125,15 @@ def _places(
     share = np.minimum((high - low) / (2.0 * half_slice), 1.0)
     side = np.where(np.arange(middle.shape[1]) < pairs * slices, 1.0, -1.0)
     touching = np.where(np.any(share > 0.0, axis=0), 1.0, 0.0)[None]
-    at = Slots(np.array([0.0, 1.0]), phase[None], touching, side, (0.5 * (low + high))[None], limits)
-    return SliceSlots(at, tuple(rolls), face, start, share)
+    at = Slots(
+        np.array([0.0, 1.0]),
+        phase[None],
+        touching,
+        side,
+        (0.5 * (low + high))[None],
+        (start, limits[1] + half_face),
+    )
+    return LoadedSlots(at, tuple(rolls), face, start, share)
 
 
 def _lumped(

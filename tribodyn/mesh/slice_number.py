@@ -6,7 +6,8 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.mesh.helical import minimum_slices, slice_layout, tabulate_slices
+from tribodyn.mesh.coupled_slices import tabulate_helical
+from tribodyn.mesh.helical import minimum_slices, slice_layout
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.numerics.shapes import Array, Float
@@ -15,9 +16,9 @@ from tribodyn.numerics.shapes import Array, Float
 TOLERANCE = 0.01
 #: Where the error is below this share of the deflection, `TOLERANCE` is of this share of the deflection.
 SMALL_ERROR = 0.1
-#: Minimum and maximum number; odd, so that one slice is in the middle of the face.
-FEWEST, MOST = 5, 83
-_PHASE = np.linspace(0.0, 1.0, 401)
+#: Minimum and maximum number, unless the overlap asks for more; odd, so that one slice is in the middle.
+FEWEST, MOST = 5, 23
+_NODES = 129
 
 
 class SliceNumber(NamedTuple):
@@ -35,8 +36,9 @@ def slices_needed(
 ) -> SliceNumber:
     """Choose the number of slices of a helical pair of plain numbers at a torque T_g ≠ 0, N m.
 
-    From `FEWEST` on the number is doubled (K, 2K + 1) until the transmission error, its mean apart, changes by
-    less than `TOLERANCE` anywhere; the fewer slices are then enough. Without a torque `FEWEST` doubled once.
+    From `FEWEST` on the number is doubled (K, 2K + 1) until the transmission error, its mean apart, changes
+    by less than `TOLERANCE` of its peak to peak (root mean square); the fewer slices are then enough. Without
+    a torque `FEWEST` is doubled once.
     """
     first = max(FEWEST, minimum_slices(assembly)) | 1
     if gear_torque == 0.0:
@@ -45,16 +47,17 @@ def slices_needed(
         )
 
     def error(slices: int) -> tuple[Float[Array, " phase"], float]:
-        cycle = tabulate_slices(assembly, materials, mesh, slice_layout(assembly, mesh, slices))
+        layout = slice_layout(assembly, mesh, slices)._replace(nodes=_NODES)
+        cycle = tabulate_helical(assembly, materials, mesh, layout, gear_torque)
         deflection = quasi_static(cycle, abs(gear_torque)).deflection[0]
         mean = float(np.mean(deflection))
-        return np.interp(_PHASE, cycle.phase[0], deflection) - mean, mean
+        return deflection - mean, mean
 
     slices, (now, _) = first, error(first)
     while True:
         finer, mean = error(2 * slices + 1)
         size = max(float(np.ptp(finer)), SMALL_ERROR * abs(mean))
-        change = float(np.ptp(finer - now)) / size
+        change = float(np.std(finer - now)) / size
         if change <= TOLERANCE or 2 * slices + 1 > MOST:
             break
         slices, now = 2 * slices + 1, finer

@@ -112,7 +112,7 @@ def slots(
 def unloaded_gap(
     assembly: Assembly,
     mesh: MeshData,
-    slots: Any,
+    slots: Slots,
     pressure_angle: Float[Array, "segment node pair"],
     begin: float = 0.0,
 ) -> Float[Array, "segment node pair"]:

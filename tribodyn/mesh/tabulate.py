@@ -185,11 +185,11 @@ def pair_compliance(
     channels = curve.interpolate(together, roll)
     coupling = uncoupled
     if mesh.foundation_coupling:
-        coupling = _coupling(teeth, materials, channels[..., 1:4], channels[..., 4:7], pairs)
+        coupling = body_coupling(teeth, materials, channels[..., 1:4], channels[..., 4:7], pairs)
     return channels[..., 0], coupling
 
 
-def _coupling(
+def body_coupling(
     teeth: list[LoadedTooth],
     materials: tuple[MaterialData, MaterialData],
     pinion_load: Float[Array, "segment node pair 3"],

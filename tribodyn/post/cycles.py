@@ -128,10 +128,15 @@ def pair_curve(
 
 
 def key_points(record: Record) -> list[KeyPoint]:
-    """Key points of one mesh cycle, by phase; C_p and C_g only where one and two pairs alternate."""
+    """Key points of one mesh cycle, by phase; C_p and C_g only where one and two pairs alternate.
+
+    Of helical gears a pair enters with the first edge of its face and leaves with the last; it passes the
+    pitch point in the middle.
+    """
     table = record.mesh_cycle
     pitch = 2 * np.pi / table["pinion_teeth"]
-    begin, end = ((roll - table["roll_start"]) / pitch for roll in path_limits(record))
+    limits = (table["roll_start"], table["roll_end"]) if "face_position" in table else path_limits(record)
+    begin, end = ((roll - table["roll_start"]) / pitch for roll in limits)
     # pitches of a pair from where pair 1 stands at the start of a mesh cycle
     places = {"B_g": begin, "B_p": end, "P": -table["roll_start"] / pitch}
     if 1.0 < end - begin <= 2.0:
@@ -170,16 +175,26 @@ def transient(record: Record) -> bool:
     )
 
 
+def in_the_middle(values: np.ndarray) -> np.ndarray:
+    """An array of a mesh cycle over phase and pair; of helical gears, in the middle of the face."""
+    return values if values.ndim < 3 else values[:, :, values.shape[2] // 2]
+
+
 def pair_history(record: Record, name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Find roll angles (0 at the pitch point, increasing, rad) of a driving pair and a quantity over them."""
+    """Find roll angles (0 at the pitch point, increasing, rad) of a driving pair and a quantity over them.
+
+    Of helical gears in the middle of the face.
+    """
     table = record.mesh_cycle
     pitch = 2 * np.pi / table["pinion_teeth"]
     fronts = int(np.sum(table["side"] > 0))
     rolls, values = [], []
     for slot in range(fronts):
-        touching = table["in_contact"][:, slot] > 0
+        values_of = in_the_middle(table[name])[:, slot]
+        present = in_the_middle(table["share" if "share" in table else "in_contact"])[:, slot]
+        touching = present > 0
         rolls.append(table["roll_start"] + (table["phase"][touching] + fronts - 1 - slot) * pitch)
-        values.append(table[name][touching, slot])
+        values.append(values_of[touching])
     roll = np.concatenate(rolls)
     order = np.argsort(roll, kind="stable")
     return roll[order], np.concatenate(values)[order]
@@ -195,9 +210,33 @@ def path_limits(record: Record) -> tuple[float, float]:
     reach = (limits[1] - limits[0]) * table["pinion_teeth"] / (2 * np.pi)
     if reach <= table["contact_ratio"] * (1 + 1e-9):
         return limits
+    if "face_position" in table:  # the table begins and ends with the edges of the face
+        overlap = (limits[1] - limits[0]) * (1.0 - table["contact_ratio"] / reach)
+        return limits[0] + overlap / 2.0, limits[1] - overlap / 2.0
     roll, distance = pair_history(record, "signed_distance")
     first, last = (np.hypot(*record.geometry["path_of_contact"][end]) for end in (0, -1))
     return float(np.interp(-first, distance, roll)), float(np.interp(last, distance, roll))
+
+
+def along_path(path: np.ndarray, pitch_radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Signed distance, pressure angle and the pinion's roll angle along a path of contact (points, 2).
+
+    A path may pass through the pitch point.
+    """
+    x, y = path.T
+    backward = x < 0.0
+    distance = np.where(backward, -1.0, 1.0) * np.hypot(x, y)
+    at_pitch_point = distance == 0.0
+    angle = np.arctan2(np.where(backward, -y, y), np.abs(x))
+    if at_pitch_point.any():
+        order = np.argsort(distance[~at_pitch_point])
+        known = distance[~at_pitch_point][order], angle[~at_pitch_point][order]
+        angle[at_pitch_point] = np.interp(0.0, *known)
+    order = np.argsort(distance)
+    distance, angle = distance[order], angle[order]
+    per_roll = 1.0 / (pitch_radius * np.cos(angle))
+    travelled = np.concatenate([[0.0], np.cumsum(0.5 * (per_roll[1:] + per_roll[:-1]) * np.diff(distance))])
+    return distance, angle, travelled - np.interp(0.0, distance, travelled)
 
 
 class Spectrum(NamedTuple):

@@ -31,11 +31,11 @@ LOAD_CONTACT = (
         below="at a torque on the gear of",
     ).defined_as("Torque on the gear at that minimum."),
     Quantity("line_load_max", "Maximum line load", "N/mm").defined_as(
-        "Maximum normal load per face width, over pairs, face and mesh cycle."
+        "Maximum normal load per length of the line of contact, over pairs, face and mesh cycle."
     ),
     Quantity("face_load_factor", "Face load factor", digits=".3f", symbol="K_Hβ").defined_as(
-        "Maximum over mean line load along the face, where the line load is at its maximum; ISO 6336-1 "
-        "estimates the same ratio."
+        "Maximum over mean line load along the face, where the line load is at its maximum; of helical pairs "
+        "that of the mean over the mesh cycle. ISO 6336-1 estimates the same ratio."
     ),
     Quantity("face_load_factor_pitch_point", "Face load factor at the pitch point", digits=".3f").defined_as(
         "The same where a pair is at the pitch point."

@@ -6,6 +6,16 @@ GEOMETRY = (
     Quantity("contact_ratio", "Contact ratio", digits=".4f").defined_as(
         "Rotation of the pinion during which a pair touches over the pitch between two pairs; unloaded teeth."
     ),
+    Quantity("overlap_ratio", "Overlap ratio", digits=".4f", symbol="ε_β").defined_as(
+        "Of helical gears: common face width times tan β over the pitch on the reference circles; the contact "
+        "ratio is that of the transverse section."
+    ),
+    Quantity("total_contact_ratio", "Total contact ratio", digits=".4f", symbol="ε_γ").defined_as(
+        "Of helical gears: contact ratio and overlap ratio together."
+    ),
+    Quantity("slices", "Slices along the face", digits="d").defined_as(
+        "Number of slices into which the face of a helical pair is cut."
+    ),
     Quantity(
         "contact_ratio_effective", "Contact ratio under load, corner contact included", digits=".4f"
     ).defined_as("The same under load, with elastic teeth: rotation during which a pair carries load."),
@@ -60,6 +70,10 @@ MOTION = (
     ),
     Quantity("normal_load_max", "Maximum normal load", "N", ",.0f").defined_as(
         "Maximum of a single pair or rolling element, along its normal."
+    ),
+    Quantity("axial_force_mean", "Axial force on the pinion, mean", "N", ",.0f").defined_as(
+        "Of helical gears: mean force of the teeth on the pinion along +z, its axis; on the gear it is "
+        "opposite."
     ),
     Quantity("shared_load_max", "Maximum normal load of a pair among others", "N", ",.0f").defined_as(
         "Maximum of a pair while two or more are on their path."

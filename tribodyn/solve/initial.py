@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.contact_forces import APPROACH, COS
+from tribodyn.dynamics.approach import APPROACH, COS, LEAN_COS, PRESENT
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.loads import load_torque
 from tribodyn.dynamics.parameters import Model
@@ -17,9 +17,11 @@ from tribodyn.solve.march.step_control import largest_displacement, unbounded
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.train.flow import Flow, flow
 from tribodyn.train.links.chain import twist_under
-from tribodyn.train.structure import GearMesh, displacements, shift_of, turn_of, turned, velocities
+from tribodyn.train.structure import GearMesh, displacements, shift_of, tilt_of, turn_of, turned, velocities
 
-_COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
+_COSINE, _COMPLIANCE, _GAP, _SHARE = (
+    CHANNELS.index(name) for name in ("cosine", "compliance", "gap", "share")
+)
 #: Values of the unknown states, or what is left of the equations.
 Trials = Float[Array, "*trial unknown"]
 #: Share of all torques of a model below which what is left of them presses no flanks together.
@@ -64,7 +66,7 @@ def static_deflection(mesh: GearMesh, torque: float) -> float:
     """Deflection of a mesh under a torque on its driven body, all on one segment's pairs, m; a scale."""
     table = mesh.table
     channel, in_contact = np.asarray(table.channel)[-1, 0, :, :, 0], np.asarray(table.in_contact)[-1]
-    stiffness = float(np.sum(1.0 / channel[:, _COMPLIANCE] * in_contact))
+    stiffness = float(np.sum(channel[:, _SHARE] / channel[:, _COMPLIANCE] * in_contact))
     cosine = float(channel[-1, _COSINE])
     return abs(torque) / (float(mesh.driven_radius) * cosine) / stiffness
 
@@ -158,13 +160,19 @@ def _scales(model: Model, deflection: Float[Array, " mesh"]) -> Float[Array, " s
             if body < layout.planar:
                 place = shift_of(body)
                 scale[place : place + 2] = np.maximum(scale[place : place + 2], deflection[m])
+            if body < layout.spatial:
+                place = tilt_of(body, layout)
+                scale[place] = max(scale[place], deflection[m])
+                tilt = deflection[m] / float(getattr(model.meshes[m], radius))
+                scale[place + 1 : place + 3] = np.maximum(scale[place + 1 : place + 3], tilt)
             i = turn_of(body, layout)
             scale[i] = max(scale[i], deflection[m] / float(getattr(model.meshes[m], radius)))
     # of what no mesh moves: as large as any
     rest = scale == 0.0
     turns = [turn_of(body, layout) for body in range(layout.bodies)]
     scale[rest] = np.max(deflection)
-    scale[[i for i in turns if rest[i]]] = max(scale[i] for i in turns if not rest[i])
+    tilts = [tilt_of(body, layout) + i for body in range(layout.spatial) for i in (1, 2)]
+    scale[[i for i in (*turns, *tilts) if rest[i]]] = max(scale[i] for i in turns if not rest[i])
     return scale
 
 
@@ -221,9 +229,9 @@ def _first_touch(model: Model, phase: float, interval: int) -> Float[Array, " me
     derivatives(phase, 0.0, interval, np.zeros(model.layout.states), model, work, {})
     found = []
     for m, mesh in enumerate(model.meshes):
-        segment = int(np.asarray(model.schedule.segment)[interval, m])
-        there = (np.asarray(mesh.table.side) > 0) & (np.asarray(mesh.table.in_contact)[segment] > 0)
-        gaps = [float(-work[m][APPROACH, i] / work[m][COS, i]) for i in map(int, np.flatnonzero(there))]
+        slots = [i for i in range(mesh.table.side.shape[0]) if mesh.table.side[i] > 0.0]
+        there = [i for i in slots if work[m][PRESENT, i] > 0.0]
+        gaps = [float(-work[m][APPROACH, i] / (work[m][COS, i] * work[m][LEAN_COS, i])) for i in there]
         touch = min(gaps)
         found.append(touch - _APART * abs(touch) + 0.0)  # not −0
     return np.array(found)

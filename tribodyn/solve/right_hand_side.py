@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.contact_forces import QUANTITIES
+from tribodyn.dynamics.approach import QUANTITIES
 from tribodyn.dynamics.energy import engagement
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import Model

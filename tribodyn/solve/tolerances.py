@@ -11,7 +11,7 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
 from tribodyn.train.flow import flow, tree
-from tribodyn.train.structure import TURN, GearMesh, displacements, shift_of, turn_of, works
+from tribodyn.train.structure import TURN, GearMesh, displacements, shift_of, tilt_of, turn_of, works
 
 _COMPLIANCE = CHANNELS.index("compliance")
 _COSINE, _SINE, _GAP = CHANNELS.index("cosine"), CHANNELS.index("sine"), CHANNELS.index("gap")
@@ -45,7 +45,7 @@ def table_scales(mesh: GearMesh) -> TableScales:
     widths = np.diff(boundary) * float(table.pitch_angle) / channel.shape[1]
     steepest = np.max(np.abs(channel[..., _GAP, 1]), axis=1) * np.asarray(table.in_contact)
     return TableScales(
-        1.0 / float(np.mean(channel[..., _COMPLIANCE, 0])),
+        np.shape(table.face_position)[0] / float(np.mean(channel[..., _COMPLIANCE, 0])),
         static_deflection(mesh, 1.0),
         float(np.max(np.max(steepest, axis=-1) / widths)),
     )
@@ -106,6 +106,11 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
         if body < layout.planar:
             place = shift_of(body)
             scale[place : place + 2], scale[half + place : half + place + 2] = shift[body], shift_rate[body]
+        if body < layout.spatial:
+            place = tilt_of(body, layout)
+            scale[place], scale[half + place] = shift[body], shift_rate[body]
+            scale[place + 1 : place + 3] = turn[body]
+            scale[half + place + 1 : half + place + 3] = turn_rate[body]
     scale[layout.lag] = turn[0] / float(model.operation.nominal_speed)
     scale[works(layout)] = SHARE_OF_WORKS * np.max(scales.energy)
     return rtol * scale

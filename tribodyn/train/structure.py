@@ -6,7 +6,8 @@ coordinates that stay small. Every body turns positively in its own nominal sens
 rotation less what the reference's actual rotation makes of it by the train's ratios, ϑ_b = θ_b − i_b θ_0.
 That of the reference is nothing, and in its place stands the time lag, time less nominal time at this phase.
 
-States in order: of every body that moves in the plane x and y (m) and ϑ (rad), of the others ϑ alone; their
+States in order: of every body that moves in the plane x and y (m) and ϑ (rad), of the others ϑ alone; of
+every body that moves in space z (m) and its tilts about x and y (rad), without the gyroscopic effect; their
 rates in the same order, in place of the lag's the reference's slip, its speed less the nominal one (rad/s);
 works since the start (J): by the drive, on the loads, lost to damping, done by the change of stiffness and
 geometry with phase, and for every mesh what is lost to tooth friction and what friction would take of bodies
@@ -29,18 +30,23 @@ IN, OUT, DAMPING, PARAMETRIC, OF_MESHES = range(5)
 FRICTION, SLIDING, WORKS_OF_MESH = 0, 1, 2
 #: A link's second end that stands still.
 GROUND = -1
-#: Directions of a link.
+#: Directions of a link; and those of one between bodies that move in space, x and y first.
 X, Y, TURN = range(3)
+AXIAL, TILT_X, TILT_Y, IN_SPACE = range(2, 6)
+#: Numbers that a mesh's bodies move by against each other: along the pitch tangent, across, along z; and
+#: tilts that move the +z side along the tangent, and across. Forces and moments on the driver go with them.
+TOWARDS, ACROSS, ALONG_Z, LEAN_ALONG, LEAN_ACROSS, MOVES = range(6)
 
 
 class Bodies(NamedTuple):
-    """Numbers of the bodies; first those that move in the plane, the reference first of all."""
+    """Numbers of the bodies; first those that move in space, then in the plane; before all the reference."""
 
     mass: Float[Array, " planar"]  # kg; of those that move in the plane
     inertia: Float[Array, " body"]  # kg m², about the axis of rotation
     ratio: Float[Array, " body"]  # nominal speed over the reference's, > 0
     load: Float[Array, " body"]  # constant torque against the motion, N m
     load_damping: Float[Array, " body"]  # rise of it per speed above nominal, N m s/rad
+    tilting: Float[Array, " spatial"] = np.zeros(0)  # inertia about x and y, kg m²
 
 
 class Links(NamedTuple):
@@ -48,12 +54,16 @@ class Links(NamedTuple):
 
     They act on the difference of the ends' coordinates, in x and y where both ends move in the plane, and on
     that of their rotations where both are bodies, which have one nominal speed then: in x and y linearly, in
-    rotation by the laws that are switched, see `train.links`.
+    rotation by the laws that are switched, see `train.links`. Where both ends move in space, matrices over x,
+    y, z and the tilts stand in place of the stiffness and damping in x and y.
     """
 
     stiffness: Float[Array, "link direction"]  # N/m, N/m, N m/rad
     damping: Float[Array, "link direction"]  # N s/m, N s/m, N m s/rad
     own: Any = NoLinkParameters()  # parameters of the laws
+    #: this and the next: symmetric, over x, y, z, tilts about x and y; N/m, N, N m; empty if nothing tilts
+    stiffness_in_space: Float[Array, "link 5 5"] = np.zeros((0, IN_SPACE, IN_SPACE))
+    damping_in_space: Float[Array, "link 5 5"] = np.zeros((0, IN_SPACE, IN_SPACE))
 
 
 class GearMesh(NamedTuple):
@@ -70,16 +80,20 @@ class GearMesh(NamedTuple):
     along_y: Any
     across_x: Any
     across_y: Any
-    damping: Any  # 2 ζ √J_e', so that c_i = damping √k_i; √kg
+    damping: Any  # 2 ζ √J_e', so that c_i = damping √k_i; over √K of so many slices a pair; √kg
     surfaces: Surfaces
     film: Any  # this and the next: parameters of the laws in use
     friction: Any
+    hand: Any = 1.0  # −1 where the +z side is early: left-hand driver that turns clockwise, or the reverse
+    #: what x, y, z and the tilts of the driver and of the driven body move it by, see `moves_of`
+    moves: Float[Array, "end move direction"] = np.zeros((2, MOVES, IN_SPACE))
 
 
 class TrainLayout(NamedTuple):
     """What the train consists of: static, hashable; numbers of bodies and states are compiled in."""
 
-    planar: StaticInt  # bodies that move in the plane
+    spatial: StaticInt  # bodies that move in space, of those that move in the plane
+    planar: StaticInt  # bodies that move in the plane, or in space
     bodies: StaticInt
     meshes: StaticInt
     links: StaticInt
@@ -102,14 +116,16 @@ def layout_of(
     links: Sequence[tuple[int, int]],
     drives: int,
     loaded: int,
+    spatial: int = 0,
 ) -> TrainLayout:
     """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output."""
-    half = 2 * planar + bodies
+    half = 2 * planar + bodies + 3 * spatial
     states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
     driver, driven, first, second = (
         Indices([pair[end] for pair in pairs]) for pairs in (meshes, links) for end in (0, 1)
     )
     return TrainLayout(
+        spatial=StaticInt(spatial),
         planar=StaticInt(planar),
         bodies=StaticInt(bodies),
         meshes=StaticInt(len(meshes)),
@@ -149,6 +165,57 @@ def shifted(body, direction, y, layout):
 def shifting(body, direction, y, layout):
     """Rate of the displacement of a body in x (0) or y (1), m/s."""
     return y[layout.half + shift_of(body) + direction] if body < layout.planar else 0.0 * y[0]
+
+
+@law
+def tilt_of(body, layout):
+    """Place of the z of a body that moves in space; its tilts about x and y are the next two."""
+    return 2 * layout.planar + layout.bodies + 3 * body
+
+
+@law
+def place_in_space(body, direction, layout):
+    """Place of x, y, z, tilt about x or y (0 … 4) of a body that moves in space."""
+    return shift_of(body) + direction if direction < AXIAL else tilt_of(body, layout) + direction - AXIAL
+
+
+@law
+def on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh):
+    """Force or moment on x, y, z or a tilt (0 … 4) of a mesh's driver or driven body (0, 1).
+
+    Of what acts on the driver as `MOVES` go.
+    """
+    moves = mesh.moves
+    return (
+        moves[end, TOWARDS, direction] * along
+        + moves[end, ACROSS, direction] * across
+        + moves[end, ALONG_Z, direction] * axial
+        + moves[end, LEAN_ALONG, direction] * leaning_along
+        + moves[end, LEAN_ACROSS, direction] * leaning_across
+    )
+
+
+def moves_of(
+    frame: tuple[tuple[float, float], tuple[float, float]],
+    radii: tuple[float, float],
+    places: tuple[float, float] = (0.0, 0.0),
+) -> Float[Array, "end move direction"]:
+    """How x, y, z and tilts of driver and driven body move a mesh: the projection rows P.
+
+    A point at (ξ, η, z) from a body's centre moves by ψ × (ξ, η, z) = (ψ_y z, −ψ_x z, ψ_x η − ψ_y ξ). `frame`
+    are the directions along the pitch tangent and across; `places` the z of the faces' middles from the
+    bodies' centres, m.
+    """
+    moves = np.zeros((2, MOVES, IN_SPACE))
+    (along_x, along_y), (across_x, across_y) = frame
+    tilts = np.array([[0.0, 0.0, 0.0, -along_y, along_x], [0.0, 0.0, 0.0, -across_y, across_x]])
+    for end, sign in enumerate((1.0, -1.0)):
+        own = moves[end]
+        own[TOWARDS] = sign * (np.array([along_x, along_y, 0.0, 0.0, 0.0]) + places[end] * tilts[0])
+        own[ACROSS] = sign * (np.array([across_x, across_y, 0.0, 0.0, 0.0]) + places[end] * tilts[1])
+        own[ALONG_Z] = np.array([0.0, 0.0, sign, 0.0, 0.0]) - radii[end] * tilts[1]
+        own[LEAN_ALONG], own[LEAN_ACROSS] = sign * tilts
+    return moves
 
 
 @law

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.contact_energy import compliance_force, mesh_energy, pair_energy
 from tribodyn.dynamics.parameters import HERTZ_IN_TABLE, HERTZ_POWER_LAW
 from tribodyn.dynamics.smooth import onset, power_law_force, power_law_stiffness
@@ -17,12 +17,15 @@ WIDTH, COEFFICIENT, COMPLIANCE = 2e-6, 4e-9, 2.5e-9
 
 def loaded(hertz, free, compliance):
     """A mesh of one pair, its model, and what `elastic_loads` leaves of an approach in or above the width."""
-    mesh = SimpleNamespace(table=SimpleNamespace(hertz_coefficient=COEFFICIENT, side=np.ones(1)))
+    mesh = SimpleNamespace(
+        table=SimpleNamespace(hertz_coefficient=COEFFICIENT, side=np.ones(1), face_position=np.zeros(1))
+    )
     model = SimpleNamespace(
         operation=SimpleNamespace(contact_width=WIDTH), options=SimpleNamespace(hertz=hertz, sweeps=1)
     )
     work = {(contact.EFFECTIVE_APPROACH, 0): free, (contact.COMPLIANCE, 0): compliance}
-    work[contact.ELASTIC_LOAD, 0] = load_of(hertz, free, compliance)
+    work[contact.ELASTIC_LOAD, 0] = work[contact.WHOLE_LOAD, 0] = load_of(hertz, free, compliance)
+    work[contact.PRESENT, 0] = 1.0
     work[contact.STIFFNESS, 0] = 1.0 / compliance
     return mesh, model, work
 

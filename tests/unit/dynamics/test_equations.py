@@ -17,7 +17,7 @@ from tests.support.states import (
     random_state,
     with_motor,
 )
-from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.energy import engagement, stored_energy, strain_energy
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.loads import load_torque

@@ -2,16 +2,8 @@ import numpy as np
 import pytest
 
 from tests.support.states import PAIR, TURN_G, altered, random_place, random_state
-from tribodyn.dynamics.contact_forces import (
-    DRIVEN_SPEED,
-    DRIVER_SPEED,
-    PEAK,
-    RADIUS,
-    RELATIVE_VELOCITY,
-    SLIDING,
-    contact_forces,
-    reversals_per_velocity,
-)
+from tribodyn.dynamics.approach import DRIVEN_SPEED, DRIVER_SPEED, PEAK, RADIUS, RELATIVE_VELOCITY, SLIDING
+from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.extremes import (
     BACK,
     COUNT,

@@ -25,7 +25,7 @@ from tests.support.states import (
     random_state,
     with_motor,
 )
-from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.energy import stored_energy
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DRIVE_SPEED, DRIVE_TORQUE, SLIDING_DYNAMIC, SLIDING_KINEMATIC

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.states import LAG, TURN_G, TURN_M, X_G, X_P, Y_G, Y_P, random_state
-from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.studies.gear_pair.outputs import outputs

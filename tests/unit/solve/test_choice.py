@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.contact_forces import TURNED
+from tribodyn.dynamics.approach import TURNED
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIDING_KINEMATIC
 from tribodyn.solve import choice

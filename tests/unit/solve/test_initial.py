@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.states import TURN_G, TURN_M, altered
-from tribodyn.dynamics.contact_forces import NORMAL_LOAD
+from tribodyn.dynamics.approach import NORMAL_LOAD
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.errors import SimulationError
 from tribodyn.solve.initial import accelerations, static_deflection, static_equilibrium

@@ -105,10 +105,11 @@ def at_radii(solved: Float[Array, " solved"], radius: Float[Array, "*pair"]) -> 
 
 
 def without_neighbours(gear: GearCompliance) -> GearCompliance:
-    """Return a gear whose teeth do not feel each other's loads."""
-    lead = gear.lead and gear.lead._replace(between=0.0 * gear.lead.between)
-    ends = gear.ends and gear.ends._replace(between=0.0 * gear.ends.between)
-    return gear._replace(between=0.0 * gear.between, lead=lead, ends=ends)
+    """Return a gear whose teeth do not feel each other's loads, only their own."""
+    itself = (np.arange(-NEIGHBOURS, NEIGHBOURS + 1) == 0)[:, None, None]
+    lead = gear.lead and gear.lead._replace(between=itself * gear.lead.between)
+    ends = gear.ends and gear.ends._replace(between=itself * gear.ends.between)
+    return gear._replace(between=itself * gear.between, lead=lead, ends=ends)
 
 
 #: Largest wave number solved, in 1/module; beyond it loads act on their neighbourhood only.

@@ -13,7 +13,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
-from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
+from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry
 from tribodyn.geometry.flanks.modification import (
     FlankModification,
     LeadRelief,
@@ -45,8 +45,7 @@ def flank_gap(
     The places along the axis (slice,), m, are from the middle of the faces, which stand symmetrically.
     """
     profile = profile_gap(assembly, modifications, geometry)
-    whole = part_of(geometry, np.s_[..., None])
-    along = misalignment_gap(assembly, modifications.misalignment, whole, face_position)
+    along = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
     return profile[..., None] + lead_gap(assembly, modifications, face_position) + along
 
 
@@ -58,13 +57,16 @@ def oblique_gap(
 ) -> Float[Array, "*pair slice"]:
     """`flank_gap` of slices each with its own geometry (…, slice), along the normal of helical flanks, m.
 
-    Misaligned axes move the gear in the transverse plane, across the line of contact by the cosine of the
-    normal's slope of it; that they move it along the axis too is left out.
+    A gear turned by γ in the plane of action moves by z γ along the line of action and by −r γ along the
+    axis: by γ (z cos β_n − r sin β_n) along the normal.
     """
-    along = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
-    slope = normal_slope(pitch_slope(assembly), geometry.motion.pressure_angle)
+    motion, (within, across) = geometry.motion, modifications.misalignment
+    slope = normal_slope(pitch_slope(assembly), motion.pressure_angle)
+    turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
+    angle = within * np.cos(turned) + across * np.sin(turned)
+    opened = angle * (face_position - motion.signed_distance * slope) / np.hypot(1.0, slope)
     profile = profile_gap(assembly, modifications, geometry)
-    return profile + lead_gap(assembly, modifications, face_position) + along / np.hypot(1.0, slope)
+    return profile + lead_gap(assembly, modifications, face_position) + opened
 
 
 def profile_gap(
@@ -100,11 +102,9 @@ def misalignment_gap(
     assembly: Assembly,
     misalignment: Misalignment,
     geometry: PairGeometry,
-    face_position: Float[Array, "..."],
-) -> Float[Array, "..."]:
-    """Gap that inclined axes leave, m; 0 in the middle of the face, negative on its nearer half.
-
-    In the transverse plane; geometry and places along the face broadcast.
+    face_position: Float[Array, " slice"],
+) -> Float[Array, "*pair slice"]:
+    """Gap (…, slice) that inclined axes leave, m; 0 in the middle of the face, negative on its nearer half.
 
     At z the gear stands off the pinion by d = z γ_in along the line of action of the pitch point and by
     s = z γ_out across it. At a contact whose normal is turned from there by β the distance along the normal
@@ -113,11 +113,11 @@ def misalignment_gap(
     nanometres, because spur flanks are straight along the axis.
     """
     motion = geometry.motion
-    turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
+    turned = (motion.pressure_angle - float(assembly.path.pressure_angle(0.0)))[..., None]
     within, across = misalignment.in_plane * face_position, misalignment.out_of_plane * face_position
     shift = across * np.cos(turned) - within * np.sin(turned)
     curvature = motion.pinion_curvature * motion.gear_curvature / motion.relative_curvature
-    bend = shift * curvature
+    bend = shift * curvature[..., None]
     return within * np.cos(turned) + across * np.sin(turned) + shift * bend / (1.0 + np.hypot(1.0, bend))
 
 
@@ -142,8 +142,7 @@ def lead_amounts(lead: LeadRelief) -> dict[str, float]:
 def maximum_along_lead(assembly: Assembly, modifications: Modifications) -> tuple[str, str]:
     """Key and value of what opens the flanks most along the face: an angle of the axes, or a relief."""
     width = min(float(body_of(assembly.drive, side).face_width) for side in SIDES)
-    ends = np.array([-width, width]) / 2.0
-    geometry = pair_geometry(assembly, np.array(assembly.roll_limits)[:, None])
+    ends, geometry = np.array([-width, width]) / 2.0, pair_geometry(assembly, np.array(assembly.roll_limits))
     openings = []
     for name, angle in modifications.misalignment._asdict().items():
         opened = np.max(np.abs(misalignment_gap(assembly, Misalignment(**{name: angle}), geometry, ends)))

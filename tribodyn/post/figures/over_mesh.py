@@ -88,7 +88,9 @@ def draw_total_stiffness(axes: Axes, records: Sequence[Record], view: View) -> N
             continue
         angle = np.nan_to_num(record["pressure_angle"][window.part])
         single = record["mesh_stiffness"][window.part]
-        total = np.sum(single * np.cos(angle) ** 2, axis=1) * STIFFNESS.factor
+        cosine = np.cos(angle)  # and of helical gears that of the normal's angle to the transverse section
+        axial = 1.0 + (record.mesh_cycle.get("pitch_slope", 0.0) * cosine) ** 2
+        total = np.sum(single * cosine**2 / axial, axis=1) * STIFFNESS.factor
         color = style.INK if len(records) == 1 else style.PALETTE[number % len(style.PALETTE)]
         axes.plot(
             abscissa(window, view),

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tribodyn.errors import InputError
-from tribodyn.post.cycles import pair_history, path_limits
+from tribodyn.post.cycles import along_path, pair_history, path_limits
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh, draw_gears, key_rolls, placed
 from tribodyn.post.figures.panel import ALONE, KEY_POINTS, View, record_label, record_title
 from tribodyn.post.style import QUIET, WIDTH, new_figure
@@ -18,11 +18,15 @@ from tribodyn.record.reader import Record
 
 def key_positions(record: Record) -> dict[str, tuple[float, float]]:
     """Find the key points of the path, m: where a pair of driving flanks touches at their roll angles."""
-    rolls = key_rolls(*path_limits(record), 2 * np.pi / record.mesh_cycle["pinion_teeth"])
-    distances, angles = (
-        np.interp(list(rolls.values()), *pair_history(record, name))
-        for name in ("signed_distance", "pressure_angle")
-    )
+    table = record.mesh_cycle
+    rolls = key_rolls(*path_limits(record), 2 * np.pi / table["pinion_teeth"])
+    if "face_position" in table:  # nowhere does a pair of helical teeth carry alone because its middle does
+        rolls = {name: roll for name, roll in rolls.items() if name not in ("C_p", "C_g")}
+        *along, roll = along_path(record.geometry["path_of_contact"], table["pinion_pitch_radius"])
+        histories = [(roll, values) for values in along]
+    else:
+        histories = [pair_history(record, name) for name in ("signed_distance", "pressure_angle")]
+    distances, angles = (np.interp(list(rolls.values()), *history) for history in histories)
     places = zip((distances * np.cos(angles)).tolist(), (distances * np.sin(angles)).tolist(), strict=True)
     return dict(zip(rolls, places, strict=True))
 
@@ -38,9 +42,11 @@ def gears_in_mesh(record: Record, phase: float) -> tuple[np.ndarray, np.ndarray]
 
 
 def draw_path(axes: Axes, record: Record) -> None:
-    """Draw both gears as a pair enters, what bounds the path, the path and its key points; axes in mm."""
+    """Draw both gears as a pair enters, helical ones in the middle of the face; what bounds the path, the path and its key points; axes in mm."""
     geometry = record.geometry
-    pinion, gear = gears_in_mesh(record, 0.0)
+    table = record.mesh_cycle
+    late = path_limits(record)[0] - table["roll_start"] if "face_position" in table else 0.0
+    pinion, gear = gears_in_mesh(record, late * table["pinion_teeth"] / (2 * np.pi))
     tips = geometry["pinion_tip_radius"], geometry["gear_tip_radius"]
     path = geometry["path_of_contact"]
     draw_gears(axes, GearsInMesh(pinion, gear, path, _pitch_radii(record), tips, key_positions(record)))

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.post.cycles import along_path, in_the_middle
 from tribodyn.post.page.data import packed
 from tribodyn.record.reader import Record
 
@@ -53,7 +54,7 @@ def rolling_teeth(record: Record) -> dict[str, Any] | None:
 def turning_teeth(shape: Mapping[str, Any], pinion_teeth: float) -> dict[str, Any]:
     """The same over one mesh cycle of gears of which no motion is known, by `geometry_arrays`."""
     pinion, gear = (float(shape[f"{side}_pitch_radius"]) for side in ("pinion", "gear"))
-    distance, angle, roll = _along(np.asarray(shape["path_of_contact"]), pinion)
+    distance, angle, roll = along_path(np.asarray(shape["path_of_contact"]), pinion)
     pitch = 2.0 * np.pi / pinion_teeth
     phase = np.linspace(0.0, 1.0, FRAMES_OF_A_CYCLE, endpoint=False)[:, None]
     turned = roll[0] + pitch * (phase + np.arange(int(np.ceil((roll[-1] - roll[0]) / pitch))))
@@ -94,10 +95,11 @@ def _of_the_table(record: Record, cycle: dict[str, Any]) -> _Places | None:
     front = np.flatnonzero(np.asarray(cycle["side"]) > 0)
 
     def at_phase(name: str) -> np.ndarray:
-        columns = np.asarray(cycle[name]).T[front]
+        columns = in_the_middle(np.asarray(cycle[name])).T[front]
         return np.stack([np.interp(phase % 1.0, cycle["phase"], column) for column in columns], axis=1)
 
-    distance = np.where(at_phase("in_contact") > 0.5, at_phase("signed_distance"), np.nan)
+    touching = at_phase("share") > 0.0 if "share" in cycle else at_phase("in_contact") > 0.5
+    distance = np.where(touching, at_phase("signed_distance"), np.nan)
     angle = at_phase("pressure_angle")
     roll = cycle["roll_start"] + phase * 2.0 * np.pi / cycle["pinion_teeth"]
     return _Places(roll, distance * np.cos(angle), distance * np.sin(angle), angle)
@@ -110,7 +112,9 @@ def _of_the_roll_angles(record: Record, shape: dict[str, Any], cycle: dict[str, 
     """
     if not {"pinion_angle", "roll_angle", LOAD} <= set(record):
         return None
-    distance, angle, roll = _along(np.asarray(shape["path_of_contact"]), float(cycle["pinion_pitch_radius"]))
+    distance, angle, roll = along_path(
+        np.asarray(shape["path_of_contact"]), float(cycle["pinion_pitch_radius"])
+    )
     rolled = np.asarray(record["roll_angle"])
     found = np.where(np.asarray(record[LOAD]) > 0.0, np.interp(rolled, roll, distance), np.nan)
     slope = np.interp(rolled, roll, angle)
@@ -120,27 +124,6 @@ def _of_the_roll_angles(record: Record, shape: dict[str, Any], cycle: dict[str, 
     x, y = _turned(x, y, -radii[0], -behind)
     x, y = _turned(x, y, radii[1], before * radii[0] / radii[1])
     return _Places(rolled[0, 0] + np.asarray(record["pinion_angle"]), x, y, slope)
-
-
-def _along(path: np.ndarray, pitch_radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Signed distance, pressure angle and the pinion's roll angle along a path of contact (points, 2).
-
-    A path may pass through the pitch point.
-    """
-    x, y = path.T
-    backward = x < 0.0
-    distance = np.where(backward, -1.0, 1.0) * np.hypot(x, y)
-    at_pitch_point = distance == 0.0
-    angle = np.arctan2(np.where(backward, -y, y), np.abs(x))
-    if at_pitch_point.any():
-        order = np.argsort(distance[~at_pitch_point])
-        known = distance[~at_pitch_point][order], angle[~at_pitch_point][order]
-        angle[at_pitch_point] = np.interp(0.0, *known)
-    order = np.argsort(distance)
-    distance, angle = distance[order], angle[order]
-    per_roll = 1.0 / (pitch_radius * np.cos(angle))
-    travelled = np.concatenate([[0.0], np.cumsum(0.5 * (per_roll[1:] + per_roll[:-1]) * np.diff(distance))])
-    return distance, angle, travelled - np.interp(0.0, distance, travelled)
 
 
 def _turned(x: np.ndarray, y: np.ndarray, centre: float, by: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

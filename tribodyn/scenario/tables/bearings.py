@@ -39,6 +39,15 @@ class Bearing(Table):
     stiffness_x: Stiffness | None = Field(None, description="along the pitch tangent")
     stiffness_y: Stiffness | None = Field(None, description="along the line of centres")
     rolling: Rolling | None = Field(None, description="in place of the stiffness")
+    stiffness_axial: Stiffness | None = Field(
+        None, description="of helical gears; default: the smaller of x and y"
+    )
+    stiffness_tilt: Annotated[float, InUnit(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
+        None, description="against tilts of helical gears; default: of two bearings at the span"
+    )
+    span: Annotated[float, InUnit(units.positive(units.LENGTH), "100 mm")] | None = Field(
+        None, description="distance of the bearings of helical gears; default: twice the face width"
+    )
     damping_ratio: NotNegative | None = Field(None, description="of both axes")
     damping_ratio_x: NotNegative | None = None
     damping_ratio_y: NotNegative | None = None
@@ -65,7 +74,12 @@ def bearing_of(bearing: Bearing) -> BearingData:
         numbers = bearing.rolling.model_dump()
         sizes = {name: numbers[name] or 0.0 for name in ("diameter", "length")}
         stiffness_x = stiffness_y = radial_stiffness(RollingBearing(**{**numbers, **sizes}))
-    return BearingData(*(cast(float, value) for value in (stiffness_x, stiffness_y, ratio_x, ratio_y)))
+    return BearingData(
+        *(cast(float, value) for value in (stiffness_x, stiffness_y, ratio_x, ratio_y)),
+        bearing.stiffness_axial,
+        bearing.stiffness_tilt,
+        bearing.span,
+    )
 
 
 def broken_bearing_rules(bearings: Bearings) -> Iterator[InputError]:
@@ -84,6 +98,9 @@ def broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
         elif bearing.rolling is not None and given is not None:
             rule = f"contradicts [{key}.rolling], from which it follows"
             yield InputError(f"{key}.{name}", f"{given:g} N/m", rule, "give the one or the other")
+    if bearing.stiffness_tilt is not None and bearing.span is not None:
+        rule = "contradicts stiffness_tilt, which stands in its place"
+        yield InputError(f"{key}.span", f"{1e3 * bearing.span:g} mm", rule, "give the one or the other")
     if bearing.rolling is not None:
         yield from _broken_rolling(f"{key}.rolling", bearing.rolling)
     each = (bearing.damping_ratio_x, bearing.damping_ratio_y)

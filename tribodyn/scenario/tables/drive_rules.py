@@ -70,8 +70,8 @@ def broken_slice_rules(face: Face) -> Iterator[InputError]:
 
 
 def broken_face_rules(face: Face, compliance: str) -> Iterator[InputError]:
-    """Go through the rules of a run that repeats one mesh cycle, by finite elements or without them."""
-    if compliance == "fem":
+    """Go through the rules of a run that repeats one mesh cycle, in slices or with a face that is even."""
+    if compliance == "fem" or face.drive.helix_angle:
         yield from broken_slice_rules(face)
         yield from uneven_teeth(modifications_of(face.drive, face.misalignment))
     else:

@@ -8,7 +8,8 @@ import diffrax
 import jax
 import jax.numpy as jnp
 
-from tribodyn.dynamics.contact_forces import FRICTION_FORCE, TURNED, contact_forces
+from tribodyn.dynamics.approach import FRICTION_FORCE, TURNED
+from tribodyn.dynamics.contact_forces import contact_forces
 from tribodyn.dynamics.parameters import Model, Options
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.solve.march.step_control import (

@@ -1,53 +1,60 @@
 """Jacobian of the right-hand side, from its structure and a few differences.
 
 The contacts of a mesh see its bodies through their relative position and motion alone: through two numbers of
-position and three or four of velocity. Differences in these give the mesh's matrix k, from which its columns
-in the bodies' coordinates follow, Pᵀ k P; links are linear, but where their laws have
-slopes of their own. What the reference's speed and the time do is
-differenced in the whole right-hand side, where they are switched on.
+position and three or four of velocity, and three of each more where they move in space. Differences in these
+give the mesh's matrix k, from which its columns in the bodies' coordinates follow, Pᵀ k P; links are linear,
+but where their laws have slopes of their own. What the reference's speed and the time do is differenced in
+the whole right-hand side, where they are switched on.
 """
 
 from typing import NamedTuple
 
+from tribodyn.dynamics.approach import Motion
 from tribodyn.dynamics.contact_energy import parametric_torque
-from tribodyn.dynamics.contact_forces import Motion, contact_forces, reversals_per_velocity
+from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.equations import resultants
 from tribodyn.dynamics.loads import load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import law, maximum
+from tribodyn.numerics.elementary import law
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.march.link_jacobian import SHARE, differentiate_links
 from tribodyn.solve.right_hand_side import rhs
 from tribodyn.train.structure import (
+    ACROSS,
+    ALONG_Z,
+    AXIAL,
     DAMPING,
     FRICTION,
     IN,
+    IN_SPACE,
+    LEAN_ACROSS,
+    LEAN_ALONG,
+    MOVES,
     OF_MESHES,
     OUT,
     PARAMETRIC,
-    TURN,
+    TOWARDS,
     WORKS_OF_MESH,
+    on_body,
+    place_in_space,
     shift_of,
     slip_of,
     slip_of_body,
     speed_of,
+    tilt_of,
     turn_of,
-    turned,
-    turning,
 )
 from tribodyn.train.structure import SLIDING as WORK_SLIDING
 
-#: Difference over the scale of a state: rounding then costs 1e-8 of a derivative, and the curvature of the
-#: contact law over its width 1e-5; both are far below what the step needs.
-SHARE = 1e-7
 #: Difference of a velocity over the sliding velocity at which friction has reversed, at most.
 SHARE_OF_REVERSAL = 1e-4
 #: Difference of the phase, reference cycles.
 PHASE_DIFFERENCE = 1e-7
-#: What of a mesh's motion is differenced: towards, across, along the tangent, across, the driven body's
-#: and the driver's rotation.
-TOWARDS, ACROSS, ALONG_RATE, ACROSS_RATE, DRIVEN_RATE, DRIVER_RATE = range(6)
+#: What of a mesh's motion is differenced: `structure.MOVES`, and from here their rates; and the driven body's
+#: rotation and the driver's. In the plane only the first two of both.
+RATES, DRIVEN_RATE, DRIVER_RATE, NUMBERS = MOVES, 2 * MOVES, 2 * MOVES + 1, 2 * MOVES + 2
 
 
 class Differences(NamedTuple):
@@ -79,12 +86,18 @@ def _moved(motion, which, by, mesh):
     return Motion(
         motion.towards + (by if which == TOWARDS else 0.0),
         motion.across + (by if which == ACROSS else 0.0),
-        motion.along_rate + (by if which == ALONG_RATE else 0.0),
+        motion.along_rate + (by if which == RATES + TOWARDS else 0.0),
         motion.turning_rate + (driver - driven),
-        motion.across_rate + (by if which == ACROSS_RATE else 0.0),
+        motion.across_rate + (by if which == RATES + ACROSS else 0.0),
         motion.driver_speed + driver / mesh.driver_radius,
         motion.driven_speed + driven / mesh.driven_radius,
         motion.phase_rate,
+        motion.axial + (by if which == ALONG_Z else 0.0),
+        motion.lean_along + (by if which == LEAN_ALONG else 0.0),
+        motion.lean_across + (by if which == LEAN_ACROSS else 0.0),
+        motion.axial_rate + (by if which == RATES + ALONG_Z else 0.0),
+        motion.lean_along_rate + (by if which == RATES + LEAN_ALONG else 0.0),
+        motion.lean_across_rate + (by if which == RATES + LEAN_ACROSS else 0.0),
     )
 
 
@@ -105,55 +118,63 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
     reversals = reversals_per_velocity(ratio, mesh, model)
     before = resultants(at, mesh, model, contacts)
     torque = parametric_torque(at, mesh, model, contacts)
-    x_1, x_2 = shift_of(driver), shift_of(driven)
     turn_1, turn_2 = turn_of(driver, layout), turn_of(driven, layout)
     of_mesh = works + OF_MESHES + WORKS_OF_MESH * m
     length = SHARE * scale[turn_2] * mesh.driven_radius
     velocity = min(SHARE * scale[half + turn_2] * mesh.driven_radius, SHARE_OF_REVERSAL / reversals)
-    count = 6 if driver > 0 else 5
-    for which in range(count):
-        by = length if which <= ACROSS else velocity
+    in_space = layout.spatial > 0
+    count = 0
+    for which in range(NUMBERS):
+        if which == DRIVER_RATE and driver == 0:
+            continue
+        move = which % RATES
+        of_bodies = which < DRIVEN_RATE
+        if of_bodies and move > ACROSS and not in_space:
+            continue
+        by = length if which < RATES else velocity
+        if of_bodies and move > ALONG_Z:
+            by /= mesh.driven_radius
         contact_forces(at, _moved(motion, which, by, mesh), reversals, mesh, model, contacts)
+        count += 1
         after = resultants(at, mesh, model, contacts)
         along, across = (after[0] - before[0]) / by, (after[1] - before[1]) / by
-        resisting, driving = (after[2] - before[2]) / by, (after[3] - before[3]) / by
-        friction, sliding = (after[4] - before[4]) / by, (after[5] - before[5]) / by
-        damping = (after[6] - before[6]) / by
+        axial = (after[2] - before[2]) / by
+        leaning_along, leaning_across = (after[3] - before[3]) / by, (after[4] - before[4]) / by
+        resisting, driving = (after[5] - before[5]) / by, (after[6] - before[6]) / by
+        friction, sliding = (after[7] - before[7]) / by, (after[8] - before[8]) / by
+        damping = (after[9] - before[9]) / by
         parametric = ratio * (parametric_torque(at, mesh, model, contacts) - torque) / by
-        x = mesh.along_x * along + mesh.across_x * across
-        z = mesh.along_y * along + mesh.across_y * across
-        # the number's derivatives by the states: of x and y of both bodies, and of their rotations
-        by_x, by_z, by_1, by_2 = 0.0, 0.0, 0.0, 0.0
-        if which == TOWARDS:
-            by_x, by_z, by_1, by_2 = mesh.along_x, mesh.along_y, mesh.driver_radius, -mesh.driven_radius
-        elif which == ALONG_RATE:
-            by_x, by_z = mesh.along_x, mesh.along_y
-        elif which <= ACROSS_RATE:
-            by_x, by_z = mesh.across_x, mesh.across_y
-        elif which == DRIVEN_RATE:
-            by_2 = mesh.driven_radius
-        else:
-            by_1 = mesh.driver_radius
-        first = 0 if which <= ACROSS else half
-        for k in range(6):
-            if k == 0:
-                j, share = first + turn_1, by_1 if driver > 0 else 0.0
-            elif k == 1:
-                j, share = first + turn_2, by_2
-            elif k <= 3:
-                if driver >= layout.planar:
+        first = 0 if which < RATES else half
+        # columns: x, y, z and tilts of the driver and of the driven body, their rotations
+        for k in range(2 * IN_SPACE + 2):
+            direction, end = k % IN_SPACE, k // IN_SPACE
+            if k >= 2 * IN_SPACE:
+                turns_driver = k == 2 * IN_SPACE
+                if turns_driver and driver == 0:
+                    continue  # the reference has no micro-rotation
+                j = first + (turn_1 if turns_driver else turn_2)
+                if which == TOWARDS:
+                    share = mesh.driver_radius if turns_driver else -mesh.driven_radius
+                elif which == DRIVER_RATE and turns_driver:
+                    share = mesh.driver_radius
+                elif which == DRIVEN_RATE and not turns_driver:
+                    share = mesh.driven_radius
+                else:
                     continue
-                j, share = first + x_1 + k - 2, by_x if k == 2 else by_z
             else:
-                if driven >= layout.planar:
+                body = driver if end == 0 else driven
+                if not of_bodies or body >= (layout.planar if direction < AXIAL else layout.spatial):
                     continue
-                j, share = first + x_2 + k - 4, -by_x if k == 4 else -by_z
-            if driver < layout.planar:
-                jacobian[half + x_1, j] += share * x
-                jacobian[half + x_1 + 1, j] += share * z
-            if driven < layout.planar:
-                jacobian[half + x_2, j] -= share * x
-                jacobian[half + x_2 + 1, j] -= share * z
+                j = first + place_in_space(body, direction, layout)
+                share = mesh.moves[end, move, direction]
+            if share == 0.0:
+                continue
+            for row in range(2 * IN_SPACE):
+                direction, end = row % IN_SPACE, row // IN_SPACE
+                body = driver if end == 0 else driven
+                if body < (layout.planar if direction < AXIAL else layout.spatial):
+                    force = on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh)
+                    jacobian[half + place_in_space(body, direction, layout), j] += share * force
             jacobian[half + turn_1, j] -= share * resisting
             jacobian[half + turn_2, j] += share * driving
             jacobian[works + DAMPING, j] += share * damping
@@ -161,54 +182,6 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
             jacobian[of_mesh + FRICTION, j] += share * friction
             jacobian[of_mesh + WORK_SLIDING, j] += share * sliding
     return count
-
-
-@kernel
-def differentiate_links(y, scale, model, jacobian):
-    """Add what the links do to the forces, and to the power that damping takes."""
-    layout, links = model.options.layout, model.links
-    half, lost = layout.half, layout.mechanical + DAMPING
-    for k in range(layout.links):
-        first, second = layout.first[k], layout.second[k]
-        for direction in range(TURN + 1):
-            if direction == TURN:
-                if second < 0:
-                    continue
-                i, j = turn_of(first, layout), turn_of(second, layout)
-                rate = turning(first, y, layout) - turning(second, y, layout)
-            else:
-                if first >= layout.planar or second >= layout.planar:
-                    continue
-                i, j = shift_of(first) + direction, shift_of(second) + direction
-                rate = y[half + i]
-                if second >= 0:
-                    rate = rate - y[half + j]
-            stiffness, damping = links.stiffness[k, direction], links.damping[k, direction]
-            turns = direction == TURN
-            lost_by_twist = 0.0
-            if turns:
-                laws = model.options.links
-                twist = turned(first, y, layout) - turned(second, y, layout)
-                _, _, share = laws.act(k, twist, stiffness, links.own, laws)
-                by = SHARE * maximum(scale[i], scale[j])
-                slope, rise = laws.slope(k, twist, by, stiffness, links.own, laws)
-                lost_by_twist = damping * rise * rate * rate
-                stiffness, damping = slope + damping * rise * rate, damping * share
-            if not (turns and first == 0):  # the reference has no micro-rotation
-                jacobian[half + i, i] -= stiffness
-                jacobian[half + i, half + i] -= damping
-                jacobian[lost, half + i] += 2.0 * damping * rate
-                jacobian[lost, i] += lost_by_twist
-                if second >= 0:
-                    jacobian[half + j, i] += stiffness
-                    jacobian[half + j, half + i] += damping
-            if second >= 0 and not (turns and second == 0):
-                jacobian[half + j, j] -= stiffness
-                jacobian[half + j, half + j] -= damping
-                jacobian[lost, half + j] -= 2.0 * damping * rate
-                jacobian[lost, j] -= lost_by_twist
-                jacobian[half + i, j] += stiffness
-                jacobian[half + i, half + j] += damping
 
 
 @kernel
@@ -266,6 +239,11 @@ def differentiate(place, y, f, scale, model, work, into):
                 x = half + shift_of(b)
                 jacobian[x, j] *= rate / bodies.mass[b]
                 jacobian[x + 1, j] *= rate / bodies.mass[b]
+            if b < layout.spatial:
+                z = half + tilt_of(b, layout)
+                jacobian[z, j] *= rate / bodies.mass[b]
+                jacobian[z + 1, j] *= rate / bodies.tilting[b]
+                jacobian[z + 2, j] *= rate / bodies.tilting[b]
         for i in range(works, states):
             jacobian[i, j] *= rate
     for i in range(half):

@@ -11,9 +11,10 @@ tried again with its own rate. At creep speeds the width is no more than the tol
 then is left to the error control, which takes steps by the force.
 """
 
-from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics import approach as contact
+from tribodyn.dynamics.contact_forces import reversals_per_velocity
 from tribodyn.dynamics.places import motion_of, place_in_mesh
-from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, truncate, where
+from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, where
 from tribodyn.solve.integrator import Status
 from tribodyn.train.structure import shifted, turn_of, turned
 
@@ -155,6 +156,7 @@ def next_step(step, cut, uncut_step):
     return where(cut, maximum(step, uncut_step), step)
 
 
+#: Slices of a face reverse one after the other, each with its small part of the load: no step ends there.
 #: Shares of the width of reversal that steps end on, as in `reversal.SHARES`, and how far from them. The
 #: force is C1 at the ends; at the pitch point the friction coefficient has a kink in the sliding speed.
 SHARES = (-1.0, -0.2, 0.0, 0.2, 1.0)
@@ -181,13 +183,7 @@ def resolves_turns(atol, model):
 def reversals_in(m, model):
     """`contact_forces.reversals_per_velocity` of a mesh."""
     ratio = model.bodies.ratio[model.options.layout.driver[m]]
-    return contact.reversals_per_velocity(ratio, model.meshes[m], model)
-
-
-@law
-def segment_in(m, interval, model):
-    """Segment of a mesh's table in an interval."""
-    return truncate(model.schedule.segment[interval, m])
+    return reversals_per_velocity(ratio, model.meshes[m], model)
 
 
 @law
@@ -206,11 +202,13 @@ def begin_turning(phase, interval, y, model, work):
     """Fill `work` with where the pairs' sliding stands at the start of an interval; `TURNING_RATE` is 0."""
     for m in range(model.options.layout.meshes):
         mesh, contacts = model.meshes[m], work[m]
+        if contact.sliced(mesh):
+            continue
         place = place_in_mesh(m, phase, interval, model)
         contact.approach(place, motion_of(m, y, model), mesh, contacts)
         per_velocity = reversals_in(m, model)
         for i in range(mesh.table.side.shape[0]):
-            if contact.out_of_reach(place.segment, i, mesh):
+            if contact.absent(i, contacts):
                 continue
             contacts[contact.TURNED_BEFORE, i] = plain(contacts[contact.RELATIVE_VELOCITY, i]) * per_velocity
             contacts[contact.TURNING_RATE, i] = 0.0 * plain(contacts[contact.TURNED_BEFORE, i])
@@ -222,9 +220,10 @@ def longest_step(interval, model, work):
     longest = UNLIMITED
     for m in range(model.options.layout.meshes):
         mesh, contacts = model.meshes[m], work[m]
-        segment = segment_in(m, interval, model)
+        if contact.sliced(mesh):
+            continue
         for i in range(mesh.table.side.shape[0]):
-            if contact.out_of_reach(segment, i, mesh):
+            if contact.absent(i, contacts):
                 continue
             rate = plain(contacts[contact.TURNING_RATE, i])
             distance, _ = next_share(plain(contacts[contact.TURNED_BEFORE, i]), rate)
@@ -243,9 +242,10 @@ def turn_of_friction(step, interval, model, work):
     shorter = 1.0 * step
     for m in range(model.options.layout.meshes):
         mesh, contacts = model.meshes[m], work[m]
-        segment = segment_in(m, interval, model)
+        if contact.sliced(mesh):
+            continue
         for i in range(mesh.table.side.shape[0]):
-            if contact.out_of_reach(segment, i, mesh):
+            if contact.absent(i, contacts):
                 continue
             before = plain(contacts[contact.TURNED_BEFORE, i])
             change = plain(contacts[contact.TURNED, i]) - before
@@ -261,9 +261,10 @@ def keep_turned(accepted, step, interval, model, work):
     """Take over where the sliding stands after a step that was accepted."""
     for m in range(model.options.layout.meshes):
         mesh, contacts = model.meshes[m], work[m]
-        segment = segment_in(m, interval, model)
+        if contact.sliced(mesh):
+            continue
         for i in range(mesh.table.side.shape[0]):
-            if contact.out_of_reach(segment, i, mesh):
+            if contact.absent(i, contacts):
                 continue
             before, after = plain(contacts[contact.TURNED_BEFORE, i]), plain(contacts[contact.TURNED, i])
             rate = plain(contacts[contact.TURNING_RATE, i])

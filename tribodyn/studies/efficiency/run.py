@@ -17,8 +17,8 @@ from tribodyn.geometry.flanks.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.geometry.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark, loaded_flanks_of, mesh_cycle_of
-from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.quasi_static import driving_gear, power_put_in
+from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.efficiency.along_path import (
     CycleEfficiency,
@@ -118,7 +118,7 @@ def run(
     summary["wall_time"] = perf_counter() - begun
     more = {
         "groups": {"mesh_cycle": as_arrays(study.cycle), "geometry": geometry_arrays(study.assembly)},
-        "scales": scales_of(study.cycle.side),
+        "scales": scales_of(study.cycle),
     }
     with writer(case, path, LAYOUT, len(over.turned), force=force, **more) as record:
         record.write(0, record_arrays(over, mesh, state, study.duty))

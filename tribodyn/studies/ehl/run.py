@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.mesh.cycle import as_arrays
+from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.numerics.shapes import Array
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.ehl import along_path

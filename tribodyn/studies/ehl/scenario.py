@@ -44,6 +44,8 @@ def loads_of_record(path: Path, key: str) -> dict[str, Any]:
         if record.axis != "time" or "normal_load" not in record or "mesh_cycle" not in record.groups:
             raise bad("holds no loads of pairs over time", "give the record of a gear pair's simulation")
         cycle, numbers = record.mesh_cycle, np.asarray(record["pair"])
+        if "face_position" in cycle:
+            raise bad("is of a helical pair, whose load varies along its lines of contact", "give a table")
         ratio = float(cycle["contact_ratio"])
         window = last_cycles(record, int(np.ceil(ratio)))
         if window.phase[-1] < ratio:

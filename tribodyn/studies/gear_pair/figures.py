@@ -1,11 +1,12 @@
 """Figures of the dynamics of a gear pair."""
 
-from tribodyn.post.figures import over_mesh, spectrum
+from tribodyn.post.figures import over_face, over_mesh, spectrum
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.studies.gears.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
 
 DRAWINGS: dict[str, Drawing] = {
     **over_mesh.DRAWINGS,
+    **over_face.DRAWINGS,
     "orders": Drawing(
         "orders of the mesh while the speed changes, such as run-up",
         spectrum.orders_figure,

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from tribodyn.dynamics.outputs import evaluated
+from tribodyn.dynamics.outputs import IN_SPACE_NAMES, evaluated
 from tribodyn.dynamics.parameters import Model
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.studies.gears.recorded import SAMPLES
+from tribodyn.studies.gears.recorded import OF_SLICES, SAMPLES
 from tribodyn.studies.gears.sampled import Sampled, sampled
 
 #: Bodies of the pair, and its only mesh.
@@ -31,12 +31,16 @@ def recorded(found: Sampled) -> dict[str, np.ndarray]:
 
     def dof(x: str, y: str, angle: str) -> np.ndarray:
         columns = [whole[name][:, body] for body in (PINION, GEAR) for name in (x, y)]
-        return np.stack([*columns, whole[angle][:, PINION], whole[angle][:, GEAR]], axis=-1)
+        end = "_rate" if x.endswith("_rate") else ""
+        further = [whole[name + end].T for name in IN_SPACE_NAMES]
+        in_space = [row for rows in zip(*further, strict=True) for row in rows]
+        return np.stack([*columns, whole[angle][:, PINION], whole[angle][:, GEAR], *in_space], axis=-1)
 
     named = {
         "pinion_angle": whole["reference_angle"],
         "displacement": dof("x", "y", "angle"),
         "velocity": dof("x_rate", "y_rate", "speed"),
     }
+    known = SAMPLES | (OF_SLICES if "line_load" in found.meshes[MESH] else {})
     every = named | found.meshes[MESH] | {name: v for name, v in whole.items() if v.ndim == 1}
-    return {name: values for name, values in every.items() if name in SAMPLES or name == "time"}
+    return {name: values for name, values in every.items() if name in known or name == "time"}

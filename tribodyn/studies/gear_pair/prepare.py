@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribodyn.dynamics import parameters
-from tribodyn.dynamics.data import BearingData
+from tribodyn.dynamics.data import BearingData, in_space
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gears.model import mesh_of, options_of, varying_load
+from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, tilting_inertia, varying_load
 from tribodyn.studies.gears.prepare import PreparedGears, at_tooth_temperature
 from tribodyn.studies.gears.tabulated import Tabulated, quasi_static_loss, tables
-from tribodyn.train.structure import GROUND, Bodies, Links, layout_of
+from tribodyn.train.structure import GROUND, IN_SPACE, Bodies, Links, layout_of
 from tribodyn.tribology.closure import Closure, closure_of
 
 #: Bodies of the train.
@@ -39,7 +39,8 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> PreparedPair:
     cycle, (pinion, gear), assembly = made.cycle, made.masses, made.assembly
     warm, thermal = at_tooth_temperature(case, assembly, quasi_static_loss(made))
     model = _model(case, made, closure_of(warm), (pinion, gear))
-    return PreparedPair(warm, assembly, cycle, thermal, model, (pinion, gear), case)
+    masses, remark = (pinion, gear), made.slice_remark
+    return PreparedPair(warm, assembly, cycle, thermal, model, masses, case, slice_remark=remark)
 
 
 def _model(
@@ -47,6 +48,8 @@ def _model(
 ) -> parameters.Model:
     """The train of two bodies on bearings, and a third, of the drive, where a shaft gives way."""
     operating, cycle = case.operating, made.cycle
+    helical = cycle.slices > 1
+    tilting = np.array([tilting_inertia(*masses[side], _width(case, side)) for side in (PINION, GEAR)])
     shaft = operating.source == "torque" and operating.shaft_stiffness is not None
     (mass_1, inertia_1), (mass_2, inertia_2) = masses
     motor = [operating.drive_inertia] if shaft else []
@@ -63,22 +66,48 @@ def _model(
         ratio=np.array([1.0, ratio, *(1.0 for _ in motor)]),
         load=np.array([0.0, operating.gear_torque, *(0.0 for _ in motor)]),
         load_damping=np.array([0.0, operating.load_damping, *(0.0 for _ in motor)]),
+        tilting=tilting if helical else np.zeros(0),
     )
     links = [_bearing(bearing, mass) for bearing, mass in zip(case.bearings, (mass_1, mass_2), strict=True)]
     ends = [(PINION, GROUND), (GEAR, GROUND)]
     if shaft:
         links.append(([0.0, 0.0, operating.shaft_stiffness or 0.0], [0.0, 0.0, operating.shaft_damping]))
         ends.append((MOTOR, PINION))
-    layout = layout_of(2, 2 + len(motor), [(PINION, GEAR)], ends, MOTOR if shaft else PINION, GEAR)
+    layout = layout_of(
+        2,
+        2 + len(motor),
+        [(PINION, GEAR)],
+        ends,
+        MOTOR if shaft else PINION,
+        GEAR,
+        spatial=2 if helical else 0,
+    )
     drive = parameters.DRIVE_TORQUE if operating.source == "torque" else parameters.DRIVE_SPEED
     return parameters.Model(
-        (mesh_of(case, made, closure, (inertia_1, inertia_2), UPRIGHT),),
+        (mesh_of(case, made, closure, (inertia_1, inertia_2), UPRIGHT, hand_of(case.drive)),),
         bodies,
-        Links(*(np.array(values) for values in zip(*links, strict=True))),
+        Links(*(np.array(values) for values in zip(*links, strict=True)), **_in_space(case, bodies, ends)),
         made.schedule,
         operation_of(case, ratio),
         options_of(case, [cycle], closure, layout, drive),
     )
+
+
+def _width(case: Case, side: int) -> float:
+    return float((case.drive.pinion, case.drive.gear)[side].face_width)
+
+
+def _in_space(case: Case, bodies: Bodies, ends: list[tuple[int, int]]) -> dict[str, np.ndarray]:
+    """Matrices of the bearings of helical gears; of a shaft, which only turns, nothing."""
+    if not len(bodies.tilting):
+        return {}
+    found = {name: np.zeros((len(ends), IN_SPACE, IN_SPACE)) for name in ("stiffness", "damping")}
+    for side, bearing in enumerate(case.bearings):
+        stiffness, ratios = (np.array(values) for values in in_space(bearing, _width(case, side)))
+        inertia = np.repeat([bodies.mass[side], bodies.tilting[side]], [3, 2])
+        found["stiffness"][side] = np.diag(stiffness)
+        found["damping"][side] = np.diag(2.0 * ratios * np.sqrt(stiffness * inertia))
+    return {f"{name}_in_space": values for name, values in found.items()}
 
 
 def _bearing(bearing: BearingData, mass: float) -> tuple[list[float], list[float]]:

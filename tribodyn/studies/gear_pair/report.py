@@ -22,12 +22,16 @@ SWEPT = (
 
 
 REPORTED: Reported = {
-    "Geometry": quantities("contact_ratio", "normal_backlash", "stiffness_single_pair_at_pitch_point"),
+    "Geometry": quantities(
+        *("contact_ratio", "overlap_ratio", "total_contact_ratio", "slices", "normal_backlash"),
+        "stiffness_single_pair_at_pitch_point",
+    ),
     "Dynamics": quantities(
         *("mesh_frequency", "transmission_error_mean", "transmission_error_rms"),
         *("transmission_error_peak_to_peak", "transmission_error_harmonics"),
         *("transmission_error_normal_mean", "transmission_error_normal_peak_to_peak"),
         *("mesh_stiffness_mean", "mesh_stiffness_peak_to_peak", "normal_load_max"),
+        *("line_load_max", "axial_force_mean"),
         *("dynamic_factor", "dynamic_factor_iso", "resonance_ratio_iso", "contact_loss_fraction"),
     ),
     "Tribology": TRIBOLOGY,

@@ -7,14 +7,14 @@ from typing import Any
 from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.body import geometry_arrays
-from tribodyn.mesh.cycle import as_arrays
+from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.record.trust import judge_tribology
 from tribodyn.studies.gear_pair.case import Case, window_of
 from tribodyn.studies.gear_pair.outputs import MESH, recorded
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
 from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.by_standard import rated
-from tribodyn.studies.gears.case import LAYOUT
+from tribodyn.studies.gears.case import gears_layout
 from tribodyn.studies.gears.check import check_gears, oil_data
 from tribodyn.studies.gears.marched import record_motion, run_until_warm
 from tribodyn.studies.gears.prepare import (
@@ -63,7 +63,7 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     model, cycle = prepared.model, prepared.cycle
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
     summary: dict[str, Any] = {
-        **at_rest(case, prepared.assembly, cycle),
+        **at_rest(case, prepared),
         "pinion_mass": prepared.masses[0][0],
         "gear_mass": prepared.masses[1][0],
         "pinion_inertia": prepared.masses[0][1],
@@ -75,9 +75,9 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     }
     more = {
         "groups": {"mesh_cycle": as_arrays(cycle), "geometry": geometry_arrays(prepared.assembly)},
-        "scales": scales_of(cycle.side),
+        "scales": scales_of(cycle),
     }
-    with writer(case, path, LAYOUT, cycles * samples + 1, force=force, **more) as record:
+    with writer(case, path, gears_layout(cycle.slices), cycles * samples + 1, force=force, **more) as record:
         try:
             motion = record_motion(
                 case, model, [mesh_of_run(prepared)], window_of(cycles), record, recorded, progress

@@ -4,20 +4,26 @@ from collections.abc import Sequence
 from math import sqrt
 from typing import NamedTuple
 
+import numpy as np
+
+from tribodyn.dynamics.data import in_space
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import mass_and_inertia
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.gear_train.case import HOUSING, LinkData, TrainCase
 from tribodyn.studies.gear_train.teeth import engagement
+from tribodyn.studies.gears.model import tilting_inertia
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.same_table import table_key
 from tribodyn.train.phases import Phases, nominal_phases
 
 
 class BodyInertia(NamedTuple):
-    """Mass (kg) and polar moment of inertia (kg m²) of a body, with everything that is fixed to it."""
+    """Mass (kg) and moments of inertia (kg m²) of a body, with everything that is fixed to it."""
 
     mass: float
-    inertia: float
+    inertia: float  # polar
+    tilting: float = 0.0  # about a diameter; shafts and other bodies as thin discs in the middle
 
 
 def table_numbers(case: TrainCase) -> tuple[int, ...]:
@@ -44,7 +50,7 @@ def body_inertias(case: TrainCase, pairs: Sequence[Assembly]) -> tuple[BodyInert
     """Mass and inertia of every body; those of a gear that gives none follow from its outline and bore."""
     found = []
     for body in case.bodies:
-        mass, inertia = body.mass, body.inertia
+        mass, inertia, tilting = body.mass, body.inertia, body.inertia / 2.0
         for gear in (case.gears[number] for number in body.gears):
             own, turned = gear.given.mass, gear.given.inertia
             if own is None or turned is None:
@@ -53,7 +59,9 @@ def body_inertias(case: TrainCase, pairs: Sequence[Assembly]) -> tuple[BodyInert
                 own = computed[0] if own is None else own
                 turned = computed[1] if turned is None else turned
             mass, inertia = mass + float(own), inertia + float(turned)
-        found.append(BodyInertia(mass, inertia))
+            tilting += tilting_inertia(float(own), float(turned), gear.face_width)
+            tilting += float(own) * gear.axial_position**2
+        found.append(BodyInertia(mass, inertia, tilting))
     return tuple(found)
 
 
@@ -92,3 +100,19 @@ def link_damping(link: LinkData, bodies: Sequence[BodyInertia]) -> tuple[float, 
         )
     )
     return x, y, rotation
+
+
+def in_space_of(
+    link: LinkData, damping: tuple[float, float, float], bodies: Sequence[BodyInertia], width: float
+) -> tuple[Float[Array, " direction"], Float[Array, " direction"]]:
+    """Stiffness and damping of a link in x, y, z and tilts; of one that is no bearing in x and y alone.
+
+    `damping` is that in x and y, `width` of the faces of the bearing's body, m.
+    """
+    if link.bearing is None:
+        nothing = [0.0, 0.0, 0.0]
+        return np.array([*link.stiffness[:2], *nothing]), np.array([*damping[:2], *nothing])
+    own = bodies[link.ends[0]]
+    stiffness, ratios = (np.array(values) for values in in_space(link.bearing, width))
+    inertia = np.array([own.mass, own.mass, own.mass, own.tilting, own.tilting])
+    return stiffness, 2.0 * ratios * np.sqrt(stiffness * inertia)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Self
 
+from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import BodyMass, Side
 from tribodyn.numerics.curve import Table
@@ -38,6 +39,8 @@ class GearData:
     density: float  # of its material, kg/m³
     #: meshes that it belongs to, and what it is in the pair of each: "pinion" drives
     meshes: tuple[tuple[int, Side], ...]
+    face_width: float = 0.0  # m
+    axial_position: float = 0.0  # z of the middle of its face from its body's centre, m
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,7 @@ class LinkData:
     damping_ratio: tuple[float, float, float]
     law: LinkLaw = LINEAR_LINK  # of its rotation
     values: Mapping[str, Any] = field(default_factory=dict)  # of the law's own keys, in SI units
+    bearing: BearingData | None = None  # that the link is, for bodies that move in space
 
 
 @dataclass(frozen=True)
@@ -133,6 +137,11 @@ class TrainCase(CaseHead):
     max_period: int  # of which steady states are looked for, at most
     solver: SolverData
     output: OutputData
+
+    @property
+    def helical(self) -> bool:
+        """Whether a stage has helical teeth: bodies that bearings hold move in space then."""
+        return any(float(mesh.pair.drive.helix_angle) != 0.0 for mesh in self.meshes)
 
     def chosen(self) -> dict[str, str]:
         """Give the laws that "auto" took, those of the reference mesh for all."""

@@ -63,7 +63,8 @@ def _named(names: list[str], said: list[Any]) -> Iterator[str]:
 
 def _of_mesh(prepared: PreparedTrain, m: int) -> CheckResult:
     pair, made = prepared.pairs[m], prepared.made[m]
-    gears = PreparedGears(pair, made.assembly, made.cycle, prepared.thermal[m])
+    thermal = prepared.thermal[m]
+    gears = PreparedGears(pair, made.assembly, made.cycle, thermal, slice_remark=made.slice_remark)
     return with_duty(check_gears(gears, prepared.model.closure(m)), pair)
 
 

@@ -8,10 +8,12 @@ import numpy as np
 
 from tribodyn.dynamics import parameters
 from tribodyn.errors import InputError
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.twist import static_twist
 from tribodyn.studies.gear_train.assembled import (
     BodyInertia,
     body_inertias,
+    in_space_of,
     link_damping,
     phases,
     table_numbers,
@@ -19,14 +21,14 @@ from tribodyn.studies.gear_train.assembled import (
 from tribodyn.studies.gear_train.case import HOUSING, BodyData, LoadData, TrainCase
 from tribodyn.studies.gear_train.warmth import at_tooth_temperatures
 from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.model import mesh_of, options_of, varying_load
+from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, varying_load
 from tribodyn.studies.gears.prepare import Thermal
 from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases
 from tribodyn.train.positions import frame_of
 from tribodyn.train.schedule import schedule_of
-from tribodyn.train.structure import GROUND, TURN, Bodies, Links, TrainLayout, layout_of
+from tribodyn.train.structure import GROUND, IN_SPACE, TURN, Bodies, Links, TrainLayout, layout_of
 from tribodyn.tribology.closure import closure_of
 
 
@@ -112,6 +114,7 @@ def _model(
         ratio=np.array([float(case.bodies[body].ratio) for body in (*order, *motor)]),
         load=np.zeros(layout.bodies),
         load_damping=np.zeros(layout.bodies),
+        tilting=np.array([inertias[body].tilting for body in order[: layout.spatial]]),
     )
     for load in case.loads:
         bodies.load[new[load.body]] += load.torque
@@ -129,14 +132,21 @@ def _model(
     for mesh, each, pair, closure in zip(case.meshes, made, pairs, closures, strict=True):
         ends = own[mesh.driver], own[mesh.driven]
         frame = frame_of(mesh.azimuth, case.bodies[mesh.driver].sense)
-        meshes.append(mesh_of(pair, each, closure, ends, frame))
+        hand = hand_of(pair.drive, clockwise=case.bodies[mesh.driver].sense < 0)
+        one, two = (case.gears[gear].axial_position for gear in mesh.gears)
+        meshes.append(mesh_of(pair, each, closure, ends, frame, hand, (one, two)))
     drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
     varying = _varying(case)
     first = case.meshes[0].pair
     return parameters.Model(
         tuple(meshes),
         bodies,
-        Links(np.array(stiffness).reshape(-1, 3), np.array(damping).reshape(-1, 3), of_links),
+        Links(
+            np.array(stiffness).reshape(-1, 3),
+            np.array(damping).reshape(-1, 3),
+            of_links,
+            *_in_space(case, damping, inertias, layout),
+        ),
         schedule_of(
             [np.asarray(each.table.boundary) for each in made],
             [mesh.rate for mesh in case.meshes],
@@ -153,6 +163,22 @@ def _model(
         ),
         options_of(first, [each.cycle for each in made], closures[0], layout, drive)._replace(links=chain),
     )
+
+
+def _in_space(
+    case: TrainCase,
+    damping: Sequence[tuple[float, float, float]],
+    inertias: Sequence[BodyInertia],
+    layout: TrainLayout,
+) -> tuple[Float[Array, "link 5 5"], Float[Array, "link 5 5"]]:
+    """Matrices of the links between bodies that move in space; of a motor's shaft nothing."""
+    stiffness = np.zeros((layout.links if layout.spatial else 0, IN_SPACE, IN_SPACE))
+    losses = stiffness.copy()
+    for number, link in enumerate(case.links if layout.spatial else ()):
+        gears = [case.gears[gear].face_width for gear in case.bodies[link.ends[0]].gears]
+        found = in_space_of(link, damping[number], inertias, max(gears, default=0.0))
+        stiffness[number], losses[number] = map(np.diag, found)
+    return stiffness, losses
 
 
 def _under_load(model: parameters.Model, case: TrainCase) -> parameters.Model:
@@ -188,7 +214,13 @@ def _layout(case: TrainCase, new: dict[int, int]) -> TrainLayout:
         ends.append((count, source))
     meshes = [(new[mesh.driver], new[mesh.driven]) for mesh in case.meshes]
     return layout_of(
-        planar, count + shaft, meshes, ends, count if shaft else source, new[_varying(case).body]
+        planar,
+        count + shaft,
+        meshes,
+        ends,
+        count if shaft else source,
+        new[_varying(case).body],
+        spatial=planar if case.helical else 0,
     )
 
 

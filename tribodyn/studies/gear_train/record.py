@@ -7,7 +7,8 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import GEOMETRY, geometry_arrays
-from tribodyn.mesh.cycle import MESH_CYCLE, MeshCycle, as_arrays
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.record_arrays import as_arrays, described
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
@@ -85,12 +86,23 @@ TRAIN_GEOMETRY: dict[str, Variable] = {
     ),
     "azimuth": Variable(("mesh",), "rad", "direction from the driver's axis to the driven one's, from x"),
 }
+#: And of a train with helical teeth.
+IN_SPACE: dict[str, Variable] = {
+    "z": Variable(_BODY, "m", "displacement of each body along its axis; NaN of those that do not move so"),
+    "tilt_x": Variable(_BODY, "rad", "tilt of each body about x of the train"),
+    "tilt_y": Variable(_BODY, "rad", "tilt of each body about y of the train"),
+    "z_rate": Variable(_BODY, "m/s", "velocity of each body along its axis"),
+    "axial_force": Variable(_MESH, "N", "force of each mesh on its driver along z"),
+}
 #: A mesh has as many pairs as it needs: they are counted beside those of the record.
 _SLOTS = {"pair": "slot", "other_pair": "other_slot"}
-_CYCLE = {
-    name: variable._replace(dims=tuple(_SLOTS.get(dim, dim) for dim in variable.dims))
-    for name, variable in MESH_CYCLE.items()
-}
+
+
+def _cycle(slices: int) -> dict[str, Variable]:
+    return {
+        name: variable._replace(dims=tuple(_SLOTS.get(dim, dim) for dim in variable.dims))
+        for name, variable in described(slices).items()
+    }
 
 
 class TrainRecord(NamedTuple):
@@ -107,7 +119,7 @@ class TrainRecord(NamedTuple):
         count, bodies = len(found.cycles), len(self.scales["body"])
         block = {"time": found.whole["time"]}
         block["mesh_phase"] = np.stack([mesh.cycles(found.cycles) for mesh in self.meshes], axis=1)
-        for name, variable in SAMPLES.items():
+        for name, variable in self.layout.samples.items():
             if variable.dims == _PAIRS:
                 block[name] = np.full((count, len(self.meshes), len(self.pairs)), np.nan)
                 for m, (mesh, values) in enumerate(zip(self.meshes, found.meshes, strict=True)):
@@ -143,7 +155,7 @@ def record_of(
     groups: dict[str, Any] = {"geometry": dict(geometry)}
     tables: dict[str, Any] = {"geometry": TRAIN_GEOMETRY}
     for name, mesh, assembly in zip(names, meshes, assemblies, strict=True):
-        tables[f"{MESHES}/{name}/mesh_cycle"] = _CYCLE
+        tables[f"{MESHES}/{name}/mesh_cycle"] = _cycle(mesh.cycle.slices)
         tables[f"{MESHES}/{name}/geometry"] = GEOMETRY
         groups[f"{MESHES}/{name}/mesh_cycle"] = as_arrays(mesh.cycle)
         groups[f"{MESHES}/{name}/geometry"] = geometry_arrays(assembly)
@@ -153,4 +165,6 @@ def record_of(
         "gear": np.array(gears),
         "pair": np.array(pairs),
     }
-    return TrainRecord(Layout(TIME, SAMPLES, SCALES, groups=tables), scales, groups, pairs, meshes)
+    helical = any(mesh.cycle.slices > 1 for mesh in meshes)
+    samples = SAMPLES | (IN_SPACE if helical else {})
+    return TrainRecord(Layout(TIME, samples, SCALES, groups=tables), scales, groups, pairs, meshes)

@@ -47,7 +47,7 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
     except InputError as error:
         yield error
         return
-    if broken := list(_pairs(scenario, train)):
+    if broken := [*_hands(train), *_pairs(scenario, train)]:
         yield from broken
         return
     try:
@@ -56,6 +56,15 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
         yield from error.errors
     except InputError as error:
         yield error
+
+
+def _hands(train: Moving) -> Iterator[InputError]:
+    """Ask for the hand of a helical gear that meshes with several: no mesh can choose it alone."""
+    for number, gear in enumerate(train.parts.gears):
+        helical = [mesh for mesh, _ in train.meshes_of(number) if train.drives[mesh].helix_angle]
+        if len(helical) > 1 and gear.table.hand is None:
+            rule = "missing: the gear meshes with several, and its helix has one hand"
+            yield InputError(f"{gear.key}.hand", None, rule, 'add hand = "right"')
 
 
 def _pairs(scenario: Scenario, train: Moving) -> Iterator[InputError]:

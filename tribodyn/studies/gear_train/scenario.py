@@ -172,6 +172,8 @@ def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:
                 _given_mass(train, number),
                 material.density,
                 meshes,
+                float(gear.table.face_width),
+                gear.axial_position,
             )
         )
     return tuple(found)
@@ -225,6 +227,7 @@ def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
                     (data.stiffness_x, data.stiffness_y, 0.0),
                     (0.0, 0.0, 0.0),
                     (data.damping_ratio_x, data.damping_ratio_y, 0.0),
+                    bearing=data,
                 )
             )
     for link in train.parts.links:

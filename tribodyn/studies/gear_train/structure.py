@@ -38,6 +38,7 @@ class GearPart(NamedTuple):
     table: Gear
     plane: int | None
     tooth_angle: float  # rad
+    axial_position: float = 0.0  # m
 
 
 class MeshPart(NamedTuple):
@@ -117,6 +118,7 @@ def structure(scenario: Any) -> Structure:
             table,
             getattr(table, "plane", None),
             getattr(table, "tooth_angle", 0.0),
+            getattr(table, "axial_position", 0.0),
         )
         for name, table in tables.items()
     )
@@ -245,7 +247,7 @@ def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, dr
     }
     if isinstance(table, BareMesh):
         return DriveTable.model_construct(family="involute", **common)
-    own = {name: getattr(table, name) for name in ("family", "rack", "shape", "roughness")}
+    own = {name: getattr(table, name) for name in ("family", "rack", "shape", "roughness", "helix_angle")}
     distance: Printed | None = table.centre_distance
     return DriveTable.model_construct(**common, **own, centre_distance=distance)
 

@@ -65,8 +65,7 @@ def meshes_of_run(prepared: PreparedTrain) -> list[MeshOfRun]:
 def mesh_at_rest(prepared: PreparedTrain, m: int) -> dict[str, Any]:
     """Quantities of a mesh that do not depend on its motion, and the names of its gears."""
     driver, driven = (prepared.case.gears[gear].name for gear in prepared.case.meshes[m].gears)
-    made = prepared.made[m]
-    return {"driver": driver, "driven": driven} | at_rest(prepared.pairs[m], made.assembly, made.cycle)
+    return {"driver": driver, "driven": driven} | at_rest(prepared.pairs[m], prepared.made[m])
 
 
 def steady_quantities(

@@ -19,6 +19,7 @@ from tribodyn.scenario.tables.model_files import (
     FaceWidth,
     FamilyKeys,
     Gear,
+    HelixAngle,
     Inertia,
     Length,
     Mass,
@@ -64,6 +65,9 @@ class TrainGear(Gear):
     tooth_angle: Azimuth = written(
         "0 deg", description="of one of its teeth from the mark of its shaft, counter-clockwise"
     )
+    axial_position: Annotated[float, InUnit(units.LENGTH, "30 mm")] = written(
+        "0 mm", description="of a helical train: z of the middle of its face from that of its shaft"
+    )
 
 
 class Stage(Table):
@@ -76,6 +80,7 @@ class Stage(Table):
     )
     module: Length
     pressure_angle: PressureAngle = None
+    helix_angle: HelixAngle = None
     centre_distance: CentreDistance = None
     azimuth: Azimuth | None = Field(
         None,

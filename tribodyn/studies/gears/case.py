@@ -9,12 +9,12 @@ from typing import Self
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
-from tribodyn.mesh.cycle import MESH_CYCLE
+from tribodyn.mesh.record_arrays import described
 from tribodyn.mesh.table import MeshData
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
-from tribodyn.studies.gears.recorded import DOF_SCALE, PAIR, SAMPLES
+from tribodyn.studies.gears.recorded import DOF_SCALE, PAIR, SLICE, samples_of
 from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.law import FilmData, FrictionData
@@ -38,10 +38,16 @@ TEMPERATURE = quantities(
 TEMPERATURE_SWEPT = quantities("bulk_temperature", "power_load_independent", "efficiency_with_losses")
 
 
-#: Of records over time.
-LAYOUT = Layout(
-    TIME, SAMPLES, {"pair": PAIR, "dof": DOF_SCALE}, groups={"mesh_cycle": MESH_CYCLE, "geometry": GEOMETRY}
-)
+def gears_layout(slices: int) -> Layout:
+    """Of records over time of pairs with so many slices."""
+    scales = {"pair": PAIR, "dof": DOF_SCALE} | ({"slice": SLICE} if slices > 1 else {})
+    return Layout(
+        TIME, samples_of(slices), scales, groups={"mesh_cycle": described(slices), "geometry": GEOMETRY}
+    )
+
+
+#: Of records over time of spur gears.
+LAYOUT = gears_layout(1)
 
 
 @dataclass(frozen=True)

@@ -136,6 +136,8 @@ def check_gears(
     remark = compliance_remark(assembly, case.materials, case.mesh)
     checked = sheet_and_stiffness(assembly, case.materials, method, pair, masses, remark, torque)
     checked = with_oil(checked, case.lubricant)
+    if prepared.slice_remark:
+        checked = checked._replace(remarks=(*checked.remarks, prepared.slice_remark))
     return checked if closure is None else _with_laws(checked, case, closure)
 
 

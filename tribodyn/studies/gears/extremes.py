@@ -15,6 +15,7 @@ RECORDED = {
     "film_parameter_min": ("film_parameter", -1),
     "hertz_pressure_max": ("hertz_pressure", 1),
     "flash_temperature_max": ("flash_temperature_rise", 1),
+    "line_load_max": ("line_load", 1),
 }
 
 #: Prefix of the names of extremes of the driving flanks (1) and of the back flanks (−1).
@@ -35,9 +36,9 @@ class RunningExtremes:
 
     def __init__(self, cycle: MeshCycle) -> None:
         self.by_name: dict[str, Extreme] = {}
-        sides = np.asarray(cycle.side)
+        sides = np.asarray(cycle.pair_side)
         self._slots = {sign: np.flatnonzero(sides * sign > 0) for sign in WORKING}
-        self._pairs = pair_numbers(cycle.front_pairs, np.size(cycle.side))
+        self._pairs = pair_numbers(cycle.front_pairs, np.size(cycle.pair_side))
 
     def add(self, cycles: np.ndarray, time: np.ndarray, block: Mapping[str, np.ndarray]) -> None:
         """Take a block into account: cycles of the mesh since the start, time (s), what is recorded there."""
@@ -45,7 +46,8 @@ class RunningExtremes:
             return
         error = block["transmission_error_rotational"]
         for name, (recorded, sign) in RECORDED.items():
-            self._add(name, sign, block[recorded], cycles, time)
+            if recorded in block:  # line loads: of helical pairs
+                self._add(name, sign, block[recorded], cycles, time)
         for name, sign in (("max", 1), ("min", -1)):
             self._add(f"transmission_error_{name}", sign, error, cycles, time)
         for side, slots in self._slots.items():
@@ -90,5 +92,4 @@ class RunningExtremes:
 
 def mesh_force(block: Mapping[str, np.ndarray], slots: np.ndarray) -> np.ndarray:
     """Force of a side's flanks along the pitch tangent (n,), N: the mesh moment over the pitch radius."""
-    angle = np.nan_to_num(block["pressure_angle"][:, slots])
-    return np.sum(block["normal_load"][:, slots] * np.cos(angle), axis=1)
+    return np.sum(block["tangent_load"][:, slots], axis=1)

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics import parameters
+from tribodyn.geometry.drive import Drive
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import Table, monotone_slopes
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.tabulated import Tabulated
-from tribodyn.train.structure import GearMesh, TrainLayout
+from tribodyn.train.structure import GearMesh, TrainLayout, moves_of
 from tribodyn.tribology.closure import Closure
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
@@ -26,9 +27,15 @@ Frame = tuple[tuple[float, float], tuple[float, float]]
 
 
 def mesh_of(
-    case: LubricatedCase, made: Tabulated, closure: Closure, inertias: tuple[float, float], frame: Frame
+    case: LubricatedCase,
+    made: Tabulated,
+    closure: Closure,
+    inertias: tuple[float, float],
+    frame: Frame,
+    hand: float = 1.0,
+    places: tuple[float, float] = (0.0, 0.0),
 ) -> GearMesh:
-    """A mesh of two bodies with so much inertia each, kg m²."""
+    """A mesh of two bodies with so much inertia each, kg m²; `hand`, `places` as in `train.structure`."""
     cycle = made.cycle
     radius_1, radius_2 = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
     first, second = inertias
@@ -39,11 +46,24 @@ def mesh_of(
         cycle.gear_pitch_radius,
         *frame[0],
         *frame[1],
-        damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass)),
+        # of slices together that of the pair: √K times as much of a Kth of the stiffness
+        damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass / cycle.slices)),
         surfaces=closure.surfaces,
         film=closure.film.parameters,
         friction=closure.friction.parameters,
+        hand=hand,
+        moves=moves_of(frame, (radius_1, radius_2), places),
     )
+
+
+def hand_of(drive: Drive, clockwise: bool = True) -> float:
+    """`GearMesh.hand` of a pair whose pinion turns clockwise seen from +z, or not; 1 of spur gears."""
+    return 1.0 if (float(drive.helix_angle) >= 0.0) == clockwise else -1.0
+
+
+def tilting_inertia(mass: float, inertia: float, width: float) -> float:
+    """Moment of inertia about a diameter of a gear as wide as its teeth, kg m²: J/2 + m b²/12."""
+    return inertia / 2.0 + mass * width**2 / 12.0
 
 
 def options_of(

@@ -5,7 +5,7 @@ temperature: a fixed point. Load-independent losses are those at the oil's tempe
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from tribodyn.errors import InputError
@@ -231,6 +231,7 @@ class PreparedGears(Generic[AnyCase]):
     assembly: Assembly
     cycle: MeshCycle
     thermal: Thermal | None  # bulk temperature and load-independent losses, where the scenario asks for them
+    slice_remark: str = field(default="", kw_only=True)  # why a helical pair has so many slices
 
 
 def assembled(case: GearCase) -> Assembly:

@@ -4,16 +4,22 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.parameter import Variable, flag
 
 DOF = ("x_p", "y_p", "x_g", "y_g", "theta_p", "theta_g")
+#: And of gears that move in space.
+DOF_IN_SPACE = (*DOF, "z_p", "tilt_x_p", "tilt_y_p", "z_g", "tilt_x_g", "tilt_y_g")
 
 PAIR = Variable(
     ("pair",), "1", "pair of teeth: 1 entered last, 0 the one before it; numbers above 1 are back flanks"
 )
 DOF_SCALE = Variable(
-    ("dof",), "1", "degree of freedom; p pinion, g gear; x along the pitch tangent, y along the centres"
+    ("dof",),
+    "1",
+    "degree of freedom; p pinion, g gear; x along the pitch tangent, y along the centres, z along the axes",
 )
+SLICE = Variable(("slice",), "m", "middle of a slice, from the middle of the face")
 
 #: Meanings of flags that say whether a law is inside its range.
 RANGE = "out_of_contact_or_none_stated out_of_range in_range"
@@ -94,12 +100,33 @@ SAMPLES: dict[str, Variable] = {
 }
 
 
+#: What is recorded beside that of pairs that are cut into slices.
+OF_SLICES: dict[str, Variable] = {
+    "line_load": Variable(
+        (*_PAIRS, "slice"), "N/m", "normal load per length of the line of contact, of each slice"
+    ),
+    "axial_force": Variable(_TIME, "N", "force of the teeth on the pinion along z"),
+}
+
+
+def samples_of(slices: int) -> dict[str, Variable]:
+    """What a run records over time of pairs with so many slices."""
+    if slices == 1:
+        return SAMPLES
+    coordinates = "x, y, z in m, theta (rotation) and tilt_x, tilt_y in rad; names in dof"
+    moved = Variable(("time", "dof"), "m or rad", f"generalised coordinates: {coordinates}")
+    return SAMPLES | {"displacement": moved} | OF_SLICES
+
+
 def pair_numbers(front_pairs: int, pairs: int) -> list[int]:
     """Numbers of the pair slots: the driving flanks end with 1, the back flanks go on from 2."""
     return [slot + 2 - front_pairs for slot in range(pairs)]
 
 
-def scales_of(side: Any) -> dict[str, Any]:
-    """Values along the axes of pairs and degrees of freedom; `side` as in `mesh.cycle.MeshCycle`."""
-    side = np.asarray(side)
-    return {"pair": np.array(pair_numbers(int(np.sum(side > 0)), side.size)), "dof": np.array(DOF)}
+def scales_of(cycle: MeshCycle) -> dict[str, Any]:
+    """Values along the axes of pairs and degrees of freedom, and of slices if there are any."""
+    side = np.asarray(cycle.pair_side)
+    pairs = np.array(pair_numbers(int(np.sum(side > 0)), side.size))
+    if cycle.slices == 1:
+        return {"pair": pairs, "dof": np.array(DOF)}
+    return {"pair": pairs, "dof": np.array(DOF_IN_SPACE), "slice": np.asarray(cycle.face_position)}

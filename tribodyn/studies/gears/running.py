@@ -129,7 +129,7 @@ def judge_run(
 
 def mesh_pairs(cycle: MeshCycle) -> list[int]:
     """Numbers of the pairs of a mesh."""
-    return pair_numbers(cycle.front_pairs, np.size(cycle.side))
+    return pair_numbers(cycle.front_pairs, np.size(cycle.pair_side))
 
 
 def quantities_of(

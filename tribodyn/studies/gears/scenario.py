@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import fields
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
@@ -49,7 +49,12 @@ TemperatureKeys = Annotated[TemperatureTable | None, Field(description="bulk tem
 LossKeys = Annotated[LossesTable | None, Field(description="load-independent losses")]
 FilmKeys = Annotated[FilmTable | None, Field(description="which law gives the film")]
 FaceSlices = Annotated[
-    Slices | None, Field(description="of the face; default: 21 where anything varies along it, else 1")
+    Slices | None,
+    BeforeValidator(lambda value: None if value == "auto" else value),
+    Field(
+        description='of the face; "auto", the default: of helical gears as many as 1 % of the transmission '
+        "error needs, else 21 where anything varies along the face, or 1"
+    ),
 ]
 SliceCoupling = Annotated[Switch, Field(description="slices of one tooth hold each other")]
 FoundationCoupling = Annotated[Switch, Field(description="pairs that share a body share its foundation")]

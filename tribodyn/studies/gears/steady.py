@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.dynamics.outputs import UNRECORDED
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.helix import overlap_ratio
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import (
@@ -17,11 +18,12 @@ from tribodyn.mesh.quasi_static import (
     efficiency,
     power_put_in,
     single_pair,
-    total_stiffness,
 )
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.extremes import WORKING, RunningExtremes
+from tribodyn.studies.gears.prepare import PreparedGears
+from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,
@@ -77,11 +79,11 @@ def mesh_quantities(
     touching = load > 0.0
     found = amplitude_spectrum(error, samples)
     spectrum = Spectrum(found.orders / rate, found.amplitudes)
-    stiffness = total_stiffness(window["mesh_stiffness"], window["pressure_angle"])
+    stiffness = np.sum(window["tangent_stiffness"], axis=1)
     # a load that is reversed on the mean has driving flanks to work on where there is no backlash
-    sign = -1.0 if force < 0.0 and np.any(cycle.side < 0) else 1.0
+    sign = -1.0 if force < 0.0 and np.any(cycle.pair_side < 0) else 1.0
     # the last slot of either side holds a pair that is on the path of contact all the time
-    newest = window["transmission_error_normal"][:, np.flatnonzero(cycle.side * sign > 0)[-1]]
+    newest = window["transmission_error_normal"][:, np.flatnonzero(cycle.pair_side * sign > 0)[-1]]
     flanks = WORKING[sign]
     keep = spectrum.orders <= LAST_ORDER + 1e-9
     return {
@@ -105,17 +107,33 @@ def mesh_quantities(
         "contact_loss_fraction": float(np.mean(~np.any(touching, axis=1))),
         "spectrum_frequencies": spectrum.orders[keep] * frequency,
         "spectrum_amplitudes": spectrum.amplitudes[keep],
+        **({"axial_force_mean": float(np.mean(window["axial_force"]))} if cycle.slices > 1 else {}),
     }
 
 
-def at_rest(case: LubricatedCase, assembly: Assembly, cycle: MeshCycle) -> dict[str, Any]:
+def at_rest(case: LubricatedCase, made: Tabulated | PreparedGears[Any]) -> dict[str, Any]:
     """Quantities of a mesh that do not depend on its motion, and the laws in use."""
+    cycle, assembly = made.cycle, made.assembly
     return {
         "contact_ratio": float(cycle.contact_ratio),
+        **_of_the_face(cycle, assembly, made.slice_remark),
         **({} if case.mesh.backlash is None else {"normal_backlash": case.mesh.backlash}),
         "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
         "compliance_remark": compliance_remark(assembly, case.materials, case.mesh) or None,
         **law_quantities(case),
+    }
+
+
+def _of_the_face(cycle: MeshCycle, assembly: Assembly, remark: str) -> dict[str, Any]:
+    """What helical teeth have besides; nothing of spur gears."""
+    if not assembly.drive.helix_angle:
+        return {}
+    overlap = float(overlap_ratio(assembly))
+    return {
+        "overlap_ratio": overlap,
+        "total_contact_ratio": float(cycle.contact_ratio) + overlap,
+        "slices": cycle.slices,
+        "slice_remark": remark or None,
     }
 
 

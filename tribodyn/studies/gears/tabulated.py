@@ -26,26 +26,28 @@ class Tabulated(NamedTuple):
     #: () -> the cycle of the driving flanks alone, in which a segment begins where friction turns; made at
     #: the first call
     split: Callable[[], MeshCycle]
+    slice_remark: str = ""  # why a helical pair has so many slices, where it was not told
 
 
 def tables(case: LubricatedCase) -> Tabulated:
     """Check the geometry and tabulate the mesh cycle; raises as `prepare` does."""
     from tribodyn.geometry.body import body_masses
-    from tribodyn.mesh.by_compliance import mesh_cycle_of
+    from tribodyn.mesh.by_compliance import mesh_cycle_of, with_slices
 
     assembly = assembled(case)
     back, torque = case.mesh.backlash is not None, case.operating.gear_torque
-    cycle = mesh_cycle_of(assembly, case.materials, case.mesh, torque, back)
+    mesh, remark = with_slices(assembly, case.materials, case.mesh, torque)
+    cycle = mesh_cycle_of(assembly, case.materials, mesh, torque, back)
     given = [(body.mass, body.inertia) for body in case.masses]
     pinion, gear = body_masses(assembly, given, [material.density for material in case.materials])
 
     @cache
     def split() -> MeshCycle:
         turning = Assembly(assembly.family._replace(corner=True), assembly.drive)
-        return mesh_cycle_of(turning, case.materials, case.mesh, torque)
+        return mesh_cycle_of(turning, case.materials, mesh, torque)
 
     table = polynomials(cycle)
-    return Tabulated(cycle, table, of_one_mesh(table.boundary), (pinion, gear), assembly, split)
+    return Tabulated(cycle, table, of_one_mesh(table.boundary), (pinion, gear), assembly, split, remark)
 
 
 def quasi_static_loss(made: Tabulated) -> Callable[[LubricatedCase], float]:

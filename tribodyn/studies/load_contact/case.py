@@ -1,10 +1,11 @@
 """A case of the static load contact study: what one run needs to know, records and takes; SI units."""
 
+import math
 from dataclasses import dataclass
 from functools import partial
 
 from tribodyn.geometry.body import GEOMETRY
-from tribodyn.mesh.cycle import MESH_CYCLE
+from tribodyn.mesh.record_arrays import MESH_CYCLE
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.gears.case import GearCase, LubricatedCase
@@ -103,7 +104,11 @@ def estimate(case: LoadContactCase) -> Estimate:
     """What a run of a case takes."""
     positions, slices = case.positions_per_cycle * case.cycles, case.mesh.slices
     torques = len(case.gear_torques)
-    sizes = {"phase": positions, "pair": TOUCHING, "slice": slices, "body": 2}
+    drive = case.drive
+    width = min(float(drive.pinion.face_width), float(drive.gear.face_width))
+    overlap = width * abs(math.tan(float(drive.helix_angle))) / (math.pi * float(drive.module))
+    pairs = TOUCHING + math.ceil(overlap)
+    sizes = {"phase": positions, "pair": pairs, "slice": slices, "body": 2}
     if torques:
         sizes["torque"] = torques
     return total(
@@ -114,6 +119,6 @@ def estimate(case: LoadContactCase) -> Estimate:
             Driver("operating.gear_torques", 1 + torques, 10),
         ),
         recorded(OILED if case.lubricated else LAYOUT, sizes, copies=4.0, outlines=True),
-        load_sharing(float(positions) * (1 + torques), slices, positions),
+        load_sharing(float(positions) * (1 + torques), slices * pairs / TOUCHING, positions),
         FINITE_ELEMENTS,
     )

@@ -3,7 +3,6 @@
 from typing import Any, NamedTuple
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
-from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_through
 from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.families import family
@@ -36,14 +35,6 @@ def _flexible(name: str, drive: Drive, materials: tuple[MaterialData, MaterialDa
     from tribodyn.geometry.limits.checks import check
 
     return flexibility(check(family(name), drive), materials, lead=True)
-
-
-def roll(study: PreparedTeeth, gear_torque: float) -> LoadedContact:
-    """Roll the study's teeth through its mesh cycles at a torque, N m.
-
-    Raises InputError if the slices do not resolve what carries, SimulationError if no contact is found.
-    """
-    return roll_through(*contact_of(study, gear_torque))
 
 
 def contact_of(study: PreparedTeeth, gear_torque: float) -> tuple[Any, ...]:

@@ -62,6 +62,11 @@ def sentences(record: Record) -> list[str]:
     if (slices := summary.get("slices")) is not None:
         what = "in one piece, alike all along" if slices == 1 else f"in {slices} slices"
         found.append(f"Slow rotation, no inertia; the face is taken {what}.")
+    if record.mesh_cycle.get("pitch_slope", 0.0) != 0.0:
+        found.append(
+            "The lines of contact are inclined: line load, pressure and film are per length along them, and "
+            "the map shows each place of the face at its own time."
+        )
     if (residual := summary.get("torque_residual")) is not None:
         found.append(f"The loads carry the torque to within {abs(residual):.1e} of it.")
     if "film_min" in summary:

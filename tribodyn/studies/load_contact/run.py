@@ -12,6 +12,7 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_contact import (
     LoadedContact,
     loaded_error,
+    roll_through,
     slice_contacts,
 )
 from tribodyn.compliance.sharing.section import is_helical
@@ -24,7 +25,7 @@ from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.gears.check import sheet_and_stiffness
 from tribodyn.studies.load_contact.case import BODIES, LAYOUT, OILED, LoadContactCase
 from tribodyn.studies.load_contact.film import film_over_face
-from tribodyn.studies.load_contact.prepare import PreparedTeeth, contact_of, flanks_of, prepare, roll
+from tribodyn.studies.load_contact.prepare import PreparedTeeth, contact_of, flanks_of, prepare
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 
@@ -43,7 +44,7 @@ def run(
     report = progress or (lambda _share: None)
     steps = 1 + len(case.gear_torques)
     try:
-        loaded, failure = roll(study, case.operating.gear_torque), ""
+        loaded, failure = roll_through(*contact_of(study, case.operating.gear_torque)), ""
     except SimulationError as error:
         loaded, failure = None, error.reason
     groups = {"mesh_cycle": _numbers(study), "geometry": geometry_arrays(study.flexible.assembly)}
@@ -96,7 +97,7 @@ def check(case: LoadContactCase) -> CheckResult:
 def quantities_of(case: LoadContactCase) -> dict[str, Any]:
     """Quantities of a case at its own torque, without a record."""
     study = prepare(case)
-    return _evaluated(study, roll(study, case.operating.gear_torque))[1]
+    return _evaluated(study, roll_through(*contact_of(study, case.operating.gear_torque)))[1]
 
 
 def _evaluated(

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from tests.support import record_samples, synthetic_record
 from tests.support.synthetic_record import PITCH_ANGLE, approach_and_recess
 from tribodyn.errors import InputError
-from tribodyn.mesh.cycle import as_arrays
+from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.post.cycles import key_points, last_cycles, pair_curve
 from tribodyn.post.figures.path_of_contact import gears_in_mesh, key_positions
 from tribodyn.record.reader import Record

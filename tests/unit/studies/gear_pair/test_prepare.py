@@ -9,13 +9,14 @@ import pytest
 
 from tests.support.states import PAIR, PAIR_WITH_MOTOR, TURN_G
 from tribodyn.dynamics import parameters
-from tribodyn.dynamics.contact_forces import ELASTIC_LOAD
+from tribodyn.dynamics.approach import ELASTIC_LOAD
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.dynamics.energy import strain_energy
 from tribodyn.mesh.cycle import polynomials
 from tribodyn.studies.gear_pair import prepare as preparing
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears.tabulated import tables
+from tribodyn.train.links.chain import NoLinkParameters
 
 PINION, GEAR = (1.7, 0.0021), (9.3, 0.047)
 RADII = 0.031, 0.083
@@ -48,7 +49,11 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
 def described(**operating: Any) -> Any:
     """What a model takes from a case, but the tables and laws."""
     return SimpleNamespace(
-        drive=SimpleNamespace(pinion=SimpleNamespace(teeth=21)),
+        drive=SimpleNamespace(
+            pinion=SimpleNamespace(teeth=21, face_width=0.02),
+            gear=SimpleNamespace(face_width=0.02),
+            helix_angle=0.0,
+        ),
         operating=OperatingData(
             **{"source": "torque", "pinion_speed": 130.0, "gear_torque": 410.0} | operating
         ),
@@ -61,7 +66,13 @@ def described(**operating: Any) -> Any:
 def model_of(case: Any) -> parameters.Model:
     """The model of a case, of tables and laws only what its numbers need."""
     radii = {"pinion_pitch_radius": RADII[0], "gear_pitch_radius": RADII[1]}
-    numbers = {"hertz_coefficient": 0.0, "pitch_point_length": 0.0, "coupling": 0.0, "compliance": 1e-9}
+    numbers = {
+        "hertz_coefficient": 0.0,
+        "pitch_point_length": 0.0,
+        "coupling": 0.0,
+        "compliance": 1e-9,
+        "slices": 1,
+    }
     cycle = SimpleNamespace(**radii, **numbers)
     made: Any = SimpleNamespace(cycle=cycle, table=None, schedule=None)
     law = SimpleNamespace(functions=None, parameters=None)
@@ -111,6 +122,7 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
             "ratio": [1.0, ratio, 1.0] if shaft else [1.0, ratio],
             "load": [0.0, 410.0, 0.0] if shaft else [0.0, 410.0],
             "load_damping": [0.0, 0.0, 0.0] if shaft else [0.0, 0.4],
+            "tilting": [],
         },
         "links": {
             "stiffness": [[3e8, 5e8, 0], [7e8, 11e8, 0], *([[0, 0, 4100.0]] if shaft else [])],
@@ -132,9 +144,14 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
         },
     }
     for part, numbers in expected.items():
-        assert set(numbers) == set(getattr(found, part)._fields)
+        assert set(numbers) == set(getattr(found, part)._fields) - {
+            "own",
+            "stiffness_in_space",
+            "damping_in_space",
+        }
         for name, value in numbers.items():
             np.testing.assert_allclose(getattr(getattr(found, part), name), value, rtol=1e-12, err_msg=name)
+    assert found.links.own == NoLinkParameters()
     # c = 2 ζ √(k m) of a stiffness k = 1
     assert found.meshes[0].damping == pytest.approx(2.0 * 0.06 * math.sqrt(mass), rel=1e-12)
     assert found.layout == (PAIR_WITH_MOTOR if shaft else PAIR)

@@ -28,6 +28,7 @@ CYCLE = cast(
     Any,
     SimpleNamespace(
         side=np.array([1, 1, -1, -1]),
+        pair_side=np.array([1, 1, -1, -1]),
         front_pairs=2,
         gear_pitch_radius=RADIUS,
         pinion_pitch_radius=0.035,
@@ -64,7 +65,9 @@ def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
         "transmission_error_rotational": 1e-5 + 4e-6 * np.cos(6.0 * np.pi * phase),
         "transmission_error_normal": error,
         "normal_load": load,
-        "pressure_angle": angle,
+        "tangent_load": load * np.cos(angle),
+        "tangent_stiffness": np.where(load > 0.0, 3e8 + 1e8 * np.cos(2.0 * np.pi * phase)[:, None], 0.0)
+        * np.cos(angle) ** 2,
         "mesh_stiffness": np.where(load > 0.0, 3e8 + 1e8 * np.cos(2.0 * np.pi * phase)[:, None], 0.0),
         "friction_force": np.sign(sliding) * load * np.array([0.1, 0.04, 0.1, 0.04]),
         "sliding_speed": sliding,
@@ -137,7 +140,7 @@ def test_time_without_contact_and_without_load():
 
 def test_extremes_of_blocks_are_those_of_the_whole(rng):
     values = {name: rng.normal(size=(30, 4)) for name, _ in RECORDED.values()}
-    values |= {name: rng.normal(size=(30, 4)) for name in ("transmission_error_normal", "pressure_angle")}
+    values |= {name: rng.normal(size=(30, 4)) for name in ("transmission_error_normal", "tangent_load")}
     values |= {name: rng.normal(size=30) for name in ("transmission_error_rotational", "time")}
     values["film_parameter"][:10] = np.nan
     extremes = RunningExtremes(CYCLE)

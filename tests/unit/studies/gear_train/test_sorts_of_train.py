@@ -91,7 +91,7 @@ def test_a_drive_is_a_train_of_one_stage(tmp_path: Path):
     wanted = body_masses(
         assembled(pair), [(one.mass, one.inertia) for one in pair.masses], [m.density for m in pair.materials]
     )
-    assert body_inertias(case, assemblies(case)) == wanted
+    assert tuple(body[:2] for body in body_inertias(case, assemblies(case))) == wanted
 
 
 BARE = {
@@ -131,7 +131,8 @@ def test_a_bare_model_of_bodies_links_and_meshes(reduced):
     assert [gear.name for gear in case.gears] == ["a", "b", "c"]
     assert [mesh.pair.mesh.compliance for mesh in case.meshes] == ["constant"] * 2
     assert [mesh.pair.operating.gear_torque for mesh in case.meshes] == pytest.approx([120.0, 90.0])
-    assert body_inertias(case, assemblies(case)) == ((2.0, 2e-3), (30.0, 0.1), (4.0, 8e-3), (3.0, 4e-3))
+    found = body_inertias(case, assemblies(case))
+    assert [body[:2] for body in found] == [(2.0, 2e-3), (30.0, 0.1), (4.0, 8e-3), (3.0, 4e-3)]
     spring = case.links[-1]
     assert (spring.ends, spring.stiffness, spring.damping) == ((1, 0), (0.0, 0.0, 1e4), (0.0, 0.0, 2.0))
     assert_teeth_touch(case)

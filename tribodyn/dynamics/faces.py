@@ -1,0 +1,55 @@
+"""What is recorded of pairs that are cut into slices: sums over the face, and what is worst along it."""
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Float
+
+#: Datasets that are sums over the slices of a pair.
+SUMMED = ("normal_load", "friction_force", "mesh_stiffness", "tangent_load", "tangent_stiffness")
+#: Datasets of which the smallest or largest along the face is recorded.
+SMALLEST = ("central_film_thickness", "film_parameter")
+LARGEST = (
+    *("hertz_pressure", "flash_temperature_rise", "asperity_load_ratio", "contact_temperature"),
+    *("closure_shares", "friction_shares"),
+)
+#: Flags: 1 where all slices are in range.
+ALL = ("closure_in_range", "friction_in_range")
+
+
+def over_faces(
+    slots: dict[str, np.ndarray], pairs: int, line_load: Float[Array, "sample slot"]
+) -> dict[str, np.ndarray]:
+    """Datasets of pairs (n, pairs, …) of those of slots (n, slots, …); whatever has no slots stays.
+
+    The friction coefficient is that of the whole face; what is neither a sum nor an extreme is of the slice
+    with the largest line load, N/m, of a pair without load of the first one on the path of contact.
+    """
+    count, slots_of_all = line_load.shape
+    slices = slots_of_all // pairs
+    if slices == 1:
+        return slots
+    result = {}
+    loaded = line_load.reshape(count, pairs, slices)
+    known = ~np.isnan(slots["pressure_angle"].reshape(count, pairs, slices))
+    chosen = np.argmax(loaded + np.where(known, 1e-300, 0.0), axis=2)[:, :, None]
+    for name, values in slots.items():
+        if values.ndim < 2:
+            result[name] = values
+            continue
+        face = values.reshape(count, pairs, slices, *values.shape[2:])
+        if name in SUMMED:
+            result[name] = np.sum(np.nan_to_num(face), axis=2)
+        elif name in SMALLEST:
+            result[name] = np.fmin.reduce(face, axis=2)
+        elif name in LARGEST:
+            result[name] = np.fmax.reduce(face, axis=2)
+        elif name in ALL:
+            result[name] = np.fmin.reduce(face, axis=2)
+        else:
+            result[name] = np.take_along_axis(face, chosen, axis=2)[:, :, 0]
+    load = result["normal_load"]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        total = np.sum(np.abs(slots["friction_force"]).reshape(count, pairs, slices), axis=2)
+        result["friction_coefficient"] = np.where(load > 0.0, total / load, np.nan)
+    result["line_load"] = np.where(known, loaded, 0.0)
+    return result

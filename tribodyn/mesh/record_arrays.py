@@ -1,0 +1,134 @@
+"""The mesh cycle as a record keeps it: flat arrays with dimensions, units and meanings."""
+
+from typing import Any
+
+import numpy as np
+
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.numerics.parameter import Variable
+
+_PAIR = ("phase", "pair")
+#: Fields of a `MeshCycle` as a record has them: dimensions, unit, meaning; (phase,) is (S, N) in the table.
+MESH_CYCLE: dict[str, Variable] = {
+    "boundary": Variable(
+        ("boundary",), "1", "phases, in mesh cycles, at which the set of contacting pairs changes"
+    ),
+    "phase": Variable(
+        ("phase",),
+        "1",
+        "phase of the mesh in mesh cycles; boundaries of segments stand twice, before and after",
+    ),
+    "side": Variable(("pair",), "1", "+1 driving flanks, -1 back flanks"),
+    "in_contact": Variable(
+        _PAIR,
+        "1",
+        "1 where the pair is on the theoretical path of contact; elsewhere its values mean nothing",
+    ),
+    "pressure_angle": Variable(_PAIR, "rad", "angle of the common normal to the pitch tangent"),
+    "signed_distance": Variable(_PAIR, "m", "distance from pitch point to contact, negative in approach"),
+    "equivalent_radius": Variable(
+        _PAIR, "m", "one over the sum of the flanks' curvatures, at the very point of contact"
+    ),
+    "pinion_speed": Variable(
+        _PAIR, "m/rad", "speed of the contact along the pinion's flank per pinion speed"
+    ),
+    "gear_speed": Variable(_PAIR, "m/rad", "speed of the contact along the gear's flank per pinion speed"),
+    "compliance": Variable(_PAIR, "m/N", "deflection of one pair along its normal per normal load"),
+    "gap": Variable(_PAIR, "m", "static transmission error; for back flanks the backlash along the normal"),
+    "line_load_friction": Variable(
+        _PAIR, "1", "line load at which friction acts as on the uneven face, over the mean"
+    ),
+    "line_load_peak": Variable(_PAIR, "1", "maximum line load along the face over the mean, K_Hbeta"),
+    "share": Variable(_PAIR, "1", "part of the slot's width that is on the path of contact"),
+    "face_position": Variable(("slice",), "m", "middles of slices, from the middle of the face"),
+    "coupling": Variable(
+        ("phase", "pair", "other_pair"),
+        "m/N",
+        "deflection of a pair per load on the other pair, through the gear bodies",
+    ),
+    **{
+        name: Variable((), unit, name.replace("_", " "))
+        for name, unit in {
+            "hertz_coefficient": "m/N^0.9",
+            "pinion_pitch_radius": "m",
+            "gear_pitch_radius": "m",
+            "pinion_teeth": "1",
+            "face_width": "m",
+            "contact_ratio": "1",
+            "pitch_point_phase": "1",
+            "roll_start": "rad",
+            "roll_end": "rad",
+            "pitch_point_length": "m",
+            "pitch_point_rate": "1/rad",
+            "pitch_slope": "1",
+        }.items()
+    },
+}
+
+
+def described(slices: int) -> dict[str, Variable]:
+    """Fields as a record has them of a mesh cycle with so many slices, see `MESH_CYCLE`."""
+    if slices == 1:
+        return {name: variable for name, variable in MESH_CYCLE.items() if name not in _FACE}
+    found = {}
+    for name, variable in MESH_CYCLE.items():
+        dims = (*_PAIR, "slice") if variable.dims == _PAIR else variable.dims
+        if name != "coupling":
+            found[name] = variable._replace(dims=dims)
+    return found
+
+
+# 1 wherever the load is even along the face, and then a number may stand for the table.
+_RATIOS = ("line_load_friction", "line_load_peak", "share")
+# Fields that records of spur gears may lack.
+_FACE = ("share", "face_position", "pitch_slope")
+_OF_SLICES = (*_RATIOS, *_FACE, "coupling")
+
+
+def as_arrays(cycle: MeshCycle) -> dict[str, Any]:
+    """Flat arrays for a record: dims (phase,), (phase, pair) and (phase, pair, pair); scalars as floats.
+
+    Of slices (phase, pair, slice), without the coupling, which is nothing.
+    """
+    segments, nodes, slots = cycle.compliance.shape
+    names = described(cycle.slices)
+    arrays: dict[str, Any] = {}
+    for name, value in cycle._asdict().items():
+        if name not in names:
+            continue
+        array = np.asarray(value, dtype=float)
+        if name in _RATIOS:
+            array = np.broadcast_to(array, cycle.compliance.shape)
+        if name == "in_contact":
+            array = np.repeat(array, nodes, axis=0)
+        elif array.ndim >= 2:
+            array = array.reshape(segments * nodes, *array.shape[2:])
+        if cycle.slices > 1 and array.ndim == 2:
+            array = array.reshape(segments * nodes, slots // cycle.slices, cycle.slices)
+        if name == "side":
+            array = array[:: cycle.slices]
+        arrays[name] = array if array.ndim else float(array)
+    return arrays
+
+
+def from_arrays(arrays: dict[str, Any]) -> MeshCycle:
+    """Inverse of `as_arrays`."""
+    segments = len(arrays["boundary"]) - 1
+    nodes = len(arrays["phase"]) // segments
+    slices = np.size(arrays.get("face_position", 0.0))
+    fields = {}
+    for name in MeshCycle._fields:
+        if name in _OF_SLICES and name not in arrays:
+            continue  # of slices alone, or a record of an older version
+        value = np.asarray(arrays[name], dtype=float)
+        if value.ndim == 3 and name != "coupling":
+            value = value.reshape(len(value), -1)
+        if name == "side":
+            value = np.repeat(value, slices)
+        if name == "in_contact":
+            value = value[::nodes]
+        elif name not in ("boundary", "side", "face_position") and value.ndim >= 1:
+            value = value.reshape(segments, nodes, *value.shape[1:])
+        fields[name] = value if value.ndim else float(value)
+    fields.setdefault("coupling", np.zeros((segments, nodes, 1, 1)))
+    return MeshCycle(**fields)

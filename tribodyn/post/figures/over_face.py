@@ -1,0 +1,175 @@
+"""Figures of helical pairs: the line load over a flank, and what moves along and about the axes."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.post import style
+from tribodyn.post.cycles import last_cycles, path_limits
+from tribodyn.post.figures.drawing import Drawing, drawing
+from tribodyn.post.figures.panel import View, abscissa, abscissa_label, record_label, record_title
+from tribodyn.post.figures.scale import scale
+from tribodyn.record.reader import Record
+
+#: Places of the map along the path of contact.
+_PLACES = 241
+#: Dash patterns of pinion and gear.
+_LINES = {"p": "-", "g": (0, (5, 2))}
+
+
+class FlankMap(NamedTuple):
+    """A quantity over a flank of the pair that the last mesh cycle shows, from its entry to its exit."""
+
+    #: (place,); roll angle of the pinion at which the transverse section touches there, 0 at P, rad
+    roll: Float[Array, " place"]
+    face: Float[Array, " slice"]  # (slice,); middles of the slices, m from the middle of the face
+    values: Float[Array, "slice place"]  # (slice, place)
+
+
+def helical(record: Record) -> bool:
+    """Whether a record is of a helical pair."""
+    return "line_load" in record and "pair" in record and record.axis == "time"
+
+
+def flank_map(record: Record) -> FlankMap:
+    """Line load (N/m) over a flank; its parts are of the pairs that follow each other in the last cycle.
+
+    Over the roll angle of each section of its own, by which the lines of contact are inclined.
+    """
+    table, window = record.mesh_cycle, last_cycles(record, 1)
+    fronts = [slot for slot, pair in enumerate(record.pairs) if pair <= 1]
+    pitch = 2.0 * np.pi / table["pinion_teeth"]
+    phase = window.phase[:-1]
+    turned = np.concatenate([phase + len(fronts) - 1 - slot for slot in fronts[::-1]])
+    loads = np.concatenate([record["line_load"][window.part][:-1, slot] for slot in fronts[::-1]])
+    face = np.asarray(record["slice"])
+    roll = np.linspace(*path_limits(record), _PLACES)
+    late = face * table["pitch_slope"] / table["pinion_pitch_radius"]
+    own = table["roll_start"] + pitch * turned
+    values = [np.interp(roll, own - shift, column) for shift, column in zip(late, loads.T, strict=True)]
+    return FlankMap(roll, face, np.stack(values))
+
+
+def line_load_figure(records: Sequence[Record], _view: View) -> Figure:
+    """Draw the line load of a pair over roll angle and face, with its lines of contact."""
+    maps = [flank_map(record) for record in records]
+    top = 1e-3 * max(float(np.max(found.values)) for found in maps)
+    figure = style.new_figure(style.WIDTH, (style.PANEL_HEIGHT + 0.4) * len(maps) + 0.4)
+    rows = figure.subplots(len(maps), 1, squeeze=False)[:, 0]
+    for letter, axes, record, found in zip("abcdefghij", rows, records, maps, strict=False):
+        image = _draw_map(axes, record, found, top)
+        bar = figure.colorbar(image, ax=axes, label="Line load (N/mm)", pad=0.02)
+        bar.outline.set_visible(False)
+        title = record_label(record) if len(records) > 1 else "Line load of one pair from entry to exit"
+        style.mark_panel(axes, letter if len(records) > 1 else "", title)
+    head = record_title(records[0]) if len(records) == 1 else "Line load of one pair from entry to exit."
+    figure.suptitle(
+        f"{head}\nWhite: lines of contact, a fifth of a mesh cycle apart; dotted: as a pair enters. "
+        "Cross: maximum.",
+        x=0.01,
+        ha="left",
+        fontsize=9,
+    )
+    return figure
+
+
+def _draw_map(axes: Axes, record: Record, found: FlankMap, top: float) -> object:
+    table = record.mesh_cycle
+    edge = 1e3 * float(table["face_width"]) / 2.0
+    roll, face, values = np.degrees(found.roll), 1e3 * found.face, 1e-3 * found.values
+    image = axes.pcolormesh(
+        roll,
+        np.concatenate([[-edge], face, [edge]]),
+        np.concatenate([values[:1], values, values[-1:]]),
+        vmin=0.0,
+        vmax=top,
+        cmap="viridis",
+        shading="gouraud",
+        rasterized=True,
+    )
+    slope = np.degrees(table["pitch_slope"] / table["pinion_pitch_radius"]) * 1e-3
+    pitch = 360.0 / table["pinion_teeth"]
+    begin, end = np.degrees(table["roll_start"]), np.degrees(table["roll_end"])
+    for number in range(5 * int(np.ceil((end - begin) / pitch)) + 1):
+        middle, whole = begin + number * pitch / 5.0, number % 5 == 0
+        axes.plot(
+            middle - slope * np.array([-edge, edge]),
+            [-edge, edge],
+            color="white",
+            linewidth=1.1 if whole else 0.5,
+            linestyle=":" if whole else "-",
+            alpha=0.8,
+        )
+    at = np.unravel_index(np.argmax(values), values.shape)
+    for color, width in (("white", 2.4), (style.INK, 1.0)):
+        axes.plot(roll[at[1]], face[at[0]], "x", color=color, markersize=6, markeredgewidth=width)
+    axes.set_xlim(roll[0], roll[-1])
+    axes.set_ylim(-edge, edge)
+    axes.grid(visible=False)
+    axes.set_xlabel("Roll angle of the section from the pitch point (°)")
+    axes.set_ylabel("Place on the face (mm)")
+    return image
+
+
+def in_space_figure(records: Sequence[Record], view: View) -> Figure:
+    """Draw axial force, axial displacements and tilts of pinion and gear."""
+    figure = style.new_figure(style.WIDTH, 3 * (style.PANEL_HEIGHT + 0.15) + 0.5)
+    rows = figure.subplots(3, 1, sharex=True)
+    shown: list[list[np.ndarray]] = [[], [], []]
+    for number, record in enumerate(records):
+        window = last_cycles(record, view.cycles)
+        x, dof = abscissa(window, view), list(record["dof"])
+        moved = 1e6 * record["displacement"][window.part]
+        name = f"{record_label(record)}: " if len(records) > 1 else ""
+        curves = [(0, "", record["axial_force"][window.part], "-", 0)]
+        for body, side in (("p", "pinion"), ("g", "gear")):
+            curves.append((1, side, moved[:, dof.index(f"z_{body}")], _LINES[body], 0))
+            curves += [
+                (2, f"{side}, about {axis}", moved[:, dof.index(f"tilt_{axis}_{body}")], _LINES[body], i)
+                for i, axis in enumerate("xy")
+            ]
+        for row, label, values, line, shade in curves:
+            color = style.PALETTE[(2 * number + shade) % len(style.PALETTE)]
+            rows[row].plot(x, values, color=color, linestyle=line, label=f"{name}{label}")
+            shown[row].append(values)
+    labels = (
+        ("Axial force of the teeth on the pinion", "$F_a$ (N)"),
+        ("Displacement along the axes", "$z$ (µm)"),
+        ("Tilts about the pitch tangent (x) and the line of centres (y)", "tilt (µrad)"),
+    )
+    for letter, axes, values, (title, label) in zip("abc", rows, shown, labels, strict=True):
+        axes.set_ylabel(label)
+        scale(axes, values)
+        axes.autoscale(axis="x", tight=True)
+        style.mark_panel(axes, letter, title)
+        if axes is not rows[0] or len(records) > 1:
+            axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=7)
+    rows[-1].set_xlabel(abscissa_label(view))
+    figure.align_ylabels()
+    if len(records) == 1:
+        figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+_MISSING = "{path} is of spur gears", "run a scenario with drive.helix_angle"
+DRAWINGS: dict[str, Drawing] = {
+    "line-load": drawing(
+        "line load of a helical pair over roll angle and face, with its lines of contact",
+        line_load_figure,
+        helical,
+        ("line-load", *_MISSING),
+        samples=2,
+        timeless="the line load over the face",
+    ),
+    "in-space": drawing(
+        "axial force, axial displacements and tilts of a helical pair",
+        in_space_figure,
+        helical,
+        ("in-space", *_MISSING),
+        samples=2,
+    ),
+}

@@ -1,0 +1,99 @@
+"""What the links do in the Jacobian of the right-hand side; laws without own slopes by differences."""
+
+from tribodyn.dynamics.loads import apart_in_space
+from tribodyn.kernels.native import kernel
+from tribodyn.numerics.elementary import law, maximum
+from tribodyn.train.structure import (
+    DAMPING,
+    IN_SPACE,
+    TURN,
+    place_in_space,
+    shift_of,
+    turn_of,
+    turned,
+    turning,
+)
+
+#: Difference over the scale of a state: rounding then costs 1e-8 of a derivative, and the curvature of the
+#: contact law over its width 1e-5; both are far below what the step needs.
+SHARE = 1e-7
+
+
+@law
+def _differentiate_in_space(k, first, second, row, direction, y, model, jacobian):
+    """Add what one element of a link's matrices does."""
+    layout, links = model.options.layout, model.links
+    half, lost = layout.half, layout.mechanical + DAMPING
+    stiffness, damping = (
+        links.stiffness_in_space[k, row, direction],
+        links.damping_in_space[k, row, direction],
+    )
+    moving = apart_in_space(first, second, row, half, y, layout)
+    i, j = place_in_space(first, row, layout), place_in_space(first, direction, layout)
+    jacobian[half + i, j] -= stiffness
+    jacobian[half + i, half + j] -= damping
+    jacobian[lost, half + j] += 2.0 * damping * moving
+    if second >= 0:
+        other_i, other_j = place_in_space(second, row, layout), place_in_space(second, direction, layout)
+        jacobian[half + other_i, j] += stiffness
+        jacobian[half + other_i, half + j] += damping
+        jacobian[half + i, other_j] += stiffness
+        jacobian[half + i, half + other_j] += damping
+        jacobian[half + other_i, other_j] -= stiffness
+        jacobian[half + other_i, half + other_j] -= damping
+        jacobian[lost, half + other_j] -= 2.0 * damping * moving
+
+
+@kernel
+def differentiate_links(y, scale, model, jacobian):
+    """Add what the links do to the forces, and to the power that damping takes."""
+    layout, links = model.options.layout, model.links
+    half, lost = layout.half, layout.mechanical + DAMPING
+    for k in range(layout.links):
+        first, second = layout.first[k], layout.second[k]
+        in_space = first < layout.spatial and second < layout.spatial
+        if in_space:
+            for row in range(IN_SPACE):
+                for direction in range(IN_SPACE):
+                    _differentiate_in_space(k, first, second, row, direction, y, model, jacobian)
+        for direction in range(TURN + 1):
+            if in_space and direction < TURN:
+                continue
+            if direction == TURN:
+                if second < 0:
+                    continue
+                i, j = turn_of(first, layout), turn_of(second, layout)
+                rate = turning(first, y, layout) - turning(second, y, layout)
+            else:
+                if first >= layout.planar or second >= layout.planar:
+                    continue
+                i, j = shift_of(first) + direction, shift_of(second) + direction
+                rate = y[half + i]
+                if second >= 0:
+                    rate = rate - y[half + j]
+            stiffness, damping = links.stiffness[k, direction], links.damping[k, direction]
+            turns = direction == TURN
+            lost_by_twist = 0.0
+            if turns:
+                laws = model.options.links
+                twist = turned(first, y, layout) - turned(second, y, layout)
+                _, _, share = laws.act(k, twist, stiffness, links.own, laws)
+                by = SHARE * maximum(scale[i], scale[j])
+                slope, rise = laws.slope(k, twist, by, stiffness, links.own, laws)
+                lost_by_twist = damping * rise * rate * rate
+                stiffness, damping = slope + damping * rise * rate, damping * share
+            if not (turns and first == 0):  # the reference has no micro-rotation
+                jacobian[half + i, i] -= stiffness
+                jacobian[half + i, half + i] -= damping
+                jacobian[lost, half + i] += 2.0 * damping * rate
+                jacobian[lost, i] += lost_by_twist
+                if second >= 0:
+                    jacobian[half + j, i] += stiffness
+                    jacobian[half + j, half + i] += damping
+            if second >= 0 and not (turns and second == 0):
+                jacobian[half + j, j] -= stiffness
+                jacobian[half + j, half + j] -= damping
+                jacobian[lost, half + j] -= 2.0 * damping * rate
+                jacobian[lost, j] -= lost_by_twist
+                jacobian[half + i, j] += stiffness
+                jacobian[half + i, half + j] += damping
