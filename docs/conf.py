@@ -47,6 +47,7 @@ CONTENTS = {
     "Explanation": [
         "theory",
         "trains",
+        "helical",
         "laws",
         "physics",
         "standards",

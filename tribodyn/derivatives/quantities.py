@@ -228,6 +228,9 @@ def quantity_of(case: Any, name: str) -> Differentiated:
         raise InputError(
             "kind", quoted(case.kind), "has no gear pair to differentiate", "use another scenario"
         )
+    if case.drive.helix_angle:
+        rule = f"{name} of helical gears cannot be differentiated"
+        raise InputError("drive.helix_angle", None, rule, "use td.sweep, or spur gears")
     for table in quantity.needs:
         if not hasattr(case, table):
             rule = f"{name} depends on [{table}], which a scenario of this kind does not have"

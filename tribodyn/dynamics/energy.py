@@ -7,7 +7,7 @@ from tribodyn.dynamics.loads import link_energy
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import locate, motion_of
 from tribodyn.numerics.elementary import law, maximum, skippable, sqrt, truncate
-from tribodyn.train.structure import shift_of, slip_of, speed_of, tilt_of
+from tribodyn.train.structure import shift_of, slip_of, speed_of
 
 
 @law
@@ -69,7 +69,7 @@ def stored_energy(y, model, work):
             x, z = y[half + shift_of(b)], y[half + shift_of(b) + 1]
             energy = energy + 0.5 * bodies.mass[b] * (x * x + z * z)
         if b < layout.spatial:
-            first = half + tilt_of(b, layout)
+            first = half + layout.tilts + 3 * b
             energy = energy + 0.5 * bodies.mass[b] * y[first] * y[first]
             for i in range(first + 1, first + 3):
                 energy = energy + 0.5 * bodies.tilting[b] * y[i] * y[i]

@@ -43,7 +43,6 @@ from tribodyn.train.structure import (
     slip_of,
     slip_of_body,
     speed_of,
-    tilt_of,
     turn_of,
 )
 from tribodyn.train.structure import SLIDING as WORK_SLIDING
@@ -217,7 +216,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
             dy[x] = rate * y[half + x]
             dy[x + 1] = rate * y[half + x + 1]
         if b < layout.spatial:
-            z = tilt_of(b, layout)
+            z = layout.tilts + 3 * b
             dy[half + z] = rate / bodies.mass[b] * dy[half + z]
             dy[z] = rate * y[half + z]
             for i in range(z + 1, z + 3):

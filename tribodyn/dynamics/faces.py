@@ -1,5 +1,7 @@
 """What is recorded of pairs that are cut into slices: sums over the face, and what is worst along it."""
 
+from collections.abc import Collection
+
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
@@ -17,9 +19,12 @@ ALL = ("closure_in_range", "friction_in_range")
 
 
 def over_faces(
-    slots: dict[str, np.ndarray], pairs: int, line_load: Float[Array, "sample slot"]
+    slots: dict[str, np.ndarray],
+    pairs: int,
+    line_load: Float[Array, "sample slot"],
+    others: Collection[str] = (),
 ) -> dict[str, np.ndarray]:
-    """Datasets of pairs (n, pairs, …) of those of slots (n, slots, …); whatever has no slots stays.
+    """Datasets of pairs (n, pairs, …) of those of slots (n, slots, …); what has no slots stays, as `others`.
 
     The friction coefficient is that of the whole face; what is neither a sum nor an extreme is of the slice
     with the largest line load, N/m, of a pair without load of the first one on the path of contact.
@@ -33,7 +38,7 @@ def over_faces(
     known = ~np.isnan(slots["pressure_angle"].reshape(count, pairs, slices))
     chosen = np.argmax(loaded + np.where(known, 1e-300, 0.0), axis=2)[:, :, None]
     for name, values in slots.items():
-        if values.ndim < 2:
+        if values.ndim < 2 or name in others:
             result[name] = values
             continue
         face = values.reshape(count, pairs, slices, *values.shape[2:])

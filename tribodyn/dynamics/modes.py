@@ -19,7 +19,6 @@ from tribodyn.train.structure import (
     X,
     place_in_space,
     shift_of,
-    tilt_of,
     turn_of,
 )
 
@@ -54,7 +53,7 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
         if body < layout.planar:
             mass[shift_of(body) : shift_of(body) + 2] = bodies.mass[body]
         if body < layout.spatial:
-            first = tilt_of(body, layout)
+            first = layout.tilts + 3 * body
             mass[first] = bodies.mass[body]
             mass[first + 1 : first + 3] = bodies.tilting[body]
     still = model._replace(options=model.options._replace(drive=DRIVE_SPEED))
@@ -98,8 +97,8 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
 def _body_of(place: int, model: Model) -> int:
     """Body that a coordinate belongs to."""
     layout = model.layout
-    if place >= tilt_of(0, layout):
-        return (place - tilt_of(0, layout)) // 3
+    if place >= layout.tilts:
+        return (place - layout.tilts) // 3
     return place // 3 if place < 3 * layout.planar else place - 2 * layout.planar
 
 

@@ -22,7 +22,6 @@ from tribodyn.train.structure import (
     rotational_error,
     shift_of,
     speed_of,
-    tilt_of,
     turned,
     work_of,
     works_of_meshes,
@@ -188,7 +187,7 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         "time": samples.cycles * operation.pitch_angle / operation.nominal_speed + y[layout.lag],
         "reference_angle": angle,
         **{
-            name + end: over(y[first + tilt_of(b, layout) + i] for b in range(layout.spatial))
+            name + end: over(y[first + layout.tilts + 3 * b + i] for b in range(layout.spatial))
             for i, name in enumerate(IN_SPACE_NAMES)
             for first, end in ((0, ""), (layout.half, "_rate"))
         },

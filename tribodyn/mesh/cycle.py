@@ -187,7 +187,7 @@ def slopes(values: Any, slices: int = 1) -> Any:
     return xp.concatenate([rise[:, :1], inner, rise[:, -1:]], axis=1)
 
 
-def _cubic(values: Any, slices: int = 1) -> Any:
+def cubic(values: Any, slices: int = 1) -> Any:
     """Coefficients in u of the cubics through `values` (S, N, …) -> (S, N − 1, …, 4)."""
     xp = namespace(values)
     slope = slopes(values, slices)
@@ -223,5 +223,5 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
         none = xp.zeros((1, 1, 1, 1, 4))
         cubics = {"coupling": none, "stiffness": none}
     else:
-        cubics = {"coupling": _cubic(cycle.coupling), "stiffness": _cubic(_stiffness(cycle, xp))}
-    return Polynomials(**kept | cubics, channel=_cubic(channels, cycle.slices))
+        cubics = {"coupling": cubic(cycle.coupling), "stiffness": cubic(_stiffness(cycle, xp))}
+    return Polynomials(**kept | cubics, channel=cubic(channels, cycle.slices))

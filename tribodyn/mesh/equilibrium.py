@@ -87,7 +87,8 @@ def contacts(
     speed, side = way * pinion_speed, way * sliding_side(cycle)
     normal, length = normal_arms(cycle), cycle.face_width
     if cycle.slices > 1:
-        length = cycle.slice_width * xp.where(cycle.share > 0.0, cycle.share, 1.0) / cycle.line_load_friction
+        # of a slice that comes or goes over its whole width: what is inside it is not resolved
+        length = cycle.slice_width / cycle.line_load_friction
     return Contacts(
         closure,
         length,

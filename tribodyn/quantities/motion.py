@@ -7,8 +7,8 @@ GEOMETRY = (
         "Rotation of the pinion during which a pair touches over the pitch between two pairs; unloaded teeth."
     ),
     Quantity("overlap_ratio", "Overlap ratio", digits=".4f", symbol="ε_β").defined_as(
-        "Of helical gears: common face width times tan β over the pitch on the reference circles; the contact "
-        "ratio is that of the transverse section."
+        "Of helical gears: common face width times tan β over the pitch on the reference circles; the "
+        "contact ratio is that of the transverse section."
     ),
     Quantity("total_contact_ratio", "Total contact ratio", digits=".4f", symbol="ε_γ").defined_as(
         "Of helical gears: contact ratio and overlap ratio together."

@@ -17,7 +17,7 @@ from tribodyn.solve.march.step_control import largest_displacement, unbounded
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.train.flow import Flow, flow
 from tribodyn.train.links.chain import twist_under
-from tribodyn.train.structure import GearMesh, displacements, shift_of, tilt_of, turn_of, turned, velocities
+from tribodyn.train.structure import GearMesh, displacements, shift_of, turn_of, turned, velocities
 
 _COSINE, _COMPLIANCE, _GAP, _SHARE = (
     CHANNELS.index(name) for name in ("cosine", "compliance", "gap", "share")
@@ -161,7 +161,7 @@ def _scales(model: Model, deflection: Float[Array, " mesh"]) -> Float[Array, " s
                 place = shift_of(body)
                 scale[place : place + 2] = np.maximum(scale[place : place + 2], deflection[m])
             if body < layout.spatial:
-                place = tilt_of(body, layout)
+                place = layout.tilts + 3 * body
                 scale[place] = max(scale[place], deflection[m])
                 tilt = deflection[m] / float(getattr(model.meshes[m], radius))
                 scale[place + 1 : place + 3] = np.maximum(scale[place + 1 : place + 3], tilt)
@@ -171,7 +171,7 @@ def _scales(model: Model, deflection: Float[Array, " mesh"]) -> Float[Array, " s
     rest = scale == 0.0
     turns = [turn_of(body, layout) for body in range(layout.bodies)]
     scale[rest] = np.max(deflection)
-    tilts = [tilt_of(body, layout) + i for body in range(layout.spatial) for i in (1, 2)]
+    tilts = [layout.tilts + 3 * body + i for body in range(layout.spatial) for i in (1, 2)]
     scale[[i for i in (*turns, *tilts) if rest[i]]] = max(scale[i] for i in turns if not rest[i])
     return scale
 

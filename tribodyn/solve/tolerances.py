@@ -11,7 +11,7 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
 from tribodyn.train.flow import flow, tree
-from tribodyn.train.structure import TURN, GearMesh, displacements, shift_of, tilt_of, turn_of, works
+from tribodyn.train.structure import TURN, GearMesh, displacements, shift_of, turn_of, works
 
 _COMPLIANCE = CHANNELS.index("compliance")
 _COSINE, _SINE, _GAP = CHANNELS.index("cosine"), CHANNELS.index("sine"), CHANNELS.index("gap")
@@ -107,7 +107,7 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
             place = shift_of(body)
             scale[place : place + 2], scale[half + place : half + place + 2] = shift[body], shift_rate[body]
         if body < layout.spatial:
-            place = tilt_of(body, layout)
+            place = layout.tilts + 3 * body
             scale[place], scale[half + place] = shift[body], shift_rate[body]
             scale[place + 1 : place + 3] = turn[body]
             scale[half + place + 1 : half + place + 3] = turn_rate[body]

@@ -99,6 +99,7 @@ class TrainLayout(NamedTuple):
     links: StaticInt
     half: StaticInt  # coordinates; state half + i is the rate of state i
     lag: StaticInt  # place of the reference's lag, among the rates that of its slip
+    tilts: StaticInt  # place of the first z; of every body that moves in space z and tilts about x and y
     mechanical: StaticInt  # states that the mechanics depend on; the rest are works
     states: StaticInt
     driver: Indices  # this and the next: bodies at the ends of every mesh
@@ -132,6 +133,7 @@ def layout_of(
         links=StaticInt(len(links)),
         half=StaticInt(half),
         lag=StaticInt(2 if planar else 0),
+        tilts=StaticInt(2 * planar + bodies),
         mechanical=StaticInt(2 * half),
         states=StaticInt(states),
         driver=driver,
@@ -168,15 +170,9 @@ def shifting(body, direction, y, layout):
 
 
 @law
-def tilt_of(body, layout):
-    """Place of the z of a body that moves in space; its tilts about x and y are the next two."""
-    return 2 * layout.planar + layout.bodies + 3 * body
-
-
-@law
 def place_in_space(body, direction, layout):
     """Place of x, y, z, tilt about x or y (0 … 4) of a body that moves in space."""
-    return shift_of(body) + direction if direction < AXIAL else tilt_of(body, layout) + direction - AXIAL
+    return shift_of(body) + direction if direction < AXIAL else layout.tilts + 3 * body + direction - AXIAL
 
 
 @law

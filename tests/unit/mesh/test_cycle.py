@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from tribodyn.mesh.cycle import _cubic, derivative_matrix
+from tribodyn.mesh.cycle import cubic, derivative_matrix
 
 
 @pytest.mark.parametrize("nodes", [4, 5, 9])
@@ -18,7 +18,7 @@ def test_derivatives_are_those_of_the_not_a_knot_spline(rng, nodes):
 def test_coefficients_are_those_of_every_cell(rng):
     """Of u in [0, 1] over the cell; segments and slots by themselves."""
     values = rng.normal(size=(2, 6, 3))
-    found = _cubic(values)
+    found = cubic(values)
     assert found.shape == (2, 5, 3, 4)
     share = np.linspace(0.0, 1.0, 7)
     for segment, slot in np.ndindex(2, 3):

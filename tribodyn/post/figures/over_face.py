@@ -15,7 +15,7 @@ from tribodyn.post.figures.panel import View, abscissa, abscissa_label, record_l
 from tribodyn.post.figures.scale import scale
 from tribodyn.record.reader import Record
 
-#: Places of the map along the path of contact.
+#: Places of the map along the path of contact, and across the face.
 _PLACES = 241
 #: Dash patterns of pinion and gear.
 _LINES = {"p": "-", "g": (0, (5, 2))}
@@ -81,10 +81,11 @@ def _draw_map(axes: Axes, record: Record, found: FlankMap, top: float) -> object
     table = record.mesh_cycle
     edge = 1e3 * float(table["face_width"]) / 2.0
     roll, face, values = np.degrees(found.roll), 1e3 * found.face, 1e-3 * found.values
+    across = np.linspace(-edge, edge, _PLACES)
     image = axes.pcolormesh(
         roll,
-        np.concatenate([[-edge], face, [edge]]),
-        np.concatenate([values[:1], values, values[-1:]]),
+        across,
+        np.stack([np.interp(across, face, column) for column in values.T], axis=1),
         vmin=0.0,
         vmax=top,
         cmap="viridis",
@@ -124,7 +125,7 @@ def in_space_figure(records: Sequence[Record], view: View) -> Figure:
         window = last_cycles(record, view.cycles)
         x, dof = abscissa(window, view), list(record["dof"])
         moved = 1e6 * record["displacement"][window.part]
-        name = f"{record_label(record)}: " if len(records) > 1 else ""
+        name = record_label(record) if len(records) > 1 else ""
         curves = [(0, "", record["axial_force"][window.part], "-", 0)]
         for body, side in (("p", "pinion"), ("g", "gear")):
             curves.append((1, side, moved[:, dof.index(f"z_{body}")], _LINES[body], 0))
@@ -134,7 +135,8 @@ def in_space_figure(records: Sequence[Record], view: View) -> Figure:
             ]
         for row, label, values, line, shade in curves:
             color = style.PALETTE[(2 * number + shade) % len(style.PALETTE)]
-            rows[row].plot(x, values, color=color, linestyle=line, label=f"{name}{label}")
+            said = ": ".join(part for part in (name, label) if part)
+            rows[row].plot(x, values, color=color, linestyle=line, label=said)
             shown[row].append(values)
     labels = (
         ("Axial force of the teeth on the pinion", "$F_a$ (N)"),

@@ -90,6 +90,7 @@ def draw_total_stiffness(axes: Axes, records: Sequence[Record], view: View) -> N
         single = record["mesh_stiffness"][window.part]
         cosine = np.cos(angle)  # and of helical gears that of the normal's angle to the transverse section
         axial = 1.0 + (record.mesh_cycle.get("pitch_slope", 0.0) * cosine) ** 2
+        lean = r"\,\cos^2 β_{n,i}" if np.any(axial > 1.0) else ""
         total = np.sum(single * cosine**2 / axial, axis=1) * STIFFNESS.factor
         color = style.INK if len(records) == 1 else style.PALETTE[number % len(style.PALETTE)]
         axes.plot(
@@ -98,7 +99,7 @@ def draw_total_stiffness(axes: Axes, records: Sequence[Record], view: View) -> N
             color=color,
             linewidth=1.7,
             alpha=0.85,
-            label=r"all pairs, $\Sigma\, k_i \cos^2 α_i$",
+            label=f"all pairs, $\\Sigma\\, k_i \\cos^2 α_i{lean}$",
         )
         highest = max(highest, float(total.max()))
     if highest > 0.0:

@@ -42,7 +42,10 @@ def gears_in_mesh(record: Record, phase: float) -> tuple[np.ndarray, np.ndarray]
 
 
 def draw_path(axes: Axes, record: Record) -> None:
-    """Draw both gears as a pair enters, helical ones in the middle of the face; what bounds the path, the path and its key points; axes in mm."""
+    """Draw both gears as a pair enters, what bounds the path, the path and its key points; axes in mm.
+
+    Of helical gears in the middle of the face.
+    """
     geometry = record.geometry
     table = record.mesh_cycle
     late = path_limits(record)[0] - table["roll_start"] if "face_position" in table else 0.0

@@ -43,7 +43,6 @@ from tribodyn.train.structure import (
     slip_of,
     slip_of_body,
     speed_of,
-    tilt_of,
     turn_of,
 )
 from tribodyn.train.structure import SLIDING as WORK_SLIDING
@@ -240,7 +239,7 @@ def differentiate(place, y, f, scale, model, work, into):
                 jacobian[x, j] *= rate / bodies.mass[b]
                 jacobian[x + 1, j] *= rate / bodies.mass[b]
             if b < layout.spatial:
-                z = half + tilt_of(b, layout)
+                z = half + layout.tilts + 3 * b
                 jacobian[z, j] *= rate / bodies.mass[b]
                 jacobian[z + 1, j] *= rate / bodies.tilting[b]
                 jacobian[z + 2, j] *= rate / bodies.tilting[b]

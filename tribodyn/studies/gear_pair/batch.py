@@ -33,24 +33,41 @@ STATE_NAMES = (
     *("work_in", "work_out", "work_damping", "work_parametric", "work_friction", "work_sliding"),
 )
 _OF_MOTOR = ("turn_m", "spin_m")
+#: Modes that helical pairs have besides; their states along and about the axes, and the rates.
+MODES_IN_SPACE = 6
+_IN_SPACE, _RATES_IN_SPACE = (
+    tuple(f"{name}_{body}" for body in "pg" for name in names)
+    for names in (("z", "tilt_x", "tilt_y"), ("vz", "spin_x", "spin_y"))
+)
+_RATES, _WORKS = STATE_NAMES.index("vx_p"), STATE_NAMES.index("work_in")
+#: And of sweeps in which there is a helical pair.
+STATE_NAMES_IN_SPACE = (
+    *(*STATE_NAMES[:_RATES], *_IN_SPACE),
+    *(*STATE_NAMES[_RATES:_WORKS], *_RATES_IN_SPACE),
+    *STATE_NAMES[_WORKS:],
+)
 
 
-def state_places(layout: TrainLayout) -> list[int]:
-    """Places of a pair's states among `STATE_NAMES`; without a shaft those of the motor are NaN."""
-    motor = layout.bodies > 2
-    return [i for i, name in enumerate(STATE_NAMES) if motor or name not in _OF_MOTOR]
+def state_places(layout: TrainLayout, names: Sequence[str] = STATE_NAMES) -> list[int]:
+    """Places of a pair's states among `names`; those of a motor or of space that it lacks are NaN."""
+    lacking = () if layout.bodies > 2 else _OF_MOTOR
+    lacking += () if layout.spatial else (*_IN_SPACE, *_RATES_IN_SPACE)
+    return [i for i, name in enumerate(names) if name not in lacking]
 
 
 class GearPairs(SweptKind):
     """See `gears.batch.evaluate.SweptKind`."""
 
     swept = SWEPT
-    most_states = len(STATE_NAMES)
+    most_states = len(STATE_NAMES_IN_SPACE)
 
     def form(self, cases: Sequence[Case]) -> Form:
-        """A mode more where a shaft gives way."""
+        """A mode more where a shaft gives way; more modes and states where a pair is helical."""
         shaft = any(case.operating.shaft_stiffness is not None for case in cases)
-        return Form(MODES_WITH_SHAFT if shaft else MODES, STATE_NAMES)
+        modes = MODES_WITH_SHAFT if shaft else MODES
+        if any(case.drive.helix_angle for case in cases):
+            return Form(modes + MODES_IN_SPACE, STATE_NAMES_IN_SPACE)
+        return Form(modes, STATE_NAMES)
 
     def table_key(self, case: Case) -> Hashable:
         """See `same_table`."""
@@ -74,7 +91,7 @@ class GearPairs(SweptKind):
 
     def places(self, prepared: PreparedPair, settings: SweepSettings) -> list[int]:
         """See `state_places`."""
-        return state_places(prepared.model.layout)
+        return state_places(prepared.model.layout, settings.states)
 
     def steady_quantities(
         self,

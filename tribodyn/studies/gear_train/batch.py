@@ -48,7 +48,7 @@ class Trains(SweptKind):
         """That of the first case."""
         prepared = self.prepare(cases[0], self.tabulated(cases[0]))
         layout, meshes = prepared.model.layout, tuple(mesh.name for mesh in cases[0].meshes)
-        states = state_names(prepared.names, layout.planar, meshes)
+        states = state_names(prepared.names, layout.planar, meshes, layout.spatial)
         return Form(int(layout.half) - 1, states, cases[0].period, meshes)
 
     def table_key(self, case: TrainCase) -> Hashable:
@@ -78,7 +78,8 @@ class Trains(SweptKind):
     def places(self, prepared: PreparedTrain, settings: SweepSettings) -> list[int]:
         """All: a sweep is of trains of one structure."""
         layout: TrainLayout = prepared.model.layout
-        names = state_names(prepared.names, layout.planar, [mesh.name for mesh in prepared.case.meshes])
+        meshes = [mesh.name for mesh in prepared.case.meshes]
+        names = state_names(prepared.names, layout.planar, meshes, layout.spatial)
         if names != settings.states or prepared.case.period != settings.common:
             rule = "the bodies, the meshes or the common period are not those of the first case"
             raise InputError("vary", None, rule, "sweep it apart, or run it alone")

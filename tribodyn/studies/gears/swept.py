@@ -125,7 +125,9 @@ def row_bytes(layout: SweepLayout, settings: SweepSettings) -> float:
     return variable_bytes(layout.variables.values(), sizes)
 
 
-def state_names(bodies: Sequence[str], planar: int, meshes: Sequence[str]) -> tuple[str, ...]:
+def state_names(
+    bodies: Sequence[str], planar: int, meshes: Sequence[str], spatial: int = 0
+) -> tuple[str, ...]:
     """Names of the states of a train, see `train.structure`; those of a pair are the pair's own."""
     displacement, rate = [], []
     for b, body in enumerate(bodies):
@@ -134,6 +136,8 @@ def state_names(bodies: Sequence[str], planar: int, meshes: Sequence[str]) -> tu
             rate += [f"vx_{body}", f"vy_{body}"]
         displacement.append(f"turn_{body}" if b else "lag")
         rate.append(f"spin_{body}" if b else "slip")
+    displacement += [f"{name}_{body}" for body in bodies[:spatial] for name in ("z", "tilt_x", "tilt_y")]
+    rate += [f"{name}_{body}" for body in bodies[:spatial] for name in ("vz", "spin_x", "spin_y")]
     works = ["work_in", "work_out", "work_damping", "work_parametric"]
     works += [f"work_{what}_{mesh}" for mesh in meshes for what in ("friction", "sliding")]
     return *displacement, *rate, *works
