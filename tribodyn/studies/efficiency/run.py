@@ -34,7 +34,7 @@ from tribodyn.studies.efficiency.along_path import (
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing
 from tribodyn.studies.efficiency.published import by_loss_factor, path_contact, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
-from tribodyn.studies.efficiency.slices import judged
+from tribodyn.studies.efficiency.slices import deflections, judged
 from tribodyn.studies.gears.case import gears_layout
 from tribodyn.studies.gears.check import check_gears, oil_data
 from tribodyn.studies.gears.prepare import (
@@ -45,6 +45,7 @@ from tribodyn.studies.gears.prepare import (
     thermal_quantities,
 )
 from tribodyn.studies.gears.recorded import scales_of
+from tribodyn.studies.gears.steady import of_the_face
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities
@@ -227,7 +228,6 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
     loaded = judged(mesh.cycle, state.normal_load)
     balance = means.power_in - means.power_out - means.power_friction
     put_in = float(power_put_in(means.power_in, means.power_out))
-
     beside, jumps = _at_jumps(study)
     everywhere = np.concatenate([loaded, judged(beside.cycle, jumps.normal_load)])
 
@@ -243,6 +243,7 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
     thermal = thermal_quantities(study.thermal, put_in, means.efficiency)
     summary = {
         "contact_ratio": float(cycle.contact_ratio),
+        **of_the_face(cycle, study.assembly, study.slice_remark),
         "specific_sliding_max": specific_sliding_max(study.assembly),
         **under_load,
         "load_sharing": duty.sharing,
@@ -286,9 +287,8 @@ def _trust(
 ) -> dict[str, Any]:
     """Whether the study lies within its model, see `record.trust`."""
     loaded, judge = judged(mesh.cycle, state.normal_load), Judge()
-    share = np.where(loaded, mesh.cycle.share[:, 0], 1.0) if mesh.cycle.slices > 1 else 1.0
     quantities = {
-        "deflection": state.normal_load * mesh.cycle.compliance[:, 0] / share / study.case.drive.module,
+        "deflection": deflections(mesh.cycle, state.normal_load) / study.case.drive.module,
         "friction_coefficient": state.friction_coefficient,
         "hertz_pressure": state.hertz_pressure,
         **heat_of(state.flash_temperature_rise, study.case.lubricant.temperature),

@@ -85,6 +85,12 @@ def judged(cycle: MeshCycle, normal_load: Array) -> np.ndarray:
     return loaded & (cycle.share[:, 0] >= LEAST_SHARE) if cycle.slices > 1 else loaded
 
 
+def deflections(cycle: MeshCycle, normal_load: Array) -> Array:
+    """Deflections (K, Q) of pairs or slices along their normal that their own loads make, m."""
+    share = cycle.share[:, 0] if cycle.slices > 1 else np.ones_like(normal_load)
+    return normal_load * cycle.compliance[:, 0] / np.where(share > 0.0, share, 1.0)
+
+
 def share_evenly(contacts: Contacts, cycle: MeshCycle, arms: Array, torque: float) -> Array:
     """Loads (K, 1, Q) in proportion to the length of contact, N."""
     length = contacts.carrying * cycle.share
