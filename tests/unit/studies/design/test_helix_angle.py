@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.unit.studies.efficiency.test_helical_efficiency import SCENARIO
+from tests.support.helical_pair import HELICAL
 from tribodyn.studies.design.run import run
 from tribodyn.studies.protocol.load import load_scenario
 
@@ -22,7 +22,8 @@ sensitivities = false
 
 def test_the_helix_angle_is_free(tmp_path):
     """A larger helix shortens the path, up to the limit of the overlap: sin β = 1.2 sin 20°."""
-    base = SCENARIO.replace('"uniform"', '"elastic"').replace("1e-4", "0.05")
+    friction = '[friction]\nlaw = "coulomb"\ncoefficient = 0.05\n'
+    base = f'kind = "efficiency"\n{HELICAL}\n{friction}[mesh]\nslices = 11\n'
     (tmp_path / "base.toml").write_text(base)
     (tmp_path / "search.toml").write_text(SEARCH)
     found = run(load_scenario(tmp_path / "search.toml"), tmp_path / "found.h5").summary

@@ -5,41 +5,15 @@ import math
 import numpy as np
 import pytest
 
+from tests.support.helical_pair import HELICAL
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.studies.efficiency.run import quantities_of, run
 from tribodyn.studies.protocol.load import load_scenario
 
-#: Face width of ε_β = 1, mm: π m_n/sin β.
-WHOLE = math.pi * 3.0 / math.sin(math.radians(20.0))
 SCENARIO = f"""
-title = "A helical pair"
 kind = "efficiency"
-lubricant = "iso-vg-220-mineral"
-
-[drive]
-family = "involute"
-module = "3 mm"
-pressure_angle = "20 deg"
-helix_angle = "20 deg"
-roughness = "0.4 um"
-material = "16MnCr5"
-
-[drive.pinion]
-teeth = 23
-face_width = "{WHOLE:.9f} mm"
-bore_radius = "10 mm"
-
-[drive.gear]
-teeth = 47
-face_width = "{WHOLE:.9f} mm"
-bore_radius = "20 mm"
-
-[operating]
-pinion_speed = "1500 rpm"
-gear_torque = "300 N*m"
-oil_temperature = "80 degC"
-
+{HELICAL}
 [mesh]
 load_sharing = "uniform"
 slices = 11

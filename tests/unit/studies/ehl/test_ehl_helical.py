@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from tests.support.helical_pair import HELICAL
 from tribodyn.record.reader import Record
 from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.run import run
@@ -13,33 +14,8 @@ from tribodyn.studies.protocol.load import load_scenario
 HELIX, RACK = math.radians(20.0), math.radians(20.0)
 WIDTH = math.pi * 3e-3 / math.sin(HELIX)  # ε_β = 1
 SCENARIO = f"""
-title = "A helical pair"
 kind = "ehl"
-lubricant = "iso-vg-220-mineral"
-
-[drive]
-family = "involute"
-module = "3 mm"
-pressure_angle = "20 deg"
-helix_angle = "20 deg"
-roughness = "0.4 um"
-material = "16MnCr5"
-
-[drive.pinion]
-teeth = 23
-face_width = "{1e3 * WIDTH:.9f} mm"
-bore_radius = "10 mm"
-
-[drive.gear]
-teeth = 47
-face_width = "{1e3 * WIDTH:.9f} mm"
-bore_radius = "20 mm"
-
-[operating]
-pinion_speed = "1500 rpm"
-gear_torque = "300 N*m"
-oil_temperature = "80 degC"
-
+{HELICAL}
 [output]
 positions = 9
 """
