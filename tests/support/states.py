@@ -10,7 +10,7 @@ from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, tra
 from tribodyn.studies.gear_pair.outputs import outputs
 from tribodyn.train.flow import tree
 from tribodyn.train.schedule import Schedule
-from tribodyn.train.structure import GROUND, TURN, layout_of, shift_of, turn_of, works
+from tribodyn.train.structure import GROUND, TURN, layout_of, shift_of, tilt_of, turn_of, works
 
 #: Ends of the bearings of pinion and gear, and layouts of a pair: alone, and with a motor behind a shaft.
 _BEARINGS = [(0, GROUND), (1, GROUND)]
@@ -26,13 +26,17 @@ WORK_IN, WORK_OUT, WORK_DAMPING, WORK_PARAMETRIC, WORK_FRICTION, WORK_SLIDING = 
 
 
 def random_state(rng: np.random.Generator, model: Model, speed: float = 10.0) -> np.ndarray:
-    """Bodies displaced by micrometres and vibrating at up to 0.1 m/s; flanks loaded or apart."""
+    """Bodies displaced by micrometres and vibrating at up to 0.1 m/s, and tilted; flanks loaded or apart."""
     layout = model.layout
     y = np.zeros(layout.states)
     for body in range(layout.planar):
         x = shift_of(body)
         y[x : x + 2] = rng.uniform(-8e-6, 8e-6, 2)
         y[layout.half + x : layout.half + x + 2] = rng.uniform(-0.05, 0.05, 2)
+    for body in range(layout.spatial):
+        z = tilt_of(body, layout)
+        y[z : z + 3] = rng.uniform(-1.0, 1.0, 3) * [8e-6, 2e-4, 2e-4]
+        y[layout.half + z : layout.half + z + 3] = rng.uniform(-1.0, 1.0, 3) * [0.05, 1.0, 1.0]
     y[layout.lag] = rng.uniform(-1e-6, 1e-6)
     y[layout.half + layout.lag] = rng.uniform(-0.05, 0.05) * speed
     for body, nearer, m, _ in tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0)):

@@ -64,7 +64,11 @@ def stops(model: Model) -> Float[Array, "interval stop"]:
             inside += [place_of(m, phase, schedule, interval) for phase in known[key]]
         first, last = float(start[interval]), float(end[interval])
         near = 1e-9 * (last - first)
-        rows.append(sorted(phase for phase in inside if first + near < phase < last - near))
+        row: list[float] = []
+        for phase in sorted(inside):  # those of slices in step are one
+            if (row[-1] if row else first) + near < phase < last - near:
+                row.append(phase)
+        rows.append(row)
     count = 1 + max(len(row) for row in rows)
     return np.array([row + [last] * (count - len(row)) for row, last in zip(rows, end, strict=True)])
 

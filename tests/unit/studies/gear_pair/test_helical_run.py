@@ -69,8 +69,7 @@ def test_figures_are_drawn(record, name: str):
 
 
 def test_a_sweep_has_the_modes_and_states_in_space():
-    swept = td.sweep("helical-23-47", {"operating.gear_torque": ["200 N*m", "300 N*m"]}, overrides=SHORT)
-    data = swept.data
+    data = td.sweep("helical-23-47", {"operating.gear_torque": ["200 N*m", "300 N*m"]}, overrides=SHORT)
     assert data.sizes["mode"] == 11
     assert {"z_p", "spin_y_g"} <= set(np.asarray(data["state_variable"]).astype(str))
     assert np.isfinite(np.asarray(data["state"].sel(state_variable="z_p"))).all()

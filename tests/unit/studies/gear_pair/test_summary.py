@@ -29,6 +29,7 @@ CYCLE = cast(
     SimpleNamespace(
         side=np.array([1, 1, -1, -1]),
         pair_side=np.array([1, 1, -1, -1]),
+        slices=1,
         front_pairs=2,
         gear_pitch_radius=RADIUS,
         pinion_pitch_radius=0.035,

@@ -1,0 +1,140 @@
+"""Motions of helical pairs: every compiler and solver, mirrored hands, limits, energy, steady states."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
+from tests.support.states import altered, recorded, sampled
+from tests.unit.dynamics.test_helical_equations import EVEN, HELICAL, mirrored
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.orbit.periodic import steady_states
+from tribodyn.solve.transient import TransientSettings
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
+from tribodyn.train.structure import displacements, place_in_space, turn_of, velocities
+
+COULOMB = {"friction.law": "coulomb", "friction.coefficient": 0.06, "operating.pinion_speed": "300 rad/s"}
+
+
+def pair(**more):
+    keys = {**HELICAL, **COULOMB, **more}
+    if keys["friction.law"] == "none":
+        del keys["friction.coefficient"]
+    return prepare(load_scenario("involute-23-47", keys))
+
+
+def marched(model, method="dopri5", rtol=1e-10, cycles=3, start=None):
+    return sampled(model, TransientSettings(method, rtol, cycles, 10**6, 40), start)[1]
+
+
+@pytest.mark.slow
+def test_right_hand_sides_agree_over_random_states(rng):
+    keys = {"mesh.backlash": "12 um", "friction.sliding": "dynamic", "mesh.formulation": "energy-consistent"}
+    assert_right_hand_sides_agree(at_several_conditions(pair(**keys).model), rng, 1e-11)
+
+
+def test_mirrored_hands_move_as_mirror_images():
+    right, left = (pair(**{"drive.hand": hand}).model for hand in ("right", "left"))
+    start, factors = static_equilibrium(right), mirrored(right)
+    ours, other = marched(right, start=start), marched(left, start=factors * start)
+    np.testing.assert_allclose(factors * other, ours, rtol=1e-9, atol=1e-20)
+
+
+@pytest.mark.parametrize(
+    "method", ["rodas4", "switching", "radau", pytest.param("tsit5", marks=pytest.mark.soak)]
+)
+def test_solvers_agree(method):
+    model = pair().model
+    exact, ours = marched(model, "dop853", 1e-11), marched(model, method, 1e-8)
+    free = displacements(model.layout)
+    assert np.max(np.abs(ours - exact)[:, free] / np.ptp(exact[:, free], axis=0)) < 3e-5
+
+
+def test_slices_of_a_spur_pair_move_as_the_pair():
+    """And friction of slices that reverse in step stops no step."""
+    case = load_scenario("involute-23-47", {**EVEN, **COULOMB})
+    spur, cut = prepare(case).model, prepare(replace(case, mesh=replace(case.mesh, slices=7))).model
+    one, many = marched(spur), marched(cut)
+    free = displacements(spur.layout)
+    assert np.max(np.abs(many[:, free] - one[:, free]) / np.ptp(one, axis=0)[free]) < 1e-7
+
+
+def test_small_helix_angles_approach_the_spur_pair_in_proportion():
+    case = load_scenario("involute-23-47", {**EVEN, **COULOMB})
+    spur, errors = prepare(case).model, []
+    one = marched(spur)
+    free = displacements(spur.layout)
+    for angle in (0.04, 0.02):
+        model = pair(**{"drive.helix_angle": f"{angle} rad", "mesh.slices": 7}).model
+        start = np.zeros(model.layout.states)
+        start[free] = one[0, free]
+        difference = np.abs(marched(model, start=start)[:, free] - one[:, free])
+        errors.append(np.max(np.sqrt(np.mean(difference**2, axis=0)) / np.ptp(one, axis=0)[free]))
+    assert errors[1] < 0.62 * errors[0] < 0.1
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {},
+        {"mesh.formulation": "energy-consistent", "operating.source": "torque"},
+        {"solver.initial": "unloaded"},
+    ],
+    ids=["speed", "consistent", "unloaded"],
+)
+def test_energy_is_balanced_and_the_axial_force_is_statics(tmp_path, keys):
+    long = {"solver.cycles": 12, "solver.rtol": 1e-9, "output.samples_per_cycle": 40}
+    made = run(load_scenario("involute-23-47", {**HELICAL, **long, **keys}), tmp_path / "x.h5")
+    assert abs(made.summary["energy_residual"]) < 1e-7
+    case = pair()
+    radius = float(case.model.meshes[0].driven_radius)
+    force = float(case.model.bodies.load[1]) / radius * np.tan(np.radians(20.0))
+    assert made.summary["axial_force_mean"] == pytest.approx(-force, rel=0.03)
+
+
+def test_axial_force_is_the_normal_loads_share(prepared):
+    model = prepared("involute-23-47", **HELICAL).model
+    found = recorded(model, TransientSettings("dopri5", 1e-8, 2, 10**6, 30))
+    base = np.arcsin(np.sin(np.radians(20.0)) * np.cos(np.radians(20.0)))
+    loads = np.sum(found["normal_load"], axis=1)
+    np.testing.assert_allclose(found["axial_force"], -np.sin(base) * loads, rtol=1e-9)
+
+
+def test_even_slices_and_a_whole_overlap_make_no_transmission_error():
+    """On bearings that hardly give: tilting shafts would feel the lines of contact wander along the face."""
+    width = {
+        f"drive.{side}.face_width": f"{np.pi * 3 / np.sin(np.radians(20.0))} mm"
+        for side in ("pinion", "gear")
+    }
+    errors = []
+    for slices in (5, 10):
+        model = pair(**width, **{"friction.law": "none", "mesh.slices": slices}).model
+        model = altered(model, links={"stiffness_in_space": 1e4 * model.links.stiffness_in_space})
+        turn = turn_of(1, model.layout)
+        turned = [static_equilibrium(model, phase)[turn] for phase in np.linspace(0.01, 0.93, 13)]
+        errors.append(np.ptp(turned) / np.abs(np.mean(turned)))
+    assert max(errors) < 6e-4
+
+
+def test_mean_error_converges_with_the_square_of_the_slices_width():
+    found = []
+    for slices in (6, 12, 24):
+        model = pair(**{"mesh.slices": slices, "friction.law": "none"}).model
+        turn, tilt = turn_of(1, model.layout), place_in_space(0, 4, model.layout)
+        last = marched(model, cycles=10)[-40:]
+        found.append([np.mean(last[:, turn]), np.mean(last[:, tilt])])
+    first, second = np.abs(np.diff(found, axis=0))
+    assert np.all(first / second > 3.0)
+
+
+def test_a_steady_state_is_that_of_a_long_run():
+    models = [pair(**{"operating.pinion_speed": f"{speed} rad/s"}).model for speed in (150, 400)]
+    free = [*displacements(models[0].layout), *velocities(models[0].layout)]
+    for model, steady in zip(models, steady_states(models, samples=40), strict=True):
+        assert steady.kind == "period-1"
+        last = marched(model, rtol=1e-9, cycles=200)[-41:-1]
+        scale = np.max(np.abs(last), axis=0)[free]
+        assert np.max(np.abs(steady.samples - last)[:, free] / scale) < 2e-5
