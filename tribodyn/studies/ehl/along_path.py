@@ -165,12 +165,10 @@ def middle_line_loads(
     line_load = load * stretched / (float(cycle.slice_width) * np.where(share > 0.0, share, 1.0))
     middle = np.arange(pairs) * count + count // 2
     # where half of it touches, as the study of losses has it; further out the nearest value stands
-    whole = share[..., middle] >= 0.5
-    roll, line_load, whole = (
-        np.moveaxis(values, 2, 0) for values in (roll[..., middle], line_load[..., middle], whole)
-    )
-    order = np.argsort(roll[whole])
-    roll, line_load = roll[whole][order], line_load[whole][order]
+    whole = np.flatnonzero(share[..., middle] >= 0.5)
+    roll, line_load = roll[..., middle].ravel()[whole], line_load[..., middle].ravel()[whole]
+    order = np.argsort(roll)
+    roll, line_load = roll[order], line_load[order]
     return (
         np.concatenate([[limits[0]], roll, [limits[1]]]),
         np.concatenate([line_load[:1], line_load, line_load[-1:]]),
