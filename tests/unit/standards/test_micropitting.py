@@ -11,11 +11,12 @@ import pytest
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family
+from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.standards import contact_path as paths
 from tribodyn.standards import micropitting as films
 from tribodyn.standards import scuffing
 from tribodyn.standards.micropitting import Flanks, Load, Oil
-from tribodyn.studies.assessment.standard import path_of, tooth_forces
+from tribodyn.studies.assessment.standard import path_of
 
 HELIX, RACK = math.radians(10.0), math.radians(20.0)
 
@@ -36,7 +37,8 @@ DRIVE = Drive(
     centre_distance=0.861,
     helix_angle=HELIX,
 )
-PATH = path_of(assemble(family("involute"), DRIVE))
+STAGE = assemble(family("involute"), DRIVE)
+PATH = path_of(STAGE)
 SPEED = 1165.9 * math.pi / 30.0
 FLANKS = Flanks(0.6e-6, 226_374e6, (13_780.0, 13_780.0))
 LOAD = Load(5e6 / SPEED, SPEED, 0.360, 353.15, 1.25, 1.092, 1.069, 1.15)
@@ -71,11 +73,16 @@ def test_path_of_the_published_stage():
     assert paths.load_share(PATH, 0.0) == pytest.approx(0.889, abs=5e-4)
 
 
-def test_tooth_forces_of_the_published_stage():
-    # printed: F_t 240 064, F_a 42 330, F_r 88 724 N; the report rounds the torque
-    forces = tooth_forces(DRIVE, 5e6 / SPEED)
-    for name, printed in {"F_t": 240_064.0, "F_a": 42_330.0, "F_r": 88_724.0}.items():
-        assert forces[name] == pytest.approx(printed, rel=2e-5), name
+def test_forces_and_line_of_contact_of_the_published_stage():
+    # printed: F_t 240 064, F_a 42 330, F_r 88 724 N (the torque is rounded), shortest line 483.685 mm
+    sheet = geometry_sheet(STAGE, gear_torque=5e6 / SPEED * 95.0 / 24.0)
+    for name, printed in {
+        "tangential force on reference circle": 240_064.0,
+        "radial force on reference circle": 88_724.0,
+        "axial force": 42_330.0,
+    }.items():
+        assert sheet[name][0] == pytest.approx(printed, rel=2e-5), name
+    assert sheet["minimum length of contact lines"][0] == pytest.approx(483.685, abs=5e-3)
 
 
 def test_flash_temperature_of_the_published_stage():

@@ -11,6 +11,7 @@ import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.helix import curvature_share, pitch_slope, speed_share
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.quantities.catalogue import QUANTITIES
@@ -68,15 +69,15 @@ def local_of(
         np.interp(roll, along["roll_angle"], along[name]) for name in ("normal_load", "hertz_pressure")
     )
     motion = kinematics(assembly.path, assembly.path.signed_distance(roll))
-    speeds = (
-        motion.pinion_speed * case.operating.pinion_speed,
-        motion.gear_speed * case.operating.pinion_speed,
-    )
+    across = abs(pitch_slope(assembly)), assembly.path, motion.signed_distance  # the line of contact
+    speed = case.operating.pinion_speed * speed_share(*across)
+    speeds = motion.pinion_speed * speed, motion.gear_speed * speed
+    curvature = motion.relative_curvature * curvature_share(*across)
     raised = pressure * np.sqrt(settings.application_factor * max(quantities["dynamic_factor"], 1.0))
     # no Hertz contact where its half width √(8 w ρ/(π E_r)) is not small beside its radius, none without load
     flanks = flanks_of(case)
     line_load = load / float(assembly.common_width)
-    narrow = 8.0 * line_load * motion.relative_curvature / (np.pi * flanks.reduced_modulus) < _WIDEST**2
+    narrow = 8.0 * line_load * curvature / (np.pi * flanks.reduced_modulus) < _WIDEST**2
     hertzian = (raised > 0.0) & narrow
     if not np.any(hertzian):
         raise SimulationError(
@@ -85,7 +86,7 @@ def local_of(
         )
     films = micropitting.at_places(
         np.where(hertzian, raised, np.nan),
-        1.0 / motion.relative_curvature,
+        1.0 / curvature,
         speeds,
         quantities["friction_coefficient_mean"],
         bulk_of(case, assembly, quantities),
@@ -93,7 +94,7 @@ def local_of(
         oil_of(case),
     )
     sliding = np.abs(speeds[0] - speeds[1])
-    return LocalValues(roll, load, 1.0 / motion.relative_curvature, sliding, films, points)
+    return LocalValues(roll, load, 1.0 / curvature, sliding, films, points)
 
 
 def bulk_of(case: AssessmentCase, assembly: Assembly, quantities: Mapping[str, Any]) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.compliance.iso6336 import ReferenceStiffness
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
-from tribodyn.geometry.drive import Drive, MaterialData, reference_radius, tip_radius
+from tribodyn.geometry.drive import MaterialData, reference_radius, tip_radius
 from tribodyn.geometry.helix import base_helix_angle, normal_pressure_angle, overlap_ratio
 from tribodyn.standards import fzg, micropitting, scuffing
 from tribodyn.standards.contact_path import (
@@ -188,16 +188,6 @@ def path_of(assembly: Assembly) -> ContactPath:
         abs(float(base_helix_angle(drive))),
         float(overlap_ratio(assembly)),
     )
-
-
-def tooth_forces(drive: Drive, pinion_torque: float) -> dict[str, float]:
-    """F_t, F_r, F_a at the reference circle, N: T_1/r_1, F_t tan α_t, F_t tan |β|."""
-    tangential = pinion_torque / float(reference_radius(drive, "pinion"))
-    return {
-        "F_t": tangential,
-        "F_r": tangential * math.tan(float(drive.pressure_angle)),
-        "F_a": tangential * math.tan(abs(float(drive.helix_angle))),
-    }
 
 
 def iso_part(case: AssessmentCase, found: Standard) -> dict[str, Any]:

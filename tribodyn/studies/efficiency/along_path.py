@@ -11,20 +11,18 @@ import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.compliance.sharing.slices import friction_ratio, peak_ratio
-from tribodyn.dynamics.faces import over_faces
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, contacts, settled
-from tribodyn.mesh.quasi_static import efficiency, quasi_static
+from tribodyn.mesh.quasi_static import efficiency, normal_arms, quasi_static
 from tribodyn.studies.efficiency.places import Array, Places, Sharing, piecewise, places
-from tribodyn.studies.gears.recorded import samples_of
+from tribodyn.studies.efficiency.slices import judged, of_pairs, phases_of, share_evenly, slices_at
+from tribodyn.studies.gears.recorded import DOF, DOF_IN_SPACE, samples_of
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import range_shares
 
 #: Nodes between two breaks of the integrand.
 POINTS = 20
-#: Datasets that have no slots.
-NOT_OF_SLOTS = ("displacement", "velocity")
 #: What a `PathState` has of `SurfaceState`.
 _OF_SURFACE = (
     *("asperity_load_ratio", "central_film_thickness", "flash_temperature_rise", "hertz_pressure"),
@@ -81,6 +79,15 @@ class _Loads(NamedTuple):
     deflection: Array
 
 
+def places_at(
+    cycle: MeshCycle, path: Path, phase: Array, sharing: Sharing, flanks: LoadedFlanks | None = None
+) -> Places:
+    """As `places.places`, of pairs that are cut into slices as `slices.slices_at`."""
+    if cycle.slices > 1:
+        return slices_at(cycle, phase, sharing)
+    return places(cycle, path, phase, sharing, flanks)
+
+
 def engage(mesh: Places, duty: MeshDuty) -> PathState:
     """Solve loads and friction together at every phase; raises as `equilibrium.settled`."""
     cycle = mesh.cycle
@@ -107,7 +114,8 @@ def engage(mesh: Places, duty: MeshDuty) -> PathState:
         gear_torque=torques[1],
         power_in=torques[0] * duty.pinion_speed,
         power_out=torques[1] * duty.pinion_speed * ratio,
-        power_friction=np.sum(mu * load * np.abs(sliding), axis=-1),
+        # of a slice that passes the pitch point the mean over its width
+        power_friction=np.sum(mu * load * seen.side[:, 0] * sliding, axis=-1),
     )
 
 
@@ -124,6 +132,9 @@ def _share(mesh: Places, duty: MeshDuty, seen: Contacts, friction: Array) -> _Lo
         state = quasi_static(mesh.cycle, torque, friction)
         return _Loads(state.normal_load, state.normal_load, state.normal_load, state.deflection)
     arms = seen.normal_arm[1] + friction * seen.friction_arm[1]
+    if mesh.cycle.slices > 1:
+        load = share_evenly(seen, mesh.cycle, arms, torque)
+        return _Loads(load, load, load, np.full(load.shape[:2], np.nan))
     load = seen.carrying * torque / np.sum(seen.carrying * arms, axis=-1, keepdims=True)
     return _Loads(load, load, load, np.full(load.shape[:2], np.nan))
 
@@ -148,27 +159,14 @@ def cycle_efficiency(
     and crowds towards the pitch points, so that the degenerate contact there is resolved. Arguments as in
     `places`.
     """
-    if cycle.slices > 1:  # nothing jumps, and each slice passes its pitch point by itself
-        nodes, weights = np.polynomial.legendre.leggauss(points)
-        start = np.arange(cycle.slices)[:, None]
-        phase = ((start + (1.0 + nodes) / 2.0) / cycle.slices).ravel()
-        weight = np.tile(weights / 2.0 / cycle.slices, cycle.slices)
-        return _means(cycle, path, duty, phase, weight, flanks)
-    pitch = cycle.pitch_point_phase - np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
-    breaks = np.unique(np.concatenate([cycle.boundary, (cycle.pitch_point_phase + np.array([0.5])) % 1.0]))
-    phase, weight = piecewise(breaks, pitch, points)
-    return _means(cycle, path, duty, phase, weight, flanks)
-
-
-def _means(
-    cycle: MeshCycle,
-    path: Path,
-    duty: MeshDuty,
-    phase: Array,
-    weight: Array,
-    flanks: LoadedFlanks | None,
-) -> CycleEfficiency:
-    state = engage(places(cycle, path, phase, duty.sharing, flanks), duty)
+    if cycle.slices > 1:
+        phase, weight = phases_of(cycle)
+    else:
+        pitch = cycle.pitch_point_phase - np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
+        passing = (cycle.pitch_point_phase + np.array([0.5])) % 1.0
+        breaks = np.unique(np.concatenate([cycle.boundary, passing]))
+        phase, weight = piecewise(breaks, pitch, points)
+    state = engage(places_at(cycle, path, phase, duty.sharing, flanks), duty)
     power_in, power_out, lost = (
         float(weight @ power) for power in (state.power_in, state.power_out, state.power_friction)
     )
@@ -195,7 +193,8 @@ class Samples(NamedTuple):
         """Values (K, Q) of the table's slots, as those of the record's: the pair that entered last, last."""
         if self.way > 0.0:
             return values
-        return np.where(self.later[:, None], np.roll(values, -1, axis=1), values)[:, ::-1]
+        later = self.later.reshape(-1, *[1] * (values.ndim - 1))
+        return np.where(later, np.roll(values, -1, axis=1), values)[:, ::-1]
 
 
 def samples(cycle: MeshCycle, count: int, way: float) -> Samples:
@@ -211,24 +210,15 @@ def samples(cycle: MeshCycle, count: int, way: float) -> Samples:
     return Samples(turned, np.where(later, falling + 1.0, falling), later, way)
 
 
-def _share_of(cycle: MeshCycle) -> Any:
-    """Part of every slot that touches (K, Q); 1 of whole faces."""
-    return cycle.share[:, 0] if cycle.slices > 1 else 1.0
-
-
-def normal_lean(cycle: MeshCycle) -> Array:
-    """Sine of the angle of the flanks' normal to the transverse plane, (S, N, Q)."""
-    slope = cycle.pitch_slope * np.cos(cycle.pressure_angle)
-    return slope / np.sqrt(1.0 + slope**2)
-
-
 def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty) -> dict[str, Any]:
     """Datasets at the samples; what a quasi-static state has not stays out."""
     cycle = mesh.cycle
-    touching = (cycle.in_contact > 0) & (state.normal_load > 0)
+    touching = (cycle.in_contact > 0) & judged(cycle, state.normal_load)
     angle = over.turned * cycle.pitch_angle
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
     zero, speed = np.zeros_like(angle), np.full_like(angle, duty.pinion_speed)
+    share = cycle.share[:, 0] if cycle.slices > 1 else 1.0
+    in_space = (len(DOF_IN_SPACE) - len(DOF)) * [zero] if cycle.slices > 1 else []
 
     def contacting(values: Array) -> Array:
         return np.where(touching, values, np.nan)
@@ -237,10 +227,10 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
     arrays = {
         "time": angle / duty.pinion_speed,
         "pinion_angle": angle,
-        "displacement": np.stack([zero, zero, zero, zero, angle, gear_angle], axis=-1),
-        "velocity": np.stack([zero, zero, zero, zero, speed, ratio * speed], axis=-1),
+        "displacement": np.stack([zero, zero, zero, zero, angle, gear_angle, *in_space], axis=-1),
+        "velocity": np.stack([zero, zero, zero, zero, speed, ratio * speed, *in_space], axis=-1),
         "transmission_error_normal": contacting(
-            duty.way * state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])
+            duty.way * state.deflection[:, None] * normal_arms(cycle)[:, 0]
         ),
         "transmission_error_rotational": state.deflection,
         "normal_load": state.normal_load,
@@ -251,7 +241,7 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
         "entrainment_speed": contacting(state.entrainment),
         "sliding_speed": contacting(state.sliding),
         "pressure_angle": contacting(cycle.pressure_angle[:, 0]),
-        "mesh_stiffness": np.where(touching, _share_of(cycle) / cycle.compliance[:, 0], 0.0),
+        "mesh_stiffness": np.where(touching, share / cycle.compliance[:, 0], 0.0),
         **{name: contacting(getattr(state, name)) for name in _OF_SURFACE},
         "drive_torque": state.pinion_torque,
         "power_in": state.power_in,
@@ -262,12 +252,7 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
         "efficiency": efficiency(state.power_in, state.power_out, state.power_friction),
     }
     if cycle.slices > 1:
-        whole = np.where(touching, state.normal_load / cycle.slice_width * cycle.line_load_peak[:, 0], 0.0)
-        arrays = over_faces(arrays, cycle.front_pairs, whole, NOT_OF_SLOTS)
-        arrays["displacement"], arrays["velocity"] = (
-            np.concatenate([arrays[name], np.zeros((len(angle), 6))], axis=1)
-            for name in ("displacement", "velocity")
-        )
-        arrays["axial_force"] = -duty.way * np.sum(state.normal_load * normal_lean(cycle)[:, 0], axis=-1)
-    of_pairs = {name for name, sample in samples_of(cycle.slices).items() if sample.dims[1:2] == ("pair",)}
-    return {name: over.by_pair(values) if name in of_pairs else values for name, values in arrays.items()}
+        arrays = of_pairs(cycle, arrays, state.normal_load, duty.way)
+    known = samples_of(cycle.slices)
+    paired = {name for name, sample in known.items() if sample.dims[:2] == ("time", "pair")}
+    return {name: over.by_pair(values) if name in paired else values for name, values in arrays.items()}

@@ -15,7 +15,7 @@ from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.errors import InputError
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import Kinematics, Path, kinematics
-from tribodyn.mesh.cycle import CHANNELS, MeshCycle, cubic, polynomials
+from tribodyn.mesh.cycle import CHANNELS, MeshCycle, polynomials
 
 Array = NDArray[np.float64]
 
@@ -102,8 +102,6 @@ def places(
     that share elastically touch beyond the path as well, where a corner meets a flank; others know the path
     only. Raises InputError if one pair shall carry the load over a pitch that its contact does not cover.
     """
-    if cycle.slices > 1:
-        return _slices(cycle, phase, sharing)
     pairs = cycle.front_pairs
     segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)
     position = phase[:, None] + np.arange(pairs - 1.0, -1.0, -1.0)
@@ -153,41 +151,6 @@ def places(
         coupling=_value(table.coupling, segment, share)[:, None, :pairs, :pairs],
     )
     return Places(phase, looked_up, roll, flanks if corners else None)
-
-
-#: Fields of a table of slices that are looked up.
-_LOOKED_UP = (
-    *("pressure_angle", "signed_distance", "equivalent_radius", "pinion_speed", "gear_speed"),
-    *("compliance", "gap", "share", "line_load_friction", "line_load_peak"),
-)
-
-
-def _slices(cycle: MeshCycle, phase: Array, sharing: Sharing) -> Places:
-    """Look up slices of helical pairs, all from the table; Q slots.
-
-    Raises InputError for a sharing that knows nothing of slices.
-    """
-    if sharing != "elastic":
-        rule = "knows nothing of helical teeth, whose lines of contact come and go along the face"
-        raise InputError("mesh.load_sharing", f'"{sharing}"', rule, 'use "elastic"')
-    slots, slices = cycle.front_slots, cycle.slices
-    segment = np.zeros(len(phase), dtype=int)
-
-    def at(values: Array) -> Array:
-        return _value(cubic(values, slices)[:, :, :slots], segment, phase)[:, None]
-
-    found = {name: at(np.broadcast_to(getattr(cycle, name), cycle.compliance.shape)) for name in _LOOKED_UP}
-    position = phase[:, None] + np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
-    roll = np.repeat(cycle.roll_start + cycle.pitch_angle * position, slices, axis=1)
-    late = cycle.pitch_slope * np.asarray(cycle.face_position) / cycle.pinion_pitch_radius
-    looked_up = cycle._replace(
-        in_contact=(found["share"][:, 0] > 0.0).astype(float),
-        side=np.ones(slots),
-        phase=phase[:, None],
-        coupling=np.zeros((len(phase), 1, 1, 1)),
-        **found,
-    )
-    return Places(phase, looked_up, roll - np.tile(late, cycle.front_pairs), None)
 
 
 def _value(coefficients: Any, segment: Any, share: Array) -> Array:

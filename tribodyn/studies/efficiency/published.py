@@ -19,6 +19,7 @@ import numpy as np
 
 from tribodyn.geometry.drive import Drive, tip_radius
 from tribodyn.geometry.families import Family
+from tribodyn.geometry.helix import base_helix_angle
 from tribodyn.geometry.path import Path, contact_limits, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.equilibrium import Contacts, settled
@@ -159,14 +160,28 @@ def tip_contact_ratios(family: Family, drive: Drive) -> tuple[float, float]:
     return float(path.rotation(end)) / pitch, -float(path.rotation(start)) / pitch
 
 
-def hoehn(pinion_tip: float, gear_tip: float, pinion_teeth: float, ratio: float) -> float:
-    """H_v = π (u + 1)/(z1 u) (1 − ε_α + ε1² + ε2²), Diez-Ibarbia (10).
+def hoehn(
+    pinion_tip: float, gear_tip: float, pinion_teeth: float, ratio: float, base_helix_angle: float = 0.0
+) -> float:
+    """H_v = π (u + 1)/(z1 u cos β_b) (1 − ε_α + ε1² + ε2²), Diez-Ibarbia (10); with β_b as Ohlendorf has it.
 
     For ε1 and ε2 (`pinion_tip`, `gear_tip`) ≤ 1 ≤ ε1 + ε2 only, with the pitch point where one pair alone
     carries the load; beyond, see `exact`. `pinion_teeth` is z1, `ratio` u = z2/z1.
     """
     total = 1.0 - (pinion_tip + gear_tip) + pinion_tip**2 + gear_tip**2
-    return math.pi * (ratio + 1.0) / (pinion_teeth * ratio) * total
+    return math.pi * (ratio + 1.0) / (pinion_teeth * ratio) * total / math.cos(base_helix_angle)
+
+
+def of_even_lines(
+    pinion_tip: float, gear_tip: float, pinion_teeth: float, ratio: float, base_helix_angle: float
+) -> float:
+    """H_v = π (u + 1)/(z1 u cos β_b) (ε1² + ε2²)/ε_α of helical involutes: an even load on all lines.
+
+    From P = μ F_n (ω1 + ω2) ξ̄ with the mean distance from the pitch point ξ̄ = (ξ_A² + ξ_E²)/(2 g_α): exact
+    over a mesh cycle for whole ε_β, where the lines of contact keep their length.
+    """
+    mean = (pinion_tip**2 + gear_tip**2) / (pinion_tip + gear_tip)
+    return math.pi * (ratio + 1.0) / (pinion_teeth * ratio) * mean / math.cos(base_helix_angle)
 
 
 def exact(pinion_tip: float, gear_tip: float, pinion_teeth: float, ratio: float) -> float:
@@ -185,3 +200,18 @@ def exact(pinion_tip: float, gear_tip: float, pinion_teeth: float, ratio: float)
         loaded = sum(-gear_tip < middle + k < pinion_tip for k in pairs)
         total += abs(middle) * (high - low) / loaded
     return 2.0 * math.pi * (ratio + 1.0) / (pinion_teeth * ratio) * total
+
+
+def by_loss_factor(family: Family, drive: Drive, coefficient: float) -> dict[str, float]:
+    """Loss factor of an involute drive, 1 − μ H_v with it, and by Höhn's formula where that holds.
+
+    Of spur gears it is `exact`, of helical ones `of_even_lines`.
+    """
+    tips = tip_contact_ratios(family, drive)
+    teeth, ratio = drive.pinion.teeth, drive.gear.teeth / drive.pinion.teeth
+    lean = abs(float(base_helix_angle(drive)))
+    factor = of_even_lines(*tips, teeth, ratio, lean) if lean else exact(*tips, teeth, ratio)
+    results = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
+    if max(tips) <= 1.0 <= sum(tips):
+        results["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio, lean)
+    return results

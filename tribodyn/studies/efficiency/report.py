@@ -7,7 +7,10 @@ from tribodyn.record.reader import Record
 from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
 
 REPORTED: Reported = {
-    "Geometry": quantities("contact_ratio", "contact_ratio_effective", "specific_sliding_max"),
+    "Geometry": quantities(
+        *("contact_ratio", "contact_ratio_effective", "overlap_ratio", "total_contact_ratio", "slices"),
+        "specific_sliding_max",
+    ),
     "Dynamics": quantities("mesh_frequency", "normal_load_max"),
     "Tribology": TRIBOLOGY,
     "Energy": (
@@ -30,7 +33,7 @@ SWEPT = (
     *quantities(
         *("efficiency", "power_friction_mean", "friction_coefficient_mean"),
         *("film_min", "hertz_pressure_max", "flash_temperature_max", "film_parameter_min", "normal_load_max"),
-        *("contact_ratio", "specific_sliding_max"),
+        *("contact_ratio", "overlap_ratio", "total_contact_ratio", "specific_sliding_max"),
         *("efficiency_elastic", "efficiency_uniform", "efficiency_single_pair", "efficiency_torque_ratio"),
     ),
     *TEMPERATURE_SWEPT,

@@ -17,7 +17,6 @@ from tribodyn.geometry.flanks.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.geometry.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark, loaded_flanks_of, mesh_cycle_of
-from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import by_pairs, driving_gear, power_put_in
 from tribodyn.mesh.record_arrays import as_arrays
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
@@ -28,12 +27,14 @@ from tribodyn.studies.efficiency.along_path import (
     Samples,
     cycle_efficiency,
     engage,
+    places_at,
     record_arrays,
     samples,
 )
-from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
-from tribodyn.studies.efficiency.published import exact, hoehn, path_contact, tip_contact_ratios, torque_ratio
+from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing
+from tribodyn.studies.efficiency.published import by_loss_factor, path_contact, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
+from tribodyn.studies.efficiency.slices import deflections, judged
 from tribodyn.studies.gears.case import gears_layout
 from tribodyn.studies.gears.check import check_gears, oil_data
 from tribodyn.studies.gears.prepare import (
@@ -44,6 +45,7 @@ from tribodyn.studies.gears.prepare import (
     thermal_quantities,
 )
 from tribodyn.studies.gears.recorded import scales_of
+from tribodyn.studies.gears.steady import of_the_face
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities
@@ -84,7 +86,8 @@ def prepare(case: EfficiencyCase) -> PreparedEfficiency:
         behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
         mesh = replace(mesh, modifications=behind)
     cycle = mesh_cycle_of(assembly, case.materials, mesh, case.operating.gear_torque)
-    flanks = loaded_flanks_of(assembly, case.materials, mesh)
+    # slices share by their table, which holds what the finite elements make of them
+    flanks = loaded_flanks_of(assembly, case.materials, mesh) if cycle.slices == 1 else None
 
     def duty_of(case: EfficiencyCase) -> MeshDuty:
         operating = case.operating
@@ -121,8 +124,9 @@ def run(
         "groups": {"mesh_cycle": as_arrays(study.cycle), "geometry": geometry_arrays(study.assembly)},
         "scales": scales_of(study.cycle),
     }
-    layout = gears_layout(study.cycle.slices)
-    with writer(case, path, layout, len(over.turned), force=force, **more) as record:
+    with writer(
+        case, path, gears_layout(study.cycle.slices), len(over.turned), force=force, **more
+    ) as record:
         record.write(0, record_arrays(over, mesh, state, study.duty))
         if progress:
             progress(1.0)
@@ -162,13 +166,13 @@ def _at_jumps(study: PreparedEfficiency) -> tuple[Places, PathState]:
     """
     jumps = study.cycle.boundary[:, None] + np.array([-1.0, 1.0]) * _BESIDE
     phase = np.clip(jumps.ravel(), _BESIDE, 1.0 - _BESIDE)
-    mesh = places(study.cycle, study.path, phase, study.duty.sharing, study.flanks)
+    mesh = places_at(study.cycle, study.path, phase, study.duty.sharing, study.flanks)
     return mesh, engage(mesh, study.duty)
 
 
 def _sampled(study: PreparedEfficiency) -> tuple[Samples, Places, PathState]:
     over = samples(study.cycle, study.case.samples_per_cycle, study.duty.way)
-    mesh = places(study.cycle, study.path, over.phase, study.duty.sharing, study.flanks)
+    mesh = places_at(study.cycle, study.path, over.phase, study.duty.sharing, study.flanks)
     return over, mesh, engage(mesh, study.duty)
 
 
@@ -181,16 +185,16 @@ def efficiencies(
     Höhn's formula where friction is not one mean coefficient, are left out.
     """
     results = {}
-    for sharing in SHARINGS if study.cycle.slices == 1 else ("elastic",):
+    for sharing in SHARINGS:
         duty = study.duty._replace(sharing=sharing)
         try:
             means = known.get(sharing) or cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
         except InputError:
             continue
         results[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
-    if study.cycle.slices > 1:
-        return results
     case, duty = study.case, study.duty
+    if case.drive.helix_angle:
+        return results | _by_loss_factor(study)
     ratio = float(study.cycle.gear_pitch_radius) / float(study.cycle.pinion_pitch_radius)
     single = torque_ratio(
         path_contact(study.path, case.drive.pinion.teeth),
@@ -208,14 +212,7 @@ def _by_loss_factor(study: PreparedEfficiency) -> dict[str, float]:
     case, friction = study.case, study.duty.closure.friction
     if not study.assembly.family.involute or friction.functions.coefficient is not constant:
         return {}
-    coefficient = friction.parameters.coefficient
-    tips = tip_contact_ratios(family(case.family), case.drive)
-    teeth, ratio = case.drive.pinion.teeth, case.drive.gear.teeth / case.drive.pinion.teeth
-    factor = exact(*tips, teeth, ratio)
-    results = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
-    if max(tips) <= 1.0 <= sum(tips):
-        results["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio)
-    return results
+    return by_loss_factor(family(case.family), case.drive, friction.parameters.coefficient)
 
 
 def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: PathState) -> dict[str, Any]:
@@ -228,29 +225,30 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
         under_load["contact_ratio_effective"] = effective_contact_ratio(
             roll, shared, float(cycle.pitch_angle)
         )
-    loaded = state.normal_load > 0
-    share = 1.0 / len(state.power_in[:-1])
+    loaded = judged(mesh.cycle, state.normal_load)
     balance = means.power_in - means.power_out - means.power_friction
     put_in = float(power_put_in(means.power_in, means.power_out))
-
     beside, jumps = _at_jumps(study)
-    everywhere = np.concatenate([loaded, jumps.normal_load > 0])
+    everywhere = np.concatenate([loaded, judged(beside.cycle, jumps.normal_load)])
+
+    def of_faces(values: np.ndarray) -> np.ndarray:
+        return by_pairs(values, cycle.slices)
 
     def along(name: str) -> np.ndarray:
         return np.concatenate([getattr(state, name), getattr(jumps, name)])[everywhere]
 
+    rubbing = over.by_pair(of_faces(np.abs(state.friction_force)))
     film = along("central_film_thickness")
     flash = float(np.max(along("flash_temperature_rise")))
     thermal = thermal_quantities(study.thermal, put_in, means.efficiency)
     summary = {
         "contact_ratio": float(cycle.contact_ratio),
+        **of_the_face(cycle, study.assembly, study.slice_remark),
         "specific_sliding_max": specific_sliding_max(study.assembly),
         **under_load,
         "load_sharing": duty.sharing,
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
-        "normal_load_max": float(
-            max(np.max(by_pairs(part.normal_load, cycle.slices)) for part in (state, jumps))
-        ),
+        "normal_load_max": float(max(np.max(of_faces(found.normal_load)) for found in (state, jumps))),
         "film_min": float(np.min(film)),
         "film_parameter_min": float(np.min(film)) / duty.closure.surfaces.roughness,
         "film_parameter_min_roll_angle": float(
@@ -259,7 +257,7 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
         "hertz_pressure_max": float(np.max(along("hertz_pressure"))),
         "flash_temperature_max": flash,
         "friction_coefficient_mean": means.friction_coefficient,
-        "friction_force_mean": _friction_of_pairs(over, cycle, state)[:-1].sum(axis=0) * share,
+        "friction_force_mean": rubbing[:-1].mean(axis=0),
         "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
         **law_quantities(study.case),
         "lubricant": oil_data(study.case.lubricant),
@@ -284,21 +282,13 @@ def _quantities(study: PreparedEfficiency, over: Samples, mesh: Places, state: P
     return summary | _trust(study, mesh, state, summary)
 
 
-def _friction_of_pairs(over: Samples, cycle: MeshCycle, state: PathState) -> np.ndarray:
-    """Magnitude of the friction force of every pair of the record (K, pairs), N."""
-    return over.by_pair(by_pairs(np.abs(state.friction_force), cycle.slices))
-
-
 def _trust(
     study: PreparedEfficiency, mesh: Places, state: PathState, summary: dict[str, Any]
 ) -> dict[str, Any]:
     """Whether the study lies within its model, see `record.trust`."""
-    loaded, judge = state.normal_load > 0, Judge()
-    share = mesh.cycle.share[:, 0] if mesh.cycle.slices > 1 else 1.0
+    loaded, judge = judged(mesh.cycle, state.normal_load), Judge()
     quantities = {
-        "deflection": np.where(loaded, mesh.cycle.compliance[:, 0] / np.where(loaded, share, 1.0), 0.0)
-        * state.normal_load
-        / study.case.drive.module,
+        "deflection": deflections(mesh.cycle, state.normal_load) / study.case.drive.module,
         "friction_coefficient": state.friction_coefficient,
         "hertz_pressure": state.hertz_pressure,
         **heat_of(state.flash_temperature_rise, study.case.lubricant.temperature),

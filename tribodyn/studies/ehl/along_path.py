@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.geometry.helix import curvature_share, line_stretch, speed_share
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
@@ -36,6 +37,8 @@ PreparedEhl = PreparedGears[EhlCase]
 class PairWay(NamedTuple):
     """The pair at its positions: arrays (K,), SI; the rolling speeds are those of both flanks.
 
+    Of helical teeth it is the section in the middle of the face: radius and speeds across the line of
+    contact, line load per length of that line, and the load of a face that carries it throughout.
     `table` holds roll angles and line loads between which the loads are linear.
     """
 
@@ -81,22 +84,30 @@ def way(study: PreparedEhl) -> PairWay:
 def _way(study: PreparedEhl, positions: int, friction: tuple[Array, Array] | None) -> PairWay:
     """As `way`, with friction coefficients at roll angles, or without friction."""
     case, cycle = study.case, study.cycle
-    start, end = float(cycle.roll_start), float(cycle.roll_end)
+    start, end = roll_limits(study)
     roll = start + (np.arange(positions) + 0.5) / positions * (end - start)
     path = study.assembly.path
     motion = kinematics(path, path.signed_distance(roll))
     speed = case.operating.pinion_speed
-    radius = 1.0 / np.asarray(motion.relative_curvature)
+    slope, distance = float(cycle.pitch_slope), motion.signed_distance
+    # across the line of contact, which helical teeth have inclined
+    radius = 1.0 / np.asarray(motion.relative_curvature * curvature_share(slope, path, distance))
+    speed = speed * np.asarray(speed_share(slope, path, distance))
     speeds = (speed * np.asarray(motion.pinion_speed), speed * np.asarray(motion.gear_speed))
-    if case.loads is None:
-        nodes, loads = quasi_static_loads(cycle, case.operating.gear_torque, friction)
+    if case.loads is not None:
+        nodes, loads = given_loads(case.loads, (start, end))
+        stretch = np.asarray(line_stretch(slope, path, path.signed_distance(np.clip(nodes, start, end))))
+        loads = loads / (float(cycle.face_width) * stretch)
+    elif cycle.slices > 1:
+        nodes, loads = middle_line_loads(cycle, case.operating.gear_torque, friction, (start, end))
     else:
-        nodes, loads = given_loads(case.loads, cycle)
-    loads = loads / float(cycle.face_width)
+        nodes, loads = quasi_static_loads(cycle, case.operating.gear_torque, friction)
+        loads = loads / float(cycle.face_width)
     if case.transient:
         nodes, loads = _spread(nodes, loads, jump_width(study, float(np.max(loads)), radius, speeds))
     line_load = np.interp(roll, nodes, loads)
-    return PairWay(roll, line_load * float(cycle.face_width), line_load, radius, speeds, (nodes, loads))
+    width = float(cycle.face_width) * np.asarray(line_stretch(slope, path, distance))
+    return PairWay(roll, line_load * width, line_load, radius, speeds, (nodes, loads))
 
 
 def quasi_static_loads(
@@ -122,10 +133,51 @@ def quasi_static_loads(
     return roll[touching], load[touching]
 
 
-def given_loads(loads: tuple[Array, Array], cycle: MeshCycle) -> tuple[Array, Array]:
+def roll_limits(study: PreparedEhl) -> tuple[float, float]:
+    """Roll angles, rad, between which the pair is followed: of helical teeth in the middle of the face."""
+    cycle = study.cycle
+    start, end = study.assembly.roll_limits if cycle.slices > 1 else (cycle.roll_start, cycle.roll_end)
+    return float(start), float(end)
+
+
+def middle_line_loads(
+    cycle: MeshCycle,
+    gear_torque: float,
+    friction: tuple[Array, Array] | None,
+    limits: tuple[float, float],
+) -> tuple[Array, Array]:
+    """Roll angles, rad, and loads per length of contact line, N/m, of the slice in the middle of the face.
+
+    Arguments as `quasi_static_loads`; the limits are those of `roll_limits`.
+    """
+    pairs, count = cycle.front_pairs, cycle.slices
+    late = cycle.face_position * float(cycle.pitch_slope) / float(cycle.pinion_pitch_radius)
+    age = np.asarray(cycle.phase)[:, :, None] + np.arange(pairs - 1.0, -1.0, -1.0)
+    turned = float(cycle.roll_start) + float(cycle.pitch_angle) * age
+    roll = (turned[..., None] - late).reshape(*age.shape[:2], -1)
+    signed = None
+    if friction is not None:
+        signed = np.zeros(np.shape(cycle.compliance))
+        signed[:, :, : pairs * count] = np.sign(roll) * np.interp(roll, *friction)
+    load = np.asarray(quasi_static(cycle, gear_torque, signed).normal_load)
+    share = np.broadcast_to(cycle.share, load.shape)
+    stretched = np.broadcast_to(cycle.line_load_friction, load.shape)
+    line_load = load * stretched / (float(cycle.slice_width) * np.where(share > 0.0, share, 1.0))
+    middle = np.arange(pairs) * count + count // 2
+    # where half of it touches, as the study of losses has it; further out the nearest value stands
+    whole = np.flatnonzero(share[..., middle] >= 0.5)
+    roll, line_load = roll[..., middle].ravel()[whole], line_load[..., middle].ravel()[whole]
+    order = np.argsort(roll)
+    roll, line_load = roll[order], line_load[order]
+    return (
+        np.concatenate([[limits[0]], roll, [limits[1]]]),
+        np.concatenate([line_load[:1], line_load, line_load[-1:]]),
+    )
+
+
+def given_loads(loads: tuple[Array, Array], limits: tuple[float, float]) -> tuple[Array, Array]:
     """Return given loads, those below 0 as 0; InputError for another way of contact, or none above 0."""
-    roll, load = loads
-    start, end = float(cycle.roll_start), float(cycle.roll_end)
+    (roll, load), (start, end) = loads, limits
     if max(abs(roll[0] - start), abs(roll[-1] - end)) > _SAME_WAY * (end - start):
         given, touching = (f"{a:.4g} … {b:.4g}°" for a, b in np.degrees([(roll[0], roll[-1]), (start, end)]))
         rule = f"for roll angles {given}, where a pair touches at {touching}"

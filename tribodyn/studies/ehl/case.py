@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.mesh.record_arrays import MESH_CYCLE
+from tribodyn.mesh.record_arrays import described
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.studies.gears.case import LubricatedCase
@@ -25,7 +25,7 @@ SAMPLES: dict[str, Variable] = {
         "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
     ),
     "normal_load": _over("N", "normal load of the pair"),
-    "line_load": _over("N/m", "normal load per face width"),
+    "line_load": _over("N/m", "normal load per length of the line of contact"),
     "equivalent_radius": _over("m", "equivalent radius"),
     "entrainment_speed": _over("m/s", "entrainment speed"),
     "sliding_speed": _over("m/s", "sliding speed, of the pinion's flank over the gear's"),
@@ -79,10 +79,10 @@ def unsolved(variables: Mapping[str, Variable], positions: int) -> dict[str, NDA
     return {name: np.full([sizes[dim] for dim in known.dims], np.nan) for name, known in variables.items()}
 
 
-def layout_of(transient: bool) -> Layout:
-    """Layout of the record of a way, with squeeze or without."""
+def layout_of(transient: bool, slices: int = 1) -> Layout:
+    """Layout of the record of a way, with squeeze or without, of a pair of so many slices."""
     samples = SAMPLES | SQUEEZED if transient else SAMPLES
-    return Layout(PHASE, samples, SCALES, TRACTION, {"mesh_cycle": MESH_CYCLE})
+    return Layout(PHASE, samples, SCALES, TRACTION, {"mesh_cycle": described(slices)})
 
 
 @dataclass(frozen=True, kw_only=True)

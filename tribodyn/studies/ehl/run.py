@@ -46,7 +46,7 @@ def run(
     arrays["film_by_law"] = np.stack(list(laws["film"].values()), axis=1)
     arrays["friction_by_law"] = np.stack(list(laws["friction"].values()), axis=1)
     groups = {"mesh_cycle": as_arrays(study.cycle)}
-    layout = layout_of(case.transient)
+    layout = layout_of(case.transient, study.cycle.slices)
     with writer(case, path, layout, case.positions, groups=groups, scales=scales, force=force) as record:
         if summary["positions_solved"] == 0:
             failure = "the contact could be solved at no position of the pair"
@@ -73,7 +73,7 @@ def quantities_of(case: EhlCase) -> dict[str, Any]:
 def solve(study: along_path.PreparedEhl, over: along_path.PairWay, progress: Progress) -> dict[str, Array]:
     """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
     case, seen = study.case, along_path.seen_by(study, over)
-    start, count = float(study.cycle.roll_start), len(over.roll)
+    (start, _), count = along_path.roll_limits(study), len(over.roll)
     alone = {name: known for name, known in SAMPLES.items() if not name.endswith("_by_law")}
     arrays = unsolved(alone, count) | {
         "phase": (over.roll - start) / float(study.cycle.pitch_angle),

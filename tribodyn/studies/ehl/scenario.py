@@ -120,7 +120,4 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     yield from broken_gear_rules(scenario)
     drive = scenario.drive
-    if drive.helix_angle:
-        rule = "the contact is solved of spur gears: lines of contact across the face are not known here"
-        yield InputError("drive.helix_angle", None, rule, 'use kind = "efficiency" or "gear-pair"')
     yield from broken_driving_rules(scenario.operating, (drive.pinion.teeth, drive.gear.teeth))

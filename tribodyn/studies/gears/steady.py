@@ -116,7 +116,7 @@ def at_rest(case: LubricatedCase, made: Tabulated | PreparedGears[Any]) -> dict[
     cycle, assembly = made.cycle, made.assembly
     return {
         "contact_ratio": float(cycle.contact_ratio),
-        **_of_the_face(cycle, assembly, made.slice_remark),
+        **of_the_face(cycle, assembly, made.slice_remark),
         **({} if case.mesh.backlash is None else {"normal_backlash": case.mesh.backlash}),
         "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
         "compliance_remark": compliance_remark(assembly, case.materials, case.mesh) or None,
@@ -124,7 +124,7 @@ def at_rest(case: LubricatedCase, made: Tabulated | PreparedGears[Any]) -> dict[
     }
 
 
-def _of_the_face(cycle: MeshCycle, assembly: Assembly, remark: str) -> dict[str, Any]:
+def of_the_face(cycle: MeshCycle, assembly: Assembly, remark: str) -> dict[str, Any]:
     """What helical teeth have besides; nothing of spur gears."""
     if not assembly.drive.helix_angle:
         return {}

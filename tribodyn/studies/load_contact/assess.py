@@ -64,12 +64,16 @@ def _with_deviating_tooth(drive: Mapping[str, Any], deviation: float) -> dict[st
 
 def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     """Quantities, loads and pressures of one pair over its roll angle, and the error over the torque."""
-    from tribodyn.studies.load_contact.maps import over_roll
+    from tribodyn.studies.load_contact.maps import late, over_roll
 
     summary = done[_TASK].summary
     with Record(done[_TASK].path) as record:
         roll, load = over_roll(record, record["normal_load"])
-        _, pressure = over_roll(record, np.max(record["hertz_pressure"], axis=-1))
+        _, over_face = over_roll(record, record["hertz_pressure"])
+        # largest of all sections while they pass a place of the path of contact
+        behind = np.asarray(record["slice"]) * late(record)
+        sections = (np.interp(roll + lag, roll, at) for lag, at in zip(behind, over_face.T, strict=True))
+        pressure = np.max(np.nan_to_num(list(sections)), axis=0)
         torques, spread = record["torque"], record["map_peak_to_peak"]
     found: dict[str, Any] = {name: summary[name] for name in _QUANTITIES if name in summary}
     accurate = summary.get("shared_load_max")

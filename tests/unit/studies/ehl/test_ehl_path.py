@@ -28,7 +28,7 @@ def test_given_loads_are_those_of_the_way(study: PreparedEhl):
     start, end = float(study.cycle.roll_start), float(study.cycle.roll_end)
     span = end - start
     roll, load = along_path.given_loads(
-        (np.array([start, 0.0, end]), np.array([-3.0, 4.0, 0.0])), study.cycle
+        (np.array([start, 0.0, end]), np.array([-3.0, 4.0, 0.0])), (start, end)
     )
     assert (list(roll), list(load)) == ([start, 0.0, end], [0.0, 4.0, 0.0])
     for low, high, good in (
@@ -41,12 +41,12 @@ def test_given_loads_are_those_of_the_way(study: PreparedEhl):
     ):
         ends = np.array([start + low * span, end + high * span]), np.array([1.0, 0.0])
         if good:
-            along_path.given_loads(ends, study.cycle)
+            along_path.given_loads(ends, (start, end))
         else:
             with pytest.raises(InputError, match=f"where a pair touches at {math.degrees(start):.4g}"):
-                along_path.given_loads(ends, study.cycle)
+                along_path.given_loads(ends, (start, end))
     with pytest.raises(InputError, match="nowhere above 0"):
-        along_path.given_loads((np.array([start, end]), np.array([0.0, -1.0])), study.cycle)
+        along_path.given_loads((np.array([start, end]), np.array([0.0, -1.0])), (start, end))
 
 
 def test_the_way_is_divided_evenly_and_its_loads_balance_the_torque(study: PreparedEhl, over: PairWay):
