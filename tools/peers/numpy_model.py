@@ -37,7 +37,8 @@ class NumpyModel:
         self.gear_inertia, self.load_torque = float(model.bodies.inertia[1]), float(model.bodies.load[1])
         # of x and y of both gears
         self.masses = np.repeat(model.bodies.mass, 2)
-        self.springs, self.dampers = (part[:, :TURN].ravel() for part in model.links[:2])
+        springs, dampers = model.links.stiffness, model.links.damping
+        self.springs, self.dampers = (part[:, :TURN].ravel() for part in (springs, dampers))
         self.boundary = np.asarray(self.t.boundary)
         self.pairs = [np.flatnonzero(row) for row in np.asarray(self.t.in_contact)]
         self.cells = self.t.channel.shape[1]

@@ -76,12 +76,12 @@ def test_energy_and_torques_of_a_train_are_its_laws(rng):
     train = prepared().model
     layout, y = train.layout, random_state(rng, train)
     y[layout.half :] = 0.0
+    into = np.zeros(layout.states)
+    link_forces(y, train, into)
     for j in displacements(layout):
         step = np.zeros(layout.states)
         step[j] = 1e-9
         slope = (link_energy(y + step, train) - link_energy(y - step, train)) / 2e-9
-        into = np.zeros(layout.states)
-        link_forces(y, train, into)
         assert -into[layout.half + j] == pytest.approx(slope, rel=1e-5, abs=1e-3)
 
 

@@ -259,7 +259,7 @@ def _start(prepared: Any, settings: SweepSettings) -> np.ndarray:
     still = frictionless(model._replace(operation=creeping))
     # of a mesh where it is and how it is damped: laws of its contacts have no part in this
     meshes = (number for mesh in model.meshes for number in mesh[1 : GearMesh._fields.index("surfaces")])
-    links = (*model.links[:2], *numbers_of(model.links.own))
+    links = (model.links.stiffness, model.links.damping, *numbers_of(model.links.own))
     numbers = (*creeping, *model.bodies, *links, *meshes, *model.schedule)
     tables = tuple(id(mesh.table) for mesh in model.meshes)
     key = (tables, model.options, *(np.asarray(value).tobytes() for value in numbers))
