@@ -1,6 +1,6 @@
 """Records with known contents for the tests of writer, reader and plots."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
@@ -18,24 +18,24 @@ from tribodyn.studies.gears.case import LAYOUT
 from tribodyn.studies.gears.recorded import DOF, SAMPLES, scales_of
 
 
-def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:
-    """A two-pair mesh cycle whose numbers are easy to recognise."""
+def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9, sides: Sequence[float] = (1.0, 1.0)):
+    """A mesh cycle of pairs on given sides (driving flanks +1), whose numbers are easy to recognise."""
     boundary = np.array([0.0, contact_ratio - 1, 1.0])
     phase = np.concatenate([np.linspace(*ends, nodes) for ends in ((0.0, boundary[1]), (boundary[1], 1.0))])
     rows = np.arange(2 * nodes, dtype=float)
     names = "pressure_angle signed_distance equivalent_radius pinion_speed gear_speed compliance gap"
     table = {
-        name: rows[:, None] + factor * np.array([[1.0, 2.0]]) for factor, name in enumerate(names.split())
+        name: rows[:, None] + factor * np.arange(1.0, len(sides) + 1.0) for factor, name in enumerate(names.split())
     }
-    contact = np.ones((2 * nodes, 2))
+    contact = np.ones((2 * nodes, len(sides)))
     contact[nodes:, 0] = 0.0
     return {
         "boundary": boundary,
         "in_contact": contact,
-        "side": np.ones(2),
+        "side": np.array(sides),
         "phase": phase,
         **table,
-        "coupling": np.zeros((2 * nodes, 2, 2)),
+        "coupling": np.zeros((2 * nodes, len(sides), len(sides))),
         "hertz_coefficient": 0.0,
         "pinion_pitch_radius": 0.0345,
         "gear_pitch_radius": 0.0705,

@@ -9,7 +9,7 @@ import numpy as np
 
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, at_radii, at_wave_numbers
 from tribodyn.compliance.sharing.face_root_stress import root_stress
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.compliance.sharing.oblique_faces import oblique_faces
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
@@ -84,17 +84,16 @@ def _root_faults(record: Record) -> Iterator[str]:
         case, flexible = prepare(load_scenario(path))
     carrying = record["normal_load"] > 0
     # every tooth as the only one of a position of its own
-    geometry = pair_geometry(flexible.assembly, record["roll_angle"][carrying][:, None])
-    bodies = zip(
-        flexible.gears, flexible.materials, (geometry.pinion_radius, geometry.gear_radius), strict=True
-    )
+    faces = oblique_faces(flexible.assembly, record["roll_angle"][carrying][:, None, None])
+    reaches = faces.geometry.pinion_radius, faces.geometry.gear_radius
+    bodies = zip(flexible.gears, flexible.materials, reaches, strict=True)
     for gear, material, reach in bodies:
         even = at_wave_numbers(gear, np.zeros(1), material.poisson_ratio).root_stress[0, NEIGHBOURS, 0]
-        even = even @ at_radii(gear.radius, reach[:, 0]).T
+        even = even @ at_radii(gear.radius, reach[:, 0, 0]).T
         if not np.all(np.max(even, axis=0) > 0):
             yield "a tooth's own load pulls no point of the root on its side"
     own_load = record["line_load"][carrying][:, None]
-    own = root_stress(flexible, geometry, own_load, case.mesh.slice_coupling)[0][:, :, 0]
+    own = root_stress(flexible, faces, own_load, case.mesh.slice_coupling)[0][:, :, 0]
     single = carrying & (np.count_nonzero(carrying, axis=1) == 1)[:, None]
     recorded = np.moveaxis(record["root_tension"], 1, 0)
     if not np.allclose(recorded[:, single], own[:, single[carrying]], rtol=SAME):

@@ -65,8 +65,7 @@ def test_tables_come_back(record_path: Path):
 
 
 def test_pairs_are_numbered_from_the_newest(tmp_path: Path):
-    three_front_and_two_back = mesh_cycle() | {"side": np.array([1.0, 1.0, 1.0, -1.0, -1.0])}
-    table = {name: three_front_and_two_back[name] for name in ("side", "boundary")}
+    table = mesh_cycle(sides=[1.0, 1.0, 1.0, -1.0, -1.0])
     with gear_pair_writer(tmp_path / "run.h5", 1, table=table) as record:
         record.write(0, block(0, 1, pairs=5))
         path = record.finish({})
