@@ -25,7 +25,8 @@ def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9, sides: Sequence[float
     rows = np.arange(2 * nodes, dtype=float)
     names = "pressure_angle signed_distance equivalent_radius pinion_speed gear_speed compliance gap"
     table = {
-        name: rows[:, None] + factor * np.arange(1.0, len(sides) + 1.0) for factor, name in enumerate(names.split())
+        name: rows[:, None] + factor * np.arange(1.0, len(sides) + 1.0)
+        for factor, name in enumerate(names.split())
     }
     contact = np.ones((2 * nodes, len(sides)))
     contact[nodes:, 0] = 0.0
