@@ -54,13 +54,13 @@ def swing(gears: Assembly, mesh: MeshData) -> float:
 def main() -> None:
     with style.house_style():
         figure = style.new_figure(9.0, 4.0)
-        parts = figure.subplots(1, 2, sharey=True)
+        parts, images = figure.subplots(1, 2, sharey=True), []
         for axes, (name, mesh) in zip(parts, MESHES.items(), strict=True):
             gears = [[pair(height, overlap) for height in HEIGHTS] for overlap in OVERLAPS]
             ratios = [float(one.contact_ratio) for one in gears[0]]
             values = 100.0 * np.array([[swing(one, mesh) for one in row] for row in gears])
             levels = np.concatenate([[0.0, 1.0, 2.0], np.arange(4.0, 32.0, 4.0)])
-            image = axes.contourf(ratios, OVERLAPS, values, levels, cmap="viridis", extend="max")
+            images.append(axes.contourf(ratios, OVERLAPS, values, levels, cmap="viridis", extend="max"))
             for whole in (1.0, 2.0):
                 axes.axhline(whole, color="white", linestyle=":", linewidth=1.0)
                 if ratios[0] < whole < ratios[-1]:
@@ -70,7 +70,7 @@ def main() -> None:
             at_one = values[np.argmin(np.abs(OVERLAPS - 1.0))]
             print(name, "at ε_β = 1:", np.round(at_one[[0, -1]], 3), "maximum", values.max().round(1))
         parts[0].set_ylabel("Overlap ratio $ε_β$")
-        figure.colorbar(image, ax=parts, label="Peak to peak over mean deflection (%)")
+        figure.colorbar(images[-1], ax=parts, label="Peak to peak over mean deflection (%)")
         print(style.save(figure, FOLDER / "helical-contact-ratios.png", force=True))
 
 

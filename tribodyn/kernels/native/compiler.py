@@ -24,8 +24,20 @@ from tribodyn.kernels.native.parts import FUSE, as_part
 from tribodyn.kernels.native.records import WORDS, RecordType, fields_of, letter_of, put
 
 
+#: Instructions of a function that becomes part of its callers. LLVM alone counts loops over constants as if
+#: nothing in them were known, and leaves calls in them.
+SMALL = 60
+
+
 class KernelLibrary(JITCodeLibrary):
     """Code of a kernel with all its parts: optimised as one, and made an object file, which is not loaded."""
+
+    def _optimize_final_module(self):
+        for function in self._final_module.functions:
+            size = sum(1 for block in function.blocks for _ in block.instructions)
+            if 0 < size <= SMALL and b"noinline" not in list(function.attributes):
+                function.add_function_attribute("alwaysinline")
+        super()._optimize_final_module()
 
     def _finalize_final_module(self):
         self.body = self._codegen._tm.emit_object(self._final_module)

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from tribodyn.numerics.shapes import Array, Float
@@ -77,7 +78,7 @@ def line_load_figure(records: Sequence[Record], _view: View) -> Figure:
     return figure
 
 
-def _draw_map(axes: Axes, record: Record, found: FlankMap, top: float) -> object:
+def _draw_map(axes: Axes, record: Record, found: FlankMap, top: float) -> QuadMesh:
     table = record.mesh_cycle
     edge = 1e3 * float(table["face_width"]) / 2.0
     roll, face, values = np.degrees(found.roll), 1e3 * found.face, 1e-3 * found.values

@@ -75,7 +75,10 @@ def bearing_of(bearing: Bearing) -> BearingData:
         sizes = {name: numbers[name] or 0.0 for name in ("diameter", "length")}
         stiffness_x = stiffness_y = radial_stiffness(RollingBearing(**{**numbers, **sizes}))
     return BearingData(
-        *(cast(float, value) for value in (stiffness_x, stiffness_y, ratio_x, ratio_y)),
+        cast(float, stiffness_x),
+        cast(float, stiffness_y),
+        cast(float, ratio_x),
+        cast(float, ratio_y),
         bearing.stiffness_axial,
         bearing.stiffness_tilt,
         bearing.span,
