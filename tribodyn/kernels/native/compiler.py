@@ -23,7 +23,6 @@ from tribodyn.kernels.native.functions import register_laws
 from tribodyn.kernels.native.parts import FUSE, as_part
 from tribodyn.kernels.native.records import WORDS, RecordType, fields_of, letter_of, put
 
-
 #: Instructions of a function that becomes part of its callers. LLVM alone counts loops over constants as if
 #: nothing in them were known, and leaves calls in them.
 SMALL = 60
