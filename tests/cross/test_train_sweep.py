@@ -89,10 +89,27 @@ def test_a_long_common_period_and_another_structure_are_refused():
     assert "not those of the first case" in rows["message"][1]
 
 
-def test_a_case_does_not_start_from_where_another_stands():
-    """Trains that differ in the place of an axis, or in how the gears of a shaft are turned."""
+def held(**keys):
+    """The reducer with helical teeth, whose bodies move along their axes and tilt."""
+    return {"stage.0.helix_angle": "20 deg", "mesh.slices": 5, **keys}
+
+
+@pytest.mark.parametrize(
+    "different",
+    [
+        ({}, {"stage.1.azimuth": "90 deg"}, TURNED),
+        (
+            held(),
+            held(**{"gear.pinion-1.hand": "left", "gear.wheel-1.hand": "right"}),
+            held(**{"bearings.default.stiffness_axial": "3e7 N/m"}),
+        ),
+    ],
+    ids=["places", "in-space"],
+)
+def test_a_case_does_not_start_from_where_another_stands(different):
+    """Trains that differ in the place of an axis, in how the gears of a shaft are turned, in what holds them."""
     evaluate = import_module("tribodyn.studies.gears.batch.evaluate")
-    cases = [case_at(1480, **keys) for keys in ({}, {"stage.1.azimuth": "90 deg"}, TURNED)]
+    cases = [case_at(1480, **keys) for keys in different]
     settings, kind = BATCH.settings(cases, None, "native"), Trains()
     ready = [kind.prepare(case, kind.tabulated(case)) for case in cases]
 

@@ -116,12 +116,16 @@ class PairView(NamedTuple):
 def pair_view(scenario: Any, train: Moving, mesh: int) -> PairView:
     """Look at a mesh, by its number in the train's order, as at a pair of gears."""
     part = train.parts.meshes[train.motion.meshes[mesh]]
+    table, helical = mesh_table(scenario, part), [bool(drive.helix_angle) for drive in train.drives]
+    if any(helical) and not helical[mesh] and table.compliance != "fem":
+        # slices are of the helical meshes
+        table = table.model_copy(update={"slices": None, "slice_coupling": True})
     return PairView(
         scenario.title,
         scenario.name or "scenario",
         scenario.kind,
         train.drives[mesh],
-        mesh_table(scenario, part),
+        table,
         scenario.operating,
         scenario.lubricant,
         scenario.film,

@@ -38,7 +38,7 @@ from tribodyn.studies.gears.swept import UNSTABLE_QUANTITIES, SweepSettings
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
 from tribodyn.train.links.chain import numbers_of
-from tribodyn.train.structure import GearMesh, rotational_error, rotational_error_rate
+from tribodyn.train.structure import rotational_error, rotational_error_rate
 
 if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch
@@ -258,8 +258,9 @@ def _start(prepared: Any, settings: SweepSettings) -> np.ndarray:
     # the model, which is kept with the result, keeps another table from taking this one's identity
     still = frictionless(model._replace(operation=creeping))
     # of a mesh where it is and how it is damped: laws of its contacts have no part in this
-    meshes = (number for mesh in model.meshes for number in mesh[1 : GearMesh._fields.index("surfaces")])
-    links = (model.links.stiffness, model.links.damping, *numbers_of(model.links.own))
+    places = (mesh._replace(table=(), surfaces=(), film=(), friction=()) for mesh in model.meshes)
+    meshes = (number for mesh in places for number in mesh)
+    links = (*model.links._replace(own=()), *numbers_of(model.links.own))
     numbers = (*creeping, *model.bodies, *links, *meshes, *model.schedule)
     tables = tuple(id(mesh.table) for mesh in model.meshes)
     key = (tables, model.options, *(np.asarray(value).tobytes() for value in numbers))
