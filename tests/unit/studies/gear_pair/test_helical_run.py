@@ -1,16 +1,22 @@
 """A helical run as its verbs see it: summary, figures, page, sweep; and what is refused."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 
 import tribodyn as td
+from tribodyn.dynamics.parameters import frictionless
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import key_points, path_limits
 from tribodyn.post.figures.over_face import flank_map
 from tribodyn.post.figures.path_of_contact import key_positions
 from tribodyn.post.page.rolling_teeth import rolling_teeth
 from tribodyn.record.reader import Record
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.studies.gear_pair.batch import BATCH, GearPairs
 from tribodyn.studies.pages import figure
+from tribodyn.studies.protocol.load import load_scenario
 
 SHORT = {"solver.cycles": 3, "mesh.slices": 5, "friction.law": "none"}
 
@@ -73,6 +79,17 @@ def test_a_sweep_has_the_modes_and_states_in_space():
     assert data.sizes["mode"] == 11
     # 12 coordinates, their rates and 6 works; a motor's angle and speed are missing without a shaft
     assert np.isfinite(np.asarray(data["state"])).sum(axis=-1).tolist() == [30, 30]
+
+
+def test_a_case_of_a_sweep_starts_from_its_own_equilibrium():
+    evaluate = import_module("tribodyn.studies.gears.batch.evaluate")
+    held = ({"bearings.gear.stiffness_axial": f"{stiffness} N/m"} for stiffness in (1e9, 2e7))
+    cases = [load_scenario("helical-23-47", {**SHORT, **keys}) for keys in held]
+    settings, kind = BATCH.settings(cases, None, "native"), GearPairs()
+    for case in cases:
+        ready = kind.prepare(case, kind.tabulated(case))
+        expected = static_equilibrium(frictionless(ready.model))
+        assert evaluate._start(ready, settings)[:12] == pytest.approx(expected[:12], rel=1e-3, abs=1e-9)
 
 
 def test_gradients_are_refused():
