@@ -107,7 +107,7 @@ def held(**keys):
     ids=["places", "in-space"],
 )
 def test_a_case_does_not_start_from_where_another_stands(different):
-    """Trains that differ in the place of an axis, in how the gears of a shaft are turned, in hand or bearings."""
+    """Trains that differ in the place of an axis, in how gears of a shaft are turned, in hand or bearings."""
     evaluate = import_module("tribodyn.studies.gears.batch.evaluate")
     cases = [case_at(1480, **keys) for keys in different]
     settings, kind = BATCH.settings(cases, None, "native"), Trains()
