@@ -114,11 +114,11 @@ def test_even_slices_and_a_whole_overlap_make_no_transmission_error():
     errors = []
     for slices in (5, 10):
         model = pair(**width, **{"friction.law": "none", "mesh.slices": slices}).model
-        model = altered(model, links={"stiffness_in_space": 1e4 * model.links.stiffness_in_space})
+        model = altered(model, links={"stiffness_in_space": 1e7 * model.links.stiffness_in_space})
         turn = turn_of(1, model.layout)
         turned = [static_equilibrium(model, phase)[turn] for phase in np.linspace(0.01, 0.93, 13)]
         errors.append(np.ptp(turned) / np.abs(np.mean(turned)))
-    assert max(errors) < 6e-4
+    assert max(errors) < 1e-7
 
 
 def test_mean_error_converges_with_the_square_of_the_slices_width():

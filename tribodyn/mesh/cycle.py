@@ -128,6 +128,7 @@ CHANNELS = (
     "line_load_peak",
     "share",
 )
+_IS_SHARE = np.array([[name == "share"] for name in CHANNELS])
 
 
 class Polynomials(NamedTuple):
@@ -135,8 +136,9 @@ class Polynomials(NamedTuple):
 
     Every quantity is the not-a-knot cubic spline through the nodes of its segment: C² inside a segment,
     fourth-order accurate, free to jump between segments; of slices, which come and go within a segment, the
-    C¹ cubics of Fritsch and Butland, which never overshoot. Coefficients are of powers 0 … 3 of the position
-    u ∈ [0, 1] in the cell.
+    C¹ cubics of Fritsch and Butland, which never overshoot. Shares of slices are straight lines between the
+    nodes, so that what comes in and what goes out add up everywhere as they do there. Coefficients are of
+    powers 0 … 3 of the position u ∈ [0, 1] in the cell.
     """
 
     boundary: Any  # (S + 1,)
@@ -219,9 +221,13 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     columns = [xp.broadcast_to(values, cycle.compliance.shape) for values in columns]
     channels = xp.stack(columns, axis=-1)
     kept = {name: getattr(cycle, name) for name in Polynomials._fields if hasattr(cycle, name)}
+    channel = cubic(channels, cycle.slices)
     if cycle.slices > 1:
         none = xp.zeros((1, 1, 1, 1, 4))
         cubics = {"coupling": none, "stiffness": none}
+        start, rise = channels[:, :-1], channels[:, 1:] - channels[:, :-1]
+        lines = xp.stack([start, rise, 0.0 * rise, 0.0 * rise], axis=-1)
+        channel = xp.where(_IS_SHARE, lines, channel)
     else:
         cubics = {"coupling": cubic(cycle.coupling), "stiffness": cubic(_stiffness(cycle, xp))}
-    return Polynomials(**kept | cubics, channel=cubic(channels, cycle.slices))
+    return Polynomials(**kept | cubics, channel=channel)
