@@ -9,7 +9,7 @@ from tribodyn.solve.initial import initial_state
 from tribodyn.solve.march.reversal import SHARES, stops
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 from tribodyn.studies.gear_pair.outputs import outputs
-from tribodyn.studies.gears.running import energy_residual
+from tribodyn.studies.gears.over_time.running import energy_residual
 
 SAMPLES = 100
 

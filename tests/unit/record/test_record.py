@@ -13,7 +13,7 @@ from tests.support.record_samples import block, gear_pair_writer, geometry, mesh
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.record.writer import RecordWriter
-from tribodyn.studies.gears.recorded import DOF
+from tribodyn.studies.gears.over_time.recorded import DOF
 
 SCENARIO = 'title = "test"\n[operating]\ngear_torque = "500 N*m"\n'
 SUMMARY = {

@@ -9,7 +9,7 @@ import pytest
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears.recorded import SAMPLES
+from tribodyn.studies.gears.over_time.recorded import SAMPLES
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ from tribodyn.mesh.equilibrium import Contacts, contacts, settled
 from tribodyn.mesh.quasi_static import efficiency, normal_arms, quasi_static
 from tribodyn.studies.efficiency.places import Array, Places, Sharing, piecewise, places
 from tribodyn.studies.efficiency.slices import judged, of_pairs, phases_of, share_evenly, slices_at
-from tribodyn.studies.gears.recorded import DOF, DOF_IN_SPACE, samples_of
+from tribodyn.studies.gears.over_time.recorded import DOF, DOF_IN_SPACE, samples_of
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import range_shares
 

@@ -37,6 +37,8 @@ from tribodyn.studies.efficiency.scenario import EfficiencyCase
 from tribodyn.studies.efficiency.slices import deflections, judged
 from tribodyn.studies.gears.case import gears_layout
 from tribodyn.studies.gears.check import check_gears, oil_data
+from tribodyn.studies.gears.over_time.recorded import scales_of
+from tribodyn.studies.gears.over_time.steady import of_the_face
 from tribodyn.studies.gears.prepare import (
     PreparedGears,
     assembled,
@@ -44,8 +46,6 @@ from tribodyn.studies.gears.prepare import (
     contact_quantities,
     thermal_quantities,
 )
-from tribodyn.studies.gears.recorded import scales_of
-from tribodyn.studies.gears.steady import of_the_face
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_quantities

@@ -2,7 +2,7 @@
 
 from tribodyn.post.figures import over_face, over_mesh, spectrum
 from tribodyn.post.figures.drawing import Drawing
-from tribodyn.studies.gears.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
+from tribodyn.studies.gears.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
 
 DRAWINGS: dict[str, Drawing] = {
     **over_mesh.DRAWINGS,

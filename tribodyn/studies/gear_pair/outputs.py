@@ -5,8 +5,8 @@ import numpy as np
 from tribodyn.dynamics.outputs import IN_SPACE_NAMES, evaluated
 from tribodyn.dynamics.parameters import Model
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.studies.gears.recorded import OF_SLICES, SAMPLES
-from tribodyn.studies.gears.sampled import Sampled, sampled
+from tribodyn.studies.gears.over_time.recorded import OF_SLICES, SAMPLES
+from tribodyn.studies.gears.over_time.sampled import Sampled, sampled
 
 #: Bodies of the pair, and its only mesh.
 PINION, GEAR, MESH = 0, 1, 0

@@ -5,7 +5,7 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
 from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
-from tribodyn.studies.gears.extremes_said import on_extremes
+from tribodyn.studies.gears.over_time.extremes_said import on_extremes
 
 #: One number per case, from its steady window.
 SWEPT = (

@@ -16,14 +16,14 @@ from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.by_standard import rated
 from tribodyn.studies.gears.case import gears_layout
 from tribodyn.studies.gears.check import check_gears, oil_data
-from tribodyn.studies.gears.marched import record_motion, run_until_warm
+from tribodyn.studies.gears.over_time.marched import record_motion, run_until_warm
+from tribodyn.studies.gears.over_time.recorded import scales_of
+from tribodyn.studies.gears.over_time.steady import at_rest, limits_in, warning_of
 from tribodyn.studies.gears.prepare import (
     at_own_temperature,
     contact_quantities,
     thermal_quantities,
 )
-from tribodyn.studies.gears.recorded import scales_of
-from tribodyn.studies.gears.steady import at_rest, limits_in, warning_of
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 

@@ -6,9 +6,9 @@ import numpy as np
 
 from tribodyn.studies.gear_pair.outputs import MESH
 from tribodyn.studies.gear_pair.prepare import PreparedPair
-from tribodyn.studies.gears.extremes import RunningExtremes
-from tribodyn.studies.gears.running import MeshOfRun
-from tribodyn.studies.gears.steady import mesh_quantities, power_quantities
+from tribodyn.studies.gears.over_time.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.running import MeshOfRun
+from tribodyn.studies.gears.over_time.steady import mesh_quantities, power_quantities
 from tribodyn.train.structure import OUT, rotational_error, work_of
 
 

@@ -16,11 +16,11 @@ from tribodyn.studies.gear_train.summary import meshes_of_run, steady_quantities
 from tribodyn.studies.gear_train.warmth import at_own_temperatures
 from tribodyn.studies.gears.batch import MotionBatch
 from tribodyn.studies.gears.batch.kind import Form, SweptKind
-from tribodyn.studies.gears.extremes import RunningExtremes
-from tribodyn.studies.gears.running import MeshOfRun
-from tribodyn.studies.gears.same_table import table_key
-from tribodyn.studies.gears.sampled import Sampled
-from tribodyn.studies.gears.swept import SweepSettings, state_names
+from tribodyn.studies.gears.batch.same_table import table_key
+from tribodyn.studies.gears.batch.swept import SweepSettings, state_names
+from tribodyn.studies.gears.over_time.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.running import MeshOfRun
+from tribodyn.studies.gears.over_time.sampled import Sampled
 from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.studies.protocol.cost import Driver, Estimate
 from tribodyn.studies.sweeping.batch import Batch

@@ -20,8 +20,8 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.drive import SIDES
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.gear_train.case import TrainCase
-from tribodyn.studies.gear_train.drawn import Moving, ends_of, key_in_train, moving
-from tribodyn.studies.gear_train.duty import torques_of
+from tribodyn.studies.gear_train.described.drawn import Moving, ends_of, key_in_train, moving
+from tribodyn.studies.gear_train.described.duty import torques_of
 from tribodyn.studies.gears.case import LubricatedCase
 
 #: Quantities of the whole train, of the friction losses of all meshes.

@@ -26,10 +26,10 @@ from tribodyn.post.figures.panel import (
 )
 from tribodyn.post.figures.scale import scale
 from tribodyn.record.reader import Record
-from tribodyn.studies.gear_train.modes_figure import modes_figure
-from tribodyn.studies.gear_train.spectrum_figure import has_spectra, spectrum_figure
-from tribodyn.studies.gear_train.train_picture import draw_train, train_figure
-from tribodyn.studies.gears.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
+from tribodyn.studies.gear_train.pictures.modes_figure import modes_figure
+from tribodyn.studies.gear_train.pictures.spectrum_figure import has_spectra, spectrum_figure
+from tribodyn.studies.gear_train.pictures.train_picture import draw_train, train_figure
+from tribodyn.studies.gears.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
 
 MESH_FORCE = Trace("driven_torque", "Force of each mesh along its pitch tangent", "$F_t$", "N")
 FILM = over_mesh.FILM_THICKNESS._replace(title="Minimum film thickness of each mesh", from_zero=True)

@@ -12,10 +12,10 @@ from tribodyn.mesh.record_arrays import as_arrays, described
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
-from tribodyn.studies.gears.recorded import PAIR
-from tribodyn.studies.gears.recorded import SAMPLES as OF_A_PAIR
-from tribodyn.studies.gears.running import MeshOfRun, mesh_pairs
-from tribodyn.studies.gears.sampled import Sampled
+from tribodyn.studies.gears.over_time.recorded import PAIR
+from tribodyn.studies.gears.over_time.recorded import SAMPLES as OF_A_PAIR
+from tribodyn.studies.gears.over_time.running import MeshOfRun, mesh_pairs
+from tribodyn.studies.gears.over_time.sampled import Sampled
 
 _TIME, _BODY, _MESH, _PAIRS = ("time",), ("time", "body"), ("time", "mesh"), ("time", "mesh", "pair")
 #: What a record of a pair says in terms of pinion and gear.

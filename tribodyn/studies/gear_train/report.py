@@ -9,9 +9,9 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.withheld import reasons
-from tribodyn.studies.gear_train.rolling_train import mechanism as mechanism
+from tribodyn.studies.gear_train.pictures.rolling_train import mechanism as mechanism
 from tribodyn.studies.gears.case import TEMPERATURE
-from tribodyn.studies.gears.extremes_said import on_extremes
+from tribodyn.studies.gears.over_time.extremes_said import on_extremes
 from tribodyn.studies.protocol.recording import TextTable
 
 #: The worst of all meshes where it is not said of the train.

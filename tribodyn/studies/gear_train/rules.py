@@ -7,9 +7,9 @@ from tribodyn.errors import InputError, InputErrors, quoted, unknown_name
 from tribodyn.scenario.tables.bearings import broken_bearing
 from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.solve.methods import SOLVERS
-from tribodyn.studies.gear_train.drawn import Moving, drawn, in_terms_of_train, moving
-from tribodyn.studies.gear_train.duty import broken_duty_rules, duty_of
-from tribodyn.studies.gear_train.names import broken_names, broken_sort
+from tribodyn.studies.gear_train.described.drawn import Moving, drawn, in_terms_of_train, moving
+from tribodyn.studies.gear_train.described.duty import broken_duty_rules, duty_of
+from tribodyn.studies.gear_train.described.names import broken_names, broken_sort
 from tribodyn.studies.gear_train.scenario import Scenario, pair_view
 from tribodyn.studies.gears.motion import broken_flank_rules, broken_mesh_rules, broken_source_rules
 from tribodyn.studies.gears.scenario import broken_gear_rules

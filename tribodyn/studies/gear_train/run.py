@@ -23,9 +23,9 @@ from tribodyn.studies.gear_train.summary import (
 )
 from tribodyn.studies.gear_train.warmth import at_own_temperatures
 from tribodyn.studies.gears.check import oil_data
-from tribodyn.studies.gears.marched import record_motion, run_until_warm
-from tribodyn.studies.gears.running import RunStatistics
-from tribodyn.studies.gears.steady import limits_in, warning_of
+from tribodyn.studies.gears.over_time.marched import record_motion, run_until_warm
+from tribodyn.studies.gears.over_time.running import RunStatistics
+from tribodyn.studies.gears.over_time.steady import limits_in, warning_of
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
 

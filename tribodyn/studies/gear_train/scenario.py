@@ -24,10 +24,10 @@ from tribodyn.studies.gear_train.case import (
     TrainCase,
     TrainMesh,
 )
-from tribodyn.studies.gear_train.drawn import Drawn, Moving, drawn, moving
-from tribodyn.studies.gear_train.duty import TrainDuty, duty_of, motor_torque
-from tribodyn.studies.gear_train.structure import bearings_by_body, mesh_table
-from tribodyn.studies.gear_train.tables import (
+from tribodyn.studies.gear_train.described.drawn import Drawn, Moving, drawn, moving
+from tribodyn.studies.gear_train.described.duty import TrainDuty, duty_of, motor_torque
+from tribodyn.studies.gear_train.described.structure import bearings_by_body, mesh_table
+from tribodyn.studies.gear_train.described.tables import (
     MOST_PARTS,
     BareBody,
     BareMesh,

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 
 from tribodyn.studies.gear_train.prepare import PreparedTrain
-from tribodyn.studies.gears.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.running import MeshOfRun
+from tribodyn.studies.gears.over_time.steady import LAST_ORDER, at_rest, mesh_quantities, power_quantities
 from tribodyn.studies.gears.prepare import contact_quantities, thermal_quantities
-from tribodyn.studies.gears.running import MeshOfRun
-from tribodyn.studies.gears.steady import LAST_ORDER, at_rest, mesh_quantities, power_quantities
 from tribodyn.train.structure import FRICTION, work_of_mesh
 
 #: Numbers that an attribute of a record holds, and that a spectrum may have.

@@ -5,7 +5,7 @@ import pytest
 
 from tests.support.states import PAIR, WORK_DAMPING, WORK_FRICTION, WORK_IN
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears.running import energy_residual
+from tribodyn.studies.gears.over_time.running import energy_residual
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 

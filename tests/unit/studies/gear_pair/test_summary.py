@@ -17,8 +17,8 @@ from tests.support.states import (
     WORK_SLIDING,
 )
 from tribodyn.studies.gear_pair.summary import steady_quantities
-from tribodyn.studies.gears.extremes import RECORDED, Extreme, RunningExtremes
-from tribodyn.studies.gears.running import energy_residual
+from tribodyn.studies.gears.over_time.extremes import RECORDED, Extreme, RunningExtremes
+from tribodyn.studies.gears.over_time.running import energy_residual
 
 SAMPLES, CYCLES, SPEED, PITCH, RADIUS = 50, 4, 100.0, 0.27, 0.07
 #: Pinion speed of the window on the average, rad/s, and time of it, s.

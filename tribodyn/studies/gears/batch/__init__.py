@@ -12,7 +12,7 @@ from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
 from tribodyn.studies.gears.batch.evaluate import evaluate
 from tribodyn.studies.gears.batch.kind import SweptKind
-from tribodyn.studies.gears.swept import SweepSettings, layout_of, row_bytes
+from tribodyn.studies.gears.batch.swept import SweepSettings, layout_of, row_bytes
 from tribodyn.studies.protocol import cost
 from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Chunk

@@ -28,13 +28,13 @@ from tribodyn.studies.gears.batch.steady import (
     prepared_between,
     steady,
 )
+from tribodyn.studies.gears.batch.swept import UNSTABLE_QUANTITIES, SweepSettings
 from tribodyn.studies.gears.check import remarks_in_brief
-from tribodyn.studies.gears.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.running import add_extremes, judge_run
+from tribodyn.studies.gears.over_time.sampled import sampled_with_extremes
+from tribodyn.studies.gears.over_time.steady import warning_of
 from tribodyn.studies.gears.prepare import MOST_MOTIONS
-from tribodyn.studies.gears.running import add_extremes, judge_run
-from tribodyn.studies.gears.sampled import sampled_with_extremes
-from tribodyn.studies.gears.steady import warning_of
-from tribodyn.studies.gears.swept import UNSTABLE_QUANTITIES, SweepSettings
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
 from tribodyn.train.links.chain import numbers_of

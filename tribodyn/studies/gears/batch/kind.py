@@ -10,10 +10,10 @@ import numpy as np
 
 from tribodyn.numerics.parameter import Variable
 from tribodyn.quantities.quantity import Quantity
-from tribodyn.studies.gears.extremes import RunningExtremes
-from tribodyn.studies.gears.running import MeshOfRun
-from tribodyn.studies.gears.sampled import Sampled
-from tribodyn.studies.gears.swept import SweepSettings
+from tribodyn.studies.gears.batch.swept import SweepSettings
+from tribodyn.studies.gears.over_time.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.running import MeshOfRun
+from tribodyn.studies.gears.over_time.sampled import Sampled
 from tribodyn.studies.protocol.cost import Driver, Estimate
 
 #: The mesh whose transmission error a sweep samples.

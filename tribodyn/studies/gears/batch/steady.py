@@ -16,7 +16,7 @@ from tribodyn.solve.integrator import REASONS, Status
 from tribodyn.solve.orbit.motions import FAILED
 from tribodyn.solve.orbit.periodic import WANDERING, SteadyMotion, refuse_time_dependent, steady_states
 from tribodyn.solve.right_hand_side import engage_next
-from tribodyn.studies.gears.swept import UNKNOWN
+from tribodyn.studies.gears.batch.swept import UNKNOWN
 from tribodyn.studies.sweeping.batch import NeighbourWay, NothingBetween, case_between
 from tribodyn.train.structure import TrainLayout, works
 

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.studies.gear_train.structure import OF_DRIVE
-from tribodyn.studies.gear_train.tables import GROUND, Link, Shaft
+from tribodyn.studies.gear_train.described.structure import OF_DRIVE
+from tribodyn.studies.gear_train.described.tables import GROUND, Link, Shaft
 
 _PLACE = "gear, shaft or body"
 _DEFAULT = "default"

@@ -4,7 +4,7 @@ import numpy as np
 
 from tribodyn.post.page.mechanism import Body, Mechanism, Sight
 from tribodyn.record.reader import Record
-from tribodyn.studies.gear_train.places import contacts, gear_outlines, mesh_reach, poses
+from tribodyn.studies.gear_train.described.places import contacts, gear_outlines, mesh_reach, poses
 
 #: Arrow of the largest load, as a share of half the height that is seen of one mesh.
 _ARROW = 0.6

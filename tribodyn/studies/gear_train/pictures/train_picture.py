@@ -13,7 +13,7 @@ from tribodyn.post.figures.gears_in_mesh import GEAR_FILL, MILLIMETRE, PINION_FI
 from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.gear_train.places import contacts, gear_outlines, mesh_reach, poses
+from tribodyn.studies.gear_train.described.places import contacts, gear_outlines, mesh_reach, poses
 
 #: Fill and edge of bodies that turn as the first one does, and of those that turn the other way.
 _COLORS = {True: (PINION_FILL, PALETTE[0]), False: (GEAR_FILL, PALETTE[1])}

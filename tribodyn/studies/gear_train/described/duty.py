@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.studies.gear_train.case import LoadData
-from tribodyn.studies.gear_train.drawn import Moving, ends_of
-from tribodyn.studies.gear_train.tables import LoadTable, TrainOperating
+from tribodyn.studies.gear_train.described.drawn import Moving, ends_of
+from tribodyn.studies.gear_train.described.tables import LoadTable, TrainOperating
 from tribodyn.train.statics import Torques, nominal_torques
 
 _SPEEDS, _LOADS = ("input_speed", "output_speed"), ("output_torque", "input_torque", "power")

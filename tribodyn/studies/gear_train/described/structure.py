@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from tribodyn.scenario.quantity import Printed
 from tribodyn.scenario.tables.bearings import Bearing
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
-from tribodyn.studies.gear_train.tables import GROUND, BareMesh, Link, LinkTable, Shaft, Stage
+from tribodyn.studies.gear_train.described.tables import GROUND, BareMesh, Link, LinkTable, Shaft, Stage
 from tribodyn.studies.gears.motion import Mesh
 from tribodyn.train.kinematics import Joint, Named, Toothed, TrainSpeeds, kinematics
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.studies.gears.recorded import pair_numbers
+from tribodyn.studies.gears.over_time.recorded import pair_numbers
 
 #: Summary name -> record name and sign of what is largest there, over the whole run and over its last cycles.
 RECORDED = {

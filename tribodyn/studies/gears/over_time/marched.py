@@ -13,9 +13,9 @@ from tribodyn.record.writer import RecordWriter
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
+from tribodyn.studies.gears.over_time.running import MeshOfRun, RunStatistics, judge_balance
+from tribodyn.studies.gears.over_time.sampled import Sampled, sampled_with_extremes
 from tribodyn.studies.gears.prepare import MOST_MOTIONS
-from tribodyn.studies.gears.running import MeshOfRun, RunStatistics, judge_balance
-from tribodyn.studies.gears.sampled import Sampled, sampled_with_extremes
 from tribodyn.studies.protocol.recording import RunResult
 from tribodyn.studies.protocol.study import Progress
 

@@ -8,9 +8,9 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.record.trust import Judge, heat_of
-from tribodyn.studies.gears.extremes import RunningExtremes
-from tribodyn.studies.gears.recorded import pair_numbers
-from tribodyn.studies.gears.sampled import Sampled
+from tribodyn.studies.gears.over_time.extremes import RunningExtremes
+from tribodyn.studies.gears.over_time.recorded import pair_numbers
+from tribodyn.studies.gears.over_time.sampled import Sampled
 from tribodyn.train.structure import (
     DAMPING,
     FRICTION,

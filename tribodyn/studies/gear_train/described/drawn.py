@@ -11,8 +11,14 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable
-from tribodyn.studies.gear_train.structure import OF_DRIVE, Structure, drive_table, motion_of, structure
-from tribodyn.studies.gear_train.teeth import check_same_teeth, engagement
+from tribodyn.studies.gear_train.described.structure import (
+    OF_DRIVE,
+    Structure,
+    drive_table,
+    motion_of,
+    structure,
+)
+from tribodyn.studies.gear_train.described.teeth import check_same_teeth, engagement
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.phases import ToothedShaft, nominal_phases
 from tribodyn.train.positions import Centres, Disc, Distance, check_room, joined, places

@@ -21,7 +21,7 @@ from tribodyn.mesh.quasi_static import (
 )
 from tribodyn.post.cycles import Spectrum, amplitude_spectrum
 from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.extremes import WORKING, RunningExtremes
+from tribodyn.studies.gears.over_time.extremes import WORKING, RunningExtremes
 from tribodyn.studies.gears.prepare import PreparedGears
 from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.train.structure import (

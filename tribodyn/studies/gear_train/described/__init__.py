@@ -1,0 +1,1 @@
+"""A train as its scenario describes it: tables, names, places of axes, teeth, duty."""

@@ -1,0 +1,1 @@
+"""Figures of trains, and what their page lets roll."""
