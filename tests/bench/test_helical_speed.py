@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.bench.test_train_speed import CYCLES, SAMPLES, least
+from tests.support.timing import least
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
@@ -10,6 +10,8 @@ from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
 
 pytestmark = pytest.mark.bench
+
+CYCLES, SAMPLES = 20, 200
 
 
 def test_eleven_slices_run_in_twelve_times_the_time_of_the_spur_pair(capsys):

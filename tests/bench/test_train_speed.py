@@ -3,16 +3,16 @@
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
 import pytest
 import tomli_w
 
+from tests.support.timing import least
 from tests.support.train_scenarios import prepared_train, train_case
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import Model
@@ -35,8 +35,8 @@ pytestmark = pytest.mark.bench
 REDUCER = "two-stage-reducer"
 #: Places in a common period at which the right-hand side is evaluated, and how often over.
 PLACES, OVER = 600, 40
-#: Right-hand side of a train over the sum of those of its pairs, at most; seconds to meet a calm machine.
-MOST, SECONDS = 1.3, 8.0
+#: Right-hand side of a train over the sum of those of its pairs, at most.
+MOST = 1.3
 #: Processes that may be tried.
 PROCESSES = 4
 CYCLES, SAMPLES = 20, 200
@@ -87,23 +87,6 @@ def right_hand_sides(model: Model, lanes: bool) -> Callable[[], Any]:
     over, _, _ = lane_model(pack([model] * WIDTH))
     wide = [np.repeat(values[..., None], WIDTH, axis=-1) for values in (phases[:, None], y, work, 0.0 * y)]
     return lambda: _lanes(OVER, cycles, wide[0], intervals, wide[1], over, *wide[2:])
-
-
-def least(calls: Sequence[Callable[[], Any]], turns: int, enough: float = 0.0) -> list[float]:
-    """Processor time of calls, taken in turn: the least of each, which met the calmest machine; s.
-
-    Where the first one's over the sum of the others' is not below `enough`, they go on for seconds: whatever
-    else runs holds a processor's caches for as long.
-    """
-    best = [float("inf")] * len(calls)
-    turn, end = 0, perf_counter() + SECONDS
-    while turn <= turns or (best[0] >= enough * sum(best[1:]) and enough and perf_counter() < end):
-        for place, call in enumerate(calls):
-            begun = process_time()
-            call()
-            best[place] = min(best[place], process_time() - begun)
-        turn += 1
-    return best
 
 
 def measured(law: str, lanes: bool) -> list[float]:
