@@ -92,6 +92,19 @@ def test_deflection_of_slices_that_hold_each_other_converges():
     assert errors[2] < errors[0] / 3.0
 
 
+def test_slices_open_by_the_bias_of_their_places():
+    """Corners of the field of contact: early or late in roll, at either end of the face."""
+    pair, slices = helical_pair(1.1), 9
+    made = Modifications(pinion=FlankModification(bias=10e-6))
+    cycle = sliced(pair, replace(ENERGY, modifications=made), slices, nodes=65)
+    gap = (cycle.gap - sliced(pair, ENERGY, slices, nodes=65).gap)[0]
+    place = np.broadcast_to(cycle.signed_distance, cycle.gap.shape)[0]
+    late = (2.0 * place - pair.r_start - pair.r_end) / (pair.r_end - pair.r_start)
+    z = np.tile((2.0 * np.arange(slices) + 1.0) / slices - 1.0, gap.shape[1] // slices)
+    touching = np.broadcast_to(cycle.share, cycle.gap.shape)[0] > 0.0
+    np.testing.assert_allclose(gap[touching], (10e-6 * late * z)[touching], atol=1e-15)
+
+
 def test_back_flanks_keep_their_compliance():
     pair, mesh = helical_pair(0.8), replace(ENERGY, backlash=5e-5)
     cycle = mesh_cycle_of(pair, MATERIALS, replace(mesh, slices=5), TORQUE, back=True)
