@@ -52,7 +52,7 @@ class FlankModification(NamedTuple):
     tip: Relief = Relief()
     root: Relief = Relief()
     lead: LeadRelief = LeadRelief()
-    #: twist: material missing at the tip at the end of the face and at the root at its start, and added in the
+    #: twist: material missing at the tip at the end of the face and at the root at its start, added in the
     #: other corners, m along the normal; linear over roll and face
     bias: float = 0.0
     #: material missing along the normal over the pinion's roll angle from the pitch point (rad, m)
