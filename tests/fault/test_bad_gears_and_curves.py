@@ -58,6 +58,17 @@ def test_a_helix_has_one_key(refused: Refused, scenario: Path, setting: str):
     assert 'write helix_angle = "20 deg" in [drive]' in line
 
 
+@pytest.mark.parametrize(
+    "setting", ["stage.0.beta=0.3", 'stage.0.helix="15 deg"', "gear.wheel-1.helix_angle=0.3"]
+)
+def test_a_helix_of_a_train_stands_in_its_stage(refused: Refused, setting: str):
+    code, (line,) = refused("check", "two-stage-reducer", "--set", setting)
+    assert code == 2
+    assert "the key of a helix is helix_angle" in line
+    assert 'write helix_angle = "20 deg" in its [[stage]]' in line
+    assert "[drive]" not in line
+
+
 #: A helix that cannot be: settings, key of the message, rule, remedy.
 HELICES = {
     "too steep": (['helix_angle="45 deg"'], "helix_angle = 45 deg", "less than 45 deg", "8 to 35 deg"),

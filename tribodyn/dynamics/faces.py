@@ -36,7 +36,7 @@ def over_faces(
     result = {}
     loaded = line_load.reshape(count, pairs, slices)
     known = ~np.isnan(slots["pressure_angle"].reshape(count, pairs, slices))
-    chosen = np.argmax(loaded + np.where(known, 1e-300, 0.0), axis=2)[:, :, None]
+    chosen = np.argmax(np.where(known, loaded + 1e-300, 0.0), axis=2)[:, :, None]
     for name, values in slots.items():
         if values.ndim < 2 or name in others:
             result[name] = values

@@ -46,8 +46,8 @@ class GearBody(NamedTuple):
     bore_radius: Number  # radius of the bore, m; 0 for a solid body
     #: float, optional Radius of the tip circle, m, where it is not r + (addendum + profile shift) × module.
     tip_radius: Number = None
-    #: deviation of the normal tooth thickness on the reference circle from that of teeth which mesh without
-    #: backlash, m; negative for thinner teeth (A_sn of ISO 21771)
+    #: deviation of the tooth thickness on the reference circle from that of teeth which mesh without play,
+    #: m, in the section of the drive's module: A_sn/cos β in the transverse one (ISO 21771); < 0: thinner
     thickness_allowance: Number = 0.0
     #: height below the tip circle at which the rounding of the tip leaves the flank, m
     tip_break: Number = 0.0

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.sharing.flank_gap import lead_gap, profile_gap
+from tribodyn.compliance.sharing.flank_gap import bias_gap, lead_gap, profile_gap
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
@@ -86,4 +86,5 @@ def modified_gap(
     angle = stand.in_plane * np.cos(turned) + stand.out_of_plane * np.sin(turned)
     leaning = normal_slope(slope, motion.pressure_angle)
     opened = angle * (z - side * r * leaning) / np.sqrt(1.0 + leaning**2)
-    return profile_gap(assembly, modifications, place) + lead_gap(assembly, modifications, z) + opened
+    along = lead_gap(assembly, modifications, z) + bias_gap(assembly, modifications, (r, r), z)
+    return profile_gap(assembly, modifications, place) + along + opened

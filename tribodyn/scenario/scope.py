@@ -26,6 +26,10 @@ _OUTSIDE = {
     ),
     "bevel, worm and hypoid gears": (r"bevel|worm|hypoid|(cone|shaft|spiral)_angle", "omit it"),
 }
+#: What to do about a helix in a scenario that has several stages.
+_STAGED_HELIX = (
+    'write helix_angle = "20 deg" in its [[stage]], and hand = "left" in [gear.NAME] of a left-hand gear'
+)
 
 
 def outside(error: InputError, *names: str, remedy: str = "", but: tuple[str, ...] = ()) -> InputError | None:
@@ -37,7 +41,8 @@ def outside(error: InputError, *names: str, remedy: str = "", but: tuple[str, ..
     plain = [re.sub(r"[\s-]+", "_", name.strip().lower()) for name in names]
     for what, (pattern, _) in _OUTSIDE.items():
         if what not in but and any(re.search(pattern, name) for name in plain):
-            return refusal(error, what, remedy)
+            helix = _STAGED_HELIX if STAGES in but else _OUTSIDE[HELIX][1]
+            return refusal(error, what, helix if what == HELIX else remedy)
     return None
 
 
@@ -48,7 +53,7 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
         return InputError(error.key, error.value, rule, _OUTSIDE[STAGES][1], error.file)
     if what == HELIX:
         rule = "the key of a helix is helix_angle, of both gears together"
-        return InputError(error.key, error.value, rule, _OUTSIDE[HELIX][1], error.file)
+        return InputError(error.key, error.value, rule, remedy, error.file)
     rule = (
         f"{what} are not modelled: this version computes external spur and helical gears, "
         "not internal or planetary gears"

@@ -27,6 +27,8 @@ from tribodyn.geometry.flanks.modification import (
     Misalignment,
     Modifications,
     Relief,
+    turned_round,
+    vary_along_lead,
 )
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
@@ -185,6 +187,19 @@ def test_pitch_errors_follow_the_teeth_around():
     errors = tuple(np.arange(18) * 1e-6)
     modified = Modifications(pinion=FlankModification(pitch_error=errors))
     np.testing.assert_allclose(pitch_gap(modified, np.array([0, 17, 18, -1])), [0, 17e-6, 0, 17e-6])
+
+
+def test_a_bias_twists_the_flank():
+    """±b in the corners of the active flank, 0 along its middles; the gear's tip meets the pinion's root."""
+    rolls, ends = at(START, 0.5 * (START + END), END), np.array([-WIDTH, 0.0, WIDTH]) / 2.0
+    # an involute's place on the path goes in proportion to the roll
+    twisted = np.array([[6.0, 0.0, -6.0], [0.0, 0.0, 0.0], [-6.0, 0.0, 6.0]]) * 1e-6
+    for flank, sign in (("pinion", 1.0), ("gear", -1.0)):
+        modified = Modifications(**{flank: FlankModification(bias=6e-6)})
+        assert vary_along_lead(modified)
+        np.testing.assert_allclose(flank_gap(ASSEMBLY, modified, rolls, ends), sign * twisted, atol=1e-12)
+        from_behind = flank_gap(ASSEMBLY, turned_round(modified), rolls, -ends)
+        np.testing.assert_allclose(from_behind, sign * twisted, atol=1e-12)
 
 
 def test_everything_adds_up():

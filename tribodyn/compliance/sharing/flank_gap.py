@@ -46,7 +46,9 @@ def flank_gap(
     """
     profile = profile_gap(assembly, modifications, geometry)
     along = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
-    return profile[..., None] + lead_gap(assembly, modifications, face_position) + along
+    places = geometry.pinion_place[..., None], geometry.gear_place[..., None]
+    twist = bias_gap(assembly, modifications, places, face_position)
+    return profile[..., None] + lead_gap(assembly, modifications, face_position) + twist + along
 
 
 def oblique_gap(
@@ -66,7 +68,8 @@ def oblique_gap(
     angle = within * np.cos(turned) + across * np.sin(turned)
     opened = angle * (face_position - motion.signed_distance * slope) / np.hypot(1.0, slope)
     profile = profile_gap(assembly, modifications, geometry)
-    return profile + lead_gap(assembly, modifications, face_position) + opened
+    twist = bias_gap(assembly, modifications, (geometry.pinion_place, geometry.gear_place), face_position)
+    return profile + lead_gap(assembly, modifications, face_position) + twist + opened
 
 
 def profile_gap(
@@ -95,6 +98,24 @@ def lead_gap(
     for side in SIDES:
         width = float(body_of(assembly.drive, side).face_width)
         total = total + _along_face(getattr(modifications, side).lead, width, face_position)
+    return total
+
+
+def bias_gap(
+    assembly: Assembly,
+    modifications: Modifications,
+    places: tuple[PerContact, PerContact],
+    face_position: Float[Array, " slice"],
+) -> Float[Array, "*pair slice"]:
+    """What the twist of both flanks leaves open, m, at places (…, slice) along the line of action, m.
+
+    Over the whole active path and each gear's own face width; the gear's tip is where the path begins.
+    """
+    middle, half = (assembly.r_start + assembly.r_end) / 2.0, (assembly.r_end - assembly.r_start) / 2.0
+    total = 0.0 * face_position
+    for side, place, to_tip in zip(SIDES, places, (1.0, -1.0), strict=True):
+        across = face_position / (float(body_of(assembly.drive, side).face_width) / 2.0)
+        total = total + getattr(modifications, side).bias * to_tip * (place - middle) / half * across
     return total
 
 
@@ -150,6 +171,8 @@ def maximum_along_lead(assembly: Assembly, modifications: Modifications) -> tupl
     for side in SIDES:
         for name, amount in lead_amounts(getattr(modifications, side).lead).items():
             openings.append((amount, f"drive.{side}.modification.{name}", f"{amount * 1e6:.6g} um"))
+        bias = getattr(modifications, side).bias
+        openings.append((abs(bias), f"drive.{side}.modification.bias", f"{bias * 1e6:.6g} um"))
     return max(openings)[1:]
 
 
@@ -203,7 +226,7 @@ def _check_flank(assembly: Assembly, flank: FlankModification, side: Side) -> No
         if relief.amount:
             path = assembly.r_end - assembly.r_start
             _require(key + name + "_length", relief.length, path, "path of contact", above=True)
-    amounts = lead_amounts(flank.lead)
+    amounts = lead_amounts(flank.lead) | {"bias": abs(flank.bias)}
     if flank.profile_error is not None:
         amounts["profile_error"] = float(np.max(np.abs(flank.profile_error[1])))
     if len(flank.pitch_error):

@@ -52,6 +52,9 @@ class FlankModification(NamedTuple):
     tip: Relief = Relief()
     root: Relief = Relief()
     lead: LeadRelief = LeadRelief()
+    #: twist: material missing at the tip at the end of the face and at the root at its start, added in the
+    #: other corners, m along the normal; linear over roll and face
+    bias: float = 0.0
     #: material missing along the normal over the pinion's roll angle from the pitch point (rad, m)
     profile_error: Table | None = None
     #: one per tooth in the order in which they enter, m along the normal, material missing > 0; empty: none
@@ -105,7 +108,7 @@ def back_flanks(modifications: Modifications, pressure_angle: float) -> Modifica
 def turned_round(modifications: Modifications) -> Modifications:
     """The same looked at from the other end face, z the other way round."""
     pinion, gear = (
-        flank._replace(lead=flank.lead._replace(start=flank.lead.end, end=flank.lead.start))
+        flank._replace(lead=flank.lead._replace(start=flank.lead.end, end=flank.lead.start), bias=-flank.bias)
         for flank in (modifications.pinion, modifications.gear)
     )
     within, across = modifications.misalignment
@@ -116,7 +119,7 @@ def vary_along_lead(modifications: Modifications) -> bool:
     """Whether anything differs from place to place along the face."""
     both = (modifications.pinion, modifications.gear)
     return any(modifications.misalignment) or any(
-        flank.lead.start or flank.lead.end or flank.lead.crowning for flank in both
+        flank.lead.start or flank.lead.end or flank.lead.crowning or flank.bias for flank in both
     )
 
 

@@ -87,7 +87,14 @@ def _modified(drive: DriveTable) -> Iterator[tuple[str, str | None]]:
         for name, gear in (("pinion", drive.pinion), ("gear", drive.gear))
     }
     for key, table in tables.items():
-        for relief in ("tip_relief", "root_relief", "lead_relief_start", "lead_relief_end", "crowning"):
+        for relief in (
+            "tip_relief",
+            "root_relief",
+            "lead_relief_start",
+            "lead_relief_end",
+            "crowning",
+            "bias",
+        ):
             if amount := getattr(table, relief):
                 yield f"{key}.{relief}", shown_length(amount)
         if table.profile_error is not None:

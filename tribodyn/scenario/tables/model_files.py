@@ -39,6 +39,9 @@ class Modification(quantity.Table):
     crowning: Amount | None = Field(
         None, description="the same at both ends of the face, without a straight part"
     )
+    bias: Annotated[float, quantity.InUnit(units.DEVIATION, "6 um")] = quantity.written(
+        "0 um", description="twist: missing at the tip at the end of the face and at the root at its start"
+    )
     profile_error: Annotated[ErrorCurve, quantity.csv_file("roll_angle", "error")] | None = Field(
         None, description="positive where material is missing"
     )
@@ -73,6 +76,7 @@ def flank_of(table: Modification, module: float) -> FlankModification:
         lead=LeadRelief(
             table.lead_relief_start, table.lead_relief_end, table.lead_unmodified, table.crowning or 0.0
         ),
+        bias=table.bias,
         profile_error=table.profile_error.in_si() if table.profile_error else None,
         pitch_error=table.pitch_errors,
         both_flanks=table.both_flanks,

@@ -37,6 +37,7 @@ def _curve(axes: Axes, curve: ReportCurve) -> None:
     if curve.mark is not None:
         axes.axvline(curve.mark, color=QUIET, linewidth=0.8, linestyle="--")
     axes.set(title=curve.title, xlabel=curve.x_label, ylabel=curve.y_label)
+    axes.locator_params(axis="x", nbins=5)
 
 
 def draw_film(axes: Axes, record: Record) -> None:
@@ -72,7 +73,7 @@ def draw_losses(axes: Axes, record: Record) -> None:
     names = sorted(losses, key=lambda name: losses[name])
     axes.barh(names, [losses[name] for name in names], color=PALETTE[5], height=0.62)
     for number, name in enumerate(names):
-        axes.text(losses[name], number, f" {losses[name]:.3g}", va="center", fontsize=7)
+        axes.text(losses[name], number, f" {float(f'{losses[name]:.3g}'):,g}", va="center", fontsize=7)
     axes.grid(visible=False, axis="y")
     axes.set(title="Loss to tooth friction by law (W)")
     axes.set_xlim(0.0, 1.15 * max(losses.values()))

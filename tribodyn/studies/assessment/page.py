@@ -7,6 +7,8 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from tribodyn.geometry.families import family
+from tribodyn.geometry.rack_section import as_written
 from tribodyn.post.page.assembled import document
 from tribodyn.post.page.page import summary_tables, table, verdict_list, warnings_of
 from tribodyn.post.style import inline
@@ -85,12 +87,13 @@ def _verdict(record: Record, summary: Mapping[str, Any]) -> str:
 
 
 def _asked(case: AssessmentCase) -> str:
-    drive, sheet = case.drive, case.lubricant.sheet
+    drive, sheet = as_written(family(case.family), case.drive), case.lubricant.sheet
     centre = f", a {drive.centre_distance * 1e3:.6g} mm" if drive.centre_distance is not None else ""
+    helix = f"β {math.degrees(drive.helix_angle):.6g}°, " if drive.helix_angle else ""
     ratio = float(drive.gear.teeth / drive.pinion.teeth)
     gears = (
         f"{case.family} {drive.pinion.teeth:.0f}/{drive.gear.teeth:.0f}, module {drive.module * 1e3:.4g} mm, "
-        f"x {drive.pinion.profile_shift:g}/{drive.gear.profile_shift:g}{centre}, "
+        f"{helix}x {drive.pinion.profile_shift:g}/{drive.gear.profile_shift:g}{centre}, "
         f"b {drive.pinion.face_width * 1e3:.4g}/{drive.gear.face_width * 1e3:.4g} mm, "
         f"grade {case.quality.grade:g}, Ra {case.mean_roughness * 1e6:.3g} µm"
     )

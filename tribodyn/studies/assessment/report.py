@@ -10,7 +10,9 @@ from tribodyn.record.reader import Record
 from tribodyn.studies.assessment.margins import LIMITS
 
 REPORTED: Reported = {
-    "Geometry": quantities("contact_ratio", "contact_ratio_effective"),
+    "Geometry": quantities(
+        *("contact_ratio", "overlap_ratio", "total_contact_ratio", "contact_ratio_effective"),
+    ),
     "Loaded contact": (
         *quantities("loaded_transmission_error_peak_to_peak"),
         scatter_of("loaded_transmission_error_peak_to_peak"),

@@ -198,14 +198,19 @@ class Samples(NamedTuple):
 
 
 def samples(cycle: MeshCycle, count: int, way: float) -> Samples:
-    """Return count + 1 samples over one mesh cycle of the driving flanks, or of the back flanks."""
+    """Return count + 1 samples over one mesh cycle of the driving flanks, or of the back flanks.
+
+    The last one ends the cycle, before the next pair enters. Of slices, which come and go without a jump, it
+    begins the next cycle, as in records over time: the pair that entered last is then the one before it.
+    """
     turned = np.linspace(0.0, 1.0, count + 1)
+    passed = np.where((turned < 1.0) | (cycle.slices == 1), turned, 0.0)
     if way > 0.0:
-        return Samples(turned, turned, np.zeros(count + 1, dtype=bool), way)
+        return Samples(turned, passed, np.zeros(count + 1, dtype=bool), way)
     span = float((cycle.roll_end - cycle.roll_start) / cycle.pitch_angle)
     # the pair in the first slot enters where the table lets it leave: just inside the path, and the next one
     # is just outside when the cycle ends
-    falling = span - (cycle.front_pairs - 1.0) - turned - _INSIDE * (1.0 - 2.0 * turned)
+    falling = span - (cycle.front_pairs - 1.0) - passed - _INSIDE * (1.0 - 2.0 * passed)
     later = falling < 0.0
     return Samples(turned, np.where(later, falling + 1.0, falling), later, way)
 

@@ -1,5 +1,5 @@
-"""Figures of an efficiency study: those of every record over the mesh cycle."""
+"""Figures of an efficiency study: those over the mesh cycle, and of helical pairs the line load."""
 
-from tribodyn.post.figures.over_mesh import DRAWINGS
+from tribodyn.post.figures import over_face, over_mesh
 
-__all__ = ["DRAWINGS"]
+DRAWINGS = {**over_mesh.DRAWINGS, "line-load": over_face.DRAWINGS["line-load"]}

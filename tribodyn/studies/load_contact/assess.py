@@ -14,7 +14,7 @@ _TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-conta
 #: Mesh cycles in which a deviating tooth is seen from its entry to its exit, up to ε_α = 3.
 _CYCLES = 3
 _QUANTITIES = (
-    *("contact_ratio", "contact_ratio_effective"),
+    *("contact_ratio", "overlap_ratio", "total_contact_ratio", "contact_ratio_effective"),
     *("stiffness_single_pair_at_pitch_point", "mesh_stiffness_mean"),
     *("loaded_transmission_error_mean", "loaded_transmission_error_peak_to_peak"),
     *("least_peak_to_peak", "least_peak_to_peak_torque"),

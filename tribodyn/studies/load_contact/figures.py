@@ -155,6 +155,7 @@ def draw_harris(axes: Axes, records: Sequence[Record]) -> None:
     axes.set(xlabel="Torque on the gear (N m)", ylabel="Peak to peak (µm)")
     axes.set_ylim(bottom=0)
     axes.margins(x=0.03)
+    axes.locator_params(axis="x", nbins=5)
 
 
 def _draw_map_curves(axes: Axes, record: Record) -> None:

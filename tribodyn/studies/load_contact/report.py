@@ -8,7 +8,8 @@ from tribodyn.record.reader import Record
 
 REPORTED: Reported = {
     "Geometry": quantities(
-        "contact_ratio", "contact_ratio_effective", "stiffness_single_pair_at_pitch_point"
+        *("contact_ratio", "overlap_ratio", "total_contact_ratio", "contact_ratio_effective"),
+        "stiffness_single_pair_at_pitch_point",
     ),
     "Load contact": quantities(
         "gear_torque",

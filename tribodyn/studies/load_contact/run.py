@@ -17,8 +17,9 @@ from tribodyn.compliance.sharing.loaded_contact import (
 )
 from tribodyn.compliance.sharing.section import is_helical
 from tribodyn.errors import SimulationError
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
-from tribodyn.geometry.helix import pitch_slope
+from tribodyn.geometry.helix import overlap_ratio, pitch_slope
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
@@ -57,7 +58,7 @@ def run(
     layout = LAYOUT if case.lubricated is None else OILED
     with writer(case, path, layout, samples, groups=groups, scales=scales, force=force) as record:
         if loaded is None:
-            summary = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
+            summary = _ratios(study.flexible.assembly)
             return RunResult(record.fail(failure, summary), "failed", failure, summary)
         film, summary = _evaluated(study, loaded)
         record.write(0, record_arrays(study, loaded) | film)
@@ -105,8 +106,17 @@ def _evaluated(
 ) -> tuple[dict[str, Float[Array, "position pair slice"]], dict[str, Any]]:
     """Datasets of the film over the face, and the summary of a torque."""
     arrays, film = film_over_face(study, loaded)
-    summary = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
+    summary = _ratios(study.flexible.assembly)
     return arrays, summary | loaded_quantities(study, loaded) | film | _judged(study, loaded, film)
+
+
+def _ratios(assembly: Assembly) -> dict[str, Any]:
+    """Contact ratio, of helical teeth with overlap."""
+    contact = {"contact_ratio": float(assembly.contact_ratio)}
+    if not is_helical(assembly):
+        return contact
+    overlap = float(overlap_ratio(assembly))
+    return contact | {"overlap_ratio": overlap, "total_contact_ratio": contact["contact_ratio"] + overlap}
 
 
 def record_arrays(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, Float[Array, "position ..."]]:

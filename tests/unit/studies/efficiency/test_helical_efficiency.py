@@ -89,3 +89,29 @@ def test_a_record_has_pairs_and_the_line_load_of_their_slices(case, tmp_path):
 def test_one_pair_alone_cannot_carry(case):
     with pytest.raises(InputError, match="slice by slice"):
         quantities_of(case(mesh__load_sharing="single-pair"))
+
+
+@pytest.mark.parametrize("torque", ["300 N*m", "-300 N*m"])
+def test_curves_of_pairs_go_on_from_cycle_to_cycle(case, tmp_path, torque):
+    """The last sample is the first one; the pairs are then one older, and go on where they were before."""
+    changes = {"operating__gear_torque": torque, "mesh__load_sharing": "elastic", "mesh__slices": 15}
+    result = run(case(**changes), tmp_path / "found.h5")
+    with Record(result.path) as record:
+        load, deflection = record["normal_load"][:], record["transmission_error_normal"][:]
+    np.testing.assert_allclose(load[-1], load[0], rtol=1e-9, atol=1e-9 * np.max(load))
+    np.testing.assert_allclose(load[-1, :-1], load[-2, 1:], atol=0.02 * np.max(load))
+    assert not np.any(np.isnan(deflection[load > 0.2 * np.max(load)]))
+
+
+def test_teeth_of_a_thermal_network_give_off_the_losses(case):
+    """Σ G_i (θ_i − θ_oil) is the friction loss of all slices; the oil stays as it is given."""
+    network = {"model": "network", "pinion_oil": "20 W/K", "gear_oil": "40 W/K"}
+    warm = {f"temperature__{key}": value for key, value in network.items()}
+    sheet = {"lubricant": "iso-vg-220-mineral"}
+    found = quantities_of(case(**sheet, **warm, friction__coefficient=0.05, mesh__load_sharing="elastic"))
+    assert found["heat_generated"] == pytest.approx(found["power_friction_mean"], rel=1e-3)
+    oil = found["oil_temperature"]
+    given_off = 20.0 * (found["bulk_temperature_pinion"] - oil) + 40.0 * (
+        found["bulk_temperature_gear"] - oil
+    )
+    assert given_off == pytest.approx(found["heat_generated"], rel=1e-6)
