@@ -12,13 +12,23 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
+from tribodyn.geometry.helix import curvature_share, line_stretch, normal_slope, pitch_slope
 from tribodyn.geometry.limits.limits import distances
 from tribodyn.geometry.path import kinematics
+from tribodyn.mesh.coupled_slices import tabulate_helical
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
-from tribodyn.mesh.quasi_static import QuasiStatic, cycle_mean, friction_loss, mean_efficiency, quasi_static
+from tribodyn.mesh.helical import SliceLayout
+from tribodyn.mesh.quasi_static import (
+    QuasiStatic,
+    by_pairs,
+    cycle_mean,
+    friction_loss,
+    mean_efficiency,
+    quasi_static,
+)
 from tribodyn.mesh.tabulate import tabulate
-from tribodyn.numerics.elementary import absolute, cos, minimum, namespace, smallest
+from tribodyn.numerics.elementary import absolute, cos, namespace, smallest, sqrt
 from tribodyn.quantities.motion import LIMITS
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_pressure
@@ -30,6 +40,7 @@ class Fixed(NamedTuple):
 
     pairs: int  # pairs in contact at most
     vanishing: bool  # whether radius and rolling speeds are zero at the pitch point
+    layout: SliceLayout | None = None  # of helical gears
 
 
 class PairEvaluation:
@@ -62,7 +73,7 @@ class PairEvaluation:
     def rubbing_cycle(self) -> MeshCycle:
         """Table with a segment wherever a pair passes the pitch point: there friction turns."""
         gears = self.gears
-        if gears.family.corner:
+        if gears.family.corner or self.fixed.layout is not None:  # slices have one segment
             return self.cycle
         return self._table(Assembly(gears.family._replace(corner=True), gears.drive))
 
@@ -84,7 +95,10 @@ class PairEvaluation:
         return equilibrium(seen, elastic(cycle, operating.gear_torque)), seen
 
     def _table(self, gears: Assembly) -> MeshCycle:
-        return tabulate(gears, self.case.materials, self.case.mesh, self.fixed.pairs)
+        case, layout = self.case, self.fixed.layout
+        if layout is None:
+            return tabulate(gears, case.materials, case.mesh, self.fixed.pairs)
+        return tabulate_helical(gears, case.materials, case.mesh, layout, case.operating.gear_torque)
 
 
 class Differentiated(NamedTuple):
@@ -99,12 +113,20 @@ class Differentiated(NamedTuple):
     limit: bool = False  # whether it is a distance from a limit of existence, positive where gears exist
 
 
+def _equivalent_radius(at: PairEvaluation) -> Any:
+    """Across the line of contact."""
+    path = at.gears.path
+    return 1.0 / kinematics(path, 0.0).relative_curvature / curvature_share(pitch_slope(at.gears), path, 0.0)
+
+
 def _hertz_pressure(at: PairEvaluation) -> Any:
-    path, case = at.gears.path, at.case
-    load = absolute(case.operating.gear_torque) / path.gear_pitch_radius / cos(path.pressure_angle(0.0))
-    width = minimum(case.drive.pinion.face_width, case.drive.gear.face_width)
-    curvature = kinematics(path, 0.0).relative_curvature
-    return hertz_pressure(load / width, curvature, surfaces_of(case).effective_modulus)
+    """Of a line of contact over the whole face."""
+    path, case, slope = at.gears.path, at.case, pitch_slope(at.gears)
+    angle = path.pressure_angle(0.0)
+    across = absolute(case.operating.gear_torque) / path.gear_pitch_radius / cos(angle)
+    load = across * sqrt(1.0 + normal_slope(slope, angle) ** 2)
+    length = at.gears.common_width * line_stretch(slope, path, 0.0)
+    return hertz_pressure(load / length, 1.0 / _equivalent_radius(at), surfaces_of(case).effective_modulus)
 
 
 def _swing(values: Any) -> Any:
@@ -164,7 +186,7 @@ QUANTITIES: dict[str, Differentiated] = {
     "equivalent_radius": Differentiated(
         "equivalent radius of curvature at the pitch point",
         "m",
-        lambda at: 1.0 / kinematics(at.gears.path, 0.0).relative_curvature,
+        _equivalent_radius,
         at_pitch_point=True,
     ),
     "hertz_pressure": Differentiated(
@@ -195,7 +217,10 @@ QUANTITIES: dict[str, Differentiated] = {
     "efficiency": Differentiated("quasi-static efficiency, elastic load sharing", "1", _efficiency, _RUBBING),
     "friction_power": Differentiated("quasi-static friction loss", "W", _friction_power, _RUBBING),
     "normal_load_max": Differentiated(
-        "maximum normal load of a pair", "N", lambda at: -smallest(-at.rubbing.normal_load), _RUBBING
+        "maximum normal load of a pair",
+        "N",
+        lambda at: -smallest(-by_pairs(at.rubbing.normal_load, at.rubbing_cycle.slices)),
+        _RUBBING,
     ),
     "hertz_pressure_max": Differentiated(
         "maximum Hertz pressure over a mesh cycle", "Pa", _largest("hertz_pressure"), _RUBBING
@@ -228,9 +253,6 @@ def quantity_of(case: Any, name: str) -> Differentiated:
         raise InputError(
             "kind", quoted(case.kind), "has no gear pair to differentiate", "use another scenario"
         )
-    if case.drive.helix_angle:
-        rule = f"{name} of helical gears cannot be differentiated"
-        raise InputError("drive.helix_angle", None, rule, "use td.sweep, or spur gears")
     for table in quantity.needs:
         if not hasattr(case, table):
             rule = f"{name} depends on [{table}], which a scenario of this kind does not have"
