@@ -8,6 +8,8 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive
@@ -18,7 +20,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.coupled_slices import tabulate_helical
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
-from tribodyn.mesh.helical import SliceLayout
+from tribodyn.mesh.helical import SliceLayout, edge_phases
 from tribodyn.mesh.quasi_static import (
     QuasiStatic,
     by_pairs,
@@ -83,22 +85,40 @@ class PairEvaluation:
         return self._rubbing[0]
 
     @cached_property
-    def surface(self) -> SurfaceState:
-        """Film, pressure and temperature of all contacts."""
-        return self._rubbing[1].under(self.rubbing.normal_load).surface
+    def pair_loads(self) -> Any:
+        """Loads of pairs where extremes are sought."""
+        return by_pairs(self._sought[0].normal_load, self.rubbing_cycle.slices)
+
+    @cached_property
+    def surface(self) -> tuple[SurfaceState, Any]:
+        """Film, pressure and temperature where extremes are sought, and which contacts are loaded."""
+        found, seen = self._sought
+        return seen.under(found.normal_load).surface, found.normal_load > 0
 
     @cached_property
     def _rubbing(self) -> tuple[Equilibrium, Contacts]:
-        operating, cycle = self.case.operating, self.rubbing_cycle
-        closure = untried_closure_of(self.case)
+        return self._balanced(self.rubbing_cycle)
+
+    @cached_property
+    def _sought(self) -> tuple[Equilibrium, Contacts]:
+        """At the nodes, and where edges of slices come and go: nodes do not move with these, kinks do."""
+        layout = self.fixed.layout
+        if layout is None:
+            return self._rubbing
+        edges = edge_phases(self.gears, layout.slices)
+        even = np.linspace(0.0, 1.0, layout.nodes)
+        return self._balanced(self._table(self.gears, namespace(edges).concatenate([even, edges])))
+
+    def _balanced(self, cycle: MeshCycle) -> tuple[Equilibrium, Contacts]:
+        operating, closure = self.case.operating, untried_closure_of(self.case)
         seen = contacts(cycle, operating.gear_torque, operating.pinion_speed, closure, self.fixed.vanishing)
         return equilibrium(seen, elastic(cycle, operating.gear_torque)), seen
 
-    def _table(self, gears: Assembly) -> MeshCycle:
+    def _table(self, gears: Assembly, phase: Any = None) -> MeshCycle:
         case, layout = self.case, self.fixed.layout
         if layout is None:
             return tabulate(gears, case.materials, case.mesh, self.fixed.pairs)
-        return tabulate_helical(gears, case.materials, case.mesh, layout, case.operating.gear_torque)
+        return tabulate_helical(gears, case.materials, case.mesh, layout, case.operating.gear_torque, phase)
 
 
 class Differentiated(NamedTuple):
@@ -154,9 +174,8 @@ def _largest(name: str, sign: float = 1.0) -> Callable[[PairEvaluation], Any]:
     """Maximum, or for sign −1 minimum, of a part of the surface state over the loaded contacts."""
 
     def function(at: PairEvaluation) -> Any:
-        load = at.rubbing.normal_load
-        xp = namespace(load)
-        return -sign * smallest(xp.where(load > 0, -sign * getattr(at.surface, name), 1e300))
+        surface, loaded = at.surface
+        return -sign * smallest(namespace(loaded).where(loaded, -sign * getattr(surface, name), 1e300))
 
     return function
 
@@ -219,7 +238,7 @@ QUANTITIES: dict[str, Differentiated] = {
     "normal_load_max": Differentiated(
         "maximum normal load of a pair",
         "N",
-        lambda at: -smallest(-by_pairs(at.rubbing.normal_load, at.rubbing_cycle.slices)),
+        lambda at: -smallest(-at.pair_loads),
         _RUBBING,
     ),
     "hertz_pressure_max": Differentiated(

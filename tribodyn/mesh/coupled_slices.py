@@ -49,13 +49,14 @@ def tabulate_helical(
     mesh: MeshData,
     layout: SliceLayout,
     gear_torque: float,
+    phase: Float[Array, " node"] | None = None,
 ) -> MeshCycle:
     """Tabulate a pair in slices, which hold each other where the mesh says so.
 
     Every number may be traced, unless flanks are modified; a traced helix angle or torque is not zero. Only
     the energy method knows how slices hold each other, and only at a torque (N m).
     """
-    cycle = tabulate_slices(assembly, materials, mesh, layout)
+    cycle = tabulate_slices(assembly, materials, mesh, layout, phase)
     held = mesh.compliance == "energy" and mesh.slice_coupling
     loaded = all(is_jax(number) or number for number in (assembly.drive.helix_angle, gear_torque))
     return couple_slices(assembly, materials, mesh, cycle, gear_torque) if held and loaded else cycle

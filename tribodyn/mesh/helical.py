@@ -46,6 +46,7 @@ NODES_PER_RAMP = 12
 MAXIMUM_NODES = 1025
 #: Minimum number of slices of a helical pair.
 MINIMUM_SLICES = 3
+_BESIDE = 1e-6  # pitches by which `edge_phases` stand off the kinks
 
 
 class SliceLayout(NamedTuple):
@@ -93,17 +94,19 @@ def tabulate_slices(
     materials: tuple[MaterialData, MaterialData],
     mesh: table.MeshData,
     layout: SliceLayout,
+    phase: Float[Array, " node"] | None = None,
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a helical pair whose slices do not hold each other.
 
-    Every number of the drive may be traced, unless flanks are modified. Raises InputError as
+    Every number of the drive may be traced, unless flanks are modified. A table at other phases than the even
+    ones, as they are needed to integrate and interpolate, is of helical gears. Raises InputError as
     `tabulate.tabulate`.
     """
     check_options(assembly, mesh, bool(layout.back))
     if not is_jax(assembly.drive.helix_angle) and assembly.drive.helix_angle == 0.0:
         return _spur_slices(assembly, materials, mesh, layout)
     path = assembly.path
-    at, share = _slots(assembly, layout)
+    at, share = _slots(assembly, layout, phase)
     slope = absolute(pitch_slope(assembly))
     curve = RollCurve(*assembly.roll_limits)
     r_nodes = path.signed_distance(curve.nodes())
@@ -168,24 +171,40 @@ class Faces(NamedTuple):
     stretch: Any  # length of the line of contact per width of the face, like the contacts
 
 
-def _slots(assembly: Assembly, layout: SliceLayout) -> tuple[table.Slots, Float[Array, "segment node slot"]]:
+def edge_phases(assembly: Assembly, slices: int) -> Float[Array, " edge"]:
+    """Phases at which an edge of a slice has just entered the path of contact, or is about to leave it.
+
+    There loads along the face have their kinks; every slice touches over its whole width for the first and
+    the last time. May be traced.
+    """
+    start, end = assembly.roll_limits
+    late = overlap_ratio(assembly) * np.arange(slices + 1.0) / slices
+    xp = namespace(late, start)
+    passed = xp.concatenate([late + _BESIDE, late + (end - start) / assembly.pitch_angle - _BESIDE])
+    return passed - xp.floor(passed)
+
+
+def _slots(
+    assembly: Assembly, layout: SliceLayout, phases: Float[Array, " node"] | None
+) -> tuple[table.Slots, Float[Array, "segment node slot"]]:
     """Where the slices stand, in the middle of the part that touches, and its share of the slice."""
     start, end = assembly.roll_limits
     pitch, count = assembly.pitch_angle, layout.slices
     xp = namespace(start, end, assembly.drive)
     whole = pitch * overlap_ratio(assembly)  # by which the one end of the face is late against the other
     late = whole * face_positions(1.0, count)
-    phase = np.linspace(0.0, 1.0, layout.nodes)[None]
+    phase = (np.linspace(0.0, 1.0, layout.nodes) if phases is None else phases)[None]
     begin = start - whole / 2.0
     ages = np.arange(layout.pairs - 1.0, -1.0, -1.0)
     middle = begin + pitch * (phase[..., None] + ages)
     rolls = [middle[..., None] - late]
+    nodes = phase.shape[1]
     if layout.back:
         numbers = np.array(layout.back[::-1], dtype=float)
         # z = 0 is late by a half overlap against the edge that the phase counts from
         turned = start + pitch * (table.back_entry(start, pitch) - phase[..., None] + numbers) + whole / 2.0
         rolls.append(turned[..., None] + late)
-    roll = xp.concatenate([part.reshape(1, layout.nodes, -1) for part in rolls], axis=-1)
+    roll = xp.concatenate([part.reshape(1, nodes, -1) for part in rolls], axis=-1)
     width = whole / count
     low, high = within(roll - width / 2.0, start, end), within(roll + width / 2.0, start, end)
     share = (high - low) / width
