@@ -33,9 +33,6 @@ _OF_NO_INFLUENCE = ("title", "name", "output", "solver", "bearings")
 #: One quantity by more keys than this is differentiated backwards: in a time that does not depend on their
 #: number, by a program that takes longer to make.
 FORWARDS = 6
-#: Nodes of tables of slices, which follow the numbers, are rounded up to a multiple: few programs serve a
-#: search.
-_NODES = 128
 #: Keys by which several quantities are differentiated at once.
 _TOGETHER = 8
 
@@ -149,8 +146,7 @@ def fixed_of(case: Any) -> Fixed:
         vanishing, layout = bool(float(gears.path.pressure_angle(0.0)) < 1e-9), None
         if gears.drive.helix_angle and np.isfinite(ratio) and ratio > 0.0:
             mesh, _ = with_slices(gears, case.materials, case.mesh, case.operating.gear_torque)
-            layout = slice_layout(gears, mesh, mesh.slices)
-            layout = layout._replace(nodes=-(-(layout.nodes - 1) // _NODES) * _NODES + 1)
+            layout = slice_layout(gears, mesh, mesh.slices)._replace(nodes=0)  # `mean_nodes`
         return Fixed(pairs, vanishing, layout)
 
 

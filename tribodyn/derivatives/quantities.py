@@ -8,8 +8,6 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive
@@ -20,7 +18,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.coupled_slices import tabulate_helical
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
-from tribodyn.mesh.helical import SliceLayout, edge_phases
+from tribodyn.mesh.helical import SliceLayout, between_nodes, mean_nodes
 from tribodyn.mesh.quasi_static import (
     QuasiStatic,
     by_pairs,
@@ -67,6 +65,12 @@ class PairEvaluation:
         return self._table(self.gears)
 
     @cached_property
+    def weight(self) -> Any:
+        """Weights of the nodes of the table in means, of helical gears."""
+        layout = self.fixed.layout
+        return None if layout is None else mean_nodes(self.gears, layout.slices).weight
+
+    @cached_property
     def state(self) -> QuasiStatic:
         """Loads and deflection without friction."""
         return quasi_static(self.cycle, absolute(self.case.operating.gear_torque))
@@ -85,39 +89,22 @@ class PairEvaluation:
         return self._rubbing[0]
 
     @cached_property
-    def pair_loads(self) -> Any:
-        """Loads of pairs where extremes are sought."""
-        return by_pairs(self._sought[0].normal_load, self.rubbing_cycle.slices)
-
-    @cached_property
-    def surface(self) -> tuple[SurfaceState, Any]:
-        """Film, pressure and temperature where extremes are sought, and which contacts are loaded."""
-        found, seen = self._sought
-        return seen.under(found.normal_load).surface, found.normal_load > 0
+    def surface(self) -> SurfaceState:
+        """Film, pressure and temperature of all contacts."""
+        return self._rubbing[1].under(self.rubbing.normal_load).surface
 
     @cached_property
     def _rubbing(self) -> tuple[Equilibrium, Contacts]:
-        return self._balanced(self.rubbing_cycle)
-
-    @cached_property
-    def _sought(self) -> tuple[Equilibrium, Contacts]:
-        """At the nodes, and where edges of slices come and go: nodes do not move with these, kinks do."""
-        layout = self.fixed.layout
-        if layout is None:
-            return self._rubbing
-        edges = edge_phases(self.gears, layout.slices)
-        even = np.linspace(0.0, 1.0, layout.nodes)
-        return self._balanced(self._table(self.gears, namespace(edges).concatenate([even, edges])))
-
-    def _balanced(self, cycle: MeshCycle) -> tuple[Equilibrium, Contacts]:
-        operating, closure = self.case.operating, untried_closure_of(self.case)
+        operating, cycle = self.case.operating, self.rubbing_cycle
+        closure = untried_closure_of(self.case)
         seen = contacts(cycle, operating.gear_torque, operating.pinion_speed, closure, self.fixed.vanishing)
         return equilibrium(seen, elastic(cycle, operating.gear_torque)), seen
 
-    def _table(self, gears: Assembly, phase: Any = None) -> MeshCycle:
+    def _table(self, gears: Assembly) -> MeshCycle:
         case, layout = self.case, self.fixed.layout
         if layout is None:
             return tabulate(gears, case.materials, case.mesh, self.fixed.pairs)
+        phase = mean_nodes(gears, layout.slices).phase
         return tabulate_helical(gears, case.materials, case.mesh, layout, case.operating.gear_torque, phase)
 
 
@@ -149,24 +136,26 @@ def _hertz_pressure(at: PairEvaluation) -> Any:
     return hertz_pressure(load / length, 1.0 / _equivalent_radius(at), surfaces_of(case).effective_modulus)
 
 
-def _swing(values: Any) -> Any:
+def _swing(at: PairEvaluation, values: Any) -> Any:
+    layout = at.fixed.layout
+    values = values if layout is None else between_nodes(values[0], layout.slices)
     return -smallest(-values) - smallest(values)
 
 
 def _loss_factor(at: PairEvaluation) -> Any:
     cycle = at.cycle
     torque = absolute(at.case.operating.gear_torque) * cycle.pinion_pitch_radius / cycle.gear_pitch_radius
-    return friction_loss(cycle, at.state.normal_load, 1.0) / torque
+    return friction_loss(cycle, at.state.normal_load, 1.0, at.weight) / torque
 
 
 def _efficiency(at: PairEvaluation) -> Any:
     torque, found = at.case.operating.gear_torque, at.rubbing
-    return mean_efficiency(at.rubbing_cycle, torque, found.friction_coefficient, found.normal_load)
+    return mean_efficiency(at.rubbing_cycle, torque, found.friction_coefficient, found.normal_load, at.weight)
 
 
 def _friction_power(at: PairEvaluation) -> Any:
     found = at.rubbing
-    loss = friction_loss(at.rubbing_cycle, found.normal_load, found.friction_coefficient)
+    loss = friction_loss(at.rubbing_cycle, found.normal_load, found.friction_coefficient, at.weight)
     return loss * absolute(at.case.operating.pinion_speed)
 
 
@@ -174,8 +163,9 @@ def _largest(name: str, sign: float = 1.0) -> Callable[[PairEvaluation], Any]:
     """Maximum, or for sign −1 minimum, of a part of the surface state over the loaded contacts."""
 
     def function(at: PairEvaluation) -> Any:
-        surface, loaded = at.surface
-        return -sign * smallest(namespace(loaded).where(loaded, -sign * getattr(surface, name), 1e300))
+        load = at.rubbing.normal_load
+        xp = namespace(load)
+        return -sign * smallest(xp.where(load > 0, -sign * getattr(at.surface, name), 1e300))
 
     return function
 
@@ -218,16 +208,16 @@ QUANTITIES: dict[str, Differentiated] = {
     "mean_stiffness": Differentiated(
         "mesh stiffness, mean over a mesh cycle",
         "N/m",
-        lambda at: cycle_mean(at.cycle, at.state.mesh_stiffness),
+        lambda at: cycle_mean(at.cycle, at.state.mesh_stiffness, at.weight),
         _LOADED,
     ),
     "stiffness_swing": Differentiated(
-        "mesh stiffness, peak to peak", "N/m", lambda at: _swing(at.state.mesh_stiffness), _LOADED
+        "mesh stiffness, peak to peak", "N/m", lambda at: _swing(at, at.state.mesh_stiffness), _LOADED
     ),
     "transmission_error_swing": Differentiated(
         "quasi-static transmission error r_p θ_p − r_g θ_g, peak to peak",
         "m",
-        lambda at: _swing(at.state.deflection),
+        lambda at: _swing(at, at.state.deflection),
         _LOADED,
     ),
     "loss_factor": Differentiated(
@@ -238,7 +228,7 @@ QUANTITIES: dict[str, Differentiated] = {
     "normal_load_max": Differentiated(
         "maximum normal load of a pair",
         "N",
-        lambda at: -smallest(-at.pair_loads),
+        lambda at: -smallest(-by_pairs(at.rubbing.normal_load, at.rubbing_cycle.slices)),
         _RUBBING,
     ),
     "hertz_pressure_max": Differentiated(

@@ -46,7 +46,13 @@ NODES_PER_RAMP = 12
 MAXIMUM_NODES = 1025
 #: Minimum number of slices of a helical pair.
 MINIMUM_SLICES = 3
-_BESIDE = 1e-6  # pitches by which `edge_phases` stand off the kinks
+# Pitches by which nodes for extremes stand off the kinks; points and weights between two kinks.
+_BESIDE, _GAUSS = 1e-6, np.polynomial.legendre.leggauss(8)
+_DEGREE = len(_GAUSS[0]) - 1
+_BETWEEN = (
+    np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, 65), _DEGREE)
+    @ np.linalg.inv(np.polynomial.legendre.legvander(_GAUSS[0], _DEGREE))
+).T
 
 
 class SliceLayout(NamedTuple):
@@ -171,17 +177,42 @@ class Faces(NamedTuple):
     stretch: Any  # length of the line of contact per width of the face, like the contacts
 
 
-def edge_phases(assembly: Assembly, slices: int) -> Float[Array, " edge"]:
-    """Phases at which an edge of a slice has just entered the path of contact, or is about to leave it.
+class MeanNodes(NamedTuple):
+    """Nodes for means over the mesh cycle and for extremes, which move with the kinks of loads and friction."""
 
-    There loads along the face have their kinks; every slice touches over its whole width for the first and
-    the last time. May be traced.
+    phase: Float[Array, " node"]
+    weight: Float[Array, " node"]  # of means; 0 of nodes for extremes
+
+
+def mean_nodes(assembly: Assembly, slices: int) -> MeanNodes:
+    """Gauss's points between the phases at which edges of slices come, pass the pitch point or go.
+
+    Loads and friction have their kinks there. Extremes are at the kinks too: at the nodes just inside, every
+    slice touches over its whole width for the first or the last time. Even nodes, which do not move with the
+    slices, have derivatives that are percents off. May be traced.
     """
     start, end = assembly.roll_limits
-    late = overlap_ratio(assembly) * np.arange(slices + 1.0) / slices
-    xp = namespace(late, start)
-    passed = xp.concatenate([late + _BESIDE, late + (end - start) / assembly.pitch_angle - _BESIDE])
-    return passed - xp.floor(passed)
+    pitch, late = assembly.pitch_angle, overlap_ratio(assembly) * np.arange(slices + 1.0) / slices
+    xp = namespace(late, start, end)
+    comes, passes, goes = late, late - start / pitch, late + (end - start) / pitch
+    kinks = xp.concatenate([late[:1], 1.0 + late[:1], _fraction(comes), _fraction(passes), _fraction(goes)])
+    kinks = xp.sort(kinks)
+    length = (kinks[1:] - kinks[:-1])[:, None]
+    points = kinks[:-1, None] + length * (0.5 + 0.5 * _GAUSS[0])
+    edges = _fraction(xp.concatenate([comes + _BESIDE, goes - _BESIDE]))
+    weights = length * (0.5 * _GAUSS[1])
+    return MeanNodes(xp.concatenate([points.ravel(), edges]), xp.concatenate([weights.ravel(), 0.0 * edges]))
+
+
+def between_nodes(values: Float[Array, " node"], slices: int) -> Float[Array, " point"]:
+    """Values at all `mean_nodes`, and so many more between two kinks that no smooth extreme is missed."""
+    count = len(_GAUSS[0]) * (3 * slices + 4)
+    pieces = values[:count].reshape(-1, len(_GAUSS[0])) @ _BETWEEN
+    return namespace(values).concatenate([pieces.ravel(), values])
+
+
+def _fraction(phase: Any) -> Any:
+    return phase - namespace(phase).floor(phase)
 
 
 def _slots(
