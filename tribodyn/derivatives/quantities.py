@@ -12,6 +12,7 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
+from tribodyn.geometry.flanks.modification import UNMODIFIED
 from tribodyn.geometry.helix import curvature_share, line_stretch, normal_slope, pitch_slope
 from tribodyn.geometry.limits.limits import distances
 from tribodyn.geometry.path import kinematics
@@ -270,6 +271,9 @@ def quantity_of(case: Any, name: str) -> Differentiated:
         rule = f"{name} cannot be differentiated with compliances by finite elements"
         remedy = 'use the energy method: overrides={"mesh.compliance": "energy"}'
         raise InputError("mesh.compliance", quoted(case.mesh.compliance), rule, remedy)
+    if "mesh" in quantity.needs and case.drive.helix_angle and case.mesh.modifications != UNMODIFIED:
+        rule = f"{name} of helical gears with modified or misaligned flanks cannot be differentiated"
+        raise InputError("drive.helix_angle", None, rule, "use td.sweep, or leave the modifications out")
     if "operating" in quantity.needs and not case.operating.gear_torque:
         raise InputError("operating.gear_torque", 0, f"{name} is one of loaded teeth", "give a torque")
     temperature = getattr(case, "temperature", None)

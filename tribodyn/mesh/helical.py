@@ -17,6 +17,7 @@ further on by as much: mirrored, the hand of the helix is the other one.
 
 import dataclasses
 import math
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -46,13 +47,8 @@ NODES_PER_RAMP = 12
 MAXIMUM_NODES = 1025
 #: Minimum number of slices of a helical pair.
 MINIMUM_SLICES = 3
-# Pitches by which nodes for extremes stand off the kinks; points and weights between two kinks.
-_BESIDE, _GAUSS = 1e-6, np.polynomial.legendre.leggauss(8)
-_DEGREE = len(_GAUSS[0]) - 1
-_BETWEEN = (
-    np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, 65), _DEGREE)
-    @ np.linalg.inv(np.polynomial.legendre.legvander(_GAUSS[0], _DEGREE))
-).T
+_BESIDE = 1e-6  # pitches by which nodes for extremes stand off the kinks
+_POINTS, _FEWEST = 300, 8  # nodes of a mean altogether, about, and between two kinks at least
 
 
 class SliceLayout(NamedTuple):
@@ -178,7 +174,7 @@ class Faces(NamedTuple):
 
 
 class MeanNodes(NamedTuple):
-    """Nodes for means over the mesh cycle and for extremes, which move with the kinks of loads and friction."""
+    """Nodes for means over the mesh cycle and for extremes, which move with kinks of loads and friction."""
 
     phase: Float[Array, " node"]
     weight: Float[Array, " node"]  # of means; 0 of nodes for extremes
@@ -198,17 +194,27 @@ def mean_nodes(assembly: Assembly, slices: int) -> MeanNodes:
     kinks = xp.concatenate([late[:1], 1.0 + late[:1], _fraction(comes), _fraction(passes), _fraction(goes)])
     kinks = xp.sort(kinks)
     length = (kinks[1:] - kinks[:-1])[:, None]
-    points = kinks[:-1, None] + length * (0.5 + 0.5 * _GAUSS[0])
+    at, share, _ = _gauss(slices)
+    points, weights = kinks[:-1, None] + length * at, length * share
     edges = _fraction(xp.concatenate([comes + _BESIDE, goes - _BESIDE]))
-    weights = length * (0.5 * _GAUSS[1])
     return MeanNodes(xp.concatenate([points.ravel(), edges]), xp.concatenate([weights.ravel(), 0.0 * edges]))
 
 
 def between_nodes(values: Float[Array, " node"], slices: int) -> Float[Array, " point"]:
     """Values at all `mean_nodes`, and so many more between two kinks that no smooth extreme is missed."""
-    count = len(_GAUSS[0]) * (3 * slices + 4)
-    pieces = values[:count].reshape(-1, len(_GAUSS[0])) @ _BETWEEN
+    *_, between = _gauss(slices)
+    pieces = values[: -2 * (slices + 1)].reshape(-1, len(between)) @ between
     return namespace(values).concatenate([pieces.ravel(), values])
+
+
+@lru_cache(maxsize=8)
+def _gauss(slices: int) -> tuple[Float[Array, " node"], Float[Array, " node"], Float[Array, "node point"]]:
+    """Points and weights on 0 … 1, and the matrix from there to 65 even points."""
+    count = max(_FEWEST, -(-_POINTS // (3 * slices + 4)))
+    points, weights = np.polynomial.legendre.leggauss(count)
+    basis, even = np.polynomial.legendre.legvander, np.linspace(-1.0, 1.0, 65)
+    between = basis(even, count - 1) @ np.linalg.inv(basis(points, count - 1))
+    return 0.5 + 0.5 * points, 0.5 * weights, between.T
 
 
 def _fraction(phase: Any) -> Any:

@@ -75,7 +75,9 @@ def test_closed_forms():
     assert radius.sensitivity["drive.module"] == pytest.approx(1.0, rel=1e-12)
 
 
-@pytest.mark.parametrize("name", [INVOLUTE, "efficiency-crc-23-47", "efficiency-cycloidal-23-47"])
+@pytest.mark.parametrize(
+    "name", [INVOLUTE, "efficiency-crc-23-47", "efficiency-cycloidal-23-47", "efficiency-helical-24-95"]
+)
 def test_efficiency_is_that_of_the_efficiency_study(name):
     case = td.scenario(name)
     summary = td.run(name).summary
@@ -227,7 +229,7 @@ def primitives(jaxpr):
             yield from primitives(inner)
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", [*FAMILIES, "helical-23-47"])
 def test_no_slope_depends_on_the_equality_of_numbers(name):
     """JAX's slope of a minimum is lost where a program computes its arguments once more and rounds apart."""
     case = td.scenario(name)
