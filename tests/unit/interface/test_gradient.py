@@ -75,9 +75,7 @@ def test_closed_forms():
     assert radius.sensitivity["drive.module"] == pytest.approx(1.0, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    "name", [INVOLUTE, "efficiency-crc-23-47", "efficiency-cycloidal-23-47", "efficiency-helical-24-95"]
-)
+@pytest.mark.parametrize("name", [INVOLUTE, "efficiency-crc-23-47", "efficiency-cycloidal-23-47"])
 def test_efficiency_is_that_of_the_efficiency_study(name):
     case = td.scenario(name)
     summary = td.run(name).summary

@@ -13,7 +13,7 @@ from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.equilibrium import contacts, elastic, settled
-from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
+from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies import study_of
 from tribodyn.tribology.closure import closure_of, surfaces_of
 
@@ -47,7 +47,8 @@ def quantities(case):
     return np.array([value(case, name) for name in OF])
 
 
-@pytest.mark.parametrize("name", ["coupled", pytest.param("apart", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("name", OTHERS)
 def test_slopes_are_those_of_other_scenarios(name):
     overrides = FEW | OTHERS[name]
     function = td.differentiable(PAIR, OF, list(KEYS), overrides)

@@ -7,7 +7,6 @@ import pytest
 
 import tribodyn as td
 from tribodyn.dynamics.parameters import frictionless
-from tribodyn.errors import InputError
 from tribodyn.post.cycles import key_points, path_limits
 from tribodyn.post.figures.over_face import flank_map
 from tribodyn.post.figures.path_of_contact import key_positions
