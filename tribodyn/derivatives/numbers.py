@@ -11,6 +11,7 @@ from pydantic import BaseModel
 
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
+from tribodyn.geometry.rack_section import as_written, from_written
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.scenario.own_keys import si_unit
@@ -89,10 +90,17 @@ def _put(whole: Any, path: tuple[str | int, ...], value: Any) -> Any:
 
 
 def _of_drive(case: Any) -> Iterator[tuple[str, Number]]:
-    drive, teeth = case.drive, family(case.family)
+    teeth, helix = family(case.family), case.drive.helix_angle
+    drive = as_written(teeth, case.drive)
+    if helix:
+        hand = np.sign(helix)
+        yield (
+            "drive.helix_angle",
+            Number(abs(helix), "", lambda case, value: _write(("helix_angle",), case, hand * value)),
+        )
     there = {"pressure_angle": teeth.pressure_angle, "centre_distance": drive.centre_distance is not None}
     for name in ("module", *(name for name in there if there[name])):
-        yield f"drive.{name}", Number(getattr(drive, name), "", _on("drive", name))
+        yield f"drive.{name}", Number(getattr(drive, name), "", partial(_write, (name,)))
     for parameter in teeth.parameters:
         name = parameter.name
         value = getattr(drive.shape, name, None)
@@ -111,7 +119,13 @@ def _of_drive(case: Any) -> Iterator[tuple[str, Number]]:
         if body.tip_radius is not None:  # takes the place of the addendum
             names = ["tip_radius" if name == "addendum" else name for name in names]
         for name in names:
-            yield f"drive.{side}.{name}", Number(getattr(body, name), "", _on("drive", side, name))
+            yield f"drive.{side}.{name}", Number(getattr(body, name), "", partial(_write, (side, name)))
+
+
+def _write(path: tuple[str, ...], case: Any, value: Any) -> Any:
+    """Put a number of a drive's keys, which of helical involutes are those of the normal section."""
+    teeth = family(case.family)
+    return replace(case, drive=from_written(teeth, _put(as_written(teeth, case.drive), path, value)))
 
 
 def _of_materials(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:

@@ -12,13 +12,24 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
+from tribodyn.geometry.flanks.modification import UNMODIFIED
+from tribodyn.geometry.helix import curvature_share, line_stretch, normal_slope, pitch_slope
 from tribodyn.geometry.limits.limits import distances
 from tribodyn.geometry.path import kinematics
+from tribodyn.mesh.coupled_slices import tabulate_helical
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
-from tribodyn.mesh.quasi_static import QuasiStatic, cycle_mean, friction_loss, mean_efficiency, quasi_static
+from tribodyn.mesh.helical import SliceLayout, between_nodes, mean_nodes
+from tribodyn.mesh.quasi_static import (
+    QuasiStatic,
+    by_pairs,
+    cycle_mean,
+    friction_loss,
+    mean_efficiency,
+    quasi_static,
+)
 from tribodyn.mesh.tabulate import tabulate
-from tribodyn.numerics.elementary import absolute, cos, minimum, namespace, smallest
+from tribodyn.numerics.elementary import absolute, cos, namespace, smallest, sqrt
 from tribodyn.quantities.motion import LIMITS
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_pressure
@@ -30,6 +41,7 @@ class Fixed(NamedTuple):
 
     pairs: int  # pairs in contact at most
     vanishing: bool  # whether radius and rolling speeds are zero at the pitch point
+    layout: SliceLayout | None = None  # of helical gears
 
 
 class PairEvaluation:
@@ -54,6 +66,12 @@ class PairEvaluation:
         return self._table(self.gears)
 
     @cached_property
+    def weight(self) -> Any:
+        """Weights of the nodes of the table in means, of helical gears."""
+        layout = self.fixed.layout
+        return None if layout is None else mean_nodes(self.gears, layout.slices).weight
+
+    @cached_property
     def state(self) -> QuasiStatic:
         """Loads and deflection without friction."""
         return quasi_static(self.cycle, absolute(self.case.operating.gear_torque))
@@ -62,7 +80,7 @@ class PairEvaluation:
     def rubbing_cycle(self) -> MeshCycle:
         """Table with a segment wherever a pair passes the pitch point: there friction turns."""
         gears = self.gears
-        if gears.family.corner:
+        if gears.family.corner or self.fixed.layout is not None:  # slices have one segment
             return self.cycle
         return self._table(Assembly(gears.family._replace(corner=True), gears.drive))
 
@@ -84,7 +102,11 @@ class PairEvaluation:
         return equilibrium(seen, elastic(cycle, operating.gear_torque)), seen
 
     def _table(self, gears: Assembly) -> MeshCycle:
-        return tabulate(gears, self.case.materials, self.case.mesh, self.fixed.pairs)
+        case, layout = self.case, self.fixed.layout
+        if layout is None:
+            return tabulate(gears, case.materials, case.mesh, self.fixed.pairs)
+        phase = mean_nodes(gears, layout.slices).phase
+        return tabulate_helical(gears, case.materials, case.mesh, layout, case.operating.gear_torque, phase)
 
 
 class Differentiated(NamedTuple):
@@ -99,32 +121,42 @@ class Differentiated(NamedTuple):
     limit: bool = False  # whether it is a distance from a limit of existence, positive where gears exist
 
 
+def _equivalent_radius(at: PairEvaluation) -> Any:
+    """Across the line of contact."""
+    path = at.gears.path
+    return 1.0 / kinematics(path, 0.0).relative_curvature / curvature_share(pitch_slope(at.gears), path, 0.0)
+
+
 def _hertz_pressure(at: PairEvaluation) -> Any:
-    path, case = at.gears.path, at.case
-    load = absolute(case.operating.gear_torque) / path.gear_pitch_radius / cos(path.pressure_angle(0.0))
-    width = minimum(case.drive.pinion.face_width, case.drive.gear.face_width)
-    curvature = kinematics(path, 0.0).relative_curvature
-    return hertz_pressure(load / width, curvature, surfaces_of(case).effective_modulus)
+    """Of a line of contact over the whole face."""
+    path, case, slope = at.gears.path, at.case, pitch_slope(at.gears)
+    angle = path.pressure_angle(0.0)
+    across = absolute(case.operating.gear_torque) / path.gear_pitch_radius / cos(angle)
+    load = across * sqrt(1.0 + normal_slope(slope, angle) ** 2)
+    length = at.gears.common_width * line_stretch(slope, path, 0.0)
+    return hertz_pressure(load / length, 1.0 / _equivalent_radius(at), surfaces_of(case).effective_modulus)
 
 
-def _swing(values: Any) -> Any:
+def _swing(at: PairEvaluation, values: Any) -> Any:
+    layout = at.fixed.layout
+    values = values if layout is None else between_nodes(values[0], layout.slices)
     return -smallest(-values) - smallest(values)
 
 
 def _loss_factor(at: PairEvaluation) -> Any:
     cycle = at.cycle
     torque = absolute(at.case.operating.gear_torque) * cycle.pinion_pitch_radius / cycle.gear_pitch_radius
-    return friction_loss(cycle, at.state.normal_load, 1.0) / torque
+    return friction_loss(cycle, at.state.normal_load, 1.0, at.weight) / torque
 
 
 def _efficiency(at: PairEvaluation) -> Any:
     torque, found = at.case.operating.gear_torque, at.rubbing
-    return mean_efficiency(at.rubbing_cycle, torque, found.friction_coefficient, found.normal_load)
+    return mean_efficiency(at.rubbing_cycle, torque, found.friction_coefficient, found.normal_load, at.weight)
 
 
 def _friction_power(at: PairEvaluation) -> Any:
     found = at.rubbing
-    loss = friction_loss(at.rubbing_cycle, found.normal_load, found.friction_coefficient)
+    loss = friction_loss(at.rubbing_cycle, found.normal_load, found.friction_coefficient, at.weight)
     return loss * absolute(at.case.operating.pinion_speed)
 
 
@@ -164,7 +196,7 @@ QUANTITIES: dict[str, Differentiated] = {
     "equivalent_radius": Differentiated(
         "equivalent radius of curvature at the pitch point",
         "m",
-        lambda at: 1.0 / kinematics(at.gears.path, 0.0).relative_curvature,
+        _equivalent_radius,
         at_pitch_point=True,
     ),
     "hertz_pressure": Differentiated(
@@ -177,16 +209,16 @@ QUANTITIES: dict[str, Differentiated] = {
     "mean_stiffness": Differentiated(
         "mesh stiffness, mean over a mesh cycle",
         "N/m",
-        lambda at: cycle_mean(at.cycle, at.state.mesh_stiffness),
+        lambda at: cycle_mean(at.cycle, at.state.mesh_stiffness, at.weight),
         _LOADED,
     ),
     "stiffness_swing": Differentiated(
-        "mesh stiffness, peak to peak", "N/m", lambda at: _swing(at.state.mesh_stiffness), _LOADED
+        "mesh stiffness, peak to peak", "N/m", lambda at: _swing(at, at.state.mesh_stiffness), _LOADED
     ),
     "transmission_error_swing": Differentiated(
         "quasi-static transmission error r_p θ_p − r_g θ_g, peak to peak",
         "m",
-        lambda at: _swing(at.state.deflection),
+        lambda at: _swing(at, at.state.deflection),
         _LOADED,
     ),
     "loss_factor": Differentiated(
@@ -195,7 +227,10 @@ QUANTITIES: dict[str, Differentiated] = {
     "efficiency": Differentiated("quasi-static efficiency, elastic load sharing", "1", _efficiency, _RUBBING),
     "friction_power": Differentiated("quasi-static friction loss", "W", _friction_power, _RUBBING),
     "normal_load_max": Differentiated(
-        "maximum normal load of a pair", "N", lambda at: -smallest(-at.rubbing.normal_load), _RUBBING
+        "maximum normal load of a pair",
+        "N",
+        lambda at: -smallest(-by_pairs(at.rubbing.normal_load, at.rubbing_cycle.slices)),
+        _RUBBING,
     ),
     "hertz_pressure_max": Differentiated(
         "maximum Hertz pressure over a mesh cycle", "Pa", _largest("hertz_pressure"), _RUBBING
@@ -228,9 +263,6 @@ def quantity_of(case: Any, name: str) -> Differentiated:
         raise InputError(
             "kind", quoted(case.kind), "has no gear pair to differentiate", "use another scenario"
         )
-    if case.drive.helix_angle:
-        rule = f"{name} of helical gears cannot be differentiated"
-        raise InputError("drive.helix_angle", None, rule, "use td.sweep, or spur gears")
     for table in quantity.needs:
         if not hasattr(case, table):
             rule = f"{name} depends on [{table}], which a scenario of this kind does not have"
@@ -239,6 +271,9 @@ def quantity_of(case: Any, name: str) -> Differentiated:
         rule = f"{name} cannot be differentiated with compliances by finite elements"
         remedy = 'use the energy method: overrides={"mesh.compliance": "energy"}'
         raise InputError("mesh.compliance", quoted(case.mesh.compliance), rule, remedy)
+    if "mesh" in quantity.needs and case.drive.helix_angle and case.mesh.modifications != UNMODIFIED:
+        rule = f"{name} of helical gears with modified or misaligned flanks cannot be differentiated"
+        raise InputError("drive.helix_angle", None, rule, "use td.sweep, or leave the modifications out")
     if "operating" in quantity.needs and not case.operating.gear_torque:
         raise InputError("operating.gear_torque", 0, f"{name} is one of loaded teeth", "give a torque")
     temperature = getattr(case, "temperature", None)

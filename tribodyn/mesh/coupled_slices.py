@@ -16,6 +16,8 @@ Lumping: at the operating load the slices that touch are solved together. Each s
 compliance and the gap that give it the same load, and the same change of load while the gears turn.
 """
 
+from typing import Any
+
 import numpy as np
 
 from tribodyn.compliance.energy import loaded_tooth, tooth_compliance
@@ -27,6 +29,8 @@ from tribodyn.mesh.helical import SliceLayout, tabulate_slices
 from tribodyn.mesh.quasi_static import normal_arms
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import RollCurve, body_coupling
+from tribodyn.numerics.elementary import absolute, cos, is_jax, maximum, namespace, sqrt, within
+from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.shapes import Array, Float
 
 #: ℓ_t and ℓ_b over the normal module.
@@ -34,7 +38,7 @@ TEETH_LENGTH, BODIES_LENGTH = 1.4, 3.0
 # Loads, over the mean, below which the contact is linearised there; and the least part of an approach that
 # a slice's own contact takes, and leaves.
 _SMALL, _LEAST = 0.05, 0.02
-_STEPS, _SETTLED = 20, 1e-9
+_STEPS = 15
 _ROWS = 32  # nodes that are solved at a time
 _WAVES = 6  # waves of the face per slice
 
@@ -45,14 +49,17 @@ def tabulate_helical(
     mesh: MeshData,
     layout: SliceLayout,
     gear_torque: float,
+    phase: Float[Array, " node"] | None = None,
 ) -> MeshCycle:
     """Tabulate a pair in slices, which hold each other where the mesh says so.
 
-    Plain numbers. Only the energy method knows how slices hold each other, and only at a torque (N m).
+    Every number may be traced, unless flanks are modified; a traced helix angle or torque is not zero. Only
+    the energy method knows how slices hold each other, and only at a torque (N m).
     """
-    cycle = tabulate_slices(assembly, materials, mesh, layout)
-    held = mesh.compliance == "energy" and mesh.slice_coupling and assembly.drive.helix_angle
-    return couple_slices(assembly, materials, mesh, cycle, gear_torque) if held and gear_torque else cycle
+    cycle = tabulate_slices(assembly, materials, mesh, layout, phase)
+    held = mesh.compliance == "energy" and mesh.slice_coupling
+    loaded = all(is_jax(number) or number for number in (assembly.drive.helix_angle, gear_torque))
+    return couple_slices(assembly, materials, mesh, cycle, gear_torque) if held and loaded else cycle
 
 
 def couple_slices(
@@ -64,7 +71,7 @@ def couple_slices(
 ) -> MeshCycle:
     """Lump slices that hold each other at a torque T_g ≠ 0 (N m) into a table of uncoupled ones.
 
-    Plain numbers; driving flanks at the torque. Back flanks keep the compliance of slices by themselves.
+    Driving flanks at the torque. Back flanks keep the compliance of slices by themselves.
     """
     fronts, slices = cycle.front_slots, cycle.slices
     front = np.s_[0, :, :fronts]
@@ -72,28 +79,29 @@ def couple_slices(
     teeth, bodies, between = _parts(assembly, materials, mesh, r, slices)
     own = cycle.compliance[front] - slices * (teeth + bodies)  # of the contact alone
     arms = normal_arms(cycle)[front]
-    force = abs(gear_torque) / cycle.gear_pitch_radius
+    force = absolute(gear_torque) / cycle.gear_pitch_radius
     share = cycle.share[front]
-    width = float(assembly.common_width) / float(np.cos(assembly.drive.helix_angle))
-    wave = np.pi * np.arange(_WAVES * slices) / width * float(normal_module(assembly.drive))
+    width = assembly.common_width / cos(assembly.drive.helix_angle)
+    wave = np.pi * np.arange(_WAVES * slices) / width * normal_module(assembly.drive)
     falling = 1.0 / (1.0 + (TEETH_LENGTH * wave) ** 2), 1.0 / (1.0 + BODIES_LENGTH * wave)
+    xp = namespace(*cycle, force, wave)
     # a slice touches with its early part while it enters, with its late part while it leaves
-    middle = (np.arange(share.shape[1]) % slices + 0.5 + np.sign(r) * (1.0 - share) / 2.0) / slices
-    compliance, gap = cycle.compliance.copy(), cycle.gap.copy()
-    for first in range(0, r.shape[0], _ROWS):
-        rows = np.s_[first : first + _ROWS]
+    middle = (np.arange(share.shape[1]) % slices + 0.5 + xp.sign(r) * (1.0 - share) / 2.0) / slices
+    found = []
+    count = _ROWS if xp is np else r.shape[0]  # one program for all
+    for first in range(0, r.shape[0], count):
+        rows = np.s_[first : first + count]
         along = [spread(middle[rows], share[rows], factor, slices) for factor in falling]
         matrix = slices * _matrix(teeth[rows], bodies[rows], between[rows], along)
-        compliance[0, rows, :fronts], gap[0, rows, :fronts] = _lumped(
-            matrix,
-            own[rows],
-            arms[rows],
-            cycle.gap[front][rows],
-            share[rows],
-            force,
-            float(cycle.hertz_coefficient),
+        gaps = cycle.gap[front][rows]
+        found.append(
+            _lumped(matrix, own[rows], arms[rows], gaps, share[rows], force, cycle.hertz_coefficient)
         )
-    return cycle._replace(compliance=compliance, gap=gap)
+    fields = {
+        name: xp.concatenate([xp.concatenate(parts), getattr(cycle, name)[0, :, fronts:]], axis=1)[None]
+        for name, parts in zip(("compliance", "gap"), zip(*found, strict=True), strict=True)
+    }
+    return cycle._replace(**fields)
 
 
 def spread(
@@ -107,10 +115,10 @@ def spread(
     The waves are the cosines of the face, from the even one on; middles of the parts that touch are over its
     width. Of slices that touch over their whole width the shares of all loads sum up to 1.
     """
-    number = np.arange(len(factor))
-    basis = np.cos(np.pi * number * middle[..., None]) * np.sinc(number * share[..., None] / (2.0 * slices))
+    xp, number = namespace(middle, share, factor), np.arange(len(factor))
+    basis = xp.cos(np.pi * number * middle[..., None]) * xp.sinc(number * share[..., None] / (2.0 * slices))
     weight = np.where(number > 0, 2.0, 1.0) * factor / slices
-    return (basis * weight) @ np.swapaxes(basis, -1, -2)
+    return (basis * weight) @ xp.swapaxes(basis, -1, -2)
 
 
 def _parts(
@@ -130,13 +138,14 @@ def _parts(
     bodies = parts[0].foundation + parts[1].foundation
     teeth = parts[0].total + parts[1].total - bodies
     loads = [part.root_load for part in parts]
-    channels = curve.interpolate(
-        np.concatenate([teeth[..., None], bodies[..., None], *loads], axis=-1), assembly.path.rotation(r)
+    together = namespace(teeth, bodies, *loads).concatenate(
+        [teeth[..., None], bodies[..., None], *loads], axis=-1
     )
+    channels = curve.interpolate(together, assembly.path.rotation(r))
     pairs = r.shape[1] // slices
     between = np.zeros((r.shape[0], slices, pairs, pairs))
     if mesh.foundation_coupling:
-        load = np.swapaxes(channels[..., 2:].reshape(r.shape[0], pairs, slices, 6), 1, 2)
+        load = channels[..., 2:].reshape(r.shape[0], pairs, slices, 6).swapaxes(1, 2)
         between = between + body_coupling(tooth, materials, load[..., :3], load[..., 3:], pairs)
     return channels[..., 0], channels[..., 1], between
 
@@ -150,11 +159,11 @@ def _matrix(
     """Deflection of slots per load on slots over the number of slices, without the contact."""
     slices, pairs = between.shape[1:3]
     mean = (between[:, :, None] + between[:, None, :]) / 2.0  # (node, slice, slice, pair, pair)
-    matrix = np.transpose(mean, (0, 3, 1, 4, 2)).reshape(along[1].shape) * along[1]
+    matrix = mean.transpose(0, 3, 1, 4, 2).reshape(along[1].shape) * along[1]
     number = np.arange(pairs * slices) // slices
     for part, spreading in zip((teeth, bodies), along, strict=True):
-        root = np.sqrt(part)
-        matrix += (number[:, None] == number) * root[:, :, None] * spreading * root[:, None, :]
+        root = sqrt(part)
+        matrix = matrix + (number[:, None] == number) * root[:, :, None] * spreading * root[:, None, :]
     return matrix
 
 
@@ -164,39 +173,61 @@ def _lumped(
     arms: Float[Array, "node slot"],
     gap: Float[Array, "node slot"],
     share: Float[Array, "node slot"],
-    force: float,
-    hertz: float,
+    force: Any,
+    hertz: Any,
 ) -> tuple[Float[Array, "node slot"], Float[Array, "node slot"]]:
     """Compliances and gaps of slots alone that carry what the slots together do.
 
     Loads g = F/share are those of slices which touch over their whole width.
     """
     weighed = matrix * share[:, None, :]
-    identity = np.eye(share.shape[1])
-    mean = force / np.sum(share * arms, axis=-1, keepdims=True)
-    load, active = mean + 0.0 * share, np.ones_like(share)
-    total = mean[:, 0]
-    for _ in range(_STEPS):
-        secant = own + hertz * np.maximum(load, _SMALL * mean) ** -0.1
-        left = active[:, :, None] * (weighed + identity * secant[:, :, None]) * active[:, None, :]
-        left = left + identity * (1.0 - active)[:, :, None]
-        right = np.stack([active * arms, active * gap], axis=-1)
-        moved, held = np.moveaxis(np.linalg.solve(left, right), -1, 0)
-        pushing = share * arms
-        total = (force + np.sum(pushing * held, axis=-1)) / np.sum(pushing * moved, axis=-1)
-        load = active * (moved * total[:, None] - held)
-        overlap = arms * total[:, None] - gap - np.einsum("nij,nj->ni", weighed, load)
-        before, active = active, np.where(np.where(active > 0.0, load, overlap) > 0.0, 1.0, 0.0)
-        change = np.max(np.abs(secant - own - hertz * np.maximum(load, _SMALL * mean) ** -0.1) / secant)
-        if np.all(active == before) and change < _SETTLED:
-            break
-    at = np.maximum(load, _SMALL * mean)
+    mean = force / (share * arms).sum(axis=-1, keepdims=True)
+    start = mean + 0.0 * share, np.ones(own.shape)
+    load, active = newton(_touching, start, _STEPS, weighed, own, arms, gap, share, force, hertz, mean)
+    at = maximum(load, _SMALL * mean)
     contact = own + 0.9 * hertz * at**-0.1
+    turned = _solve(weighed, contact, active, arms[..., None])[..., 0]
+    left_over = arms - (weighed @ turned[..., None])[..., 0]
+    left_over = within(left_over, _LEAST * arms, (1.0 - _LEAST) * arms)
+    compliance = contact * arms / left_over - 0.9 * hertz * at**-0.1
+    reached = (weighed @ load[..., None])[..., 0] + own * load
+    return compliance, gap + reached - compliance * load
+
+
+def _touching(
+    state: tuple[Float[Array, "node slot"], Float[Array, "node slot"]],
+    weighed: Float[Array, "node slot slot"],
+    own: Float[Array, "node slot"],
+    arms: Float[Array, "node slot"],
+    gap: Float[Array, "node slot"],
+    share: Float[Array, "node slot"],
+    force: Any,
+    hertz: Any,
+    mean: Float[Array, "node 1"],
+) -> tuple[Float[Array, "node slot"], Float[Array, "node slot"]]:
+    """Newton's step of the loads that the force makes of all slots, and which slots touch (1 or 0)."""
+    load, active = state
+    xp = namespace(load, weighed, own, force)
+    bent = load > _SMALL * mean
+    each = hertz * maximum(load, _SMALL * mean) ** -0.1
+    slope, ahead = own + xp.where(bent, 0.9, 1.0) * each, xp.where(bent, 0.1, 0.0) * each * load
+    solved = _solve(weighed, slope, active, xp.stack([arms, gap + ahead], axis=-1))
+    moved, held = solved[..., 0], solved[..., 1]
+    pushing = share * arms
+    total = (force + (pushing * held).sum(axis=-1)) / (pushing * moved).sum(axis=-1)
+    load = moved * total[:, None] - held
+    overlap = arms * total[:, None] - gap - (weighed @ load[..., None])[..., 0]
+    return load, xp.where(xp.where(active > 0.0, load, overlap) > 0.0, 1.0, 0.0)
+
+
+def _solve(
+    weighed: Float[Array, "node slot slot"],
+    contact: Float[Array, "node slot"],
+    active: Float[Array, "node slot"],
+    right: Float[Array, "node slot side"],
+) -> Float[Array, "node slot side"]:
+    """Loads under which the active slots, each with its contact, deflect so far; of the others 0."""
+    identity = np.eye(contact.shape[1])
     left = active[:, :, None] * (weighed + identity * contact[:, :, None]) * active[:, None, :]
     left = left + identity * (1.0 - active)[:, :, None]
-    turned = np.linalg.solve(left, (active * arms)[..., None])[..., 0]
-    left_over = arms - np.einsum("nij,nj->ni", weighed, turned)
-    left_over = np.clip(left_over, _LEAST * arms, (1.0 - _LEAST) * arms)
-    compliance = contact * arms / left_over - 0.9 * hertz * at**-0.1
-    reached = np.einsum("nij,nj->ni", weighed, load) + own * load
-    return compliance, gap + reached - compliance * load
+    return namespace(left, right).linalg.solve(left, active[..., None] * right)

@@ -7,8 +7,8 @@ import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.quasi_static import normal_arms, quasi_static
-from tribodyn.numerics.elementary import maximum, namespace, sin, within
+from tribodyn.mesh.quasi_static import normal_arms, quasi_static, sliding_side
+from tribodyn.numerics.elementary import maximum, namespace, sin
 from tribodyn.numerics.iteration import iterate
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.law import Closure
@@ -102,19 +102,6 @@ def contacts(
         xp.stack([cycle.pinion_pitch_radius * normal, cycle.gear_pitch_radius * normal]),
         xp.stack([cycle.pinion_pitch_radius * sin(angle) + r, cycle.gear_pitch_radius * sin(angle) - r]),
     )
-
-
-def sliding_side(cycle: MeshCycle) -> Any:
-    """Sign of the sliding, negative in approach, (S, 1, Q); of slices (S, N, Q) its mean over what touches.
-
-    While a slice passes the pitch point its friction thus turns over its width.
-    """
-    xp = namespace(*cycle)
-    r = cycle.signed_distance
-    if cycle.slices == 1:
-        return xp.sign(r[:, r.shape[1] // 2, None])
-    extent = cycle.share * cycle.slice_width * cycle.pitch_slope * xp.cos(cycle.pressure_angle)
-    return within(2.0 * r / maximum(extent, 1e-12 * cycle.pinion_pitch_radius), -1.0, 1.0)
 
 
 def elastic(cycle: MeshCycle, gear_torque: Any) -> Share:

@@ -17,6 +17,7 @@ further on by as much: mirrored, the hand of the helix is the other one.
 
 import dataclasses
 import math
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -46,6 +47,8 @@ NODES_PER_RAMP = 12
 MAXIMUM_NODES = 1025
 #: Minimum number of slices of a helical pair.
 MINIMUM_SLICES = 3
+_BESIDE = 1e-6  # pitches by which nodes for extremes stand off the kinks
+_POINTS, _FEWEST = 300, 8  # nodes of a mean altogether, about, and between two kinks at least
 
 
 class SliceLayout(NamedTuple):
@@ -93,17 +96,19 @@ def tabulate_slices(
     materials: tuple[MaterialData, MaterialData],
     mesh: table.MeshData,
     layout: SliceLayout,
+    phase: Float[Array, " node"] | None = None,
 ) -> MeshCycle:
     """Tabulate the mesh cycle of a helical pair whose slices do not hold each other.
 
-    Every number of the drive may be traced, unless flanks are modified. Raises InputError as
+    Every number of the drive may be traced, unless flanks are modified. A table at other phases than the even
+    ones, as they are needed to integrate and interpolate, is of helical gears. Raises InputError as
     `tabulate.tabulate`.
     """
     check_options(assembly, mesh, bool(layout.back))
     if not is_jax(assembly.drive.helix_angle) and assembly.drive.helix_angle == 0.0:
         return _spur_slices(assembly, materials, mesh, layout)
     path = assembly.path
-    at, share = _slots(assembly, layout)
+    at, share = _slots(assembly, layout, phase)
     slope = absolute(pitch_slope(assembly))
     curve = RollCurve(*assembly.roll_limits)
     r_nodes = path.signed_distance(curve.nodes())
@@ -168,24 +173,75 @@ class Faces(NamedTuple):
     stretch: Any  # length of the line of contact per width of the face, like the contacts
 
 
-def _slots(assembly: Assembly, layout: SliceLayout) -> tuple[table.Slots, Float[Array, "segment node slot"]]:
+class MeanNodes(NamedTuple):
+    """Nodes for means over the mesh cycle and for extremes, which move with kinks of loads and friction."""
+
+    phase: Float[Array, " node"]
+    weight: Float[Array, " node"]  # of means; 0 of nodes for extremes
+
+
+def mean_nodes(assembly: Assembly, slices: int) -> MeanNodes:
+    """Gauss's points between the phases at which edges of slices come, pass the pitch point or go.
+
+    Loads and friction have their kinks there. Extremes are at the kinks too: at the nodes just inside, every
+    slice touches over its whole width for the first or the last time. Even nodes, which do not move with the
+    slices, have derivatives that are percents off. May be traced.
+    """
+    start, end = assembly.roll_limits
+    pitch, late = assembly.pitch_angle, overlap_ratio(assembly) * np.arange(slices + 1.0) / slices
+    xp = namespace(late, start, end)
+    comes, passes, goes = late, late - start / pitch, late + (end - start) / pitch
+    kinks = xp.concatenate([late[:1], 1.0 + late[:1], _fraction(comes), _fraction(passes), _fraction(goes)])
+    kinks = xp.sort(kinks)
+    length = (kinks[1:] - kinks[:-1])[:, None]
+    at, share, _ = _gauss(slices)
+    points, weights = kinks[:-1, None] + length * at, length * share
+    edges = _fraction(xp.concatenate([comes + _BESIDE, goes - _BESIDE]))
+    return MeanNodes(xp.concatenate([points.ravel(), edges]), xp.concatenate([weights.ravel(), 0.0 * edges]))
+
+
+def between_nodes(values: Float[Array, " node"], slices: int) -> Float[Array, " point"]:
+    """Values at all `mean_nodes`, and so many more between two kinks that no smooth extreme is missed."""
+    *_, between = _gauss(slices)
+    pieces = values[: -2 * (slices + 1)].reshape(-1, len(between)) @ between
+    return namespace(values).concatenate([pieces.ravel(), values])
+
+
+@lru_cache(maxsize=8)
+def _gauss(slices: int) -> tuple[Float[Array, " node"], Float[Array, " node"], Float[Array, "node point"]]:
+    """Points and weights on 0 … 1, and the matrix from there to 65 even points."""
+    count = max(_FEWEST, -(-_POINTS // (3 * slices + 4)))
+    points, weights = np.polynomial.legendre.leggauss(count)
+    basis, even = np.polynomial.legendre.legvander, np.linspace(-1.0, 1.0, 65)
+    between = basis(even, count - 1) @ np.linalg.inv(basis(points, count - 1))
+    return 0.5 + 0.5 * points, 0.5 * weights, between.T
+
+
+def _fraction(phase: Any) -> Any:
+    return phase - namespace(phase).floor(phase)
+
+
+def _slots(
+    assembly: Assembly, layout: SliceLayout, phases: Float[Array, " node"] | None
+) -> tuple[table.Slots, Float[Array, "segment node slot"]]:
     """Where the slices stand, in the middle of the part that touches, and its share of the slice."""
     start, end = assembly.roll_limits
     pitch, count = assembly.pitch_angle, layout.slices
     xp = namespace(start, end, assembly.drive)
     whole = pitch * overlap_ratio(assembly)  # by which the one end of the face is late against the other
     late = whole * face_positions(1.0, count)
-    phase = np.linspace(0.0, 1.0, layout.nodes)[None]
+    phase = (np.linspace(0.0, 1.0, layout.nodes) if phases is None else phases)[None]
     begin = start - whole / 2.0
     ages = np.arange(layout.pairs - 1.0, -1.0, -1.0)
     middle = begin + pitch * (phase[..., None] + ages)
     rolls = [middle[..., None] - late]
+    nodes = phase.shape[1]
     if layout.back:
         numbers = np.array(layout.back[::-1], dtype=float)
         # z = 0 is late by a half overlap against the edge that the phase counts from
         turned = start + pitch * (table.back_entry(start, pitch) - phase[..., None] + numbers) + whole / 2.0
         rolls.append(turned[..., None] + late)
-    roll = xp.concatenate([part.reshape(1, layout.nodes, -1) for part in rolls], axis=-1)
+    roll = xp.concatenate([part.reshape(1, nodes, -1) for part in rolls], axis=-1)
     width = whole / count
     low, high = within(roll - width / 2.0, start, end), within(roll + width / 2.0, start, end)
     share = (high - low) / width

@@ -52,6 +52,19 @@ def normal_arms(cycle: MeshCycle) -> Float[Array, "segment node slot"]:
     return cosine / xp.sqrt(1.0 + (cycle.pitch_slope * cosine) ** 2)
 
 
+def sliding_side(cycle: MeshCycle) -> Any:
+    """Sign of the sliding, negative in approach, (S, 1, Q); of slices (S, N, Q) its mean over what touches.
+
+    While a slice passes the pitch point its friction thus turns over its width.
+    """
+    xp = namespace(*cycle)
+    r = cycle.signed_distance
+    if cycle.slices == 1:
+        return xp.sign(r[:, r.shape[1] // 2, None])
+    extent = cycle.share * cycle.slice_width * cycle.pitch_slope * xp.cos(cycle.pressure_angle)
+    return within(2.0 * r / maximum(extent, 1e-12 * cycle.pinion_pitch_radius), -1.0, 1.0)
+
+
 def quasi_static(
     cycle: MeshCycle, gear_torque: Any, friction: Float[Array, "segment node pair"] | None = None
 ) -> QuasiStatic:
@@ -107,8 +120,17 @@ def quasi_static(
     return QuasiStatic(load if weight is None else load * weight, deflection, stiffness)
 
 
-def cycle_mean(cycle: MeshCycle, values: Float[Array, "segment node *pair"]) -> Float[Array, "*pair"]:
-    """Mean over one mesh cycle of values (S, N, …) at the nodes: the integral of the table's splines."""
+def cycle_mean(
+    cycle: MeshCycle,
+    values: Float[Array, "segment node *pair"],
+    weight: Float[Array, " node"] | None = None,
+) -> Float[Array, "*pair"]:
+    """Mean over one mesh cycle of values (S, N, …) at the nodes: the integral of the table's splines.
+
+    With the weight of each node where these are not even, in one segment (`helical.mean_nodes`).
+    """
+    if weight is not None:
+        return namespace(weight, values).tensordot(weight, values[0], 1)
     return cycle_integral(cycle, values, cycle.boundary[1:, None])
 
 
@@ -221,16 +243,20 @@ def friction_loss(
     cycle: MeshCycle,
     normal_load: Float[Array, "segment node slot"],
     friction_coefficient: Float[Array, "*#table"],
+    weight: Float[Array, " node"] | None = None,
 ) -> Any:
     """Mean friction power over a mesh cycle per pinion speed, N m: Σ μ F |v_s|/ω_p.
 
     Sliding changes sign at the pitch point; the integral is split there, exactly, so that it is smooth in
-    the drive's parameters. The table's `side` must not be traced; the loads (N) are smooth in every segment.
+    the drive's parameters. With weights as of `cycle_mean` it changes over the width of each slice. The
+    table's `side` must not be traced; the loads (N) are smooth in every segment.
     """
     xp = namespace(*cycle, normal_load, friction_coefficient)
     pairs, fronts = cycle.front_pairs, cycle.front_slots
     sliding = (cycle.pinion_speed - cycle.gear_speed)[..., :fronts]
     power = (friction_coefficient * cycle.in_contact[:, None, :] * normal_load)[..., :fronts] * sliding
+    if weight is not None:
+        return cycle_mean(cycle, power * sliding_side(cycle)[..., :fronts], weight).sum()
     pitch_point = cycle.pitch_point_phase - xp.arange(pairs - 1.0, -1.0, -1.0)
     if cycle.slices > 1:
         late = cycle.face_position * cycle.pitch_slope / (cycle.pinion_pitch_radius * cycle.pitch_angle)
@@ -243,16 +269,17 @@ def mean_efficiency(
     gear_torque: Any,
     friction_coefficient: Float[Array, "*#table"],
     normal_load: Float[Array, "segment node pair"] | None = None,
+    weight: Float[Array, " node"] | None = None,
 ) -> Any:
     """Quasi-static efficiency over a mesh cycle, by energy, with a given friction coefficient μ ≥ 0.
 
     The table may be traced, but for `side`. The torque (N m) is negative where the gear drives, on back
     flanks that are like the driving ones. Without loads of `equilibrium` (N) those of `quasi_static` without
-    friction count: the error is of the order of the loss squared.
+    friction count: the error is of the order of the loss squared. Weights are as of `cycle_mean`.
     """
     loads = normal_load
     if loads is None:
         loads = quasi_static(cycle, namespace(gear_torque).abs(gear_torque)).normal_load
     gear = gear_torque * cycle.pinion_pitch_radius / cycle.gear_pitch_radius
-    loss = friction_loss(cycle, loads, friction_coefficient)
+    loss = friction_loss(cycle, loads, friction_coefficient, weight)
     return efficiency(gear + loss, gear, loss)

@@ -227,7 +227,7 @@ def primitives(jaxpr):
             yield from primitives(inner)
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("name", [*FAMILIES, "helical-23-47"])
 def test_no_slope_depends_on_the_equality_of_numbers(name):
     """JAX's slope of a minimum is lost where a program computes its arguments once more and rounds apart."""
     case = td.scenario(name)

@@ -7,7 +7,6 @@ import pytest
 
 import tribodyn as td
 from tribodyn.dynamics.parameters import frictionless
-from tribodyn.errors import InputError
 from tribodyn.post.cycles import key_points, path_limits
 from tribodyn.post.figures.over_face import flank_map
 from tribodyn.post.figures.path_of_contact import key_positions
@@ -90,8 +89,3 @@ def test_a_case_of_a_sweep_starts_from_its_own_equilibrium():
         ready = kind.prepare(case, kind.tabulated(case))
         expected = static_equilibrium(frictionless(ready.model))
         assert evaluate._start(ready, settings)[:12] == pytest.approx(expected[:12], rel=1e-3, abs=1e-9)
-
-
-def test_gradients_are_refused():
-    with pytest.raises(InputError, match=r"drive\.helix_angle: .*cannot be differentiated"):
-        td.gradient("helical-23-47", "efficiency", ["operating.gear_torque"])
