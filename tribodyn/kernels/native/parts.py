@@ -41,7 +41,8 @@ class PartLibrary(JITCodeLibrary):
         """The function and all that it calls."""
         if self._shared_module is None:
             module = _mergeable(self._final_module)
-            for library in self._below({}):
+            # callers first: of what nothing calls yet LLVM leaves out what may be merged
+            for library in reversed(self._below({})):
                 part = (
                     _mergeable(library._final_module)
                     if isinstance(library, PartLibrary)
@@ -52,11 +53,12 @@ class PartLibrary(JITCodeLibrary):
         return self._shared_module
 
     def _below(self, libraries):
+        """All that the function calls, each behind what it calls itself."""
         for library in self._linking_libraries:
             if library not in libraries:
-                libraries[library] = None
                 if isinstance(library, PartLibrary):
                     library._below(libraries)
+                libraries[library] = None
         return list(libraries)
 
 
