@@ -99,7 +99,8 @@ def _way(study: PreparedEhl, positions: int, friction: tuple[Array, Array] | Non
         stretch = np.asarray(line_stretch(slope, path, path.signed_distance(np.clip(nodes, start, end))))
         loads = loads / (float(cycle.face_width) * stretch)
     elif cycle.slices > 1:
-        nodes, loads = middle_line_loads(cycle, case.operating.gear_torque, friction, (start, end))
+        at = _slice_at(cycle, case.face_position)
+        nodes, loads = section_line_loads(cycle, at, case.operating.gear_torque, friction, (start, end))
     else:
         nodes, loads = quasi_static_loads(cycle, case.operating.gear_torque, friction)
         loads = loads / float(cycle.face_width)
@@ -134,21 +135,27 @@ def quasi_static_loads(
 
 
 def roll_limits(study: PreparedEhl) -> tuple[float, float]:
-    """Roll angles, rad, between which the pair is followed: of helical teeth in the middle of the face."""
+    """Roll angles, rad, between which the pair is followed: of helical teeth in a section of the face."""
     cycle = study.cycle
     start, end = study.assembly.roll_limits if cycle.slices > 1 else (cycle.roll_start, cycle.roll_end)
     return float(start), float(end)
 
 
-def middle_line_loads(
+def _slice_at(cycle: MeshCycle, position: float) -> int:
+    """Number of the slice that is at z, m from the middle of the face."""
+    return int(np.argmin(np.abs(np.asarray(cycle.face_position) - position)))
+
+
+def section_line_loads(
     cycle: MeshCycle,
+    at: int,
     gear_torque: float,
     friction: tuple[Array, Array] | None,
     limits: tuple[float, float],
 ) -> tuple[Array, Array]:
-    """Roll angles, rad, and loads per length of contact line, N/m, of the slice in the middle of the face.
+    """Roll angles, rad, and loads per length of contact line, N/m, of one slice of a pair, by its number.
 
-    Arguments as `quasi_static_loads`; the limits are those of `roll_limits`.
+    Other arguments as `quasi_static_loads`; the limits are those of `roll_limits`.
     """
     pairs, count = cycle.front_pairs, cycle.slices
     late = cycle.face_position * float(cycle.pitch_slope) / float(cycle.pinion_pitch_radius)
@@ -163,10 +170,10 @@ def middle_line_loads(
     share = np.broadcast_to(cycle.share, load.shape)
     stretched = np.broadcast_to(cycle.line_load_friction, load.shape)
     line_load = load * stretched / (float(cycle.slice_width) * np.where(share > 0.0, share, 1.0))
-    middle = np.arange(pairs) * count + count // 2
+    ours = np.arange(pairs) * count + at
     # where half of it touches, as the study of losses has it; further out the nearest value stands
-    whole = np.flatnonzero(share[..., middle] >= 0.5)
-    roll, line_load = roll[..., middle].ravel()[whole], line_load[..., middle].ravel()[whole]
+    whole = np.flatnonzero(share[..., ours] >= 0.5)
+    roll, line_load = roll[..., ours].ravel()[whole], line_load[..., ours].ravel()[whole]
     order = np.argsort(roll)
     roll, line_load = roll[order], line_load[order]
     return (

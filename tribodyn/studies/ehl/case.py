@@ -96,6 +96,7 @@ class EhlCase(LubricatedCase):
     transient: bool  # whether the way is also solved with squeeze
     #: (array, array); roll angles from the pitch point, rad, and normal loads there, N; None: quasi-static
     loads: tuple[NDArray[np.float64], NDArray[np.float64]] | None
+    face_position: float  # z of the section that is followed, of helical pairs, m from the middle of the face
     step: float  # of the contact's grid, over the distance from inlet and end of the film
 
 

@@ -8,8 +8,9 @@ import numpy as np
 from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.scenario import units
 from tribodyn.scenario.fields import LoadCurve
-from tribodyn.scenario.quantity import Switch, Table, csv_file, written
+from tribodyn.scenario.quantity import InUnit, Switch, Table, csv_file, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.gears.prepare import with_chosen_laws
@@ -75,6 +76,9 @@ class EhlContact(Table):
     loads: Annotated[LoadCurve, LOADS] | None = Field(
         None, description="of the pair over its way: a record's, or a table; default: quasi-static"
     )
+    face_position: Annotated[float, InUnit(units.LENGTH, "8 mm")] = written(
+        "0 mm", description="of a helical pair: section that is followed, from the middle of the face"
+    )
     step: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.02, le=0.5)] = Field(
         STEP, description="of the grid, over the distance from inlet and end of the film"
     )
@@ -111,6 +115,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
         positions=scenario.output.positions,
         transient=contact.transient,
         loads=contact.loads.in_si() if contact.loads else None,
+        face_position=contact.face_position,
         step=contact.step,
     )
     return with_chosen_laws(case)
@@ -121,3 +126,13 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_gear_rules(scenario)
     drive = scenario.drive
     yield from broken_driving_rules(scenario.operating, (drive.pinion.teeth, drive.gear.teeth))
+    if place := scenario.contact.face_position:
+        key, shown = "contact.face_position", f"{1e3 * place:g} mm"
+        half = min(drive.pinion.face_width, drive.gear.face_width) / 2.0
+        if not drive.helix_angle:
+            yield InputError(
+                key, shown, "is of helical pairs; all sections of a spur pair are alike", "leave it out"
+            )
+        elif abs(place) > half:
+            rule = f"off the face, which ends at ±{1e3 * half:g} mm"
+            yield InputError(key, shown, rule, "give a place on it, from its middle")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.support.helical_pair import HELICAL
+from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.run import run
@@ -73,3 +74,28 @@ def test_a_record_has_the_solved_contact_of_the_middle(case, tmp_path):
     middle = slice(2, 7)
     scaled = film / (radius**0.41 * entrainment**0.69 * line**-0.1)
     assert np.ptp(scaled[middle]) < 0.05 * np.mean(scaled[middle])
+
+
+def test_sections_bear_together_what_the_lines_of_contact_do(study):
+    """The loads of all sections over the width and the path are the work of the torque on the gear."""
+    cycle, limits = study.cycle, along_path.roll_limits(study)
+    turned = np.linspace(*limits, 400)
+    stretch = 1.0 / math.cos(math.asin(math.sin(HELIX) * math.cos(RACK)))
+    means = []
+    for at in range(cycle.slices):
+        nodes, loads = along_path.section_line_loads(cycle, at, 300.0, None, limits)
+        means.append(float(np.mean(np.interp(turned, nodes, loads))) * stretch)
+    assert np.ptp(means) > 0.01 * np.mean(means)  # neighbours on both sides carry for a section in the middle
+    path = (limits[1] - limits[0]) / float(cycle.pitch_angle)
+    base = 47 * 3e-3 / math.cos(HELIX) / 2.0 * math.cos(math.atan(math.tan(RACK) / math.cos(HELIX)))
+    normal = 300.0 / base * stretch
+    assert np.mean(means) * path * WIDTH == pytest.approx(normal, rel=0.02)
+
+
+def test_a_place_off_the_face_or_of_a_spur_pair_is_refused(tmp_path):
+    path = tmp_path / "helical.toml"
+    path.write_text(SCENARIO)
+    with pytest.raises(InputError, match=r"contact\.face_position = 40 mm: off the face"):
+        load_scenario(path, {"contact.face_position": "40 mm"})
+    with pytest.raises(InputError, match=r"contact\.face_position.*is of helical pairs"):
+        load_scenario("ehl-crc-23-47", {"contact.face_position": "4 mm"})
