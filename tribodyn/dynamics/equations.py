@@ -39,6 +39,7 @@ from tribodyn.train.structure import (
     WORKS_OF_MESH,
     on_body,
     place_in_space,
+    rolling_ratio,
     shift_of,
     slip_of,
     slip_of_body,
@@ -128,7 +129,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         mesh = model.meshes[m]
         driver, driven = layout.driver[m], layout.driven[m]
         place = place_in_mesh(m, phase, interval, model)
-        reversals = reversals_per_velocity(bodies.ratio[driver], mesh, model)
+        reversals = reversals_per_velocity(rolling_ratio(m, model), mesh, model)
         contact_forces(place, motion_of(m, y, model), reversals, mesh, model, work[m])
         (
             along,
@@ -165,7 +166,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         friction_power = friction_power + friction
         damping_power = damping_power + damping
         torque = parametric_torque(place, mesh, model, work[m])
-        parametric = parametric + bodies.ratio[driver] * torque
+        parametric = parametric + rolling_ratio(m, model) * torque
         of_mesh = layout.mechanical + OF_MESHES + WORKS_OF_MESH * m
         dy[of_mesh + FRICTION] = rate * friction
         dy[of_mesh + WORK_SLIDING] = rate * sliding
