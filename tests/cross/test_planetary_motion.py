@@ -15,6 +15,7 @@ from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_sev
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.approach import NORMAL_LOAD
 from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.modes import modes
 from tribodyn.dynamics.parameters import DRIVE_SPEED, DRIVE_TORQUE
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.march.jacobian import Differences, differentiate
@@ -22,7 +23,7 @@ from tribodyn.solve.march.link_jacobian import SHARE
 from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
 from tribodyn.solve.tolerances import tolerances_from
-from tribodyn.train.structure import shift_of, turn_of
+from tribodyn.train.structure import displacements, shift_of, turn_of, velocities
 
 TEETH, MODULE, ALPHA = (27, 35, 97), 3e-3, np.radians(24.6)
 RADII = [MODULE * teeth / 2 for teeth in TEETH]
@@ -48,14 +49,14 @@ def a_set(planets, pin_offsets=(), sun_bearing=1e8):
 
 def test_every_compiler_makes_the_same_of_a_planetary_set(rng):
     offsets = ((3e-6, 5e-6), (0.0, 0.0), (-2e-6, 1e-6))
-    model, _ = planetary_springs(a_set(3, offsets), DRIVE_TORQUE, torque=LOAD)
+    model, _ = planetary_springs(a_set(3, offsets), DRIVE_TORQUE, torque=LOAD, turning=True)
     assert_right_hand_sides_agree(at_several_conditions(model), rng, rtol=1e-11)
 
 
 @pytest.mark.parametrize("drive", [DRIVE_SPEED, DRIVE_TORQUE])
 def test_jacobian_is_the_derivative_of_the_right_hand_side(rng, drive):
     """Against central differences, over random states: levers, offsets, a held ring, a negative radius."""
-    model, _ = planetary_springs(a_set(3, ((3e-6, 5e-6),) * 3), drive, torque=LOAD)
+    model, _ = planetary_springs(a_set(3, ((3e-6, 5e-6),) * 3), drive, 300.0, LOAD, turning=True)
     layout, states = model.layout, model.layout.states
     work, scale = work_array(model), tolerances_from(model, np.zeros(states), 1.0, 1).atol
     still = [layout.half + layout.lag] if drive == DRIVE_SPEED else []
@@ -116,3 +117,39 @@ def test_a_floating_sun_shares_the_load_of_three_planets(planets):
     else:
         assert np.ptp(share) > 0.2
         np.testing.assert_allclose(share[0] - share[1], share[2] - share[3], rtol=0.05)
+
+
+@pytest.mark.parametrize("drive", [DRIVE_SPEED, DRIVE_TORQUE])
+def test_motions_are_those_of_the_modes(drive):
+    """Natural frequencies of the equations of motion, differenced where it is loaded, without damping."""
+    given = a_set(3)._replace(damping_ratio=0.0)
+    model, cycles = planetary_springs(given, drive, torque=LOAD)
+    layout = model.layout
+    state = static_equilibrium(model)
+    unknown, equation = displacements(layout), velocities(layout)
+    rate = float(model.operation.pitch_angle) / float(model.operation.nominal_speed)
+    steps = np.zeros((len(unknown), layout.states))
+    steps[np.arange(len(unknown)), unknown] = 1e-7
+    up, down = (accelerations(state + way * steps, 0.3, 0, model)[:, equation] for way in (1, -1))
+    squares = np.linalg.eigvals(-(up - down).T / 2e-7 / rate)
+    found = np.sort(np.sqrt(squares.real)) / (2.0 * np.pi)
+    np.testing.assert_allclose(found, modes(model, cycles).frequency, rtol=1e-6)
+
+
+def test_centrifugal_forces_press_planets_outwards():
+    """All alike, as far as their pins let them: they roll so that no mesh is pressed by it."""
+    given = a_set(3)
+    still, turning = (
+        static_equilibrium(planetary_springs(given, DRIVE_SPEED, 500.0, LOAD, turning=on)[0])
+        for on in (False, True)
+    )
+    model, _ = planetary_springs(given, DRIVE_SPEED, 500.0, LOAD, turning=True)
+    radius, speed = RADII[0] + RADII[1], float(model.bodies.frame_speed[3])
+    outward, expected = [], []
+    force = 0.66 * speed**2
+    for body, angle in enumerate(given.angles, start=3):
+        moved = (turning - still)[shift_of(body) : shift_of(body) + 2]
+        outward.append(moved @ [np.cos(angle), np.sin(angle)])
+        before = still[shift_of(body) : shift_of(body) + 2] @ [np.cos(angle), np.sin(angle)]
+        expected.append(force * (radius + before) / (1e8 - force))
+    np.testing.assert_allclose(outward, expected, rtol=1e-7)

@@ -66,9 +66,16 @@ def _pair(teeth: int, other: int, module: float, angle: float, stiffness: float,
 
 
 def planetary_springs(
-    given: PlanetarySet, drive: int = DRIVE_TORQUE, speed: float = 100.0, torque: float = 0.0
+    given: PlanetarySet,
+    drive: int = DRIVE_TORQUE,
+    speed: float = 100.0,
+    torque: float = 0.0,
+    turning: bool = False,
 ) -> tuple[Model, list[MeshCycle]]:
-    """The model, sun driving at a speed (rad/s), carrier loaded by a torque (N m); cycles of its meshes."""
+    """The model, sun driving at a speed (rad/s), carrier loaded by a torque (N m); cycles of its meshes.
+
+    `turning`: with Coriolis and centrifugal forces.
+    """
     count = len(given.angles)
     sun_teeth, planet_teeth, ring_teeth = given.teeth
     sun, planet, ring = (given.module * teeth / 2 for teeth in given.teeth)
@@ -137,6 +144,7 @@ def planetary_springs(
         CARRIER,
         pins=[k for k, (_, second_end) in enumerate(links) if second_end == CARRIER],
         holds=[RING] if given.ring_support else [],
+        frames=1,
     )
     load = np.zeros(len(members))
     load[CARRIER] = torque
@@ -146,6 +154,9 @@ def planetary_springs(
         ratio=np.array([1.0, 0.0, carried, *(planet_ratio for _ in planets)]),
         load=load,
         load_damping=np.zeros(len(members)),
+        carried=np.full(len(members), carried),
+        frame_speed=np.full(len(members), carried * speed if turning else 0.0),
+        place=np.array([*3 * [(0.0, 0.0)], *((pins * np.cos(a), pins * np.sin(a)) for a in given.angles)]),
     )
     operation = first.operation._replace(
         nominal_speed=speed,

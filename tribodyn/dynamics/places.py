@@ -97,3 +97,19 @@ def tilted(which, m, first, y, model):
             place = first + place_in_space(layout.driven[m], direction, layout)
             total = total + mesh.moves[1, which, direction] * y[place]
     return total
+
+
+@law
+def on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh):
+    """Force or moment on x, y, z or a tilt (0 … 4) of a mesh's driver or driven body (0, 1).
+
+    Of what acts on the driver as `MOVES` go.
+    """
+    moves = mesh.moves
+    return (
+        moves[end, TOWARDS, direction] * along
+        + moves[end, ACROSS, direction] * across
+        + moves[end, ALONG_Z, direction] * axial
+        + moves[end, LEAN_ALONG, direction] * leaning_along
+        + moves[end, LEAN_ACROSS, direction] * leaning_across
+    )

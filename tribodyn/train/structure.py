@@ -47,6 +47,11 @@ class Bodies(NamedTuple):
     load: Float[Array, " body"]  # constant torque against the motion, N m
     load_damping: Float[Array, " body"]  # rise of it per speed above nominal, N m s/rad
     tilting: Float[Array, " spatial"] = np.zeros(0)  # inertia about x and y, kg m²
+    #: of bodies in a carrier's frame, see `dynamics.frame`: its speed over the reference's, counter-clockwise
+    #: positive; that of its Coriolis and centrifugal forces, rad/s, 0: without; places from its axis, m
+    carried: Float[Array, " planar"] = np.zeros(0)
+    frame_speed: Float[Array, " planar"] = np.zeros(0)
+    place: Float[Array, "planar 2"] = np.zeros((0, 2))
 
 
 class Links(NamedTuple):
@@ -118,6 +123,7 @@ class TrainLayout(NamedTuple):
     second: Indices
     pins: Indices  # of every link 1 where its ends have levers or an offset, else 0
     holds: Indices  # of every link 1 where it holds the rotation of its first end against the ground, else 0
+    frames: StaticInt  # 1 where bodies are in a frame that turns, else 0
     input: StaticInt  # body that the drive acts on
     output: StaticInt  # body that bears the load that varies in time
 
@@ -130,8 +136,10 @@ def layout_of(
     drives: int,
     loaded: int,
     spatial: int = 0,
+    *,
     pins: Sequence[int] = (),
     holds: Sequence[int] = (),
+    frames: int = 0,
 ) -> TrainLayout:
     """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output.
 
@@ -159,6 +167,7 @@ def layout_of(
         second=second,
         pins=Indices([int(link in pins) for link in range(len(links))]),
         holds=Indices([int(link in holds) for link in range(len(links))]),
+        frames=StaticInt(frames),
         input=StaticInt(drives),
         output=StaticInt(loaded),
     )
@@ -192,22 +201,6 @@ def shifting(body, direction, y, layout):
 def place_in_space(body, direction, layout):
     """Place of x, y, z, tilt about x or y (0 … 4) of a body that moves in space."""
     return shift_of(body) + direction if direction < AXIAL else layout.tilts + 3 * body + direction - AXIAL
-
-
-@law
-def on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh):
-    """Force or moment on x, y, z or a tilt (0 … 4) of a mesh's driver or driven body (0, 1).
-
-    Of what acts on the driver as `MOVES` go.
-    """
-    moves = mesh.moves
-    return (
-        moves[end, TOWARDS, direction] * along
-        + moves[end, ACROSS, direction] * across
-        + moves[end, ALONG_Z, direction] * axial
-        + moves[end, LEAN_ALONG, direction] * leaning_along
-        + moves[end, LEAN_ACROSS, direction] * leaning_across
-    )
 
 
 @law

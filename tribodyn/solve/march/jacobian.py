@@ -13,9 +13,10 @@ from tribodyn.dynamics.approach import Motion
 from tribodyn.dynamics.contact_energy import parametric_torque
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.equations import resultants
+from tribodyn.dynamics.frame import carried_along
 from tribodyn.dynamics.loads import load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
-from tribodyn.dynamics.places import motion_of, place_in_mesh
+from tribodyn.dynamics.places import motion_of, on_body, place_in_mesh
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, law
 from tribodyn.numerics.shapes import Array, Float
@@ -37,7 +38,6 @@ from tribodyn.train.structure import (
     PARAMETRIC,
     TOWARDS,
     WORKS_OF_MESH,
-    on_body,
     place_in_space,
     rolling_ratio,
     shift_of,
@@ -207,6 +207,13 @@ def differentiate(place, y, f, scale, model, work, into):
         contacts += differentiate_mesh(m, place, y, scale, model, work, jacobian)
     evaluations = (contacts + layout.meshes - 1) // layout.meshes
     differentiate_links(y, scale, model, jacobian)
+    if layout.frames > 0:
+        for b in range(layout.planar):
+            x, speed = shift_of(b), bodies.frame_speed[b]
+            jacobian[half + x, half + x + 1] += 2.0 * bodies.mass[b] * speed
+            jacobian[half + x + 1, half + x] -= 2.0 * bodies.mass[b] * speed
+            jacobian[half + x, x] += bodies.mass[b] * speed * speed
+            jacobian[half + x + 1, x + 1] += bodies.mass[b] * speed * speed
     consistent = options.formulation == ENERGY_CONSISTENT
     prescribed = options.drive == DRIVE_SPEED
     for b in range(1, layout.bodies):  # loads and drive; what the reference's speed does is differenced below
@@ -240,6 +247,9 @@ def differentiate(place, y, f, scale, model, work, into):
                 x = half + shift_of(b)
                 jacobian[x, j] *= rate / bodies.mass[b]
                 jacobian[x + 1, j] *= rate / bodies.mass[b]
+                if layout.frames > 0:
+                    jacobian[x, j] -= rate * carried_along(b, 0, acceleration, model)
+                    jacobian[x + 1, j] -= rate * carried_along(b, 1, acceleration, model)
             if b < layout.spatial:
                 z = half + layout.tilts + 3 * b
                 jacobian[z, j] *= rate / bodies.mass[b]
