@@ -14,16 +14,29 @@ from tests.support.planetary_springs import (
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.approach import NORMAL_LOAD
+from tribodyn.dynamics.energy import stored_energy
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.modes import modes
 from tribodyn.dynamics.parameters import DRIVE_SPEED, DRIVE_TORQUE
 from tribodyn.solve.initial import accelerations, static_equilibrium
+from tribodyn.solve.integrator import Status
 from tribodyn.solve.march.jacobian import Differences, differentiate
 from tribodyn.solve.march.link_jacobian import SHARE
 from tribodyn.solve.march.marching import Place
 from tribodyn.solve.right_hand_side import contacts_of, rhs, work_array
 from tribodyn.solve.tolerances import tolerances_from
-from tribodyn.train.structure import displacements, shift_of, turn_of, velocities
+from tribodyn.solve.transient import make_integrator
+from tribodyn.train.structure import (
+    DAMPING,
+    IN,
+    OUT,
+    PARAMETRIC,
+    displacements,
+    shift_of,
+    turn_of,
+    velocities,
+    work_of,
+)
 
 TEETH, MODULE, ALPHA = (27, 35, 97), 3e-3, np.radians(24.6)
 RADII = [MODULE * teeth / 2 for teeth in TEETH]
@@ -153,3 +166,44 @@ def test_centrifugal_forces_press_planets_outwards():
         before = still[shift_of(body) : shift_of(body) + 2] @ [np.cos(angle), np.sin(angle)]
         expected.append(force * (radius + before) / (1e8 - force))
     np.testing.assert_allclose(outward, expected, rtol=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("drive", "turning"), [(DRIVE_SPEED, False), (DRIVE_TORQUE, False), (DRIVE_SPEED, True)]
+)
+def test_energy_balances_over_a_load_step(drive, turning):
+    """What the drive gives, less what the carrier passes on and damping takes, is stored; by two methods."""
+    given = a_set(3, ((3e-6, 5e-6), (0.0, 0.0), (-2e-6, 1e-6)))
+    before, after = (planetary_springs(given, drive, 400.0, load, turning)[0] for load in (LOAD, 1.3 * LOAD))
+    start = static_equilibrium(before)
+    ends = []
+    for method in ("dopri5", "rodas4"):
+        tolerances = tolerances_from(after, start, 1e-8, 10**6)
+        result = make_integrator(method, after, 20, tolerances).integrate(start, 0, 6)
+        assert result.status == Status.DONE
+        ends.append(result.state)
+        samples = result.samples
+    layout = after.layout
+    moving = displacements(layout)
+    size = np.max(np.abs(ends[0][moving] - start[moving]))
+    assert size > 1e-6
+    np.testing.assert_allclose(ends[0][moving], ends[1][moving], rtol=0.0, atol=1e-5 * size)
+    stored = []
+    for state in (start, ends[0]):
+        work = work_array(after)
+        rhs(0.0, 0.0, 0, state, after, work, np.empty(layout.states))
+        stored.append(float(stored_energy(state, after, work)))
+    work_in, work_out, damped, parametric = (
+        float(ends[0][work_of(layout, which)]) for which in (IN, OUT, DAMPING, PARAMETRIC)
+    )
+    gained = work_in - work_out - damped + parametric
+    assert damped > 2e-5 * work_in
+    # with centrifugal forces less what displaced ones do not turn the carrier by, see `dynamics.frame`
+    speed = float(after.bodies.frame_speed[3])
+    arms = (
+        after.bodies.place[3:, :, None]
+        * samples[:, [[9, 10], [12, 13], [15, 16]]].transpose(1, 2, 0)[:, ::-1]
+    )
+    duration = 6.0 * float(after.operation.pitch_angle) / 400.0
+    missing = 0.66 * speed**3 * float(np.mean(np.sum(arms[:, 0] - arms[:, 1], axis=0))) * duration
+    assert gained + missing == pytest.approx(stored[1] - stored[0], abs=1e-8 * work_in + 0.02 * abs(missing))

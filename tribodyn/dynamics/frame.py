@@ -40,7 +40,7 @@ def carried_along(b, direction, acceleration, model):
 def frame_energy(b, y, model):
     """Kinetic energy of a body less ½ m |u'|², and the potential of what `add_frame_forces` adds, J.
 
-    With these forces exact to m Ω³ r × u, W, see above.
+    With these forces at prescribed speed exact to m Ω³ r × u, W, see above; a speed that varies adds to it.
     """
     layout, bodies = model.options.layout, model.bodies
     x = shift_of(b)
