@@ -111,7 +111,7 @@ def elastic_loads(place, mesh, model, work):
 def reversals_per_velocity(ratio, mesh, model):
     """One over the sliding velocity at which friction has reversed, that of the width of reversal; s/m.
 
-    `ratio` is that of the driver's speed to the reference's.
+    `ratio` is that of the driver's speed against the frame of the mesh to the reference's.
     """
     operation = model.operation
     nominal_speed = ratio * operation.nominal_speed

@@ -3,6 +3,7 @@
 from tribodyn.dynamics.approach import approach
 from tribodyn.dynamics.contact_energy import mesh_energy
 from tribodyn.dynamics.contact_forces import elastic_loads
+from tribodyn.dynamics.frame import frame_energy
 from tribodyn.dynamics.loads import link_energy
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import locate, motion_of
@@ -68,6 +69,8 @@ def stored_energy(y, model, work):
         if b < layout.planar:
             x, z = y[half + shift_of(b)], y[half + shift_of(b) + 1]
             energy = energy + 0.5 * bodies.mass[b] * (x * x + z * z)
+            if layout.frames > 0:
+                energy = energy + frame_energy(b, y, model)
         if b < layout.spatial:
             first = half + layout.tilts + 3 * b
             energy = energy + 0.5 * bodies.mass[b] * y[first] * y[first]

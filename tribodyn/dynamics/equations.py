@@ -23,9 +23,10 @@ from tribodyn.dynamics.approach import (
 )
 from tribodyn.dynamics.contact_energy import parametric_torque
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
+from tribodyn.dynamics.frame import add_frame_forces, carried_along
 from tribodyn.dynamics.loads import link_forces, load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
-from tribodyn.dynamics.places import motion_of, place_in_mesh
+from tribodyn.dynamics.places import motion_of, on_body, place_in_mesh
 from tribodyn.numerics.elementary import law
 from tribodyn.train.structure import (
     AXIAL,
@@ -37,8 +38,8 @@ from tribodyn.train.structure import (
     OUT,
     PARAMETRIC,
     WORKS_OF_MESH,
-    on_body,
     place_in_space,
+    rolling_ratio,
     shift_of,
     slip_of,
     slip_of_body,
@@ -128,7 +129,7 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         mesh = model.meshes[m]
         driver, driven = layout.driver[m], layout.driven[m]
         place = place_in_mesh(m, phase, interval, model)
-        reversals = reversals_per_velocity(bodies.ratio[driver], mesh, model)
+        reversals = reversals_per_velocity(rolling_ratio(m, model), mesh, model)
         contact_forces(place, motion_of(m, y, model), reversals, mesh, model, work[m])
         (
             along,
@@ -165,11 +166,13 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         friction_power = friction_power + friction
         damping_power = damping_power + damping
         torque = parametric_torque(place, mesh, model, work[m])
-        parametric = parametric + bodies.ratio[driver] * torque
+        parametric = parametric + rolling_ratio(m, model) * torque
         of_mesh = layout.mechanical + OF_MESHES + WORKS_OF_MESH * m
         dy[of_mesh + FRICTION] = rate * friction
         dy[of_mesh + WORK_SLIDING] = rate * sliding
     damping_power = damping_power + link_forces(y, model, dy)
+    if layout.frames > 0:
+        add_frame_forces(y, model, dy)
 
     time = (cycle + phase) * nominal_time + y[layout.lag]
     power_out = zero
@@ -213,6 +216,9 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
             share = rate / bodies.mass[b]
             dy[half + x] = share * dy[half + x]
             dy[half + x + 1] = share * dy[half + x + 1]
+            if layout.frames > 0:
+                dy[half + x] = dy[half + x] - rate * carried_along(b, 0, acceleration, model)
+                dy[half + x + 1] = dy[half + x + 1] - rate * carried_along(b, 1, acceleration, model)
             dy[x] = rate * y[half + x]
             dy[x + 1] = rate * y[half + x + 1]
         if b < layout.spatial:

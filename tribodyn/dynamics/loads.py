@@ -35,6 +35,35 @@ def apart_in_space(first, second, direction, rates, y, layout):
 
 
 @law
+def apart_in_plane(k, direction, rates, y, model):
+    """How far the ends of a link are apart in x or y (0, 1), m; `rates` is 0, or `half` for the rate.
+
+    Where it is a pin, by the rotations of its bodies too.
+    """
+    layout = model.options.layout
+    first, second = layout.first[k], layout.second[k]
+    apart = y[rates + shift_of(first) + direction]
+    if second >= 0:
+        apart = apart - y[rates + shift_of(second) + direction]
+    if layout.pins[k] > 0:
+        lever = model.links.lever
+        if first > 0:  # the reference has no micro-rotation
+            apart = apart + lever[k, 0, direction] * y[rates + turn_of(first, layout)]
+        if second > 0:
+            apart = apart - lever[k, 1, direction] * y[rates + turn_of(second, layout)]
+    return apart
+
+
+@law
+def stretch_in_plane(k, direction, y, model):
+    """What of it strains the link, m."""
+    apart = apart_in_plane(k, direction, 0, y, model)
+    if model.options.layout.pins[k] > 0:
+        apart = apart - model.links.offset[k, direction]
+    return apart
+
+
+@law
 def link_forces(y, model, dy):
     """Add the forces of all links to those in `dy`; returns the power that they take by damping, W."""
     layout, links = model.options.layout, model.links
@@ -58,20 +87,23 @@ def link_forces(y, model, dy):
                     dy[j] = dy[j] + (force + damping)
         elif first < layout.planar and second < layout.planar:
             for direction in range(TURN):
-                i = shift_of(first) + direction
-                apart, apart_rate = y[i], y[half + i]
-                if second >= 0:
-                    j = shift_of(second) + direction
-                    apart, apart_rate = apart - y[j], apart_rate - y[half + j]
+                i = half + shift_of(first) + direction
+                apart_rate = apart_in_plane(k, direction, half, y, model)
                 damping = links.damping[k, direction] * apart_rate
-                force = links.stiffness[k, direction] * apart + damping
+                force = links.stiffness[k, direction] * stretch_in_plane(k, direction, y, model) + damping
                 power = power + damping * apart_rate
-                dy[half + i] = dy[half + i] - force
+                dy[i] = dy[i] - force
                 if second >= 0:
-                    j = shift_of(second) + direction
-                    dy[half + j] = dy[half + j] + force
-        if second >= 0:
-            i, j = half + turn_of(first, layout), half + turn_of(second, layout)
+                    j = half + shift_of(second) + direction
+                    dy[j] = dy[j] + force
+                if layout.pins[k] > 0:
+                    i = half + turn_of(first, layout)
+                    dy[i] = dy[i] - links.lever[k, 0, direction] * force
+                    if second >= 0:
+                        j = half + turn_of(second, layout)
+                        dy[j] = dy[j] + links.lever[k, 1, direction] * force
+        if second >= 0 or layout.holds[k] > 0:
+            i = half + turn_of(first, layout)
             twist = turned(first, y, layout) - turned(second, y, layout)
             twist_rate = turning(first, y, layout) - turning(second, y, layout)
             laws = model.options.links
@@ -80,7 +112,9 @@ def link_forces(y, model, dy):
             torque = elastic + damping
             power = power + damping * twist_rate
             dy[i] = dy[i] - torque
-            dy[j] = dy[j] + torque
+            if second >= 0:
+                j = half + turn_of(second, layout)
+                dy[j] = dy[j] + torque
     return power
 
 
@@ -99,11 +133,9 @@ def link_energy(y, model):
                     energy = energy + 0.5 * links.stiffness_in_space[k, row, direction] * own * other
         elif first < layout.planar and second < layout.planar:
             for direction in range(TURN):
-                apart = y[shift_of(first) + direction]
-                if second >= 0:
-                    apart = apart - y[shift_of(second) + direction]
-                energy = energy + 0.5 * links.stiffness[k, direction] * apart * apart
-        if second >= 0:
+                stretch = stretch_in_plane(k, direction, y, model)
+                energy = energy + 0.5 * links.stiffness[k, direction] * stretch * stretch
+        if second >= 0 or layout.holds[k] > 0:
             twist = turned(first, y, layout) - turned(second, y, layout)
             laws = model.options.links
             energy = energy + laws.act(k, twist, links.stiffness[k, TURN], links.own, laws)[1]

@@ -9,7 +9,7 @@ from tribodyn.dynamics.parameters import DRIVE_SPEED, Model
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.flow import flow
+from tribodyn.train.flow import flow, link_row
 from tribodyn.train.links.chain import tangent_stiffness
 from tribodyn.train.structure import (
     IN_SPACE,
@@ -46,6 +46,25 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
     load is shared by compliances, gaps and the bearings' give, each at its own load where the Hertz contact
     stiffens with it; so is that of a link with a law, unless it closes a loop: that at rest. No friction.
     """
+    layout = model.layout
+    mass, stiffness = linearised(model, cycles)
+    free = np.arange(layout.half) if model.options.drive else np.delete(np.arange(layout.half), layout.lag)
+    root = 1.0 / np.sqrt(mass[free])
+    squared, vectors = np.linalg.eigh(root[:, None] * stiffness[np.ix_(free, free)] * root)
+    if model.options.drive:
+        squared, vectors = squared[1:], vectors[:, 1:]
+    shape = np.zeros((len(squared), layout.half))
+    shape[:, free] = (root[:, None] * vectors).T
+    energy = shape**2 * mass
+    owner = np.array([_body_of(place, model) for place in range(layout.half)])
+    share = np.stack([np.sum(energy[:, owner == body], axis=1) for body in range(layout.bodies)], axis=1)
+    return Modes(np.sqrt(np.maximum(squared, 0.0)) / (2 * np.pi), shape, share)
+
+
+def linearised(
+    model: Model, cycles: Sequence[MeshCycle]
+) -> tuple[Float[Array, " coordinate"], Float[Array, "coordinate coordinate"]]:
+    """Masses and stiffness that `modes` are of, over all coordinates and the turn of the reference."""
     layout, bodies, links = model.layout, model.bodies, model.links
     mass, stiffness = np.zeros(layout.half), np.zeros((layout.half, layout.half))
     for body in range(layout.bodies):
@@ -68,30 +87,17 @@ def modes(model: Model, cycles: Sequence[MeshCycle]) -> Modes:
                 rows[np.arange(IN_SPACE), places] = sign
             stiffness += rows.T @ np.asarray(links.stiffness_in_space)[k] @ rows
         for direction in range(TURN if in_space else X, TURN + 1):
-            turns = direction == TURN
-            if (turns and len(ends) < 2) or (not turns and max(ends) >= layout.planar):
+            row = link_row(k, direction, model)
+            if not np.any(row):
                 continue
-            places = [turn_of(b, layout) if turns else shift_of(b) + direction for b in ends]
-            row = np.zeros(layout.half)
-            row[places] = [1.0, -1.0][: len(ends)]
             tangent = float(np.asarray(links.stiffness)[k, direction])
-            if turns:
+            if direction == TURN and tangent > 0.0:
                 tangent = tangent_stiffness(k, torques.on_link.get(k, 0.0), model)
             stiffness += tangent * np.outer(row, row)
     for m, cycle in enumerate(cycles):
         rows = _directions(model, m)
         stiffness += rows.T @ _mean_stiffness(model, m, cycle, float(torques.on_driven[m])) @ rows
-    free = np.arange(layout.half) if model.options.drive else np.delete(np.arange(layout.half), layout.lag)
-    root = 1.0 / np.sqrt(mass[free])
-    squared, vectors = np.linalg.eigh(root[:, None] * stiffness[np.ix_(free, free)] * root)
-    if model.options.drive:
-        squared, vectors = squared[1:], vectors[:, 1:]
-    shape = np.zeros((len(squared), layout.half))
-    shape[:, free] = (root[:, None] * vectors).T
-    energy = shape**2 * mass
-    owner = np.array([_body_of(place, model) for place in range(layout.half)])
-    share = np.stack([np.sum(energy[:, owner == body], axis=1) for body in range(layout.bodies)], axis=1)
-    return Modes(np.sqrt(np.maximum(squared, 0.0)) / (2 * np.pi), shape, share)
+    return mass, stiffness
 
 
 def _body_of(place: int, model: Model) -> int:
@@ -137,10 +143,11 @@ def _mean_stiffness(model: Model, m: int, cycle: MeshCycle, on_driven: float) ->
 
     n is what the `MOVES` press a contact by: (cos α, sin α, 0, 0, 0) of a spur gear.
     """
-    if on_driven < 0.0:  # it presses the back flanks together, in the mirrored world
+    radius = float(model.meshes[m].driven_radius)
+    if on_driven / radius < 0.0:  # it presses the back flanks together, in the mirrored world
         cycle = cycle._replace(side=-cycle.side)
     # N m; 1 N on the pitch circle where there is no load
-    torque = max(abs(on_driven), float(model.meshes[m].driven_radius))
+    torque = float(np.copysign(max(abs(on_driven), abs(radius)), radius))
     if cycle.slices > 1:
         return _mean_of_slices(model, m, cycle, torque)
     still = np.sin(cycle.pressure_angle)

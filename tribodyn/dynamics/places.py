@@ -12,6 +12,7 @@ from tribodyn.train.structure import (
     LEAN_ALONG,
     TOWARDS,
     place_in_space,
+    rolling_ratio,
     shifted,
     shifting,
     slip_of,
@@ -59,6 +60,7 @@ def motion_of(m, y, model):
         mesh.across_x * x_rate + mesh.across_y * z_rate,
     )
     zero = 0.0 * y[0]
+    reference = model.operation.nominal_speed + slip_of(y, layout)
     if layout.spatial > 0:
         along = along + tilted(TOWARDS, m, 0, y, model)
         across = across + tilted(ACROSS, m, 0, y, model)
@@ -70,9 +72,9 @@ def motion_of(m, y, model):
         along_rate,
         turning_rate,
         across_rate,
-        speed_of(driver, y, model),
-        speed_of(driven, y, model),
-        model.bodies.ratio[driver] * (model.operation.nominal_speed + slip_of(y, layout)),
+        speed_of(driver, y, model) - mesh.driver_carried * reference,
+        speed_of(driven, y, model) - mesh.driven_carried * reference,
+        rolling_ratio(m, model) * reference,
         tilted(ALONG_Z, m, 0, y, model) if layout.spatial > 0 else zero,
         tilted(LEAN_ALONG, m, 0, y, model) if layout.spatial > 0 else zero,
         tilted(LEAN_ACROSS, m, 0, y, model) if layout.spatial > 0 else zero,
@@ -95,3 +97,19 @@ def tilted(which, m, first, y, model):
             place = first + place_in_space(layout.driven[m], direction, layout)
             total = total + mesh.moves[1, which, direction] * y[place]
     return total
+
+
+@law
+def on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh):
+    """Force or moment on x, y, z or a tilt (0 … 4) of a mesh's driver or driven body (0, 1).
+
+    Of what acts on the driver as `MOVES` go.
+    """
+    moves = mesh.moves
+    return (
+        moves[end, TOWARDS, direction] * along
+        + moves[end, ACROSS, direction] * across
+        + moves[end, ALONG_Z, direction] * axial
+        + moves[end, LEAN_ALONG, direction] * leaning_along
+        + moves[end, LEAN_ACROSS, direction] * leaning_across
+    )

@@ -17,7 +17,15 @@ from tribodyn.solve.march.step_control import largest_displacement, unbounded
 from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.train.flow import Flow, flow
 from tribodyn.train.links.chain import twist_under
-from tribodyn.train.structure import GearMesh, displacements, shift_of, turn_of, turned, velocities
+from tribodyn.train.structure import (
+    GearMesh,
+    displacements,
+    rolling_ratio,
+    shift_of,
+    turn_of,
+    turned,
+    velocities,
+)
 
 _COSINE, _COMPLIANCE, _GAP, _SHARE = (
     CHANNELS.index(name) for name in ("cosine", "compliance", "gap", "share")
@@ -68,7 +76,7 @@ def static_deflection(mesh: GearMesh, torque: float) -> float:
     channel, in_contact = np.asarray(table.channel)[-1, 0, :, :, 0], np.asarray(table.in_contact)[-1]
     stiffness = float(np.sum(channel[:, _SHARE] / channel[:, _COMPLIANCE] * in_contact))
     cosine = float(channel[-1, _COSINE])
-    return abs(torque) / (float(mesh.driven_radius) * cosine) / stiffness
+    return abs(torque) / (abs(float(mesh.driven_radius)) * cosine) / stiffness
 
 
 def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> Float[Array, " state"]:
@@ -100,14 +108,20 @@ def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> F
         states[..., unknown] = values
         return accelerations(states, phase, interval, model)[..., equation]
 
-    ratio = np.asarray(model.bodies.ratio)[list(layout.driven)]
+    ratio = [
+        abs(float(rolling_ratio(m, model) * mesh.driver_radius / mesh.driven_radius))
+        for m, mesh in enumerate(model.meshes)
+    ]
     if np.all(np.abs(loads) * ratio <= _NO_LOAD * torques.largest):
         return y
-    side = np.where(loads >= 0.0, 1.0, -1.0)
+    side = [
+        1.0 if t * float(mesh.driven_radius) >= 0.0 else -1.0
+        for mesh, t in zip(model.meshes, loads, strict=True)
+    ]
     # beyond the width over which contact sets in, where the stiffness vanishes like the load
     gaps = [_maximum_gap(model, m, interval, side[m]) for m in range(layout.meshes)]
     clear = 3.0 * deflection + float(operation.contact_width) + np.array(gaps)
-    values = _closed(model, side * clear, torques)[unknown]
+    values = _closed(model, np.array(side) * clear, torques)[unknown]
     scale = _scales(model, deflection)[unknown]
     tolerance = 1e-6 * float(np.linalg.norm(residual(values))) + 1e-30
     loose = bool(model.links.own)
@@ -163,10 +177,10 @@ def _scales(model: Model, deflection: Float[Array, " mesh"]) -> Float[Array, " s
             if body < layout.spatial:
                 place = layout.tilts + 3 * body
                 scale[place] = max(scale[place], deflection[m])
-                tilt = deflection[m] / float(getattr(model.meshes[m], radius))
+                tilt = deflection[m] / abs(float(getattr(model.meshes[m], radius)))
                 scale[place + 1 : place + 3] = np.maximum(scale[place + 1 : place + 3], tilt)
             i = turn_of(body, layout)
-            scale[i] = max(scale[i], deflection[m] / float(getattr(model.meshes[m], radius)))
+            scale[i] = max(scale[i], deflection[m] / abs(float(getattr(model.meshes[m], radius))))
     # of what no mesh moves: as large as any
     rest = scale == 0.0
     turns = [turn_of(body, layout) for body in range(layout.bodies)]

@@ -11,7 +11,7 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
 from tribodyn.train.flow import flow, tree
-from tribodyn.train.structure import TURN, GearMesh, displacements, shift_of, turn_of, works
+from tribodyn.train.structure import TURN, GearMesh, displacements, rolling_ratio, shift_of, turn_of, works
 
 _COMPLIANCE = CHANNELS.index("compliance")
 _COSINE, _SINE, _GAP = CHANNELS.index("cosine"), CHANNELS.index("sine"), CHANNELS.index("gap")
@@ -68,7 +68,7 @@ def _inertial_mass(model: Model, m: int) -> float:
 
 def _transmitted(model: Model, m: int, deflection: float, stiffness: float) -> float:
     """Energy that a mesh with a deflection transmits in one reference cycle, J."""
-    turned = float(model.bodies.ratio[model.layout.driver[m]]) * float(model.operation.pitch_angle)
+    turned = float(rolling_ratio(m, model)) * float(model.operation.pitch_angle)
     return stiffness * deflection * float(model.meshes[m].driver_radius) * turned
 
 
@@ -77,7 +77,7 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
 
     Displacements of a body scale with the least deflection of its meshes, velocities with the deflection
     times the mesh's natural frequency, works with a share of an energy. A body without meshes has the scales
-    of the one that it is linked to.
+    of the one that it is linked to; on pins, by the lever.
     """
     layout = model.layout
     frequency = [np.sqrt(t.stiffness / _inertial_mass(model, m)) for m, t in enumerate(scales.tables)]
@@ -92,12 +92,19 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
                 min(shift[body], deflection),
                 min(shift_rate[body], velocity),
             )
-            turn[body] = min(turn[body], deflection / float(radius))
-            turn_rate[body] = min(turn_rate[body], velocity / float(radius))
+            turn[body] = min(turn[body], deflection / abs(float(radius)))
+            turn_rate[body] = min(turn_rate[body], velocity / abs(float(radius)))
     for body, nearer, mesh, _ in tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0)):
         if mesh < 0 and np.isinf(turn[body]):
             for each in (shift, shift_rate, turn, turn_rate):
                 each[body] = each[nearer]
+    for k in np.flatnonzero(layout.pins):
+        ends = layout.first[k], layout.second[k]
+        for end, (body, other) in enumerate((ends, ends[::-1])):
+            if min(ends) >= 0 and np.isinf(turn[body]):
+                lever = float(np.linalg.norm(np.asarray(model.links.lever)[k, end]))
+                shift[body], shift_rate[body] = shift[other], shift_rate[other]
+                turn[body], turn_rate[body] = shift[other] / lever, shift_rate[other] / lever
     scale = np.empty(layout.states)
     half = layout.half
     for body in range(layout.bodies):
@@ -157,7 +164,7 @@ def _energy(model: Model, m: int, loaded: float, table: TableScales) -> float:
     That transmitted in one reference cycle; where there is no load, the kinetic energy that the gaps give,
     and at least the strain energy over the width in which contact sets in.
     """
-    speed = float(model.bodies.ratio[model.layout.driver[m]]) * float(model.operation.nominal_speed)
+    speed = float(rolling_ratio(m, model)) * float(model.operation.nominal_speed)
     moved = _inertial_mass(model, m) * (table.gap_slope * speed) ** 2
     strain = table.stiffness * _least(model) ** 2
     return max(_transmitted(model, m, loaded, table.stiffness), moved, strain)

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.structure import TURN, TrainLayout
+from tribodyn.train.structure import TURN, TrainLayout, shift_of, turn_of
 
 
 class TreeBranch(NamedTuple):
@@ -37,28 +37,50 @@ class Flow(NamedTuple):
     """Torques of a train at rest or accelerated as a rigid one."""
 
     branches: list[TreeBranch]
-    on_driven: Float[Array, " mesh"]  # torque of a mesh on its driven body, N m; > 0 presses driving flanks
-    on_body: Float[Array, " body"]  # torque of the joint with the nearer body on each, N m
+    #: torque of a mesh on its driven body, N m; of the sign of its radius where it presses driving flanks
+    on_driven: Float[Array, " mesh"]
     on_link: dict[int, float]  # torque with which a link of the tree turns its first end back, N m
     largest: float  # sum of all torques' magnitudes, as on the reference, N m
+
+
+def link_row(k: int, direction: int, model: Any) -> Float[Array, " coordinate"]:
+    """What the coordinates strain a link by in x, y or rotation (0, 1, 2); zeros where it does not act."""
+    layout = model.options.layout
+    row = np.zeros(layout.half)
+    ends = layout.first[k], layout.second[k]
+    if direction == TURN:
+        acts = ends[1] >= 0 or layout.holds[k]
+    else:
+        acts = max(ends) < layout.planar
+    for end, (body, sign) in enumerate(zip(ends, (1.0, -1.0), strict=True)):
+        if body < 0 or not acts:
+            continue
+        row[turn_of(body, layout) if direction == TURN else shift_of(body) + direction] = sign
+        if direction != TURN and layout.pins[k]:
+            row[turn_of(body, layout)] = sign * float(model.links.lever[k, end, direction])
+    return row
 
 
 def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
     """Torques under the constant loads and an extra one on the output; the drive balances or accelerates.
 
-    A mesh that closes a loop is given what flows through all of the train.
+    A mesh that closes a loop is given what flows through all of the train; where links have levers, as pins
+    of planets have, the loads are shared so that the sum of the squares of all forces is least.
     """
     layout, bodies, operation = model.options.layout, model.bodies, model.operation
     ratio, inertia = np.asarray(bodies.ratio, dtype=float), np.asarray(bodies.inertia, dtype=float)
     wanted = np.array(bodies.load, dtype=float)
-    largest = float(np.sum(np.abs(wanted) * ratio) + abs(largest_extra) * ratio[layout.output])
+    largest = float(np.sum(np.abs(wanted * ratio)) + abs(largest_extra * ratio[layout.output]))
     wanted[layout.output] += extra
     if model.options.drive:
         drive = float(operation.drive_torque)
-        largest += float(abs(drive) * ratio[layout.input])
+        largest += float(abs(drive * ratio[layout.input]))
         wanted[layout.input] -= drive
         wanted = wanted - inertia * ratio * float(wanted @ ratio) / float(inertia @ ratio**2)
     branches = tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0))
+    if any(layout.pins):
+        on_driven, on_link = _shared(model, wanted)
+        return Flow(branches, on_driven, on_link, largest)
     through = wanted * ratio  # as on the reference
     for branch in reversed(branches):
         through[branch.nearer] += through[branch.body]
@@ -76,4 +98,38 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
         for body, _, _, link in branches
         if link >= 0
     }
-    return Flow(branches, on_driven, on_body, on_link, largest)
+    return Flow(branches, on_driven, on_link, largest)
+
+
+def _shared(model: Any, wanted: Float[Array, " body"]) -> tuple[Float[Array, " mesh"], dict[int, float]]:
+    """Torques of meshes on their driven bodies and of all turning links that bear `wanted` (N m) together.
+
+    Balances every body in x, y and rotation. Flanks press along the pitch tangent alone.
+    """
+    layout, links = model.options.layout, model.links
+    scale = float(np.mean([abs(mesh.driver_radius) for mesh in model.meshes]))
+    rows, link_of = [], []
+    for m, mesh in enumerate(model.meshes):
+        row = np.zeros(layout.half)
+        along = float(mesh.along_x), float(mesh.along_y)
+        ends = (layout.driver[m], -1.0, mesh.driver_radius), (layout.driven[m], 1.0, mesh.driven_radius)
+        for body, sign, radius in ends:
+            row[turn_of(body, layout)] = sign * float(radius)
+            if body < layout.planar:
+                row[shift_of(body) : shift_of(body) + 2] = sign * np.array(along)
+        rows.append(row)
+    for k in range(layout.links):
+        for direction in np.flatnonzero(np.asarray(links.stiffness)[k] > 0.0):
+            row = link_row(k, int(direction), model)
+            if direction == TURN and np.any(row):
+                link_of.append((len(rows), k))
+                row = scale * row
+            rows.append(-row)
+    balance = np.array(rows).T
+    loads = np.zeros(layout.half)
+    loads[[turn_of(body, layout) for body in range(layout.bodies)]] = wanted
+    if not model.options.drive:  # what holds the reference's speed bears the rest
+        balance, loads = np.delete(balance, layout.lag, axis=0), np.delete(loads, layout.lag)
+    found, *_ = np.linalg.lstsq(balance, loads)
+    radii = np.array([float(mesh.driven_radius) for mesh in model.meshes])
+    return found[: len(radii)] * radii, {k: float(found[row] * scale) for row, k in link_of}

@@ -12,6 +12,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.train.structure import ACROSS, ALONG_Z, IN_SPACE, LEAN_ACROSS, LEAN_ALONG, MOVES, TOWARDS
 
 
 class Distance(NamedTuple):
@@ -108,6 +109,29 @@ def frame_of(azimuth: float, sense: int) -> tuple[tuple[float, float], tuple[flo
     pitch point.
     """
     return (-sense * sin(azimuth), sense * cos(azimuth)), (cos(azimuth), sin(azimuth))
+
+
+def moves_of(
+    frame: tuple[tuple[float, float], tuple[float, float]],
+    radii: tuple[float, float],
+    places: tuple[float, float] = (0.0, 0.0),
+) -> Float[Array, "end move direction"]:
+    """How x, y, z and tilts of driver and driven body move a mesh: the projection rows P.
+
+    A point at (ξ, η, z) from a body's centre moves by ψ × (ξ, η, z) = (ψ_y z, −ψ_x z, ψ_x η − ψ_y ξ). `frame`
+    are the directions along the pitch tangent and across; `places` the z of the faces' middles from the
+    bodies' centres, m.
+    """
+    moves = np.zeros((2, MOVES, IN_SPACE))
+    (along_x, along_y), (across_x, across_y) = frame
+    tilts = np.array([[0.0, 0.0, 0.0, -along_y, along_x], [0.0, 0.0, 0.0, -across_y, across_x]])
+    for end, sign in enumerate((1.0, -1.0)):
+        own = moves[end]
+        own[TOWARDS] = sign * (np.array([along_x, along_y, 0.0, 0.0, 0.0]) + places[end] * tilts[0])
+        own[ACROSS] = sign * (np.array([across_x, across_y, 0.0, 0.0, 0.0]) + places[end] * tilts[1])
+        own[ALONG_Z] = np.array([0.0, 0.0, sign, 0.0, 0.0]) - radii[end] * tilts[1]
+        own[LEAN_ALONG], own[LEAN_ACROSS] = sign * tilts
+    return moves
 
 
 def check_room(

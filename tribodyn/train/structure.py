@@ -43,10 +43,15 @@ class Bodies(NamedTuple):
 
     mass: Float[Array, " planar"]  # kg; of those that move in the plane
     inertia: Float[Array, " body"]  # kg m², about the axis of rotation
-    ratio: Float[Array, " body"]  # nominal speed over the reference's, > 0
+    ratio: Float[Array, " body"]  # nominal speed over the reference's, 0 where it is held
     load: Float[Array, " body"]  # constant torque against the motion, N m
     load_damping: Float[Array, " body"]  # rise of it per speed above nominal, N m s/rad
     tilting: Float[Array, " spatial"] = np.zeros(0)  # inertia about x and y, kg m²
+    #: of bodies in a carrier's frame, see `dynamics.frame`: its speed over the reference's, counter-clockwise
+    #: positive; that of its Coriolis and centrifugal forces, rad/s, 0: without; places from its axis, m
+    carried: Float[Array, " planar"] = np.zeros(0)
+    frame_speed: Float[Array, " planar"] = np.zeros(0)
+    place: Float[Array, "planar 2"] = np.zeros((0, 2))
 
 
 class Links(NamedTuple):
@@ -56,6 +61,8 @@ class Links(NamedTuple):
     that of their rotations where both are bodies, which have one nominal speed then: in x and y linearly, in
     rotation by the laws that are switched, see `train.links`. Where both ends move in space, matrices over x,
     y, z and the tilts stand in place of the stiffness and damping in x and y.
+
+    The rotation of its body moves an end off the axis, such as a planet's pin on the carrier, by a lever.
     """
 
     stiffness: Float[Array, "link direction"]  # N/m, N/m, N m/rad
@@ -64,6 +71,10 @@ class Links(NamedTuple):
     #: this and the next: symmetric, over x, y, z, tilts about x and y; N/m, N, N m; empty if nothing tilts
     stiffness_in_space: Float[Array, "link 5 5"] = np.zeros((0, IN_SPACE, IN_SPACE))
     damping_in_space: Float[Array, "link 5 5"] = np.zeros((0, IN_SPACE, IN_SPACE))
+    #: this and the next: of the layout's `pins`, empty if there are none; what a rotation of an end's body
+    #: moves that end by in x and y, m/rad
+    lever: Float[Array, "link end 2"] = np.zeros((0, 2, 2))
+    offset: Float[Array, "link 2"] = np.zeros((0, 2))  # how far apart in x and y the unloaded ends are, m
 
 
 class GearMesh(NamedTuple):
@@ -85,8 +96,12 @@ class GearMesh(NamedTuple):
     film: Any  # this and the next: parameters of the laws in use
     friction: Any
     hand: Any = 1.0  # −1 where the +z side is early: left-hand driver that turns clockwise, or the reverse
-    #: what x, y, z and the tilts of the driver and of the driven body move it by, see `moves_of`
+    #: what x, y, z and the tilts of the driver and of the driven body move it by, see `positions.moves_of`
     moves: Float[Array, "end move direction"] = np.zeros((2, MOVES, IN_SPACE))
+    #: speed of a frame that turns with a carrier, over the reference's, positive as the driver turns; the
+    #: next as the driven body does
+    driver_carried: Any = 0.0
+    driven_carried: Any = 0.0
 
 
 class TrainLayout(NamedTuple):
@@ -106,6 +121,9 @@ class TrainLayout(NamedTuple):
     driven: Indices
     first: Indices  # this and the next: bodies at the ends of every link; `GROUND`
     second: Indices
+    pins: Indices  # of every link 1 where its ends have levers or an offset, else 0
+    holds: Indices  # of every link 1 where it holds the rotation of its first end against the ground, else 0
+    frames: StaticInt  # 1 where bodies are in a frame that turns, else 0
     input: StaticInt  # body that the drive acts on
     output: StaticInt  # body that bears the load that varies in time
 
@@ -118,8 +136,15 @@ def layout_of(
     drives: int,
     loaded: int,
     spatial: int = 0,
+    *,
+    pins: Sequence[int] = (),
+    holds: Sequence[int] = (),
+    frames: int = 0,
 ) -> TrainLayout:
-    """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output."""
+    """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output.
+
+    `pins` and `holds` are numbers of links, see `TrainLayout`; only bodies that stand still are held.
+    """
     half = 2 * planar + bodies + 3 * spatial
     states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
     driver, driven, first, second = (
@@ -140,6 +165,9 @@ def layout_of(
         driven=driven,
         first=first,
         second=second,
+        pins=Indices([int(link in pins) for link in range(len(links))]),
+        holds=Indices([int(link in holds) for link in range(len(links))]),
+        frames=StaticInt(frames),
         input=StaticInt(drives),
         output=StaticInt(loaded),
     )
@@ -176,45 +204,6 @@ def place_in_space(body, direction, layout):
 
 
 @law
-def on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh):
-    """Force or moment on x, y, z or a tilt (0 … 4) of a mesh's driver or driven body (0, 1).
-
-    Of what acts on the driver as `MOVES` go.
-    """
-    moves = mesh.moves
-    return (
-        moves[end, TOWARDS, direction] * along
-        + moves[end, ACROSS, direction] * across
-        + moves[end, ALONG_Z, direction] * axial
-        + moves[end, LEAN_ALONG, direction] * leaning_along
-        + moves[end, LEAN_ACROSS, direction] * leaning_across
-    )
-
-
-def moves_of(
-    frame: tuple[tuple[float, float], tuple[float, float]],
-    radii: tuple[float, float],
-    places: tuple[float, float] = (0.0, 0.0),
-) -> Float[Array, "end move direction"]:
-    """How x, y, z and tilts of driver and driven body move a mesh: the projection rows P.
-
-    A point at (ξ, η, z) from a body's centre moves by ψ × (ξ, η, z) = (ψ_y z, −ψ_x z, ψ_x η − ψ_y ξ). `frame`
-    are the directions along the pitch tangent and across; `places` the z of the faces' middles from the
-    bodies' centres, m.
-    """
-    moves = np.zeros((2, MOVES, IN_SPACE))
-    (along_x, along_y), (across_x, across_y) = frame
-    tilts = np.array([[0.0, 0.0, 0.0, -along_y, along_x], [0.0, 0.0, 0.0, -across_y, across_x]])
-    for end, sign in enumerate((1.0, -1.0)):
-        own = moves[end]
-        own[TOWARDS] = sign * (np.array([along_x, along_y, 0.0, 0.0, 0.0]) + places[end] * tilts[0])
-        own[ACROSS] = sign * (np.array([across_x, across_y, 0.0, 0.0, 0.0]) + places[end] * tilts[1])
-        own[ALONG_Z] = np.array([0.0, 0.0, sign, 0.0, 0.0]) - radii[end] * tilts[1]
-        own[LEAN_ALONG], own[LEAN_ACROSS] = sign * tilts
-    return moves
-
-
-@law
 def turned(body, y, layout):
     """Micro-rotation of a body, rad."""
     return y[turn_of(body, layout)] if body > 0 else 0.0 * y[0]
@@ -238,6 +227,12 @@ def speed_of(body, y, model):
     layout = model.options.layout
     reference = model.operation.nominal_speed + slip_of(y, layout)
     return model.bodies.ratio[body] * reference + turning(body, y, layout)
+
+
+@law
+def rolling_ratio(m, model):
+    """Nominal speed of a mesh's driver against the frame of the mesh, over the reference's."""
+    return model.bodies.ratio[model.options.layout.driver[m]] - model.meshes[m].driver_carried
 
 
 @law

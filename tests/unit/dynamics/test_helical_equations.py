@@ -19,7 +19,8 @@ from tribodyn.solve.right_hand_side import contacts_of
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.train.structure import moves_of, place_in_space, shift_of, turn_of
+from tribodyn.train.positions import moves_of
+from tribodyn.train.structure import place_in_space, shift_of, turn_of
 
 E_X, E_Y, E_Z = np.eye(3)
 

@@ -13,11 +13,12 @@ from tribodyn.dynamics.approach import Motion
 from tribodyn.dynamics.contact_energy import parametric_torque
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.equations import resultants
+from tribodyn.dynamics.frame import carried_along
 from tribodyn.dynamics.loads import load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
-from tribodyn.dynamics.places import motion_of, place_in_mesh
+from tribodyn.dynamics.places import motion_of, on_body, place_in_mesh
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import law
+from tribodyn.numerics.elementary import absolute, law
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.link_jacobian import SHARE, differentiate_links
 from tribodyn.solve.right_hand_side import rhs
@@ -37,8 +38,8 @@ from tribodyn.train.structure import (
     PARAMETRIC,
     TOWARDS,
     WORKS_OF_MESH,
-    on_body,
     place_in_space,
+    rolling_ratio,
     shift_of,
     slip_of,
     slip_of_body,
@@ -107,11 +108,11 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
     Rows of rates receive forces and torques, those of work in and parametric work torques on the reference.
     `work` is as the right-hand side left it.
     """
-    layout, bodies = model.options.layout, model.bodies
+    layout = model.options.layout
     half, works = layout.half, layout.mechanical
     mesh, contacts = model.meshes[m], work[m]
     driver, driven = layout.driver[m], layout.driven[m]
-    ratio = bodies.ratio[driver]
+    ratio = rolling_ratio(m, model)
     at = place_in_mesh(m, place.phase, place.interval, model)
     motion = motion_of(m, y, model)
     reversals = reversals_per_velocity(ratio, mesh, model)
@@ -119,8 +120,9 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
     torque = parametric_torque(at, mesh, model, contacts)
     turn_1, turn_2 = turn_of(driver, layout), turn_of(driven, layout)
     of_mesh = works + OF_MESHES + WORKS_OF_MESH * m
-    length = SHARE * scale[turn_2] * mesh.driven_radius
-    velocity = min(SHARE * scale[half + turn_2] * mesh.driven_radius, SHARE_OF_REVERSAL / reversals)
+    radius = absolute(mesh.driven_radius)  # a size; that of an internal gear is negative
+    length = SHARE * scale[turn_2] * radius
+    velocity = min(SHARE * scale[half + turn_2] * radius, SHARE_OF_REVERSAL / reversals)
     in_space = layout.spatial > 0
     count = 0
     for which in range(NUMBERS):
@@ -132,7 +134,7 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
             continue
         by = length if which < RATES else velocity
         if of_bodies and move > ALONG_Z:
-            by /= mesh.driven_radius
+            by /= radius
         contact_forces(at, _moved(motion, which, by, mesh), reversals, mesh, model, contacts)
         count += 1
         after = resultants(at, mesh, model, contacts)
@@ -205,6 +207,13 @@ def differentiate(place, y, f, scale, model, work, into):
         contacts += differentiate_mesh(m, place, y, scale, model, work, jacobian)
     evaluations = (contacts + layout.meshes - 1) // layout.meshes
     differentiate_links(y, scale, model, jacobian)
+    if layout.frames > 0:
+        for b in range(layout.planar):
+            x, speed = shift_of(b), bodies.frame_speed[b]
+            jacobian[half + x, half + x + 1] += 2.0 * bodies.mass[b] * speed
+            jacobian[half + x + 1, half + x] -= 2.0 * bodies.mass[b] * speed
+            jacobian[half + x, x] += bodies.mass[b] * speed * speed
+            jacobian[half + x + 1, x + 1] += bodies.mass[b] * speed * speed
     consistent = options.formulation == ENERGY_CONSISTENT
     prescribed = options.drive == DRIVE_SPEED
     for b in range(1, layout.bodies):  # loads and drive; what the reference's speed does is differenced below
@@ -238,6 +247,9 @@ def differentiate(place, y, f, scale, model, work, into):
                 x = half + shift_of(b)
                 jacobian[x, j] *= rate / bodies.mass[b]
                 jacobian[x + 1, j] *= rate / bodies.mass[b]
+                if layout.frames > 0:
+                    jacobian[x, j] -= rate * carried_along(b, 0, acceleration, model)
+                    jacobian[x + 1, j] -= rate * carried_along(b, 1, acceleration, model)
             if b < layout.spatial:
                 z = half + layout.tilts + 3 * b
                 jacobian[z, j] *= rate / bodies.mass[b]

@@ -44,6 +44,43 @@ def _differentiate_in_space(k, first, second, row, direction, y, model, jacobian
         jacobian[lost, half + other_j] -= 2.0 * damping * moving
 
 
+@law
+def _place_and_share(k, end, direction, model):
+    """Coordinate that moves a pin's end, and by how much: x or y of a body, or its rotation (ends 2, 3)."""
+    layout = model.options.layout
+    body = layout.first[k] if end % 2 == 0 else layout.second[k]
+    sign = 1.0 if end % 2 == 0 else -1.0
+    if end < 2:
+        return shift_of(body) + direction, sign
+    return turn_of(body, layout), sign * model.links.lever[k, end - 2, direction]
+
+
+@law
+def _differentiate_pin(k, direction, y, model, jacobian):
+    """Add what a link does in x or y whose ends have levers."""
+    layout, links = model.options.layout, model.links
+    half, lost = layout.half, layout.mechanical + DAMPING
+    stiffness, damping = links.stiffness[k, direction], links.damping[k, direction]
+    rate = 0.0 * y[0]
+    for column in range(4):
+        body = layout.first[k] if column % 2 == 0 else layout.second[k]
+        if body >= 0 and not (column >= 2 and body == 0):
+            j, moved = _place_and_share(k, column, direction, model)
+            rate += moved * y[half + j]
+    for column in range(4):
+        body = layout.first[k] if column % 2 == 0 else layout.second[k]
+        if body < 0 or (column >= 2 and body == 0):  # the reference has no micro-rotation
+            continue
+        j, moved = _place_and_share(k, column, direction, model)
+        jacobian[lost, half + j] += 2.0 * damping * rate * moved
+        for row in range(4):
+            if row % 2 == 1 and layout.second[k] < 0:
+                continue
+            i, share = _place_and_share(k, row, direction, model)
+            jacobian[half + i, j] -= share * stiffness * moved
+            jacobian[half + i, half + j] -= share * damping * moved
+
+
 @kernel
 def differentiate_links(y, scale, model, jacobian):
     """Add what the links do to the forces, and to the power that damping takes."""
@@ -60,12 +97,16 @@ def differentiate_links(y, scale, model, jacobian):
             if in_space and direction < TURN:
                 continue
             if direction == TURN:
-                if second < 0:
+                if second < 0 and layout.holds[k] == 0:
                     continue
-                i, j = turn_of(first, layout), turn_of(second, layout)
+                i = turn_of(first, layout)
+                j = turn_of(second, layout) if second >= 0 else i
                 rate = turning(first, y, layout) - turning(second, y, layout)
             else:
                 if first >= layout.planar or second >= layout.planar:
+                    continue
+                if layout.pins[k] > 0:
+                    _differentiate_pin(k, direction, y, model, jacobian)
                     continue
                 i, j = shift_of(first) + direction, shift_of(second) + direction
                 rate = y[half + i]

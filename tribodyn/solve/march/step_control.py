@@ -16,7 +16,7 @@ from tribodyn.dynamics.contact_forces import reversals_per_velocity
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, where
 from tribodyn.solve.integrator import Status
-from tribodyn.train.structure import shifted, turn_of, turned
+from tribodyn.train.structure import rolling_ratio, shifted, turn_of, turned
 
 #: First step to try and the smallest one, mesh cycles; a step is the last if it ends this close to the end.
 FIRST_STEP, MINIMUM_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
@@ -127,7 +127,7 @@ def unbounded(state, model):
     farthest = 0.0 * plain(state[0])
     for m in range(layout.meshes):
         mesh = model.meshes[m]
-        distance = mesh.driver_radius + mesh.driven_radius
+        distance = absolute(mesh.driver_radius + mesh.driven_radius)
         farthest = maximum(farthest, largest_displacement(m, state, model) / distance)
     return farthest > 1.0
 
@@ -174,7 +174,9 @@ def resolves_turns(atol, model):
     layout = model.options.layout
     fine = atol[0] < 0.0
     for m in range(layout.meshes):
-        tolerance = model.meshes[m].driven_radius * atol[layout.half + turn_of(layout.driven[m], layout)]
+        tolerance = (
+            absolute(model.meshes[m].driven_radius) * atol[layout.half + turn_of(layout.driven[m], layout)]
+        )
         fine = fine | (tolerance * reversals_in(m, model) < FINEST)
     return fine
 
@@ -182,8 +184,7 @@ def resolves_turns(atol, model):
 @law
 def reversals_in(m, model):
     """`contact_forces.reversals_per_velocity` of a mesh."""
-    ratio = model.bodies.ratio[model.options.layout.driver[m]]
-    return reversals_per_velocity(ratio, model.meshes[m], model)
+    return reversals_per_velocity(rolling_ratio(m, model), model.meshes[m], model)
 
 
 @law

@@ -11,7 +11,8 @@ from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import Table, monotone_slopes
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.tabulated import Tabulated
-from tribodyn.train.structure import GearMesh, TrainLayout, moves_of
+from tribodyn.train.positions import moves_of
+from tribodyn.train.structure import GearMesh, TrainLayout
 from tribodyn.tribology.closure import Closure
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each

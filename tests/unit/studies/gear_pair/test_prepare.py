@@ -148,6 +148,11 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
             "own",
             "stiffness_in_space",
             "damping_in_space",
+            "lever",
+            "offset",
+            "carried",
+            "frame_speed",
+            "place",
         }
         for name, value in numbers.items():
             np.testing.assert_allclose(getattr(getattr(found, part), name), value, rtol=1e-12, err_msg=name)
