@@ -2,7 +2,8 @@
 
 Everything is said in the frame of one body whose tooth lies left of the contact (see `path.MirroredPath`),
 then carried to the tooth's own frame: x along the tooth's symmetry axis from the body's axis outwards, y the
-half thickness. A point at (X, Y) from the pitch point, touched when the body has turned by φ, has the half
+half thickness. Radii and half thickness angles of an internal gear are negative (ISO 21771), so that half
+thicknesses are positive and its tooth points to +x too, from the axis at the origin. A point at (X, Y) from the pitch point, touched when the body has turned by φ, has the half
 thickness angle χ = ψ + atan2(X, r_p + Y) − φ, where ψ is the half thickness angle on the pitch circle.
 The rack moves by r_p φ to +x, so its flank is x_c = r cos α − r_p φ, y_c = r sin α.
 
@@ -208,12 +209,21 @@ def fillet_point(tooth: Tooth, normal_angle: PerContact) -> tuple[PerContact, Pe
     return _in_tooth_frame(tooth, x, y, (x - rack_x) / tooth.path.pinion_pitch_radius)
 
 
+def polar(x: PerContact, y: PerContact, pitch_radius: Any) -> tuple[PerContact, PerContact]:
+    """Radius (m), of the pitch radius's sign, and angle (rad) about the body's axis of a point from P.
+
+    The angle grows with x on an external body; an internal one's axis lies beyond P, and it falls.
+    """
+    along, across = x / pitch_radius, 1 + y / pitch_radius
+    return pitch_radius * sqrt(along**2 + across**2), arctan2(along, across)
+
+
 def _in_tooth_frame(
     tooth: Tooth, x: PerContact, y: PerContact, rotation: PerContact
 ) -> tuple[PerContact, PerContact]:
     pitch_radius = tooth.path.pinion_pitch_radius
-    distance = sqrt(x**2 + (pitch_radius + y) ** 2)
-    chi = tooth.half_angle + arctan2(x, pitch_radius + y) - rotation
+    distance, angle = polar(x, y, pitch_radius)
+    chi = tooth.half_angle + angle - rotation
     return distance * cos(chi), distance * sin(chi)
 
 
@@ -221,7 +231,7 @@ def thickness_half_angle(tooth: Tooth, at_radius: PerContact) -> PerContact:
     """Half thickness angle of the tooth (rad) on the circle of this radius (m), above the form radius."""
     r = distance_at_radius(tooth.path, at_radius)
     x, y = position(tooth.path, r)
-    return tooth.half_angle + arctan2(x, tooth.path.pinion_pitch_radius + y) - tooth.path.rotation(r)
+    return tooth.half_angle + polar(x, y, tooth.path.pinion_pitch_radius)[1] - tooth.path.rotation(r)
 
 
 def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact) -> ToothContact:
@@ -233,7 +243,7 @@ def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact
     pitch_radius = body_path.pinion_pitch_radius
     x, y = position(body_path, r)
     rotation = body_path.rotation(r)
-    distance = sqrt(x**2 + (pitch_radius + y) ** 2)
-    chi = pitch_half_angle + arctan2(x, pitch_radius + y) - rotation
+    distance, angle = polar(x, y, pitch_radius)
+    chi = pitch_half_angle + angle - rotation
     load_angle = body_path.pressure_angle(r) - pitch_half_angle + rotation
     return ToothContact(distance * cos(chi), distance * sin(chi), load_angle)
