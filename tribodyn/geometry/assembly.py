@@ -18,7 +18,7 @@ from tribodyn.geometry.path import (
     radius,
     seen_from,
 )
-from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, polar, thickness_half_angle
+from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
 from tribodyn.numerics.elementary import arctan2, as_float, cos, minimum, namespace, smallest, sqrt
 
 _SAMPLES = 400

@@ -1,8 +1,8 @@
 """The path of contact, and everything about a gear pair that follows from it alone.
 
 Frame: origin P, the pitch point; x along the common pitch tangent, the way both flanks move at P; y along
-the line of centres, the pinion's axis at (0, −r_p), the gear's at (0, +r_g). The radii of an internal gear are
-negative (ISO 21771), and its axis lies on the pinion's side. A contact point is
+the line of centres, the pinion's axis at (0, −r_p), the gear's at (0, +r_g). The radii of an internal gear
+are negative (ISO 21771), and its axis lies on the pinion's side. A contact point is
 C = r (cos α, sin α) with the signed distance r (r < 0 approach, r > 0 recess) and the pressure angle α(r) in
 (0, π/2). The pinion turns by φ from φ = 0 at P, and meshing demands dr/dφ = r_p cos α.
 """
@@ -152,7 +152,8 @@ def radius(path: Path, r: PerContact) -> PerContact:
 def distance_at_radius(path: Path, pinion_radius: PerContact) -> PerContact:
     """Signed distance r (m) at which the contact is at `pinion_radius` (m) from the pinion's axis.
 
-    The radius has the sign of the pitch radius. The derivative of the squared radius is 2 u_p/ω_p, so the root is unique where the flank is not undercut.
+    The radius has the sign of the pitch radius. The derivative of the squared radius is 2 u_p/ω_p,
+    so the root is unique where the flank is not undercut.
     """
     xp = namespace(path, pinion_radius)
     r_p = path.pinion_pitch_radius

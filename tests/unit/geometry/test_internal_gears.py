@@ -5,13 +5,16 @@ Planet and ring of a planetary stage, z 36/-93, m 21 mm: the report's figures to
 
 import math
 
+import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
 from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
 from tribodyn.geometry.path import distance_at_radius, kinematics, radius
+from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point, thickness_half_angle
 
 PLANET = GearBody(36.0, 0.5039, 1.0, 1.25, 0.3, 0.55, 0.15, tip_radius=407.8315e-3)
 RING = GearBody(-93.0, 0.1171, 1.0, 1.25, 0.3, 0.55, -1.1, tip_radius=-953.0405e-3)
@@ -80,3 +83,105 @@ def test_backlash_closes_where_the_centre_distance_is_tight(pair: Assembly):
     assert circumferential_backlash(opened) == pytest.approx(expected, rel=1e-3)
     assert normal_backlash(opened) == pytest.approx(float(involute.normal_backlash(closer)), rel=1e-9)
     assert abs(normal_backlash(Assembly(family("involute"), PAIR._replace(centre_distance=None)))) < 1e-15
+
+
+def test_a_cutter_leaves_the_published_root_and_form_circle():
+    """x from the root circle, whose diameter has a digit more than x: m (z/2 + x − 1.25) = −2000.581 mm/2."""
+    shift = 1.25 + 46.5 - 2000.581 / 42
+    assert shift == pytest.approx(0.1171, abs=5e-5)
+    ring = RING._replace(profile_shift=shift, cutter_teeth=30.0)
+    tooth = Assembly(family("involute"), PAIR._replace(gear=ring)).gear
+    assert 2e3 * tooth.root_radius == pytest.approx(-2000.581, abs=0.0005)
+    assert 2e3 * tooth.form_radius == pytest.approx(-1987.879, abs=0.0005)
+    assert not tooth.overrun > 0
+
+
+def test_a_cutter_of_given_height_leaves_its_own_root_circle():
+    """Centre distance of cutter and ring without backlash by bisection, plus the cutter's tip circle."""
+    alpha, target = PAIR.pressure_angle, 2 * math.tan(PAIR.pressure_angle) * 0.1171 / -63
+    low, high = 0.1, alpha
+    for _ in range(80):
+        middle = (low + high) / 2
+        inv = math.tan(middle) - middle - math.tan(alpha) + alpha
+        low, high = (middle, high) if inv < target else (low, middle)
+    distance = 21e-3 * 63 / 2 * math.cos(alpha) / math.cos(low)
+    ring = RING._replace(cutter_teeth=30.0, cutter_addendum=1.25)
+    tooth = Assembly(family("involute"), PAIR._replace(gear=ring)).gear
+    assert tooth.root_radius == pytest.approx(-(distance + 21e-3 * (15 + 1.25)), rel=1e-9)
+
+
+def test_a_cutter_of_many_teeth_cuts_as_a_rack():
+    def tooth(**changes: float) -> Tooth:
+        planet = PLANET._replace(tip_radius=None, **changes)
+        return Assembly(family("involute"), PAIR._replace(pinion=planet, centre_distance=None)).pinion
+
+    rack, cutter = tooth(), tooth(cutter_teeth=1e7)
+    for name in ("form_radius", "root_radius", "tip_radius"):
+        assert getattr(cutter, name) == pytest.approx(float(getattr(rack, name)), abs=2e-8)
+    normal = np.linspace(np.pi / 2, float(rack.form_angle), 9)
+    assert np.array(fillet_point(cutter, normal)) == pytest.approx(
+        np.array(fillet_point(rack, normal)), abs=2e-8
+    )
+
+
+def _half_outline(tooth: Tooth) -> np.ndarray:
+    """Radii (m, > 0) and half thickness angles (rad, > 0) of fillet and flank."""
+    x, y = np.concatenate(
+        [
+            np.array(fillet_point(tooth, np.linspace(np.pi / 2, float(tooth.form_angle), 4000))),
+            np.array(flank_point(tooth, np.linspace(tooth.form_distance, tooth.tip_distance, 4000))),
+        ],
+        axis=1,
+    )
+    return np.array([np.hypot(x, y), np.arctan2(y, np.abs(x))])
+
+
+def _penetration(gear: Drive) -> float:
+    """How deep any point of the planet's outline lies in the ring's material while they turn, m.
+
+    At the point's radius about the ring's axis the ring's half thickness, by spline of its outline, is
+    compared with the angle of the point from the tooth's axis.
+    """
+    pair = Assembly(family("involute"), gear)
+    planet, ring = pair.pinion, pair.gear
+    pitch = 2 * math.pi / 93
+    r_p, r_g = float(pair.path.pinion_pitch_radius), -float(pair.path.gear_pitch_radius)
+    size, angle = _half_outline(planet)
+    size, angle = np.append(size, size), np.append(angle, -angle)
+    at_pitch = float(thickness_half_angle(planet, r_p))
+    ring_size, ring_angle = _half_outline(ring)
+    order = np.argsort(ring_size)
+    half = CubicSpline(*_distinct(ring_size[order], ring_angle[order]))
+    ring_at_pitch = -float(thickness_half_angle(ring, -r_g))
+    deepest = -np.inf
+    for roll in np.linspace(-0.5, 0.5, 81) * 2 * math.pi / 36:
+        for tooth in range(-3, 4):
+            # clockwise from the line of centres, towards the ring; the planet's tooth lies left of P
+            turned = roll - at_pitch + tooth * 2 * math.pi / 36 + angle
+            x, y = size * np.sin(turned), size * np.cos(turned) - r_p + r_g
+            at, where = np.hypot(x, y), np.arctan2(x, y)
+            # the ring's tooth to the right of P: its axis at the half thickness
+            from_axis = where - roll * r_p / r_g - ring_at_pitch
+            from_axis -= pitch * np.round(from_axis / pitch)
+            inside = (at > -ring.tip_radius) & (at < -ring.root_radius)
+            if inside.any():
+                depth = (half(at[inside]) - np.abs(from_axis[inside])) * at[inside]
+                deepest = max(deepest, float(depth.max()))
+            assert at.max() < -ring.root_radius
+    return deepest
+
+
+def _distinct(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    kept = np.append(True, np.diff(x) > 1e-9)
+    return x[kept], y[kept]
+
+
+@pytest.mark.parametrize("off", [0.0, 0.2e-3])
+@pytest.mark.parametrize("shift", [0.1171, -0.2])
+def test_planet_and_ring_roll_without_penetration(shift: float, off: float):
+    """On the flanks they touch: 0 within a nanometre; with backlash the back flanks are its width apart."""
+    ring = RING._replace(profile_shift=shift, cutter_teeth=30.0, tip_radius=None, addendum=0.9)
+    pair = PAIR._replace(gear=ring, centre_distance=None)
+    tight = float(involute.tight_centre_distance(pair))
+    deepest = _penetration(pair._replace(centre_distance=tight + off))
+    assert abs(deepest) < 1e-9

@@ -98,6 +98,22 @@ def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
     return path, shift
 
 
+def cutter_path(drive: Drive, side: Side) -> Path:
+    """Path of contact of one body with its pinion-type cutter, which mesh without backlash.
+
+    inv α_w0 = inv α + 2 tan α (x_0 + x_E)/(z_0 + z) with the shift x_E that leaves the tooth its thickness;
+    z < 0 of an internal gear (ISO 21771).
+    """
+    path, shift = generating_path(drive, side)
+    body, alpha = body_of(drive, side), drive.pressure_angle
+    shifts = drive.module * body.cutter_shift + shift
+    teeth = drive.module * (body.cutter_teeth + body.teeth)
+    working = inverse_involute(involute_function(alpha) + 2 * tan(alpha) * shifts / teeth)
+    stretch = cos(alpha) / cos(working)
+    cutter = drive.module * body.cutter_teeth / 2
+    return InvolutePath(path.pinion_pitch_radius * stretch, cutter * stretch, working)
+
+
 def normal_backlash(drive: Drive) -> Any:
     """Distance j_bn between the back flanks along their line of action, m; negative where teeth overlap.
 
@@ -169,6 +185,7 @@ FAMILY = Family(
     generating_path,
     True,
     check,
+    cutter_path=cutter_path,
     involute=True,
     about="standard or profile-shifted involute; pressure_angle is the rack's",
 )
