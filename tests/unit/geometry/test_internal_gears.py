@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
 from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
+from tribodyn.geometry.body import gear_polygon, mass_and_inertia
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
 from tribodyn.geometry.path import distance_at_radius, kinematics, radius
@@ -185,3 +186,17 @@ def test_planet_and_ring_roll_without_penetration(shift: float, off: float):
     tight = float(involute.tight_centre_distance(pair))
     deepest = _penetration(pair._replace(centre_distance=tight + off))
     assert abs(deepest) < 1e-9
+
+
+def test_section_and_polygon_of_a_ring_agree():
+    """The material between outside and hole: the polygon's shoelace against arcs and chords."""
+    ring = RING._replace(cutter_teeth=30.0)
+    pair = Assembly(family("involute"), PAIR._replace(gear=ring))
+    x, y = gear_polygon(pair, "gear", 300).T
+    hole = abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) / 2
+    mass, inertia = mass_and_inertia(pair, "gear", 1.0)
+    assert mass == pytest.approx(0.55 * (math.pi * 1.1**2 - hole), rel=1e-5)
+    assert mass * 0.97**2 < inertia < mass * 1.1**2
+    # the tooth left of P touches there, the axis below
+    assert np.hypot(x, y - 0.9528).min() < 0.03
+    assert x[0] < 0 < y[0]
