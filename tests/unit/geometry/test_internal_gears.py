@@ -9,11 +9,14 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
+from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
 from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
 from tribodyn.geometry.body import gear_polygon, mass_and_inertia
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
+from tribodyn.geometry.limits.checks import check
+from tribodyn.geometry.limits.internal import radial_assembly, trochoidal_gap
 from tribodyn.geometry.path import distance_at_radius, kinematics, radius
 from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point, thickness_half_angle
 
@@ -145,7 +148,8 @@ def _penetration(gear: Drive) -> float:
     """
     pair = Assembly(family("involute"), gear)
     planet, ring = pair.pinion, pair.gear
-    pitch = 2 * math.pi / 93
+    teeth = gear.pinion.teeth
+    pitch = 2 * math.pi / -gear.gear.teeth
     r_p, r_g = float(pair.path.pinion_pitch_radius), -float(pair.path.gear_pitch_radius)
     size, angle = _half_outline(planet)
     size, angle = np.append(size, size), np.append(angle, -angle)
@@ -155,10 +159,10 @@ def _penetration(gear: Drive) -> float:
     half = CubicSpline(*_distinct(ring_size[order], ring_angle[order]))
     ring_at_pitch = -float(thickness_half_angle(ring, -r_g))
     deepest = -np.inf
-    for roll in np.linspace(-0.5, 0.5, 81) * 2 * math.pi / 36:
-        for tooth in range(-3, 4):
+    for roll in np.linspace(-0.5, 0.5, 81) * 2 * math.pi / teeth:
+        for tooth in range(-9, 10):
             # clockwise from the line of centres, towards the ring; the planet's tooth lies left of P
-            turned = roll - at_pitch + tooth * 2 * math.pi / 36 + angle
+            turned = roll - at_pitch + tooth * 2 * math.pi / teeth + angle
             x, y = size * np.sin(turned), size * np.cos(turned) - r_p + r_g
             at, where = np.hypot(x, y), np.arctan2(x, y)
             # the ring's tooth to the right of P: its axis at the half thickness
@@ -197,6 +201,61 @@ def test_section_and_polygon_of_a_ring_agree():
     mass, inertia = mass_and_inertia(pair, "gear", 1.0)
     assert mass == pytest.approx(0.55 * (math.pi * 1.1**2 - hole), rel=1e-5)
     assert mass * 0.97**2 < inertia < mass * 1.1**2
-    # the tooth left of P touches there, the axis below
-    assert np.hypot(x, y - 0.9528).min() < 0.03
-    assert x[0] < 0 < y[0]
+
+
+def _small(ring_teeth: int, addendum: float = 0.8) -> Drive:
+    """36 teeth in a ring of hardly more, stub teeth, x = 0."""
+    planet = GearBody(36.0, 0.0, addendum, 1.25, 0.3, 0.05, 0.02)
+    ring = GearBody(-float(ring_teeth), 0.0, addendum, 1.25, 0.3, 0.05, -0.1, cutter_teeth=20.0)
+    return Drive(3e-3, math.radians(20.0), planet, ring)
+
+
+def test_tips_that_pass_run_into_each_other_where_the_distance_is_negative():
+    """Outlines rolled, all teeth: for eight teeth more they pass, for six they do not."""
+    kept, broken = (Assembly(family("involute"), _small(teeth)) for teeth in (44, 42))
+    assert trochoidal_gap(kept) > 0 > trochoidal_gap(broken)
+    assert _penetration(_small(44)) < 1e-9
+    assert _penetration(_small(42)) > 0.2 * -trochoidal_gap(broken)
+
+
+@pytest.mark.parametrize(
+    ("drive", "key", "says"),
+    [
+        (_small(42), "drive.gear.addendum", "the tips run into each other"),
+        (_small(30), "drive.gear.teeth", "more teeth than the pinion"),
+        (_small(60)._replace(centre_distance=-0.0365), "drive.centre_distance", "the teeth overlap"),
+        (_small(60)._replace(centre_distance=0.036), "drive.centre_distance", "greater than zero"),
+        (
+            _small(60)._replace(gear=_small(60).gear._replace(bore_radius=-0.093)),
+            "drive.gear.outer_diameter",
+            "reaches the outside",
+        ),
+        (
+            _small(60)._replace(gear=_small(60).gear._replace(tip_radius=-0.084)),
+            "drive.gear.tip_radius",
+            "use at least 84.573 mm",  # the base circle: 90 mm cos 20°, 84.572,
+        ),
+        (
+            _small(60)._replace(gear=_small(60).gear._replace(dedendum=0.7)),
+            "drive.pinion.addendum",
+            "below the root circle of the gear",
+        ),
+        (
+            _small(44)._replace(gear=_small(44).gear._replace(cutter_teeth=11.0, fillet_radius=0.05)),
+            "drive.gear.cutter_teeth",
+            "the cutter's involute ends",
+        ),
+    ],
+)
+def test_what_cannot_be_made_or_run_is_refused(drive: Drive, key: str, says: str):
+    with pytest.raises(InputError) as refused:
+        check(family("involute"), drive)
+    assert refused.value.key == key
+    assert says in str(refused.value)
+
+
+def test_radial_assembly_needs_more_teeth_than_running():
+    """The more teeth the ring has more than the planet, the more room there is; few are too few."""
+    room = [radial_assembly(Assembly(family("involute"), _small(teeth))) for teeth in range(42, 60)]
+    assert all(np.diff(room) > 0)
+    assert room[0] < 0 < room[-1]
