@@ -205,10 +205,8 @@ def _check_rounding(assembly: Assembly, side: Side) -> None:
     outer = tip_circle_radius(drive, side)
     half = outer * thickness_half_angle(assembly.tooth(side), outer)
     if body.tip_break / cosine > half:
-        largest = half * cosine / (1.0 - sine)
-        rule = "the rounded edges of the tip meet"
-        given = body.tip_break / (1.0 - sine)
-        remedy = f"use at most {millimetres(largest)}"
+        rule, given = "the rounded edges of the tip meet", body.tip_break / (1.0 - sine)
+        remedy = f"use at most {millimetres(half * cosine / (1.0 - sine))}"
         raise InputError(f"drive.{side}.tip_rounding", millimetres(given), rule, remedy)
 
 
