@@ -18,7 +18,7 @@ EXAMPLES = (
     "  tribodyn gear liu-ni-involute-23-47 --set drive.pinion.profile_shift=0.3\n"
     "  tribodyn gear my-drive.toml -o drawings\n"
     "  tribodyn gear liu-ni-crc-23-47 --as-spline 9\n"
-    "\b\nWith -o: the pair as SVG, PNG and DXF; each gear and its rack, where one cuts it, as DXF;\n"
+    "\b\nWith -o: the pair as SVG, PNG and DXF; each gear and its rack cutter as DXF;\n"
     "the points of each gear's profile as CSV."
 )
 

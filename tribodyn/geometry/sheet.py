@@ -235,13 +235,17 @@ def _sliding(assembly: Assembly) -> dict[str, dict[str, Quantity]]:
     its mate's, over the flank's own: −∞ where a flank is touched at its point of zero velocity.
     """
     path = assembly.path
-    # Without P, where both speeds of a cycloid vanish.
-    approach = kinematics(path, assembly.r_start * np.linspace(1.0, 0.0, _SAMPLES, endpoint=False))
-    recess = kinematics(path, assembly.r_end * np.linspace(1.0, 0.0, _SAMPLES, endpoint=False))
+    # Without P, where both speeds of a cycloid vanish; P may lie beyond either end of an internal pair's path.
+    away, limits = np.linspace(1.0, 0.0, _SAMPLES, endpoint=False), (assembly.r_start, assembly.r_end)
+    nearest = min(max(0.0, limits[0]), limits[1])
+    approach, recess = (kinematics(path, nearest + (limit - nearest) * away) for limit in limits)
     result: dict[str, dict[str, Quantity]] = {
         "pair": {
-            f"maximum sliding in {name}": (1e3 * float(np.abs(part.sliding).max()), "mm/rad")
-            for name, part in (("approach", approach), ("recess", recess))
+            f"maximum sliding in {name}": (
+                1e3 * float(np.abs(part.sliding[half * part.signed_distance > 0]).max(initial=0.0)),
+                "mm/rad",
+            )
+            for name, half, part in (("approach", -1.0, approach), ("recess", 1.0, recess))
         }
     }
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
