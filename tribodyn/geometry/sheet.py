@@ -235,7 +235,7 @@ def _sliding(assembly: Assembly) -> dict[str, dict[str, Quantity]]:
     its mate's, over the flank's own: −∞ where a flank is touched at its point of zero velocity.
     """
     path = assembly.path
-    # Without P, where both speeds of a cycloid vanish; P may lie beyond either end of an internal pair's path.
+    # Without P, where both speeds of a cycloid vanish; it may lie beyond an end of an internal pair's path.
     away, limits = np.linspace(1.0, 0.0, _SAMPLES, endpoint=False), (assembly.r_start, assembly.r_end)
     nearest = min(max(0.0, limits[0]), limits[1])
     approach, recess = (kinematics(path, nearest + (limit - nearest) * away) for limit in limits)
