@@ -4,7 +4,9 @@ Planet and ring of a planetary stage, z 36/-93, m 21 mm: the report's figures to
 """
 
 import math
+from typing import Any
 
+import jax
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
@@ -20,6 +22,8 @@ from tribodyn.geometry.limits.internal import radial_assembly, trochoidal_gap
 from tribodyn.geometry.path import distance_at_radius, kinematics, radius
 from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point, thickness_half_angle
 
+jax.config.update("jax_enable_x64", True)
+
 PLANET = GearBody(36.0, 0.5039, 1.0, 1.25, 0.3, 0.55, 0.15, tip_radius=407.8315e-3)
 RING = GearBody(-93.0, 0.1171, 1.0, 1.25, 0.3, 0.55, -1.1, tip_radius=-953.0405e-3)
 PAIR = Drive(21e-3, math.radians(20.0), PLANET, RING, centre_distance=-0.584)
@@ -28,6 +32,10 @@ PAIR = Drive(21e-3, math.radians(20.0), PLANET, RING, centre_distance=-0.584)
 @pytest.fixture(scope="module")
 def pair() -> Assembly:
     return Assembly(family("involute"), PAIR)
+
+
+def _angle(pair: Assembly) -> float:
+    return float(pair.path.pressure_angle(0.0))
 
 
 def test_the_mesh_is_the_published_one(pair: Assembly):
@@ -67,7 +75,7 @@ def test_radii_seen_from_the_ring_are_negative(pair: Assembly):
     view = pair.path_of("gear")
     assert view.pinion_pitch_radius == pytest.approx(-0.584 * 93 / 57, rel=1e-12)
     for r in (pair.r_start, pair.r_end):
-        x, y = r * math.cos(pair.path.angle), r * math.sin(pair.path.angle)
+        x, y = r * math.cos(_angle(pair)), r * math.sin(_angle(pair))
         by_hand = math.hypot(x, y - float(pair.path.gear_pitch_radius))
         assert radius(view, -r) == pytest.approx(-by_hand, rel=1e-12)
         assert distance_at_radius(view, -by_hand) == pytest.approx(-r, rel=1e-9)
@@ -83,7 +91,7 @@ def test_backlash_closes_where_the_centre_distance_is_tight(pair: Assembly):
     assert tight == pytest.approx(-0.584, abs=1e-6)
     closer = PAIR._replace(centre_distance=tight + 0.05e-3)  # the planet nearer to the ring's axis
     opened = Assembly(family("involute"), closer)
-    expected = 2 * (math.tan(pair.path.angle)) * 0.05e-3
+    expected = 2 * (math.tan(_angle(pair))) * 0.05e-3
     assert circumferential_backlash(opened) == pytest.approx(expected, rel=1e-3)
     assert normal_backlash(opened) == pytest.approx(float(involute.normal_backlash(closer)), rel=1e-9)
     assert abs(normal_backlash(Assembly(family("involute"), PAIR._replace(centre_distance=None)))) < 1e-15
@@ -126,6 +134,36 @@ def test_a_cutter_of_many_teeth_cuts_as_a_rack():
     assert np.array(fillet_point(cutter, normal)) == pytest.approx(
         np.array(fillet_point(rack, normal)), abs=2e-8
     )
+
+
+def test_the_fillet_is_the_envelope_of_the_cutters_rounding():
+    """Every point of it comes as near to the rounding's centre as its radius while ring and cutter roll."""
+    ring = RING._replace(cutter_teeth=30.0, cutter_shift=0.1)
+    tooth = Assembly(family("involute"), PAIR._replace(gear=ring)).gear
+    r_g, r_0 = -float(tooth.path.pinion_pitch_radius), float(tooth.path.gear_pitch_radius)
+    rolled = np.linspace(-0.09, 0.03, 120_001)  # arc of the pitch circles, m; they touch at the origin
+    centre_radius, centre_angle = r_0 - tooth.corner_y, (tooth.corner_x + rolled) / r_0
+    centre = centre_radius * np.sin(centre_angle), r_0 - centre_radius * np.cos(centre_angle)
+    for normal in np.linspace(np.pi / 2, float(tooth.form_angle), 7):
+        x, y = fillet_point(tooth, np.array(normal))
+        size, angle = math.hypot(x, y), math.atan2(y, -x)
+        turned = float(tooth.half_angle) + angle + rolled / r_g  # the tooth's axis left of the origin
+        place = size * np.sin(turned), r_g - size * np.cos(turned)
+        near = np.hypot(place[0] - centre[0], place[1] - centre[1]).min()
+        assert near == pytest.approx(0.3 * 21e-3, abs=1e-9)
+
+
+def test_gradients_by_the_cutter_are_those_of_differences():
+    def sizes(shift: Any, rounding: Any) -> Any:
+        ring = RING._replace(cutter_teeth=30.0, cutter_shift=shift, fillet_radius=rounding)
+        tooth = Assembly(family("involute"), PAIR._replace(gear=ring)).gear
+        return tooth.form_radius + tooth.half_angle * tooth.corner_x
+
+    found = jax.grad(sizes, argnums=(0, 1))(0.0, 0.3)
+    step = 1e-5
+    by_shift = (sizes(step, 0.3) - sizes(-step, 0.3)) / (2 * step)
+    by_rounding = (sizes(0.0, 0.3 + step) - sizes(0.0, 0.3 - step)) / (2 * step)
+    assert np.array(found) == pytest.approx(np.array([by_shift, by_rounding]), rel=1e-7)
 
 
 def _half_outline(tooth: Tooth) -> np.ndarray:

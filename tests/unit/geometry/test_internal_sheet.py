@@ -10,7 +10,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
-from tribodyn.studies.gears.drive_file import load_drive
+from tribodyn.studies.gears.drive_file import as_spline, load_drive
 
 RING = {"teeth": 93, "internal": True, "face_width": "550 mm", "profile_shift": 0.1171, "cutter_teeth": 30}
 DRIVE = {
@@ -106,3 +106,8 @@ def test_what_contradicts(side: str, keys: dict[str, Any], key: str, says: str):
     found = [error for error in errors if error.key == key]
     assert found
     assert says in str(found[0])
+
+
+def test_no_free_form_path_is_fitted_to_a_ring():
+    with pytest.raises(InputError, match="no free-form path"):
+        as_spline(load_drive(DRIVE), 9)
