@@ -40,9 +40,6 @@ def test_gears_that_cannot_be(
 #: As users ask for gears that are not modelled: setting, what is said of it.
 OTHER_GEARS = {
     "drive.type=herringbone": "double helical gears",
-    "drive.gear.teeth=-60": "internal gears",
-    "drive.gear.type=internal": "internal gears",
-    "drive.ring.teeth=80": "internal gears",
     "kind=planetary": "planetary gears",
     "drive.planets=3": "planetary gears",
     "drive.carrier.speed=1": "planetary gears",
@@ -102,6 +99,23 @@ def test_a_helix_that_cannot_be(
     assert remedy in line
 
 
+@pytest.mark.parametrize(
+    "setting", ["drive.gear.teeth=-60", "drive.gear.type=internal", "drive.ring.teeth=80"]
+)
+def test_an_internal_gear_has_one_key(refused: Refused, scenario: Path, setting: str):
+    code, (line,) = refused("check", str(scenario), "--set", setting)
+    assert code == 2
+    assert "the key of an internal gear is internal" in line
+    assert "write internal = true in [drive.gear]" in line
+
+
+def test_studies_of_motion_refuse_internal_gears(refused: Refused, scenario: Path):
+    code, (line,) = refused("check", str(scenario), "--set", "drive.gear.internal=true")
+    assert code == 2
+    assert "drive.gear.internal" in line
+    assert "internal gears are not simulated" in line
+
+
 #: As users ask for several stages of a pair of gears: setting, key of the message.
 SEVERAL_STAGES = {
     "stages=2": "stages",
@@ -136,7 +150,6 @@ def test_several_stages_are_sent_to_the_kind_that_has_them(
 
 #: As users ask for other gears of a train: setting, what is said of it.
 OTHER_TRAINS = {
-    "gear.wheel-1.teeth=-69": "internal gears",
     "planets=3": "planetary gears",
     "carrier.speed=1": "planetary gears",
 }

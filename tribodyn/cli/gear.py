@@ -89,7 +89,7 @@ def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int, 
     """Write every drawing of a gear pair into a folder; return the files."""
     from tribodyn.drawing.cad import tooth_profile, write_gear, write_pair, write_profile, write_rack
     from tribodyn.drawing.picture import pair_figure
-    from tribodyn.geometry.drive import SIDES
+    from tribodyn.geometry.drive import SIDES, body_of
     from tribodyn.post.progress import progress_bar
     from tribodyn.post.style import save
 
@@ -97,7 +97,9 @@ def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int, 
         return folder / f"{model.name}-{what}"
 
     make_folder(folder)
-    own = [f"{side}{what}" for side in SIDES for what in (".dxf", "-rack.dxf", ".csv")]
+    with_rack = [side for side in SIDES if body_of(assembly.drive, side).cutter_teeth is None]
+    own = [f"{side}{what}" for side in SIDES for what in (".dxf", ".csv")]
+    own += [f"{side}-rack.dxf" for side in with_rack]
     for what in ("pair.svg", "pair.png", "pair.dxf", *own):
         check_output(file(what), force)
     with progress_bar("drawing") as progress:
@@ -106,10 +108,10 @@ def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int, 
         progress(0.5)
         files.append(write_pair(file("pair.dxf"), assembly, points, force=force))
         for side in SIDES:
-            files += [
-                write_gear(file(f"{side}.dxf"), assembly, side, points, force=force),
-                write_rack(file(f"{side}-rack.dxf"), assembly, side, points, force=force),
-                write_profile(file(f"{side}.csv"), tooth_profile(assembly, side, points), force=force),
-            ]
+            files.append(write_gear(file(f"{side}.dxf"), assembly, side, points, force=force))
+            if side in with_rack:
+                files.append(write_rack(file(f"{side}-rack.dxf"), assembly, side, points, force=force))
+            profile = tooth_profile(assembly, side, points)
+            files.append(write_profile(file(f"{side}.csv"), profile, force=force))
         progress(1.0)
     return files

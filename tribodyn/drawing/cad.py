@@ -132,10 +132,10 @@ def _add_gear(
         "TIP_CIRCLE": tip_circle_radius(drive, side),
     }
     for layer, radius in circles.items():
-        if radius > 0:
+        if radius:
             drawing.modelspace().add_circle(
                 [_MILLIMETRES * place for place in centre],
-                _MILLIMETRES * float(radius),
+                _MILLIMETRES * abs(float(radius)),  # negative of an internal gear
                 dxfattribs={"layer": layer},
             )
 

@@ -18,8 +18,8 @@ from tribodyn.geometry.path import (
     radius,
     seen_from,
 )
-from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
-from tribodyn.numerics.elementary import arctan2, as_float, cos, minimum, namespace, smallest, sqrt
+from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, polar, thickness_half_angle
+from tribodyn.numerics.elementary import absolute, as_float, cos, minimum, namespace, smallest, sqrt
 
 _SAMPLES = 400
 
@@ -120,9 +120,13 @@ def tip_clearance(assembly: Assembly, side: Side) -> Any:
 
 
 def lowest_contact_speed(assembly: Assembly, side: Side) -> Any:
-    """Speed of the lowest contact along this body's flank, m per rad; no flank is there unless > 0."""
+    """Speed of the lowest contact along this body's flank, m per rad; no flank is there unless > 0.
+
+    Per rad of its own turning, in the sense in which an external body turns.
+    """
     path = assembly.path_of(side)
-    return as_float(kinematics(path, assembly.lowest_contact(side)).pinion_speed)
+    r_p = path.pinion_pitch_radius
+    return as_float(kinematics(path, assembly.lowest_contact(side)).pinion_speed * absolute(r_p) / r_p)
 
 
 def lowest_contact_radius(assembly: Assembly, side: Side) -> Any:
@@ -141,24 +145,21 @@ def tip_corner_gap(assembly: Assembly, side: Side) -> Any:
     r_p, r_g = path.pinion_pitch_radius, path.gear_pitch_radius
     lowest = assembly.lowest_contact(side)
     alpha = path.pressure_angle(lowest)
-    tip, mate_angle = _polar(r_g - lowest * xp.sin(alpha), lowest * xp.cos(alpha))
+    tip, mate_angle = polar(lowest * xp.cos(alpha), -lowest * xp.sin(alpha), r_g)
     mate_turn = -mate_angle * np.linspace(0.0, 1.0, _SAMPLES)
     corner_x, corner_y = tip * xp.sin(mate_angle + mate_turn), r_g - tip * xp.cos(mate_angle + mate_turn)
-    distance, angle = _polar(r_p + corner_y, corner_x)
+    distance, angle = polar(corner_x, corner_y, r_p)
     rotation = path.rotation(lowest) + mate_turn * r_g / r_p
     corner_angle = thickness_half_angle(tooth, r_p) + angle - rotation
     normal_angle = xp.linspace(np.pi / 2, tooth.form_angle, _SAMPLES)
-    fillet_radius, fillet_angle = _polar(*fillet_point(tooth, normal_angle))
+    fillet_x, fillet_y = fillet_point(tooth, normal_angle)
+    fillet_radius, fillet_angle = polar(fillet_y, fillet_x - r_p, r_p)
     gap = (corner_angle - xp.interp(distance, fillet_radius, fillet_angle)) * distance
     # where the corner leaves the flank the gap changes most: not only as near as the samples happen to lie
     leaving = xp.interp(tooth.form_radius, distance[::-1], corner_angle[::-1])
     first = (leaving - xp.interp(tooth.form_radius, fillet_radius, fillet_angle)) * tooth.form_radius
     inside = distance < tooth.form_radius
     return as_float(smallest(xp.where(xp.append(inside, inside[-1]), xp.append(gap, first), np.inf)))
-
-
-def _polar(x: Any, y: Any) -> tuple[Any, Any]:
-    return sqrt(x * x + y * y), arctan2(y, x)
 
 
 def flank_angle_at_tip(family: Family, drive: Drive, side: Side) -> Any:

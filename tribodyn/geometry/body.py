@@ -13,7 +13,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
 from tribodyn.geometry.path import PerContact, position
 from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point, tangent_distance, thickness_half_angle
-from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt
+from tribodyn.numerics.elementary import absolute, arctan2, cos, namespace, sin, sqrt
 from tribodyn.numerics.parameter import Variable
 from tribodyn.numerics.shapes import Array, Float
 
@@ -73,6 +73,7 @@ def gear_polygon(assembly: Assembly, side: Side, flank_points: int = 40) -> Floa
     The frame is the body's own: origin on its axis, x and y parallel to the drive's frame (`path`) while a
     pair touches at the pitch point. At a pinion angle φ the pinion's polygon is turned clockwise by φ and
     carried to (0, −r_p), the gear's counter-clockwise by φ r_p/r_g and carried to (0, r_g).
+    That of an internal gear goes round its hole.
     The number of teeth must be a plain number.
     """
     tooth, teeth = assembly.tooth(side), body_of(assembly.drive, side).teeth
@@ -83,10 +84,10 @@ def gear_polygon(assembly: Assembly, side: Side, flank_points: int = 40) -> Floa
     radius = xp.concatenate([half_radius, half_radius[:0:-1]])
     angle = xp.concatenate([-half_angle, half_angle[:0:-1]])
     pitch_half_angle = thickness_half_angle(tooth, assembly.path_of(side).pinion_pitch_radius)
-    count = round(float(teeth))
+    count = abs(round(float(teeth)))
     index = np.arange(count)[:, None]
     # Angles from the line of centres, counter-clockwise, with the tooth left of the pitch point.
-    turned = (pitch_half_angle + angle + index * (2 * np.pi / count)).reshape(-1)
+    turned = (pitch_half_angle + angle + index * (2 * np.pi / teeth)).reshape(-1)
     radius = xp.concatenate([radius] * count)
     upwards = 1.0 if side == "pinion" else -1.0
     points = xp.stack([-upwards * radius * sin(turned), upwards * radius * cos(turned)], axis=-1)
@@ -101,7 +102,7 @@ def half_profile(shape: ToothOutline, teeth: Any) -> tuple[Float[Array, " point"
     xp = namespace(shape, teeth)
     x = xp.concatenate([shape.fillet_x, shape.flank_x[1:]])
     y = xp.concatenate([shape.fillet_y, shape.flank_y[1:]])
-    radius, angle = sqrt(x**2 + y**2), arctan2(y, x)
+    radius, angle = x * sqrt(1 + (y / x) ** 2), arctan2(y / x, 1.0)
     along = np.linspace(0.0, 1.0, ROOT_POINTS + 1)[:-1]
     root = np.pi / teeth + along * (shape.root_half_angle - np.pi / teeth)
     tip = angle[-1] * (1 - np.linspace(0.0, 1.0, TIP_POINTS + 2)[1:-1])
@@ -114,7 +115,8 @@ def half_profile(shape: ToothOutline, teeth: Any) -> tuple[Float[Array, " point"
 def section_area_and_inertia(shape: ToothOutline, teeth: Any, bore_radius: Any) -> tuple[Any, Any]:
     """Area (m²) and polar second moment of area about the axis (m⁴) of the gear's cross-section.
 
-    Chords of the outline's points, exact arcs at root, tip and bore.
+    Chords of the outline's points, exact arcs at root, tip and bore. An internal gear's section lies between
+    outline and bore, which is its outside, the other way round.
     """
     xp = namespace(shape, teeth)
     x = xp.concatenate([shape.fillet_x, shape.flank_x[1:]])
@@ -122,13 +124,14 @@ def section_area_and_inertia(shape: ToothOutline, teeth: Any, bore_radius: Any) 
     # The outline runs towards the tooth's axis, clockwise, so the signed triangles change their sign.
     cross = y[:-1] * x[1:] - x[:-1] * y[1:]
     square = x[:-1] ** 2 + y[:-1] ** 2 + x[1:] ** 2 + y[1:] ** 2 + x[:-1] * x[1:] + y[:-1] * y[1:]
-    tip_angle = arctan2(shape.flank_y[-1], shape.flank_x[-1])
+    tip_angle = arctan2(shape.flank_y[-1] / shape.flank_x[-1], 1.0)
     root_angle = np.pi / teeth - shape.root_half_angle
     arcs_area = (shape.tip_radius**2 * tip_angle + shape.root_radius**2 * root_angle) / 2
     arcs_inertia = (shape.tip_radius**4 * tip_angle + shape.root_radius**4 * root_angle) / 4
     area = 2 * teeth * (cross.sum() / 2 + arcs_area) - np.pi * bore_radius**2
     inertia = 2 * teeth * ((cross * square).sum() / 12 + arcs_inertia) - np.pi / 2 * bore_radius**4
-    return area, inertia
+    outwards = absolute(teeth) / teeth
+    return outwards * area, outwards * inertia
 
 
 def mass_and_inertia(assembly: Assembly, side: Side, density: Any) -> tuple[Any, Any]:

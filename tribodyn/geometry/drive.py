@@ -34,16 +34,22 @@ Number = Any
 
 
 class GearBody(NamedTuple):
-    """One gear of the drive, external; lengths "in modules" are in transverse modules."""
+    """One gear of the drive; lengths "in modules" are in transverse modules.
 
-    teeth: Number  # number of teeth
-    profile_shift: Number  # shift of the rack away from the axis, in modules (involute only)
+    An internal gear has a negative number of teeth, and so negative radii, centre distance and gear ratio
+    (ISO 21771): every formula of external gears holds for it as it stands. Its tip circle is -(|z|/2 - x -
+    h_a*) m, its profile shift positive where it makes the tooth thicker, its bore minus the outer radius.
+    """
+
+    teeth: Number  # number of teeth; negative: internal
+    #: shift of the rack away from the axis (involute only), in modules; of an internal gear towards it
+    profile_shift: Number
     #: addendum, dedendum: tooth height above and below the shifted reference line, in modules
     addendum: Number
     dedendum: Number
-    fillet_radius: Number  # radius of the rack's rounded tip, in modules
+    fillet_radius: Number  # radius of the tool's rounded tip, in modules
     face_width: Number  # width of the teeth along the axis, m
-    bore_radius: Number  # radius of the bore, m; 0 for a solid body
+    bore_radius: Number  # radius of the bore, m; 0 for a solid body; of an internal gear its outside, < 0
     #: float, optional Radius of the tip circle, m, where it is not r + (addendum + profile shift) × module.
     tip_radius: Number = None
     #: deviation of the tooth thickness on the reference circle from that of teeth which mesh without play,
@@ -51,6 +57,12 @@ class GearBody(NamedTuple):
     thickness_allowance: Number = 0.0
     #: height below the tip circle at which the rounding of the tip leaves the flank, m
     tip_break: Number = 0.0
+    #: number of teeth of the pinion-type cutter that makes an internal gear; None: a rack, of external gears
+    cutter_teeth: Number = None
+    cutter_shift: Number = 0.0  # profile shift of this cutter, in modules
+    #: addendum of this cutter, in modules, of which the root circle follows; None: as high as the dedendum of
+    #: the gear needs
+    cutter_addendum: Number = None
 
 
 class Drive(NamedTuple):

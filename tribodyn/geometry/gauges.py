@@ -58,12 +58,17 @@ def allowance_of_span(gear: Involute, span_teeth: int, measured: float) -> float
 
 
 def usual_span_teeth(gear: Involute) -> int:
-    """Number of teeth k at which the anvils touch nearest to the circle d + 2 x m_n."""
+    """Number of teeth k at which the anvils touch nearest to the circle d + 2 x m_n.
+
+    Of an internal gear, whose W_k is negative and lies over gaps, 1 less the number of gaps.
+    """
     alpha = gear.pressure_angle
     middle = gear.module * (gear.teeth / math.cos(gear.helix_angle) + 2 * gear.profile_shift)
     chord = math.sqrt(max(middle**2 - gear.base_diameter**2, 0.0)) / math.cos(gear.base_helix_angle)
     turns = gear.teeth * float(involute_function(gear.transverse_angle))
     turns += 2 * gear.profile_shift * math.tan(alpha)
+    if gear.teeth < 0:
+        return min(round((-chord / (gear.module * math.cos(alpha)) - turns) / math.pi + 0.5), 0)
     return max(round((chord / (gear.module * math.cos(alpha)) - turns) / math.pi + 0.5), 1)
 
 
@@ -126,6 +131,8 @@ Quantity = tuple[float | str, str]
 
 #: Pin over normal module where none is given: the usual wire of external spur gears (Van Keuren).
 USUAL_PIN = 1.728
+#: The usual wire of internal spur gears (Van Keuren).
+USUAL_INTERNAL_PIN = 1.44
 
 
 class Gauge(NamedTuple):
@@ -151,6 +158,8 @@ def thickness_lines(assembly: Assembly, side: Side, gauge: Gauge = Gauge()) -> d
     gear, allowance = involute_of(assembly.drive, side)
     lines: dict[str, Quantity] = {"deviation of tooth thickness": (1e3 * allowance, "mm")}
     helical = gear.helix_angle != 0.0
+    if gear.teeth < 0:
+        return lines | _internal_lines(assembly, side, gauge)
     count = usual_span_teeth(gear) if gauge.span_teeth is None else gauge.span_teeth
     measured = span(gear, count, allowance)
     if _on_flank(assembly, side, span_contact_diameter(gear, measured)):
@@ -166,6 +175,24 @@ def thickness_lines(assembly: Assembly, side: Side, gauge: Gauge = Gauge()) -> d
             f"{one} diameter": (1e3 * pin, "mm"),
             f"dimension over {several}": (1e3 * over_pins(gear, pin, allowance), "mm"),
         }
+    return lines
+
+
+def _internal_lines(assembly: Assembly, side: Side, gauge: Gauge) -> dict[str, Quantity]:
+    """What gauges measure of internal spur teeth: the span over gaps, the dimension between pins.
+
+    The formulas of external teeth give both negative, with 1 less the number of gaps for that of teeth.
+    """
+    gear, allowance = involute_of(assembly.drive, side)
+    lines: dict[str, Quantity] = {}
+    count = usual_span_teeth(gear) if gauge.span_teeth is None else 1 - gauge.span_teeth
+    measured = span(gear, count, allowance)
+    if _on_flank(assembly, side, -span_contact_diameter(gear, measured)):
+        lines |= {"gaps of the span": (1.0 - count, ""), "span over gaps": (-1e3 * measured, "mm")}
+    pin = USUAL_INTERNAL_PIN * gear.module if gauge.pin_diameter is None else gauge.pin_diameter
+    if _on_flank(assembly, side, pin_contact_diameter(gear, pin, allowance)):
+        between = -1e3 * over_pins(gear, pin, allowance)
+        lines |= {"pin diameter": (1e3 * pin, "mm"), "dimension between pins": (between, "mm")}
     return lines
 
 

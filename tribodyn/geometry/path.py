@@ -1,7 +1,8 @@
 """The path of contact, and everything about a gear pair that follows from it alone.
 
 Frame: origin P, the pitch point; x along the common pitch tangent, the way both flanks move at P; y along
-the line of centres, the pinion's axis at (0, −r_p), the gear's at (0, +r_g). A contact point is
+the line of centres, the pinion's axis at (0, −r_p), the gear's at (0, +r_g). The radii of an internal gear
+are negative (ISO 21771), and its axis lies on the pinion's side. A contact point is
 C = r (cos α, sin α) with the signed distance r (r < 0 approach, r > 0 recess) and the pressure angle α(r) in
 (0, π/2). The pinion turns by φ from φ = 0 at P, and meshing demands dr/dφ = r_p cos α.
 """
@@ -103,9 +104,10 @@ def kinematics(path: Path, r: PerContact) -> Kinematics:
     gear_friction_arm = path.gear_pitch_radius * sin(alpha) - r
     pinion_speed = pinion_friction_arm + r * kappa
     gear_speed = ratio * gear_friction_arm + r * kappa
-    floor = _VANISHING * path.pinion_pitch_radius
-    pinion_curvature = (1 + kappa) / where(absolute(pinion_speed) < floor, floor, pinion_speed)
-    gear_curvature = (ratio - kappa) / where(absolute(gear_speed) < floor, floor, gear_speed)
+    floor = _VANISHING * path.pinion_pitch_radius  # of the speeds' own sign
+    size = absolute(floor)
+    pinion_curvature = (1 + kappa) / where(absolute(pinion_speed) < size, floor, pinion_speed)
+    gear_curvature = (ratio - kappa) / where(absolute(gear_speed) < size, floor, gear_speed)
     return Kinematics(
         signed_distance=r,
         pressure_angle=alpha,
@@ -128,7 +130,7 @@ def sine_at_pitch_point(path: Path) -> tuple[Any, Any, Any]:
 
     The rates are each other's negative unless the path has a corner there.
     """
-    beside = _BESIDE * path.pinion_pitch_radius
+    beside = _BESIDE * absolute(path.pinion_pitch_radius)
     xp = namespace(path)
     r = xp.stack([0.0 * beside, -beside, beside])
     alpha, slope = path.pressure_angle(r), path.pressure_angle_slope(r)
@@ -142,27 +144,29 @@ def position(path: Path, r: PerContact) -> tuple[PerContact, PerContact]:
 
 
 def radius(path: Path, r: PerContact) -> PerContact:
-    """Distance of the contact point from the pinion's axis, m."""
+    """Distance of the contact point from the pinion's axis, m; of the sign of its pitch radius."""
     r_p = path.pinion_pitch_radius
-    return sqrt(r**2 + 2 * r_p * r * sin(path.pressure_angle(r)) + r_p**2)
+    return r_p * sqrt(1 + r / r_p * (2 * sin(path.pressure_angle(r)) + r / r_p))
 
 
 def distance_at_radius(path: Path, pinion_radius: PerContact) -> PerContact:
     """Signed distance r (m) at which the contact is at `pinion_radius` (m) from the pinion's axis.
 
-    The derivative of the squared radius is 2 u_p/ω_p, so the root is unique where the flank is not undercut.
+    The radius has the sign of the pitch radius. The derivative of the squared radius is 2 u_p/ω_p,
+    so the root is unique where the flank is not undercut.
     """
     xp = namespace(path, pinion_radius)
     r_p = path.pinion_pitch_radius
     sine, before, after = sine_at_pitch_point(path)
     # Start on the path with sin α linear on either side of P: exact for the involute and for the cycloid.
-    square = xp.asarray(pinion_radius, dtype=float) ** 2 - r_p**2
-    quadratic = 1 + 2 * r_p * xp.where(square < 0, -before, after)
-    arm = r_p * sine
-    root = sqrt(maximum(arm**2 + quadratic * square, (1e-3 * arm) ** 2 + (_BESIDE * r_p) ** 2))
-    start = square / (arm + root)
-    # Above the pitch circle r² ≤ R² − r_p²; below it the radius is smallest, the path at an end, before −r_p.
-    furthest = xp.where(square < 0, -r_p, sqrt(maximum(square, 0.0)))
+    share = (xp.asarray(pinion_radius, dtype=float) / r_p) ** 2 - 1  # r (r + 2 r_p sin α)/r_p²
+    recess = share * r_p > 0
+    quadratic = 1 + 2 * r_p * xp.where(recess, after, -before)
+    root = sqrt(maximum(sine**2 + quadratic * share, (1e-3 * sine) ** 2 + _BESIDE**2))
+    start = r_p * share / (sine + root)
+    # Beyond the pitch circle |r| ≤ √|R² − r_p²|; within it the radius is smallest, the path at an end, before
+    # |r| = |r_p|.
+    furthest = r_p * xp.where(share < 0, -1.0, sqrt(maximum(share, 0.0)))
     lower, upper = minimum(furthest, 0.0), maximum(furthest, 0.0)
     state = within(start, lower, upper), lower, upper
     return newton(_step_to_radius, state, _BRACKETED_STEPS, path, pinion_radius)[0]
@@ -178,13 +182,14 @@ def _step_to_radius(
     r, lower, upper = state
     r_p = path.pinion_pitch_radius
     alpha = path.pressure_angle(r)
-    residual = r**2 + 2 * r_p * r * sin(alpha) + r_p**2 - pinion_radius**2
-    slope = 2 * (r + r_p * sin(alpha) + r * r_p * cos(alpha) * path.pressure_angle_slope(r))
-    beyond = slope < -_VANISHING * r_p  # the minimum radius, where it grows again
+    # both over r_p: R²/r_p of a gear grows with r, and so does that of an internal one
+    residual = (r**2 - pinion_radius**2) / r_p + 2 * r * sin(alpha) + r_p
+    slope = 2 * (r / r_p + sin(alpha) + r * cos(alpha) * path.pressure_angle_slope(r))
+    beyond = slope < -_VANISHING  # the minimum radius, where it grows again
     short = (residual < 0) | beyond
     lower, upper = where(short, r, lower), where(short, upper, r)
-    following = r - residual / where(absolute(slope) < _VANISHING * r_p, _VANISHING * r_p, slope)
-    far = beyond | (absolute(following - r) > (upper - lower) / 2 + _BESIDE * r_p)
+    following = r - residual / where(absolute(slope) < _VANISHING, _VANISHING, slope)
+    far = beyond | (absolute(following - r) > (upper - lower) / 2 + _BESIDE * absolute(r_p))
     return where(far, (lower + upper) / 2, following), lower, upper
 
 

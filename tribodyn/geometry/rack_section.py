@@ -49,5 +49,7 @@ def _stretched(drive: Drive, stretch: Any) -> Drive:
             dedendum=body.dedendum / stretch,
             fillet_radius=body.fillet_radius * rounding,
             thickness_allowance=body.thickness_allowance * stretch,
+            cutter_shift=body.cutter_shift / stretch,
+            cutter_addendum=None if body.cutter_addendum is None else body.cutter_addendum / stretch,
         )
     return drive._replace(module=drive.module * stretch, pressure_angle=angle, **bodies)

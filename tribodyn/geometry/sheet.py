@@ -16,6 +16,12 @@ from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius, tip_
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.geometry.gauges import Gauge, Quantity, involute_of, thickness_lines
 from tribodyn.geometry.helix import base_helix_angle, hand_of, lead, overlap_ratio, pitch_slope
+from tribodyn.geometry.limits.internal import (
+    base_circle_margin,
+    cutter_margin,
+    radial_assembly,
+    trochoidal_gap,
+)
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.rack_section import as_written
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
@@ -32,8 +38,9 @@ def geometry_sheet(
     """Summarise a drive that has passed `checks.check`; lengths in mm, angles in degrees.
 
     Name -> (value, unit) for the pair, in reading order, and under "pinion" and "gear" the same for each
-    body. Masses (kg) and inertias (kg m²) of pinion and gear stand there where they are given, and with a
-    torque on the gear (N m) the forces of helical involutes.
+    body; radii and number of teeth of an internal gear are negative (ISO 21771). Masses (kg) and inertias
+    (kg m²) of pinion and gear stand there where they are given, and with a torque on the gear (N m) the
+    forces of helical involutes.
     """
     path, drive = assembly.path, assembly.drive
     ends = {"start of contact": assembly.r_start, "pitch point": 0.0, "end of contact": assembly.r_end}
@@ -83,7 +90,7 @@ def geometry_sheet(
             "undercut margin": _millimetres(-tooth.overrun),
             "undercut by the rack": (float(tooth.overrun > 0), ""),
             "root diameter": _millimetres(2 * tooth.root_radius),
-            "bore diameter": _millimetres(2 * body.bore_radius),
+            "bore diameter" if body.teeth > 0 else "outer diameter": _millimetres(2 * body.bore_radius),
             "face width": _millimetres(body.face_width),
             "tooth thickness on working pitch circle": _millimetres(
                 2 * working * thickness_half_angle(tooth, working)
@@ -92,12 +99,29 @@ def geometry_sheet(
             "tip clearance": _millimetres(tip_clearance(assembly, side)),
             **(_thickness_on_reference(assembly, side) if drive.helix_angle else {}),
             **thickness_lines(assembly, side, gauges[number]),
+            **(_internal_lines(assembly, side) if body.teeth < 0 else {}),
             **sliding[side],
         }
         if masses is not None:
             mass, inertia = masses[number]
             pair[side] |= {"mass": (float(mass), "kg"), "moment of inertia": (1e6 * float(inertia), "kg mm²")}
     return pair
+
+
+def _internal_lines(assembly: Assembly, side: Side) -> dict[str, Quantity]:
+    """The cutter of an internal gear, and the distances from the limits that external gears do not have."""
+    body, tooth = body_of(assembly.drive, side), assembly.tooth(side)
+    # the cutter's tip reaches the root circle: −(a_0 − r_f)
+    cutter = tooth.path.pinion_pitch_radius + tooth.path.gear_pitch_radius - tooth.root_radius
+    return {
+        "teeth of the cutter": (float(body.cutter_teeth), ""),
+        "profile shift of the cutter": (float(body.cutter_shift), ""),
+        "tip diameter of the cutter": _millimetres(2 * cutter),
+        "base circle margin of the tip": _millimetres(base_circle_margin(assembly, side)),
+        "margin of the cutter's involute": _millimetres(cutter_margin(assembly, side)),
+        "trochoidal clearance of the tips": _millimetres(trochoidal_gap(assembly)),
+        "room for radial assembly": _millimetres(radial_assembly(assembly)),
+    }
 
 
 def _module_lines(assembly: Assembly) -> dict[str, Quantity]:
@@ -211,13 +235,17 @@ def _sliding(assembly: Assembly) -> dict[str, dict[str, Quantity]]:
     its mate's, over the flank's own: −∞ where a flank is touched at its point of zero velocity.
     """
     path = assembly.path
-    # Without P, where both speeds of a cycloid vanish.
-    approach = kinematics(path, assembly.r_start * np.linspace(1.0, 0.0, _SAMPLES, endpoint=False))
-    recess = kinematics(path, assembly.r_end * np.linspace(1.0, 0.0, _SAMPLES, endpoint=False))
+    # Without P, where both speeds of a cycloid vanish; it may lie beyond an end of an internal pair's path.
+    away, limits = np.linspace(1.0, 0.0, _SAMPLES, endpoint=False), (assembly.r_start, assembly.r_end)
+    nearest = min(max(0.0, limits[0]), limits[1])
+    approach, recess = (kinematics(path, nearest + (limit - nearest) * away) for limit in limits)
     result: dict[str, dict[str, Quantity]] = {
         "pair": {
-            f"maximum sliding in {name}": (1e3 * float(np.abs(part.sliding).max()), "mm/rad")
-            for name, part in (("approach", approach), ("recess", recess))
+            f"maximum sliding in {name}": (
+                1e3 * float(np.abs(part.sliding[half * part.signed_distance > 0]).max(initial=0.0)),
+                "mm/rad",
+            )
+            for name, half, part in (("approach", -1.0, approach), ("recess", 1.0, recess))
         }
     }
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
@@ -235,7 +263,7 @@ def _base_diameter(assembly: Assembly, side: Side) -> dict[str, Quantity]:
     """Return the diameter of the base circle where there is one: where the normal load's arm is constant."""
     along = kinematics(assembly.path, np.linspace(assembly.r_start, assembly.r_end, 5))
     arm = getattr(along, f"{side}_normal_arm")
-    return {"base diameter": _millimetres(2 * arm[0])} if np.ptp(arm) <= 1e-12 * arm[0] else {}
+    return {"base diameter": _millimetres(2 * arm[0])} if np.ptp(arm) <= 1e-12 * abs(arm[0]) else {}
 
 
 def _millimetres(length: Any) -> Quantity:

@@ -1,10 +1,16 @@
-"""A tooth as its rack cuts it: flank conjugate to the generating path, root fillet from the rounded tip.
+"""A tooth as its tool cuts it: flank conjugate to the generating path, fillet from the tool's rounded tip.
+
+The tool is a rack or, of an internal gear, a pinion-type cutter.
 
 Everything is said in the frame of one body whose tooth lies left of the contact (see `path.MirroredPath`),
 then carried to the tooth's own frame: x along the tooth's symmetry axis from the body's axis outwards, y the
 half thickness. A point at (X, Y) from the pitch point, touched when the body has turned by φ, has the half
-thickness angle χ = ψ + atan2(X, r_p + Y) − φ, where ψ is the half thickness angle on the pitch circle.
-The rack moves by r_p φ to +x, so its flank is x_c = r cos α − r_p φ, y_c = r sin α.
+thickness angle χ = ψ + atan(X/(r_p + Y)) − φ, where ψ is the half thickness angle on the pitch circle.
+Radii and half thickness angles of an internal gear are negative (ISO 21771): half thicknesses are positive,
+and its tooth too points to +x, from x < 0 towards the axis at the origin.
+The rack moves by r_p φ to +x, so its flank is x_c = r cos α − r_p φ, y_c = r sin α. The rolling circle of a
+pinion-type cutter moves by the same arc; the curvature c of this circle, 0 of a rack, is all that tells them
+apart. "The tool's frame" of a cutter has arcs of its rolling circle for x.
 
 Where the rack's flank reaches beyond the point of zero velocity (u_p = 0), the fillet undercuts the flank:
 the two then end where they cross, in a corner.
@@ -25,7 +31,7 @@ from tribodyn.geometry.path import (
     radius,
     sine_at_pitch_point,
 )
-from tribodyn.numerics.elementary import arctan2, cos, maximum, namespace, sin, sqrt, tan, within
+from tribodyn.numerics.elementary import absolute, arctan2, cos, maximum, namespace, sin, sqrt, tan, within
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.shapes import Array, Float
 
@@ -46,17 +52,18 @@ class Tooth(NamedTuple):
     #: −u_p where the rack's flank ends, m per rad: positive if it reaches beyond the point of zero velocity,
     #: by this distance for the involute, and undercuts the tooth
     overrun: Any
-    #: corner_x, corner_y: centre of the rack's rounded tip in the rack's frame at φ = 0, m
+    #: corner_x, corner_y: centre of the tool's rounded tip in the tool's frame at φ = 0, m
     corner_x: Any
     corner_y: Any
-    corner_radius: Any  # radius of the rack's rounded tip, m
-    #: symmetry axis of the rack's tooth, m: with corner_x beyond it the two rounded corners would overlap
+    corner_radius: Any  # radius of the tool's rounded tip, m
+    #: symmetry axis of the tool's tooth, m: with corner_x beyond it the two rounded corners would overlap
     corner_limit: Any
     #: root_radius, form_radius, tip_radius: radii of the root circle, of the junction of fillet and flank and
     #: of the tip circle, m
     root_radius: Any
     form_radius: Any
     tip_radius: Any
+    tool_curvature: Any = None  # of the rolling circle of a pinion-type cutter, 1/m; None: a rack
 
 
 class ToothContact(NamedTuple):
@@ -71,22 +78,30 @@ class ToothContact(NamedTuple):
 
 
 def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
-    """Cut a tooth of one body by its rack."""
+    """Cut a tooth of one body by its tool."""
     body = body_of(drive, side)
     path, shift = family.generating_path(drive, side)
     pitch_radius = path.pinion_pitch_radius
     # The shifted rack's tooth is thinner on the rolling line by the shift's share of both its flanks; for
     # families whose rack is not straight the shift is zero.
     widening = shift * tan(path.pressure_angle(0.0))
+    curvature = None
     if not family.shiftable:  # the tool's own tooth is thicker by what the gear's is thinner
         widening = widening + body.thickness_allowance / 2
     half_angle = (np.pi * drive.module / 4 + widening) / pitch_radius
     depth = drive.module * body.dedendum - shift
     rounding = drive.module * body.fillet_radius
-    flank_end = tangent_distance(path, depth, rounding)
+    if body.cutter_teeth is not None and family.cutter_path is not None:
+        rack, path = path, family.cutter_path(drive, side)
+        half_angle = _half_angle(rack, half_angle, path.pinion_pitch_radius)
+        depth = depth + path.pinion_pitch_radius - pitch_radius
+        pitch_radius, curvature = path.pinion_pitch_radius, 1 / path.gear_pitch_radius
+        if body.cutter_addendum is not None:
+            outside = drive.module * (body.cutter_teeth / 2 + body.cutter_shift + body.cutter_addendum)
+            depth = outside - path.gear_pitch_radius
+    flank_end = tangent_distance(path, depth, rounding, curvature)
     tangent_angle = path.pressure_angle(flank_end)
-    tangent_x, tangent_y = position(path, flank_end)
-    corner_x = tangent_x - pitch_radius * path.rotation(flank_end) + rounding * cos(tangent_angle)
+    corner = _corner_on_normal(tangent_angle, depth - rounding, curvature)
     tip = tip_radius(drive, side)
     tangent = Tooth(
         path=path,
@@ -94,36 +109,63 @@ def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
         form_distance=flank_end,
         tip_distance=distance_at_radius(path, tip),
         form_angle=tangent_angle,
-        overrun=-kinematics(path, flank_end).pinion_speed,
-        corner_x=corner_x,
-        corner_y=tangent_y + rounding * sin(tangent_angle),
+        overrun=-kinematics(path, flank_end).pinion_speed * absolute(pitch_radius) / pitch_radius,
+        corner_x=-corner.arc - pitch_radius * path.rotation(flank_end),
+        corner_y=rounding - depth,
         corner_radius=rounding,
-        corner_limit=np.pi * drive.module / 4 - widening,
+        corner_limit=pitch_radius * (np.pi / body.teeth - half_angle),
         root_radius=pitch_radius - depth,
         form_radius=radius(path, flank_end),
         tip_radius=tip,
+        tool_curvature=curvature,
     )
     return _ended_by_undercut(tangent)
 
 
-def tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
-    """Signed distance at which the rack's flank runs into the rounding of its tip.
+class _Corner(NamedTuple):
+    """Centre of the tool's rounding where its normal through P has a given angle."""
+
+    distance: Any  # s of the centre before P on the normal, m
+    slope: Any  # q = c × distance from P to the foot of the tool's axis on the normal; sin ν of a rack
+    arc: Any  # of the tool's rolling circle, from the centre to the line of centres, m
+
+
+def _corner_on_normal(normal_angle: PerContact, depth: Any, curvature: Any) -> _Corner:
+    """Where the centre of the rounding, `depth` (m) beyond the rolling line, lies on a normal through P.
+
+    Its distance 1/c + h from the tool's axis gives s = h (2 + h c)/(sin ν + q), q² = sin² ν + h c (2 + h c).
+    """
+    sine, cosine = sin(normal_angle), cos(normal_angle)
+    if curvature is None:
+        distance = depth / sine
+        return _Corner(distance, sine, distance * cosine)
+    slope = sqrt(sine**2 + depth * curvature * (2 + depth * curvature))
+    distance = depth * (2 + depth * curvature) / (sine + slope)
+    angle = arctan2(curvature * distance * cosine, 1 + curvature * distance * sine)
+    return _Corner(distance, slope, angle / curvature)
+
+
+def tangent_distance(path: Path, depth: Any, rounding: Any, curvature: Any = None) -> Any:
+    """Signed distance at which the tool's flank runs into the rounding of its tip.
 
     The centre of the rounding lies on the flank's normal and `rounding` above the tip line y = −depth, hence
-    r sin α + ρ_f sin α = ρ_f − depth.
+    r sin α + ρ_f sin α = ρ_f − depth of a rack; of a cutter with a rolling circle of curvature c
+    (r + ρ_f) sin α = c [(r + ρ_f)² − h²]/2 − h, h = depth − ρ_f.
     """
     sine, before, _ = sine_at_pitch_point(path)
     # Start on the path with sin α linear in the distance before P.
     half = (sine - before * rounding) / 2
     root = sqrt(maximum(half**2 + before * (depth - rounding + rounding * sine), (1e-3 * half) ** 2))
     start = -(depth - rounding + rounding * sine) / (half + root)
-    return newton(_step_to_tangency, start, _NEWTON_STEPS, path, depth, rounding)
+    return newton(_step_to_tangency, start, _NEWTON_STEPS, path, depth, rounding, curvature or 0.0)
 
 
-def _step_to_tangency(r: Float[Array, ""], path: Path, depth: Any, rounding: Any) -> Float[Array, ""]:
-    alpha = path.pressure_angle(r)
-    residual = (r + rounding) * sin(alpha) + depth - rounding
-    slope = sin(alpha) + (r + rounding) * cos(alpha) * path.pressure_angle_slope(r)
+def _step_to_tangency(
+    r: Float[Array, ""], path: Path, depth: Any, rounding: Any, curvature: Any
+) -> Float[Array, ""]:
+    alpha, centre, below = path.pressure_angle(r), r + rounding, depth - rounding
+    residual = centre * sin(alpha) + below - curvature / 2 * (centre**2 - below**2)
+    slope = sin(alpha) + centre * (cos(alpha) * path.pressure_angle_slope(r) - curvature)
     return r - residual / slope
 
 
@@ -184,9 +226,10 @@ def _flank_tangent(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]
 def _fillet_tangent(tooth: Tooth, normal_angle: PerContact) -> tuple[PerContact, PerContact]:
     """Differentiate the fillet's point by the normal's angle along (cos λ, −sin λ), m per rad, and λ."""
     pitch_radius = tooth.path.pinion_pitch_radius
-    r = tooth.corner_y / sin(normal_angle) - tooth.corner_radius
-    rotation = (tooth.corner_y * cos(normal_angle) / sin(normal_angle) - tooth.corner_x) / pitch_radius
-    turning = -tooth.corner_y / (pitch_radius * sin(normal_angle) ** 2)
+    corner = _corner_on_normal(normal_angle, -tooth.corner_y, tooth.tool_curvature)
+    r = -corner.distance - tooth.corner_radius
+    rotation = (-corner.arc - tooth.corner_x) / pitch_radius
+    turning = corner.distance / (pitch_radius * corner.slope)
     rate = r + (r + pitch_radius * sin(normal_angle)) * turning
     return rate, normal_angle - tooth.half_angle + rotation
 
@@ -199,29 +242,41 @@ def flank_point(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]:
 def fillet_point(tooth: Tooth, normal_angle: PerContact) -> tuple[PerContact, PerContact]:
     """Point (x, y) of the fillet (m) cut where the normal of the rack's rounding has this angle (rad).
 
-    The rack's point touches the body when its normal passes through the pitch point; the angle runs from
+    The tool's point touches the body when its normal passes through the pitch point; the angle runs from
     π/2 (root circle) to `tooth.form_angle` (junction with the flank).
     """
-    rack_x = tooth.corner_x - tooth.corner_radius * cos(normal_angle)
-    y = tooth.corner_y - tooth.corner_radius * sin(normal_angle)
-    x = y * cos(normal_angle) / sin(normal_angle)
-    return _in_tooth_frame(tooth, x, y, (x - rack_x) / tooth.path.pinion_pitch_radius)
+    corner = _corner_on_normal(normal_angle, -tooth.corner_y, tooth.tool_curvature)
+    r = -corner.distance - tooth.corner_radius
+    rotation = (-corner.arc - tooth.corner_x) / tooth.path.pinion_pitch_radius
+    return _in_tooth_frame(tooth, r * cos(normal_angle), r * sin(normal_angle), rotation)
+
+
+def polar(x: PerContact, y: PerContact, pitch_radius: Any) -> tuple[PerContact, PerContact]:
+    """Radius (m), of the pitch radius's sign, and angle (rad) about the body's axis of a point from P.
+
+    The angle grows with x on an external body; an internal one's axis lies beyond P, and it falls.
+    """
+    along, across = x / pitch_radius, 1 + y / pitch_radius
+    return pitch_radius * sqrt(along**2 + across**2), arctan2(along, across)
 
 
 def _in_tooth_frame(
     tooth: Tooth, x: PerContact, y: PerContact, rotation: PerContact
 ) -> tuple[PerContact, PerContact]:
     pitch_radius = tooth.path.pinion_pitch_radius
-    distance = sqrt(x**2 + (pitch_radius + y) ** 2)
-    chi = tooth.half_angle + arctan2(x, pitch_radius + y) - rotation
+    distance, angle = polar(x, y, pitch_radius)
+    chi = tooth.half_angle + angle - rotation
     return distance * cos(chi), distance * sin(chi)
 
 
 def thickness_half_angle(tooth: Tooth, at_radius: PerContact) -> PerContact:
     """Half thickness angle of the tooth (rad) on the circle of this radius (m), above the form radius."""
-    r = distance_at_radius(tooth.path, at_radius)
-    x, y = position(tooth.path, r)
-    return tooth.half_angle + arctan2(x, tooth.path.pinion_pitch_radius + y) - tooth.path.rotation(r)
+    return _half_angle(tooth.path, tooth.half_angle, at_radius)
+
+
+def _half_angle(path: Path, pitch_half_angle: Any, at_radius: PerContact) -> PerContact:
+    r = distance_at_radius(path, at_radius)
+    return pitch_half_angle + polar(*position(path, r), path.pinion_pitch_radius)[1] - path.rotation(r)
 
 
 def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact) -> ToothContact:
@@ -233,7 +288,7 @@ def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact
     pitch_radius = body_path.pinion_pitch_radius
     x, y = position(body_path, r)
     rotation = body_path.rotation(r)
-    distance = sqrt(x**2 + (pitch_radius + y) ** 2)
-    chi = pitch_half_angle + arctan2(x, pitch_radius + y) - rotation
+    distance, angle = polar(x, y, pitch_radius)
+    chi = pitch_half_angle + angle - rotation
     load_angle = body_path.pressure_angle(r) - pitch_half_angle + rotation
     return ToothContact(distance * cos(chi), distance * sin(chi), load_angle)

@@ -13,7 +13,10 @@ _OUTSIDE = {
         r"helix|helical|^beta(_|$)",
         'write helix_angle = "20 deg" in [drive] of a gear pair, and hand = "left" of a left-hand pinion',
     ),
-    INTERNAL: (r"^internal(_(gears?|teeth|mesh))?$|annulus|^ring(_|$)", "describe an external gear"),
+    INTERNAL: (
+        r"^internal(_(gears?|teeth|mesh))?$|annulus|^ring(_|$)",
+        "write internal = true in [drive.gear], and all numbers of teeth and lengths without sign",
+    ),
     "planetary gears": (
         r"planet|epicyclic|^(sun|carrier)s?(_|$)",
         "describe an external mesh of it, sun and planet",
@@ -54,9 +57,12 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
     if what == HELIX:
         rule = "the key of a helix is helix_angle, of both gears together"
         return InputError(error.key, error.value, rule, remedy, error.file)
+    if what == INTERNAL:
+        rule = "the key of an internal gear is internal, of the gear that it is"
+        return InputError(error.key, error.value, rule, _OUTSIDE[INTERNAL][1], error.file)
     rule = (
         f"{what} are not modelled: this version computes external spur and helical gears, "
-        "not internal or planetary gears"
+        "and the geometry of internal ones, but no planetary gears"
     )
     return InputError(error.key, error.value, rule, remedy or _OUTSIDE[what][1], error.file)
 

@@ -26,6 +26,9 @@ class Family(NamedTuple):
     parameters : what `shape` holds: the keys of the drive's table ``[shape]``
     pressure_angle : whether a drive gives its pressure angle; where not, it is 0 at the pitch point
     corner : whether α(r) has a corner at the pitch point; the mesh cycle then begins a segment there
+    cutter_path : callable, optional
+        (drive, side) -> the path of contact of a body with its pinion-type cutter, seen from the body; where
+        there is none, no gear of the family can be internal.
     involute : whether flanks are involutes, for which the formulas of ISO 6336 and of loss factors hold
     about : what it is, in a line
     """
@@ -39,6 +42,7 @@ class Family(NamedTuple):
     parameters: tuple[Parameter, ...] = ()
     pressure_angle: bool = True
     corner: bool = False
+    cutter_path: Callable[[Drive, Side], Path] | None = None
     involute: bool = False
     about: str = ""
 

@@ -98,6 +98,22 @@ def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
     return path, shift
 
 
+def cutter_path(drive: Drive, side: Side) -> Path:
+    """Path of contact of one body with its pinion-type cutter, which mesh without backlash.
+
+    inv α_w0 = inv α + 2 tan α (x_0 + x_E)/(z_0 + z) with the shift x_E that leaves the tooth its thickness;
+    z < 0 of an internal gear (ISO 21771).
+    """
+    path, shift = generating_path(drive, side)
+    body, alpha = body_of(drive, side), drive.pressure_angle
+    shifts = drive.module * body.cutter_shift + shift
+    teeth = drive.module * (body.cutter_teeth + body.teeth)
+    working = inverse_involute(involute_function(alpha) + 2 * tan(alpha) * shifts / teeth)
+    stretch = cos(alpha) / cos(working)
+    cutter = drive.module * body.cutter_teeth / 2
+    return InvolutePath(path.pinion_pitch_radius * stretch, cutter * stretch, working)
+
+
 def normal_backlash(drive: Drive) -> Any:
     """Distance j_bn between the back flanks along their line of action, m; negative where teeth overlap.
 
@@ -143,18 +159,26 @@ def check(drive: Drive) -> None:
     teeth = drive.pinion.teeth + drive.gear.teeth
     shift = drive.pinion.profile_shift + drive.gear.profile_shift
     minimum = -(math.tan(alpha) - alpha) * teeth / (2 * math.tan(alpha))
-    if shift <= minimum:
+    if (shift - minimum) / teeth <= 0:
         written = normal_section(drive)
         needed = minimum / math.cos(drive.helix_angle) - written.gear.profile_shift
+        more, fewer = math.ceil(1000.0 * needed) / 1000.0, math.floor(1000.0 * needed) / 1000.0
         raise InputError(
             "drive.pinion.profile_shift",
             written.pinion.profile_shift,
             "with this sum of profile shifts the gears would be closer than their base circles allow",
-            f"use more than {math.ceil(1000.0 * needed) / 1000.0:g}",
+            f"use more than {more:g}" if teeth > 0 else f"use less than {fewer:g}",
         )
     if not overlap(drive):
         return
     tight = float(tight_centre_distance(drive))
+    if tight < 0:  # the key is the distance without its sign
+        raise InputError(
+            "drive.centre_distance",
+            f"{-1e3 * drive.centre_distance:.7g} mm",
+            f"the teeth overlap: they mesh without backlash at {-1e3 * tight:.4f} mm",
+            f"use at most {math.floor(-1e7 * tight) / 1e4:.4f} mm, less profile shift or thinner teeth",
+        )
     raise InputError(
         "drive.centre_distance",
         f"{1e3 * drive.centre_distance:.7g} mm",
@@ -169,6 +193,7 @@ FAMILY = Family(
     generating_path,
     True,
     check,
+    cutter_path=cutter_path,
     involute=True,
     about="standard or profile-shifted involute; pressure_angle is the rack's",
 )

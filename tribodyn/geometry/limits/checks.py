@@ -18,6 +18,7 @@ from tribodyn.geometry.assembly import (
 from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_circle_radius
 from tribodyn.geometry.families import Family
+from tribodyn.geometry.limits.internal import check_cutter, check_outside, tip_in_base_circle, tips_collide
 from tribodyn.geometry.limits.sizes import advice, boundary, check_sizes, millimetres, replaced, require
 from tribodyn.geometry.rack_section import as_written, from_written
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
@@ -52,6 +53,8 @@ def check(family: Family, drive: Drive) -> Assembly:
         _check_contact_ratio(assembly)
         for side in SIDES:
             _check_interference(assembly, side)
+        if drive.gear.teeth < 0:
+            _refuse_internal_tip(assembly, tips_collide)
     return assembly
 
 
@@ -59,7 +62,8 @@ def _check_centre_distance(family: Family, drive: Drive) -> None:
     if drive.centre_distance is None:
         return
     given = drive.centre_distance
-    require("centre_distance", given, given > 0, "must be greater than zero")
+    outwards = drive.pinion.teeth + drive.gear.teeth > 0  # that of an internal pair is negative
+    require("centre_distance", given, given > 0 if outwards else given < 0, "must be greater than zero")
     if not family.involute:
         rule = f"teeth of the family {family.name} are conjugate at one centre distance only"
         remedy = "leave centre_distance out, or use involutes, which mesh at any"
@@ -81,9 +85,11 @@ def _check_backlash(assembly: Assembly) -> None:
 
 def _check_root(assembly: Assembly, side: Side) -> None:
     body, root = _written(assembly, side), assembly.tooth(side).root_radius
-    if not root > 0:
+    if not root * body.teeth > 0:
         rule = "the teeth would be cut past the axis"
         raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, "use a smaller one or more teeth")
+    if body.teeth < 0:
+        check_outside(assembly, side)
     if not body.bore_radius < root:
         rule = f"the bore reaches the root circle, whose radius is {millimetres(root)}"
         raise InputError(f"drive.{side}.bore_radius", millimetres(body.bore_radius), rule, "use less")
@@ -169,8 +175,13 @@ def _check_tip(assembly: Assembly, side: Side) -> None:
         return 2 * float(flank_point(cut, cut.tip_distance)[1])
 
     if not tooth.tip_radius > tooth.form_radius:
-        rule = f"nothing is left of the flank, which begins at the radius {millimetres(tooth.form_radius)}"
-        raise InputError(*_tip_key(assembly, side), rule, "use a larger one")
+        rule = (
+            f"nothing is left of the flank, which begins at the radius {millimetres(abs(tooth.form_radius))}"
+        )
+        raise InputError(*_tip_key(assembly, side), rule, "use a higher tooth")
+    if body.teeth < 0:
+        _refuse_internal_tip(assembly, tip_in_base_circle)
+        check_cutter(assembly, side)
     if thickness(assembly) > 0:
         _check_rounding(assembly, side)
         return
@@ -194,10 +205,8 @@ def _check_rounding(assembly: Assembly, side: Side) -> None:
     outer = tip_circle_radius(drive, side)
     half = outer * thickness_half_angle(assembly.tooth(side), outer)
     if body.tip_break / cosine > half:
-        largest = half * cosine / (1.0 - sine)
-        rule = "the rounded edges of the tip meet"
-        given = body.tip_break / (1.0 - sine)
-        remedy = f"use at most {millimetres(largest)}"
+        rule, given = "the rounded edges of the tip meet", body.tip_break / (1.0 - sine)
+        remedy = f"use at most {millimetres(half * cosine / (1.0 - sine))}"
         raise InputError(f"drive.{side}.tip_rounding", millimetres(given), rule, remedy)
 
 
@@ -206,7 +215,7 @@ def _tip_key(assembly: Assembly, side: Side) -> tuple[str, Any]:
     body = _written(assembly, side)
     if body.tip_radius is None:
         return f"drive.{side}.addendum", body.addendum
-    return f"drive.{side}.tip_radius", millimetres(body.tip_radius)
+    return f"drive.{side}.tip_radius", millimetres(abs(body.tip_radius))
 
 
 def _refuse_tip(assembly: Assembly, side: Side, rule: str, holds: Callable[[Assembly], bool]) -> None:
@@ -222,8 +231,15 @@ def _refuse_tip(assembly: Assembly, side: Side, rule: str, holds: Callable[[Asse
     else:
         smallest = 1e3 * assembly.tooth(side).form_radius
         usable, unit = boundary(usable_at, 1e3 * body.tip_radius, smallest), " mm"
-    remedy = "use a smaller one" if usable is None else f"use at most {usable:.7g}{unit}"
+    inwards = body.teeth < 0 and body.tip_radius is not None  # its key is the radius without sign
+    smaller, most = ("larger", "least") if inwards else ("smaller", "most")
+    remedy = f"use a {smaller} one" if usable is None else f"use at {most} {abs(usable):.7g}{unit}"
     raise InputError(*_tip_key(assembly, side), rule, remedy)
+
+
+def _refuse_internal_tip(assembly: Assembly, broken: Callable[[Assembly], str]) -> None:
+    if rule := broken(assembly):
+        _refuse_tip(assembly, "gear", rule, lambda pair: not broken(pair))
 
 
 def _check_clearance(assembly: Assembly, side: Side) -> None:
@@ -239,7 +255,11 @@ def _check_contact_ratio(assembly: Assembly) -> None:
         rule = f"the contact ratio is {ratio:.3f}, so that a pair parts before the next one touches"
         remedy = "use larger addenda, more teeth or a smaller pressure angle"
         distance = assembly.drive.centre_distance
-        if distance is not None and (usable := _usable_centre_distance(assembly, distance)) is not None:
+        if (
+            distance is not None
+            and distance > 0
+            and (usable := _usable_centre_distance(assembly, distance)) is not None
+        ):
             remedy = f"use at most {usable:.7g} mm, or larger addenda"
             raise InputError("drive.centre_distance", millimetres(distance), rule, remedy)
         raise InputError(*_tip_key(assembly, "pinion"), rule, remedy)
@@ -265,8 +285,8 @@ def _interference(assembly: Assembly, side: Side) -> str:
         return f"the tip reaches past the end of any flank of the {side}"
     if not contact >= form:
         return (
-            f"the tip touches the {side} at the radius {millimetres(contact)}, in the fillet: "
-            f"the flank begins at {millimetres(form)}"
+            f"the tip touches the {side} at the radius {millimetres(abs(contact))}, in the fillet: "
+            f"the flank begins at {millimetres(abs(form))}"
         )
     gap = tip_corner_gap(assembly, side)
     if gap < -_OVERLAP_TOLERANCE * assembly.drive.module:

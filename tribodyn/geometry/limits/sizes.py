@@ -82,14 +82,29 @@ def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
         for name in GearBody._fields:
             if getattr(body, name) is not None:
                 require(f"{side}.{name}", getattr(body, name), True, "")
-        whole = body.teeth >= 3 and body.teeth == round(body.teeth)
+        internal = side == "gear" and body.teeth < 0 and body.cutter_teeth is not None
+        whole = (body.teeth >= 3 or internal) and body.teeth == round(body.teeth)
         require(f"{side}.teeth", body.teeth, whole, "must be a whole number of at least 3")
+        if internal:
+            _check_internal(drive)
         for name in ("addendum", "dedendum", "face_width"):
             value = getattr(body, name)
             require(f"{side}.{name}", value, value > 0, "must be greater than zero")
-        for name in ("fillet_radius", "bore_radius"):
-            value = getattr(body, name)
-            require(f"{side}.{name}", value, value >= 0, "must not be negative")
+        require(f"{side}.fillet_radius", body.fillet_radius, body.fillet_radius >= 0, "must not be negative")
+        if not internal:
+            require(f"{side}.bore_radius", body.bore_radius, body.bore_radius >= 0, "must not be negative")
+
+
+def _check_internal(drive: Drive) -> None:
+    """Refuse an internal gear as small as the pinion or the cutter that turns in it."""
+    ring, pinion = drive.gear, drive.pinion
+    inside = -ring.teeth > pinion.teeth
+    if not inside:
+        rule = f"the internal gear must have more teeth than the pinion that turns in it, {pinion.teeth:g}"
+        raise InputError("drive.gear.teeth", f"{-ring.teeth:g}", rule, "use more")
+    cutter = ring.cutter_teeth
+    require("gear.cutter_teeth", cutter, cutter == round(cutter), "must be a whole number")
+    require("gear.cutter_teeth", cutter, 3 <= cutter < -ring.teeth, "must be at least 3, and less than teeth")
 
 
 def require(key: str, value: Any, holds: bool, rule: str) -> None:

@@ -19,10 +19,11 @@ class GearsInMesh(NamedTuple):
     pinion: np.ndarray
     gear: np.ndarray
     path: np.ndarray  # path of contact, (points, 2)
-    #: pitch_radii, tip_radii: of pinion and gear
+    #: pitch_radii, tip_radii: of pinion and gear; negative of an internal gear, whose outline is its hole
     pitch_radii: tuple[float, float]
     tip_radii: tuple[float, float]
     key_points: dict[str, tuple[float, float]]  # name, as mathematical text, -> (x, y)
+    outside: float = 0.0  # outer radius of an internal gear
 
 
 def key_rolls(start: float, end: float, pitch: float) -> dict[str, float]:
@@ -74,8 +75,9 @@ def draw_whole(axes: Axes, mesh: GearsInMesh, bore_radii: tuple[float, float]) -
     _draw_outlines(axes, mesh)
     axes.plot(*(mesh.path / MILLIMETRE).T, color="black", linewidth=1.2)
     for centre, bore, color in zip(_centres(mesh), bore_radii, PALETTE, strict=False):
-        circle = centre + bore / MILLIMETRE * _circle()
-        axes.fill(*circle.T, facecolor="white", edgecolor=color, linewidth=0.9)
+        if bore >= 0:  # an internal gear has none
+            circle = centre + bore / MILLIMETRE * _circle()
+            axes.fill(*circle.T, facecolor="white", edgecolor=color, linewidth=0.9)
         axes.plot(*centre, marker="+", color=QUIET, markersize=7)
     across, along = reach(mesh)
     axes.plot(
@@ -98,6 +100,9 @@ def _draw_outlines(axes: Axes, mesh: GearsInMesh) -> None:
     outlines = (mesh.pinion, PINION_FILL), (mesh.gear, GEAR_FILL)
     for (outline, fill), color in zip(outlines, PALETTE, strict=False):
         # the circles below give the limits: to seek those of the outlines takes longer than to draw them
+        if outline is mesh.gear and mesh.outside:
+            _draw_ring(axes, mesh, fill, color)
+            continue
         axes.add_artist(Polygon(outline / MILLIMETRE, facecolor=fill, edgecolor=color, linewidth=0.9))
     sizes = zip(_centres(mesh), mesh.tip_radii, mesh.pitch_radii, PALETTE, strict=False)
     for centre, tip, pitch, color in sizes:
@@ -108,6 +113,17 @@ def _draw_outlines(axes: Axes, mesh: GearsInMesh) -> None:
     axes.grid(False)
     axes.set_xlabel("Along the pitch tangent (mm)")
     axes.set_ylabel("Along the line of centres (mm)")
+
+
+def _draw_ring(axes: Axes, mesh: GearsInMesh, fill: str, color: str) -> None:
+    """Draw an internal gear: material from its hole to its outer circle."""
+    outer = _centres(mesh)[1] + mesh.outside / MILLIMETRE * _circle()
+    hole = mesh.gear / MILLIMETRE
+    turns = np.sum(hole[:-1, 0] * hole[1:, 1] - hole[1:, 0] * hole[:-1, 1])
+    material = np.concatenate([hole, outer[::-1] if turns > 0 else outer, hole[:1]])
+    axes.add_artist(Polygon(material, facecolor=fill, edgecolor="none"))
+    axes.add_artist(Polygon(hole, fill=False, edgecolor=color, linewidth=0.9))
+    axes.plot(*outer.T, color=color, linewidth=0.9)
 
 
 def _centres(mesh: GearsInMesh) -> np.ndarray:

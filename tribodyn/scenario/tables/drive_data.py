@@ -61,6 +61,7 @@ def rounded_distance(table: DriveTable, drive: Drive) -> RoundedDistance | None:
     if table.centre_distance is None or not FAMILIES[table.family].involute:
         return None
     printed, rounding = table.centre_distance
+    printed *= _sense(table)
     with np.errstate(all="ignore"):  # where there is no such mesh: refused where the pair is put together
         # the shifts are in normal modules
         slope = float(shift_sensitivity(drive)) * math.cos(drive.helix_angle)
@@ -73,6 +74,11 @@ def rounded_distance(table: DriveTable, drive: Drive) -> RoundedDistance | None:
             rounding += slope * shift_rounding(gear.profile_shift)
     rounding = min(rounding, MOST * drive.module)
     return RoundedDistance(printed, rounding, meant) if meant <= printed + rounding else None
+
+
+def _sense(drive: DriveTable) -> float:
+    """Sign of the centre distance: negative of an internal pair (ISO 21771)."""
+    return -1.0 if drive.gear.internal else 1.0
 
 
 def mean_roughness(drive: DriveTable) -> float:
@@ -119,7 +125,7 @@ def drive_of(drive: DriveTable) -> Drive:
         gear_body(drive, drive.pinion),
         gear_body(drive, drive.gear),
         shape_of(drive, teeth),
-        None if drive.centre_distance is None else drive.centre_distance.value,
+        None if drive.centre_distance is None else _sense(drive) * drive.centre_distance.value,
         helix_of(drive),
     )
     sharp = from_written(teeth, written)

@@ -139,11 +139,17 @@ class Gear(quantity.Table):
 
     teeth: Annotated[int, Field(strict=True, ge=4, le=10_000)]
     face_width: FaceWidth
+    internal: quantity.Switch = Field(
+        False, description="teeth inwards; lengths and numbers of teeth are written without sign all the same"
+    )
     bore_radius: Radius | None = Field(
         None, description="where the body is held; default: 0.2 times the reference diameter"
     )
     bore_diameter: Diameter | None = Field(None, description="in place of the bore's radius")
     profile_shift: quantity.Number = Field(0.0, description="x, times the module")
+    profile_shift_of: Literal["tooth", "gap"] = Field(
+        "tooth", description="what a positive shift makes thicker: the tooth, or the gap of an internal gear"
+    )
     addendum: quantity.Positive | None = Field(
         None, description="h_a*, times the module; default: the rack's, else 1 (ISO 53)"
     )
@@ -152,6 +158,19 @@ class Gear(quantity.Table):
     )
     fillet_radius: quantity.NotNegative | None = Field(
         None, description="of the cutter's tip, times the module; default: the rack's, else 0.25 (ISO 53 C)"
+    )
+    outer_diameter: Diameter | None = Field(
+        None, description="of the body of an internal gear; default: 3 modules outside its root circle"
+    )
+    cutter_teeth: Annotated[int, Field(strict=True, ge=3, le=10_000)] | None = Field(
+        None, description="of the pinion-type cutter of an internal gear; default: 20, at most half its teeth"
+    )
+    cutter_profile_shift: quantity.Number | None = Field(None, description="x_0 of this cutter; default: 0")
+    cutter_addendum: quantity.Positive | None = Field(
+        None, description="h_a0* of this cutter, times the module; default: what the dedendum needs"
+    )
+    cutter_rounding: quantity.NotNegative | None = Field(
+        None, description="of this cutter's tip, times the module; default: fillet_radius"
     )
     tip_radius: Radius | None = Field(None, description="takes the place of the addendum")
     tip_diameter: Diameter | None = Field(None, description="in place of the tip's radius")

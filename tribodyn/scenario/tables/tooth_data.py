@@ -11,6 +11,7 @@ from tribodyn.geometry.drive import PROFILES, GearBody
 from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.geometry.gauges import Gauge, Involute, allowance_of_pins, allowance_of_span, over_pins, span
 from tribodyn.scenario.own_keys import Owner, own_key_errors, own_values
+from tribodyn.scenario.tables.internal_gear import broken_internal_rules, internal_body, shift_of
 from tribodyn.scenario.tables.model_files import DriveTable, Gear, Hand
 
 #: Heights and rounding where neither the gear nor a rack says them.
@@ -65,7 +66,7 @@ def gear_body(drive: DriveTable, gear: Gear) -> GearBody:
     """Return one body of a drive that breaks no rule, as its keys have it; without its tip's rounding."""
     rack = PROFILES.get(drive.rack or "", USUAL)
     bore = _radius(gear, "bore")
-    return GearBody(
+    external = GearBody(
         teeth=float(gear.teeth),
         profile_shift=gear.profile_shift,
         addendum=rack.addendum if gear.addendum is None else gear.addendum,
@@ -76,6 +77,7 @@ def gear_body(drive: DriveTable, gear: Gear) -> GearBody:
         tip_radius=_radius(gear, "tip"),
         thickness_allowance=_allowance(drive, gear),
     )
+    return internal_body(gear, external, modules_of(drive)[1]) if gear.internal else external
 
 
 def gauge_of(gear: Gear) -> Gauge:
@@ -102,6 +104,7 @@ def broken_tooth_rules(drive: DriveTable) -> Iterator[InputError]:
             rule, remedy = "contradicts tip_diameter, which takes its place", "leave one of them out"
             yield InputError(f"drive.{name}.addendum", gear.addendum, rule, remedy)
         yield from _broken_thickness(drive, f"drive.{name}", gear)
+    yield from broken_internal_rules(drive)
     yield from _broken_roughness(drive)
 
 
@@ -144,9 +147,11 @@ def _impossible_measure(drive: DriveTable, key: str, gear: Gear, measure: str) -
     if abs(allowance) <= 0.5 * drive.module:  # not where it is NaN
         return
     if measure == "span":
-        length, over = span(involute, gear.span_teeth or 1), f"{gear.span_teeth} teeth"
+        count = gear.span_teeth or 1
+        count, what = (1 - count, "gaps") if gear.internal else (count, "teeth")
+        length, over = abs(span(involute, count)), f"{gear.span_teeth} {what}"
     else:
-        length, over = over_pins(involute, gear.pin_diameter or 0.0), "these pins"
+        length, over = abs(over_pins(involute, gear.pin_diameter or 0.0)), "these pins"
     says = f"one of nominal thickness measures {1e3 * length:.6g} mm over {over}"
     if math.isnan(length):
         says = "these pins drop between teeth of nominal thickness"
@@ -157,10 +162,12 @@ def _impossible_measure(drive: DriveTable, key: str, gear: Gear, measure: str) -
 
 def _allowance(drive: DriveTable, gear: Gear) -> float:
     """Mean deviation of the tooth thickness, m."""
+    sign = -1.0 if gear.internal else 1.0
     if gear.span is not None and gear.span_teeth is not None:
-        return allowance_of_span(_involute(drive, gear), gear.span_teeth, gear.span)
+        count = 1 - gear.span_teeth if gear.internal else gear.span_teeth  # of gaps
+        return allowance_of_span(_involute(drive, gear), count, sign * gear.span)
     if gear.over_pins is not None and gear.pin_diameter is not None:
-        return allowance_of_pins(_involute(drive, gear), gear.pin_diameter, gear.over_pins)
+        return allowance_of_pins(_involute(drive, gear), gear.pin_diameter, sign * gear.over_pins)
     return (gear.thickness_allowance or 0.0) - (gear.thickness_tolerance or 0.0) / 2.0
 
 
@@ -169,8 +176,8 @@ def _involute(drive: DriveTable, gear: Gear) -> Involute:
     return Involute(
         drive.module,
         math.nan if angle is None else angle,
-        float(gear.teeth),
-        gear.profile_shift,
+        -float(gear.teeth) if gear.internal else float(gear.teeth),
+        shift_of(gear),
         drive.helix_angle or 0.0,
     )
 

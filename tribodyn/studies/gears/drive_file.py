@@ -155,6 +155,9 @@ def as_spline(model: DriveModel, values: int, key: str = "n") -> SplineDrive:
     `key` is what messages call their number. Raises InputError for too few or too many, gears that cannot be
     made, and a fit of which none can be made.
     """
+    if model.drive.gear.teeth < 0:
+        rule = "an internal gear has no free-form path"
+        raise InputError("drive.gear.internal", "true", rule, "fit the path of an external pair")
     if not FEWEST <= values <= MOST:
         raise InputError(key, values, f"a path has {FEWEST} to {MOST} values", "use 9")
     with model.origins.naming():

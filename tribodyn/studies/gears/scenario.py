@@ -22,6 +22,7 @@ from tribodyn.scenario.tables.drive_rules import (
     slices_of,
 )
 from tribodyn.scenario.tables.duty import SpectrumScenario, duty_of, unnamed_duty
+from tribodyn.scenario.tables.internal_gear import internal_refused
 from tribodyn.scenario.tables.laws import FilmTable, film_of, law_values
 from tribodyn.scenario.tables.losses import (
     LossesTable,
@@ -131,6 +132,9 @@ def broken_gear_rules(scenario: Any, *, every_duty: bool = False, oil: bool = Tr
     study runs all duties of a load spectrum at a time, `oil` whether the lubricant is looked at.
     """
     drive, mesh, lubricant = scenario.drive, scenario.mesh, scenario.lubricant
+    if drive.gear.internal or drive.pinion.internal:
+        yield internal_refused(drive)
+        return
     yield from broken_drive_rules(drive)
     if not every_duty:
         yield from unnamed_duty(scenario)

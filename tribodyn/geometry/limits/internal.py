@@ -1,0 +1,122 @@
+"""How far an internal pair is from the limits that external gears do not have: signed distances, m.
+
+Positive: the limit is kept. Radii and half thickness angles of the ring are negative (ISO 21771). What a pair
+of involutes shares with external gears, tip in the fillet, contact below the base circle of the pinion,
+contact ratio and clearances, is in `limits` and `checks`.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import Side, body_of, tip_circle_radius
+from tribodyn.geometry.limits.sizes import millimetres
+from tribodyn.geometry.path import kinematics
+from tribodyn.geometry.tooth import thickness_half_angle
+from tribodyn.numerics.elementary import arctan2, as_float, cos, sqrt
+
+
+def base_circle_margin(assembly: Assembly, side: Side) -> Any:
+    """Distance from an internal involute tooth's tip out to its base circle, above which it has no flank."""
+    path = assembly.tooth(side).path
+    base = path.pinion_pitch_radius * cos(path.pressure_angle(0.0))
+    return as_float(base - tip_circle_radius(assembly.drive, side))
+
+
+def cutter_margin(assembly: Assembly, side: Side) -> Any:
+    """Distance along the line of action from the cutter's base tangent point to where it cuts the tip.
+
+    A cutter with a short involute leaves the tip without a part of its flank.
+    """
+    tooth = assembly.tooth(side)
+    return as_float(kinematics(tooth.path, tooth.tip_distance).gear_friction_arm)
+
+
+def tip_in_base_circle(assembly: Assembly) -> str:
+    """Say that the ring's tip lies within its base circle, or nothing."""
+    if base_circle_margin(assembly, "gear") > 0:
+        return ""
+    return "the tip lies within the base circle, where there is no involute"
+
+
+def check_outside(assembly: Assembly, side: Side) -> None:
+    """Refuse a ring without material outside its root circle."""
+    outside, root = body_of(assembly.drive, side).bore_radius, assembly.tooth(side).root_radius
+    if not outside < root:
+        rule = f"the root circle, of radius {millimetres(abs(root))}, reaches the outside of the ring"
+        raise InputError(
+            f"drive.{side}.outer_diameter", millimetres(abs(2 * outside)), rule, "use a larger one"
+        )
+
+
+def check_cutter(assembly: Assembly, side: Side) -> None:
+    """Refuse a cutter whose involute does not reach the tip that it has to cut."""
+    margin = cutter_margin(assembly, side)
+    if not margin > 0:
+        rule = f"the cutter's involute ends {millimetres(-margin)} before the tip of the internal tooth"
+        given = f"{body_of(assembly.drive, side).cutter_teeth:g}"
+        raise InputError(f"drive.{side}.cutter_teeth", given, rule, "use more, or a lower tip")
+
+
+def tips_collide(assembly: Assembly) -> str:
+    """Say that the tips run into each other beyond the path of contact, or nothing."""
+    gap = trochoidal_gap(assembly)
+    if gap > 0:
+        return ""
+    return f"the tips run into each other where they pass, {millimetres(-gap)} deep"
+
+
+def trochoidal_gap(assembly: Assembly) -> Any:
+    """Arc of the ring's tip circle between both tips' corners where the pinion's leaves the ring's teeth.
+
+    The tip circles cross at angles δ_p and δ_g from the line of centres. The pinion's corner is there at
+    φ = δ_p + ψ_p − ψ_pa from the pitch point, its mate's at φ r_p/r_g + ψ_g − ψ_ga. Infinite where they
+    do not cross.
+    """
+    path, drive = assembly.path, assembly.drive
+    r_p, r_g = path.pinion_pitch_radius, path.gear_pitch_radius
+    tip, ring_tip = tip_circle_radius(drive, "pinion"), tip_circle_radius(drive, "gear")
+    distance = r_p + r_g
+    cosine = (ring_tip**2 - distance**2 - tip**2) / (-2 * distance * tip)
+    ring_cosine = (distance**2 + ring_tip**2 - tip**2) / (2 * distance * ring_tip)
+    if not abs(cosine) < 1:
+        return np.inf
+    turned = _arccos(cosine) + _rise(assembly, "pinion", r_p, tip)
+    gap = turned * r_p / r_g + _rise(assembly, "gear", r_g, ring_tip) + _arccos(ring_cosine)
+    return as_float(ring_tip * gap)
+
+
+def radial_assembly(assembly: Assembly) -> Any:
+    """Smallest room of a pinion pushed in radially between the ring's tips, across its way.
+
+    The pinion stands with a tooth, or with a gap, on the line of centres, whichever leaves more room. A pair
+    without room can be put together along the axis only. Plain numbers only.
+    """
+    drive = assembly.drive
+    return max(_room(assembly, first, round(float(drive.pinion.teeth))) for first in (0.0, 0.5))
+
+
+def _room(assembly: Assembly, first: float, teeth: int) -> float:
+    drive, path = assembly.drive, assembly.path
+    tip, ring_tip = tip_circle_radius(drive, "pinion"), tip_circle_radius(drive, "gear")
+    distance = path.pinion_pitch_radius + path.gear_pitch_radius
+    number = first + np.arange(teeth // 4 + 1)
+    corner = number * 2 * np.pi / teeth + float(thickness_half_angle(assembly.pinion, tip))
+    gap = (number + 0.5) * 2 * np.pi / drive.gear.teeth
+    gap = -gap + float(thickness_half_angle(assembly.gear, ring_tip))
+    x, y = tip * np.sin(corner), tip * np.cos(corner) - distance
+    beyond = np.hypot(x, y) > -ring_tip  # in a gap of the ring when it is in place
+    room = -ring_tip * np.sin(gap) - x
+    return float(room[beyond].min()) if beyond.any() else np.inf
+
+
+def _rise(assembly: Assembly, side: Side, pitch_radius: Any, tip: Any) -> Any:
+    """ψ on the pitch circle less ψ at the tip, rad."""
+    tooth = assembly.tooth(side)
+    return thickness_half_angle(tooth, pitch_radius) - thickness_half_angle(tooth, tip)
+
+
+def _arccos(cosine: Any) -> Any:
+    return arctan2(sqrt(1.0 - cosine**2), cosine)

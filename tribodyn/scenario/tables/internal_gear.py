@@ -1,0 +1,71 @@
+"""The keys of an internal gear: written without signs, its body with those of ISO 21771."""
+
+from collections.abc import Iterator
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.drive import GearBody
+from tribodyn.geometry.families import FAMILIES
+from tribodyn.scenario.tables.model_files import DriveTable, Gear
+
+#: Teeth of the cutter where none are given, at most half the gear's, and rim outside the root circle,
+#: modules: choices; the first a common size, the second near a rim that bends little.
+USUAL_CUTTER, USUAL_RIM = 20, 3.0
+_OWN = ("outer_diameter", "cutter_teeth", "cutter_profile_shift", "cutter_addendum", "cutter_rounding")
+
+
+def shift_of(gear: Gear) -> float:
+    """Profile shift, in modules, positive where it makes the tooth thicker (ISO 21771)."""
+    return gear.profile_shift if gear.profile_shift_of == "tooth" else -gear.profile_shift
+
+
+def internal_body(gear: Gear, external: GearBody, module: float) -> GearBody:
+    """The body of an internal gear, from one of the same numbers without signs; `module` in m."""
+    shift = shift_of(gear)
+    outside = module * (gear.teeth / 2 - shift + external.dedendum + USUAL_RIM)
+    rounding = external.fillet_radius if gear.cutter_rounding is None else gear.cutter_rounding
+    return external._replace(
+        teeth=-external.teeth,
+        profile_shift=shift,
+        fillet_radius=rounding,
+        bore_radius=-(outside if gear.outer_diameter is None else gear.outer_diameter / 2),
+        tip_radius=None if external.tip_radius is None else -external.tip_radius,
+        cutter_teeth=float(gear.cutter_teeth or min(USUAL_CUTTER, gear.teeth // 2)),
+        cutter_shift=gear.cutter_profile_shift or 0.0,
+        cutter_addendum=gear.cutter_addendum,
+    )
+
+
+def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
+    """Go through what contradicts an internal gear, and keys of one that is none."""
+    for name, gear in (("pinion", drive.pinion), ("gear", drive.gear)):
+        own = [key for key in _OWN if getattr(gear, key) is not None]
+        own += ["profile_shift_of"] if gear.profile_shift_of == "gap" else []
+        if own and not gear.internal:
+            rule, remedy = "is of an internal gear", "add internal = true, or leave it out"
+            yield InputError(f"drive.{name}.{own[0]}", rule=rule, remedy=remedy)
+        for bore in ("bore_radius", "bore_diameter"):
+            if gear.internal and getattr(gear, bore) is not None:
+                remedy = "give outer_diameter in its place"
+                yield InputError(f"drive.{name}.{bore}", rule="an internal gear has no bore", remedy=remedy)
+    if drive.pinion.internal:
+        rule, remedy = "the pinion must be external", "make the internal gear the gear, [drive.gear]"
+        yield InputError("drive.pinion.internal", "true", rule, remedy)
+    if not drive.gear.internal:
+        return
+    if drive.family in FAMILIES and FAMILIES[drive.family].cutter_path is None:
+        rule, remedy = (
+            f"internal gears of the family {drive.family} are not modelled",
+            'use family = "involute"',
+        )
+        yield InputError("drive.gear.internal", "true", rule, remedy)
+    if drive.helix_angle:
+        rule, remedy = "helical internal gears are not modelled", "leave helix_angle out"
+        yield InputError("drive.helix_angle", f"{drive.helix_angle:g} rad", rule, remedy)
+
+
+def internal_refused(drive: DriveTable) -> InputError:
+    """Refuse an internal gear where a study has only external ones."""
+    side = "gear" if drive.gear.internal else "pinion"
+    rule = "internal gears are not simulated: this version computes their geometry alone"
+    remedy = "use tribodyn gear of a drive file, or describe an external gear"
+    return InputError(f"drive.{side}.internal", "true", rule, remedy)
