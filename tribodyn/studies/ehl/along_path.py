@@ -99,7 +99,7 @@ def _way(study: PreparedEhl, positions: int, friction: tuple[Array, Array] | Non
         stretch = np.asarray(line_stretch(slope, path, path.signed_distance(np.clip(nodes, start, end))))
         loads = loads / (float(cycle.face_width) * stretch)
     elif cycle.slices > 1:
-        at = _slice_at(cycle, case.face_position)
+        at = int(np.argmin(np.abs(np.asarray(cycle.face_position) - case.face_position)))
         nodes, loads = section_line_loads(cycle, at, case.operating.gear_torque, friction, (start, end))
     else:
         nodes, loads = quasi_static_loads(cycle, case.operating.gear_torque, friction)
@@ -139,11 +139,6 @@ def roll_limits(study: PreparedEhl) -> tuple[float, float]:
     cycle = study.cycle
     start, end = study.assembly.roll_limits if cycle.slices > 1 else (cycle.roll_start, cycle.roll_end)
     return float(start), float(end)
-
-
-def _slice_at(cycle: MeshCycle, position: float) -> int:
-    """Number of the slice that is at z, m from the middle of the face."""
-    return int(np.argmin(np.abs(np.asarray(cycle.face_position) - position)))
 
 
 def section_line_loads(
