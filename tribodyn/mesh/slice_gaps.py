@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.sharing.flank_gap import bias_gap, lead_gap, profile_gap
+from tribodyn.compliance.sharing.flank_gap import oblique_gap
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
@@ -74,17 +74,8 @@ def modified_gap(
 ) -> Float[Array, "segment node slot"]:
     """What modifications and misalignment leave open at slices of one side, m along the true normal.
 
-    Plain numbers; r is the signed distance (m). A gear turned by the angle γ in the plane of action opens
-    the flanks by z γ along the line of action and shifts them by −r γ along the axis, together by
-    γ (z cos β_n ∓ r sin β_n) along the normal of driving and back flanks.
+    Plain numbers; r is the signed distance (m).
     """
     z = np.tile(face_positions(float(assembly.common_width), slices), r.shape[-1] // slices)
-    motion = kinematics(assembly.path, r)
-    place = PairGeometry(motion, np.zeros_like(r), r, r, r, r)
-    turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
-    stand = modifications.misalignment
-    angle = stand.in_plane * np.cos(turned) + stand.out_of_plane * np.sin(turned)
-    leaning = normal_slope(slope, motion.pressure_angle)
-    opened = angle * (z - side * r * leaning) / np.sqrt(1.0 + leaning**2)
-    along = lead_gap(assembly, modifications, z) + bias_gap(assembly, modifications, (r, r), z)
-    return profile_gap(assembly, modifications, place) + along + opened
+    place = PairGeometry(kinematics(assembly.path, r), np.zeros_like(r), r, r, r, r)
+    return oblique_gap(assembly, modifications, place, z, slope, side)

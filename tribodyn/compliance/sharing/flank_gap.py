@@ -22,7 +22,7 @@ from tribodyn.geometry.flanks.modification import (
     Relief,
     broken_flank_rules,
 )
-from tribodyn.geometry.helix import normal_slope, pitch_slope
+from tribodyn.geometry.helix import normal_slope
 from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.curve import check_cover, interpolate
@@ -56,17 +56,20 @@ def oblique_gap(
     modifications: Modifications,
     geometry: PairGeometry,
     face_position: Float[Array, " slice"],
+    slope: float,
+    side: int = 1,
 ) -> Float[Array, "*pair slice"]:
     """`flank_gap` of slices each with its own geometry (…, slice), along the normal of helical flanks, m.
 
     A gear turned by γ in the plane of action moves by z γ along the line of action and by −r γ along the
-    axis: by γ (z cos β_n − r sin β_n) along the normal.
+    axis: by γ (z cos β_n ∓ r sin β_n) along the normal of driving (`side` 1) and back flanks (−1). `slope` is
+    tan β_w.
     """
     motion, (within, across) = geometry.motion, modifications.misalignment
-    slope = normal_slope(pitch_slope(assembly), motion.pressure_angle)
+    leaning = normal_slope(slope, motion.pressure_angle)
     turned = motion.pressure_angle - float(assembly.path.pressure_angle(0.0))
     angle = within * np.cos(turned) + across * np.sin(turned)
-    opened = angle * (face_position - motion.signed_distance * slope) / np.hypot(1.0, slope)
+    opened = angle * (face_position - side * motion.signed_distance * leaning) / np.hypot(1.0, leaning)
     profile = profile_gap(assembly, modifications, geometry)
     twist = bias_gap(assembly, modifications, (geometry.pinion_place, geometry.gear_place), face_position)
     return profile + lead_gap(assembly, modifications, face_position) + twist + opened

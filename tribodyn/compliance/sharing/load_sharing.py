@@ -29,7 +29,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData, body_of
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
-from tribodyn.geometry.helix import roll_shift
+from tribodyn.geometry.helix import pitch_slope, roll_shift
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
@@ -221,7 +221,8 @@ class LoadedFlanks(NamedTuple):
         Of a helical pair the geometry is that at `rolls`.
         """
         if is_helical(self.flexible.assembly):
-            return oblique_gap(self.flexible.assembly, self.modifications, geometry, self.face())
+            slope = pitch_slope(assembly := self.flexible.assembly)
+            return oblique_gap(assembly, self.modifications, geometry, self.face(), slope)
         return flank_gap(self.flexible.assembly, self.modifications, geometry, self.face())
 
     def rolls(self, roll: Float[Array, "*pair"]) -> Float[Array, "..."]:
