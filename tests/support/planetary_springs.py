@@ -1,8 +1,8 @@
 """Models of one planetary set of constant mesh stiffness, in its carrier's frame; no tooth geometry.
 
 The tables of the meshes are those of external involutes with one spring along the line of action; radii and
-directions are the set's, the ring's negative. Sun, ring and carrier turn positively counter-clockwise,
-planets clockwise.
+directions are the set's, the ring's negative. Sun and carrier turn positively counter-clockwise, planets and
+ring clockwise: as they do against the carrier.
 """
 
 from fractions import Fraction
@@ -120,7 +120,8 @@ def planetary_springs(
                 across_y=frame[1][1],
                 moves=moves_of(frame, (planet, -ring)),
                 driver_carried=-carried,
-                driven_carried=carried,
+                driven_carried=-carried,
+                driven_sense=-1.0,
             )
         )
         cycles.append(ring_cycle._replace(gear_pitch_radius=-ring))

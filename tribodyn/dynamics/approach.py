@@ -73,9 +73,10 @@ class Motion(NamedTuple):
     along_rate: Any  # rate of the translation along the pitch tangent, m/s
     turning_rate: Any  # rate of r_1 ϑ_1 − r_2 ϑ_2, m/s
     across_rate: Any  # m/s
-    driver_speed: Any  # this and the next: of the bodies against the frame of the mesh, rad/s
+    #: driver_speed, driven_speed: of the bodies against the frame of the mesh, rad/s, with their signed radii
+    driver_speed: Any
     driven_speed: Any
-    phase_rate: Any  # nominal speed of the driver at the reference's actual speed, rad/s
+    phase_rate: Any  # nominal such speed of the driver at the reference's actual speed, rad/s
     axial: Any  # along z at the pitch point, m
     lean_along: Any  # tilt that moves the +z side along the pitch tangent, rad
     lean_across: Any  # that moves it across, rad

@@ -161,8 +161,8 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
                 b = half + place_in_space(driven, direction, layout)
                 dy[b] = dy[b] + on_body(1, direction, along, across, axial, bend_along, bend_across, mesh)
         a, b = half + turn_of(driver, layout), half + turn_of(driven, layout)
-        dy[a] = dy[a] - resisting
-        dy[b] = dy[b] + driving
+        dy[a] = dy[a] - mesh.driver_sense * resisting
+        dy[b] = dy[b] + mesh.driven_sense * driving
         friction_power = friction_power + friction
         damping_power = damping_power + damping
         torque = parametric_torque(place, mesh, model, work[m])

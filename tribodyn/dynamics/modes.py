@@ -17,6 +17,8 @@ from tribodyn.train.structure import (
     TOWARDS,
     TURN,
     X,
+    driven_arm,
+    driver_arm,
     place_in_space,
     shift_of,
     turn_of,
@@ -112,7 +114,7 @@ def _directions(model: Model, m: int) -> Float[Array, "move coordinate"]:
     """What the coordinates move a mesh by: `structure.MOVES`."""
     layout, mesh = model.layout, model.meshes[m]
     rows = np.zeros((MOVES, layout.half))
-    ends = (layout.driver[m], mesh.driver_radius), (layout.driven[m], -mesh.driven_radius)
+    ends = (layout.driver[m], driver_arm(mesh)), (layout.driven[m], -driven_arm(mesh))
     for end, (body, turn) in enumerate(ends):
         moving = IN_SPACE if body < layout.spatial else 2 if body < layout.planar else 0
         places = [place_in_space(body, direction, layout) for direction in range(moving)]

@@ -10,7 +10,7 @@ from tribodyn.dynamics.equations import derivatives, resultants
 from tribodyn.dynamics.extremes import LOWEST, Extremes, highest_loaded
 from tribodyn.dynamics.faces import over_faces
 from tribodyn.dynamics.parameters import Model
-from tribodyn.dynamics.places import place_in_mesh
+from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.mesh.quasi_static import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.train.schedule import interval_of
@@ -122,9 +122,10 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         "transmission_error_normal": contacting(per_pair(contact.TRANSMISSION_ERROR), inside),
         "pressure_angle": contacting(np.arctan2(per_pair(contact.SIN), per_pair(contact.COS)), inside),
         "signed_distance": contacting(per_pair(contact.DISTANCE), inside),
-        "driver_torque": np.broadcast_to(resisting, count),
-        "driven_torque": np.broadcast_to(driving, count),
-        "driven_power": np.broadcast_to(driving * speed_of(model.layout.driven[m], samples.y, model), count),
+        # of the bodies in their own senses; the power that rolls, against the frame of the mesh
+        "driver_torque": np.broadcast_to(mesh.driver_sense * resisting, count),
+        "driven_torque": np.broadcast_to(mesh.driven_sense * driving, count),
+        "driven_power": np.broadcast_to(driving * motion_of(m, samples.y, model).driven_speed, count),
         "transmission_error_rotational": rotational_error(samples.y.T, m, model),
         "normal_load": np.where(inside, load, 0.0),
         "friction_force": np.where(inside, friction, 0.0),

@@ -11,6 +11,8 @@ from tribodyn.train.structure import (
     LEAN_ACROSS,
     LEAN_ALONG,
     TOWARDS,
+    driven_arm,
+    driver_arm,
     place_in_space,
     rolling_ratio,
     shifted,
@@ -51,9 +53,9 @@ def motion_of(m, y, model):
     z = shifted(driver, 1, y, layout) - shifted(driven, 1, y, layout)
     x_rate = shifting(driver, 0, y, layout) - shifting(driven, 0, y, layout)
     z_rate = shifting(driver, 1, y, layout) - shifting(driven, 1, y, layout)
-    turn = mesh.driver_radius * turned(driver, y, layout) - mesh.driven_radius * turned(driven, y, layout)
-    turning_rate = mesh.driver_radius * turning(driver, y, layout)
-    turning_rate = turning_rate - mesh.driven_radius * turning(driven, y, layout)
+    turn = driver_arm(mesh) * turned(driver, y, layout) - driven_arm(mesh) * turned(driven, y, layout)
+    turning_rate = driver_arm(mesh) * turning(driver, y, layout)
+    turning_rate = turning_rate - driven_arm(mesh) * turning(driven, y, layout)
     along, along_rate = mesh.along_x * x + mesh.along_y * z, mesh.along_x * x_rate + mesh.along_y * z_rate
     across, across_rate = (
         mesh.across_x * x + mesh.across_y * z,
@@ -72,8 +74,8 @@ def motion_of(m, y, model):
         along_rate,
         turning_rate,
         across_rate,
-        speed_of(driver, y, model) - mesh.driver_carried * reference,
-        speed_of(driven, y, model) - mesh.driven_carried * reference,
+        mesh.driver_sense * (speed_of(driver, y, model) - mesh.driver_carried * reference),
+        mesh.driven_sense * (speed_of(driven, y, model) - mesh.driven_carried * reference),
         rolling_ratio(m, model) * reference,
         tilted(ALONG_Z, m, 0, y, model) if layout.spatial > 0 else zero,
         tilted(LEAN_ALONG, m, 0, y, model) if layout.spatial > 0 else zero,

@@ -20,6 +20,8 @@ from tribodyn.train.links.chain import twist_under
 from tribodyn.train.structure import (
     GearMesh,
     displacements,
+    driven_arm,
+    driver_arm,
     rolling_ratio,
     shift_of,
     turn_of,
@@ -155,7 +157,7 @@ def _closed(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float
             value = start + twist if body == layout.first[link] else start - twist
         else:
             mesh = model.meshes[m]
-            ends = float(mesh.driver_radius), float(mesh.driven_radius)
+            ends = float(driver_arm(mesh)), float(driven_arm(mesh))
             if body == layout.driven[m]:
                 value = (ends[0] * start - errors[m]) / ends[1]
             else:

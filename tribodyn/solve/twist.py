@@ -17,11 +17,12 @@ def static_twist(model: Model) -> Float[Array, " mesh"]:
     """Cycles by which the load at the start brings every mesh further, z ϑ/2π of its driver's z teeth.
 
     The mean over the common period of ϑ, the micro-rotation of the driver against the reference at rest
-    without friction. 0 for meshes that the reference drives, and for all where no equilibrium is found.
+    without friction. 0 for meshes that the reference drives, and for all where no equilibrium is found. Of a
+    planet's meshes, by how much the rotation of its carrier moves the pitch point it is less.
     """
     layout, period = model.layout, model.schedule.period
     further = np.zeros(layout.meshes)
-    if not any(layout.driver):
+    if not any(layout.driver) and not any(layout.pins):
         return further
     smooth = frictionless(model)
     _, phases, intervals = interval_of((np.arange(PLACES) + 0.5) * period / PLACES, model.schedule)
@@ -34,5 +35,11 @@ def static_twist(model: Model) -> Float[Array, " mesh"]:
         return further
     mean = np.mean(states, axis=0)
     for m, mesh in enumerate(model.meshes):
-        further[m] = float(turned(layout.driver[m], mean, layout)) / float(mesh.table.pitch_angle)
+        ends = layout.driver[m], layout.driven[m]
+        turn = float(turned(ends[0], mean, layout))
+        for k, planet in enumerate(layout.first):
+            if layout.pins[k] and planet in ends:
+                sense = float(np.sign(mesh.driver_carried))  # of the carrier, by that of the driver
+                turn -= sense * float(turned(layout.second[k], mean, layout))
+        further[m] = float(mesh.driver_sense) * turn / float(mesh.table.pitch_angle)
     return further

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.structure import TURN, TrainLayout, shift_of, turn_of
+from tribodyn.train.structure import TURN, TrainLayout, driven_arm, driver_arm, shift_of, turn_of
 
 
 class TreeBranch(NamedTuple):
@@ -37,7 +37,8 @@ class Flow(NamedTuple):
     """Torques of a train at rest or accelerated as a rigid one."""
 
     branches: list[TreeBranch]
-    #: torque of a mesh on its driven body, N m; of the sign of its radius where it presses driving flanks
+    #: torque of a mesh on its driven body, N m, with its signed radius: of that sign where it presses driving
+    #: flanks
     on_driven: Float[Array, " mesh"]
     on_link: dict[int, float]  # torque with which a link of the tree turns its first end back, N m
     largest: float  # sum of all torques' magnitudes, as on the reference, N m
@@ -89,8 +90,9 @@ def flow(model: Any, extra: float = 0.0, largest_extra: float = 0.0) -> Flow:
     for branch in branches:
         if branch.mesh >= 0:
             mesh, torque = model.meshes[branch.mesh], on_body[branch.body]
-            back = -float(mesh.driven_radius / mesh.driver_radius)
-            on_driven[branch.mesh] = torque if branch.body == layout.driven[branch.mesh] else back * torque
+            back = -float(mesh.driver_sense * mesh.driven_radius / mesh.driver_radius)
+            of_driven = branch.body == layout.driven[branch.mesh]
+            on_driven[branch.mesh] = torque * (float(mesh.driven_sense) if of_driven else back)
     for m in np.flatnonzero(np.isnan(on_driven)):
         on_driven[m] = (through[0] if not model.options.drive else largest) / ratio[layout.driven[m]]
     on_link = {
@@ -112,9 +114,9 @@ def _shared(model: Any, wanted: Float[Array, " body"]) -> tuple[Float[Array, " m
     for m, mesh in enumerate(model.meshes):
         row = np.zeros(layout.half)
         along = float(mesh.along_x), float(mesh.along_y)
-        ends = (layout.driver[m], -1.0, mesh.driver_radius), (layout.driven[m], 1.0, mesh.driven_radius)
-        for body, sign, radius in ends:
-            row[turn_of(body, layout)] = sign * float(radius)
+        ends = (layout.driver[m], -1.0, driver_arm(mesh)), (layout.driven[m], 1.0, driven_arm(mesh))
+        for body, sign, arm in ends:
+            row[turn_of(body, layout)] = sign * float(arm)
             if body < layout.planar:
                 row[shift_of(body) : shift_of(body) + 2] = sign * np.array(along)
         rows.append(row)

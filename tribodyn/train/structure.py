@@ -102,6 +102,10 @@ class GearMesh(NamedTuple):
     #: next as the driven body does
     driver_carried: Any = 0.0
     driven_carried: Any = 0.0
+    #: −1 where the body's own sense of rotation is not that of its signed radius, as of an internal gear; the
+    #: next likewise
+    driver_sense: Any = 1.0
+    driven_sense: Any = 1.0
 
 
 class TrainLayout(NamedTuple):
@@ -231,8 +235,24 @@ def speed_of(body, y, model):
 
 @law
 def rolling_ratio(m, model):
-    """Nominal speed of a mesh's driver against the frame of the mesh, over the reference's."""
-    return model.bodies.ratio[model.options.layout.driver[m]] - model.meshes[m].driver_carried
+    """Nominal speed of a mesh's driver against the frame of the mesh, over the reference's.
+
+    Of the sign of its radius: with that of an internal gear it is negative.
+    """
+    mesh = model.meshes[m]
+    return mesh.driver_sense * (model.bodies.ratio[model.options.layout.driver[m]] - mesh.driver_carried)
+
+
+@law
+def driver_arm(mesh):
+    """What the driver's rotation in its own sense moves its pitch point by along the tangent, m/rad."""
+    return mesh.driver_sense * mesh.driver_radius
+
+
+@law
+def driven_arm(mesh):
+    """The same of the driven body."""
+    return mesh.driven_sense * mesh.driven_radius
 
 
 @law
@@ -279,7 +299,7 @@ def rotational_error(states: Any, mesh: int, model: Any) -> Any:
     """
     layout, part = model.options.layout, model.meshes[mesh]
     y = np.moveaxis(np.asarray(states), -1, 0)
-    return part.driver_radius * turned(layout.driver[mesh], y, layout) - part.driven_radius * turned(
+    return driver_arm(part) * turned(layout.driver[mesh], y, layout) - driven_arm(part) * turned(
         layout.driven[mesh], y, layout
     )
 
@@ -288,6 +308,6 @@ def rotational_error_rate(states: Any, mesh: int, model: Any) -> Any:
     """Its rate, m/s."""
     layout, part = model.options.layout, model.meshes[mesh]
     y = np.moveaxis(np.asarray(states), -1, 0)
-    return part.driver_radius * turning(layout.driver[mesh], y, layout) - part.driven_radius * turning(
+    return driver_arm(part) * turning(layout.driver[mesh], y, layout) - driven_arm(part) * turning(
         layout.driven[mesh], y, layout
     )

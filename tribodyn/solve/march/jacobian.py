@@ -38,6 +38,8 @@ from tribodyn.train.structure import (
     PARAMETRIC,
     TOWARDS,
     WORKS_OF_MESH,
+    driven_arm,
+    driver_arm,
     place_in_space,
     rolling_ratio,
     shift_of,
@@ -155,11 +157,11 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
                     continue  # the reference has no micro-rotation
                 j = first + (turn_1 if turns_driver else turn_2)
                 if which == TOWARDS:
-                    share = mesh.driver_radius if turns_driver else -mesh.driven_radius
+                    share = driver_arm(mesh) if turns_driver else -driven_arm(mesh)
                 elif which == DRIVER_RATE and turns_driver:
-                    share = mesh.driver_radius
+                    share = driver_arm(mesh)
                 elif which == DRIVEN_RATE and not turns_driver:
-                    share = mesh.driven_radius
+                    share = driven_arm(mesh)
                 else:
                     continue
             else:
@@ -176,8 +178,8 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
                 if body < (layout.planar if direction < AXIAL else layout.spatial):
                     force = on_body(end, direction, along, across, axial, leaning_along, leaning_across, mesh)
                     jacobian[half + place_in_space(body, direction, layout), j] += share * force
-            jacobian[half + turn_1, j] -= share * resisting
-            jacobian[half + turn_2, j] += share * driving
+            jacobian[half + turn_1, j] -= share * mesh.driver_sense * resisting
+            jacobian[half + turn_2, j] += share * mesh.driven_sense * driving
             jacobian[works + DAMPING, j] += share * damping
             jacobian[works + PARAMETRIC, j] += share * parametric
             jacobian[of_mesh + FRICTION, j] += share * friction

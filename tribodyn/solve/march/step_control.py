@@ -16,7 +16,7 @@ from tribodyn.dynamics.contact_forces import reversals_per_velocity
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, where
 from tribodyn.solve.integrator import Status
-from tribodyn.train.structure import rolling_ratio, shifted, turn_of, turned
+from tribodyn.train.structure import driven_arm, driver_arm, rolling_ratio, shifted, turn_of, turned
 
 #: First step to try and the smallest one, mesh cycles; a step is the last if it ends this close to the end.
 FIRST_STEP, MINIMUM_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
@@ -145,8 +145,8 @@ def largest_displacement(m, state, model):
     layout, mesh = model.options.layout, model.meshes[m]
     driver, driven = layout.driver[m], layout.driven[m]
     first, second = shift_size(driver, state, layout), shift_size(driven, state, layout)
-    error = mesh.driver_radius * plain(turned(driver, state, layout))
-    error = error - mesh.driven_radius * plain(turned(driven, state, layout))
+    error = driver_arm(mesh) * plain(turned(driver, state, layout))
+    error = error - driven_arm(mesh) * plain(turned(driven, state, layout))
     return maximum(maximum(first, second), absolute(error))
 
 

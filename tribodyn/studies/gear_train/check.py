@@ -102,7 +102,7 @@ def _train(prepared: PreparedTrain) -> dict[str, Any]:
             "rate": str(mesh.rate),
             "phase": float(prepared.phases.meshes[m]),
             "azimuth": float(mesh.azimuth),
-            "driven_torque": float(torques[m]),
+            "driven_torque": float(torques[m] * model.meshes[m].driven_sense),
         }
         for m, mesh in enumerate(case.meshes)
     }
