@@ -1,8 +1,9 @@
-"""Speeds and senses of rotation of a train of external gears, in whole numbers.
+"""Speeds and senses of rotation of a train of external gears and planetary sets, in whole numbers.
 
 A mesh turns its gears against each other, at speeds in the inverse ratio of their teeth. A coupling (a shaft,
-rigid or compliant) turns its bodies alike. Power flows outward from the input: of a mesh's two bodies the one
-that is fewer meshes away from the input drives.
+rigid or compliant) turns its bodies alike. A planetary set of which one member is held turns the other two in
+one ratio. Power flows outward from the input: of a mesh's two bodies the one that is fewer meshes away from
+the input drives; in a set as its torques have it, from the sun or from the ring to the planets.
 
 Body 0 of the result is the *reference body*: it drives mesh 0, the *reference mesh*, the first one that the
 input's power meets. Speeds are given over that body's; turns are measured in cycles of that mesh.
@@ -14,6 +15,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from tribodyn.errors import InputError
+from tribodyn.train.planetary import CARRIER, RING, SUN, SetTeeth, speeds, willis
 from tribodyn.train.schedule import common_period
 
 
@@ -30,7 +32,7 @@ class Toothed(NamedTuple):
     name: str
     key: str
     body: int
-    teeth: int
+    teeth: int  # negative of an internal gear
 
 
 class Joint(NamedTuple):
@@ -38,6 +40,22 @@ class Joint(NamedTuple):
 
     key: str
     ends: tuple[int, int]
+    of_set: int = -1  # number of the planetary set that a mesh belongs to; -1: none
+
+
+class SetMembers(NamedTuple):
+    """A planetary set by its bodies."""
+
+    key: str  # where it stands in the scenario, dotted
+    members: dict[str, int]  # sun, ring, carrier
+    planets: tuple[int, ...]
+    teeth: SetTeeth
+    held: str  # the member that does not turn
+
+    def turning(self) -> tuple[str, str]:
+        """The two members that turn."""
+        first, second = (name for name in self.members if name != self.held)
+        return first, second
 
 
 class TrainSpeeds(NamedTuple):
@@ -50,13 +68,22 @@ class TrainSpeeds(NamedTuple):
     meshes: tuple[int, ...]  # in their new order: the reference mesh first, the others as given
     input: int  # new index of the body at which power enters
     ratio: tuple[Fraction, ...]  # of each body in the new order: |speed| over the reference body's
-    sense: tuple[int, ...]  # likewise: +1 counter-clockwise seen from +z, −1 clockwise
+    #: likewise: +1 counter-clockwise seen from +z, −1 clockwise; of gears of a set as they turn against its
+    #: carrier
+    sense: tuple[int, ...]
     #: driver, driven: new indices of the bodies of each mesh in the new order
     driver: tuple[int, ...]
     driven: tuple[int, ...]
     gears: tuple[tuple[int, int], ...]  # driving and driven gear of each mesh in the new order
     rate: tuple[Fraction, ...]  # cycles of each mesh, in the new order, per cycle of the reference mesh
     period: int  # fewest reference cycles after which every mesh is at the phase it began at
+    carrier: tuple[int, ...]  # new index of the body that carries each mesh; -1: the housing
+
+    def carried(self, body: int, carrier: int) -> Fraction:
+        """Speed of a carrier (new index) over the reference's in the sense of a body; of -1 nothing."""
+        if carrier < 0:
+            return Fraction(0)
+        return self.ratio[carrier] * self.sense[carrier] * self.sense[body]
 
 
 def kinematics(
@@ -66,38 +93,50 @@ def kinematics(
     couplings: Sequence[Joint],
     source: int,
     sense: int,
+    sets: Sequence[SetMembers] = (),
+    preferred: Sequence[int] = (),
 ) -> TrainSpeeds:
     """Work out which end of each mesh drives, and how fast and which way every body turns.
 
     `source` is the body at which power enters, `sense` its sense of rotation (+1: counter-clockwise seen from
-    +z). Raises InputError for a gear without a mesh, a mesh of gears that turn together, loops whose ratios
-    or senses contradict each other, bodies that the input does not turn, and a train without a mesh.
+    +z); the reference mesh is one of the `preferred` ones, if there are any. Raises InputError for a gear
+    without a mesh, a mesh of gears that turn together, loops whose ratios or senses contradict each other,
+    bodies that the input does not turn, and a train without a mesh.
     """
     _refuse_idle_gears(gears, meshes)
     joints = [_by_bodies(gears, mesh) for mesh in meshes]
-    found = _spread(len(bodies), gears, meshes, joints, couplings, source, sense)
+    found = _spread(len(bodies), gears, meshes, joints, couplings, source, sense, sets)
+    drives = [_turn_set(bodies, one, found) for one in sets]
     _refuse_unreached(bodies, gears, found)
     for place, mesh in enumerate(meshes):
-        _check_mesh(bodies, gears, mesh, joints[place], found)
+        if mesh.of_set < 0:
+            _check_mesh(bodies, gears, mesh, joints[place], found)
     for coupling in couplings:
         _check_coupling(bodies, coupling, found)
 
-    away = [min(found[end].away for end in joint) for joint in joints]
-    reference = away.index(min(away))
-    order = (reference, *(place for place in range(len(meshes)) if place != reference))
-    ends = [meshes[place].ends for place in order]
     driving = [
-        (one, two) if found[gears[one].body].away < found[gears[two].body].away else (two, one)
-        for one, two in ends
+        _driving(gears, mesh, found)
+        if mesh.of_set < 0
+        else _driving_in_set(gears, mesh, sets[mesh.of_set], drives[mesh.of_set])
+        for mesh in meshes
     ]
+    away = [min(found[end].away for end in joint) for joint in joints]
+    turning = [place for place, (driver, _) in enumerate(driving) if found[gears[driver].body].speed]
+    reference = min([place for place in turning if place in preferred] or turning, key=lambda m: (away[m], m))
+    order = (reference, *(place for place in range(len(meshes)) if place != reference))
+    carrier = [sets[mesh.of_set].members[CARRIER] if mesh.of_set >= 0 else -1 for mesh in meshes]
+    driving, carrier = [driving[place] for place in order], [carrier[place] for place in order]
     first = gears[driving[0][0]]
     numbers = (first.body, *(body for body in range(len(bodies)) if body != first.body))
-    new = {body: index for index, body in enumerate(numbers)}
+    new = {body: index for index, body in enumerate(numbers)} | {-1: -1}
     scale = found[first.body].speed
     ratio = tuple(found[body].speed / scale for body in numbers)
-    rate = tuple(
-        Fraction(gears[driver].teeth, first.teeth) * ratio[new[gears[driver].body]] for driver, _ in driving
-    )
+    cycles = [
+        abs(gears[driver].teeth)
+        * abs(found[gears[driver].body].signed - (found[by].signed if by >= 0 else 0))
+        for (driver, _), by in zip(driving, carrier, strict=True)
+    ]
+    rate = tuple(each / cycles[0] for each in cycles)
     return TrainSpeeds(
         bodies=numbers,
         meshes=order,
@@ -109,6 +148,7 @@ def kinematics(
         gears=tuple(driving),
         rate=rate,
         period=common_period(rate),
+        carrier=tuple(new[by] for by in carrier),
     )
 
 
@@ -118,6 +158,59 @@ class _Turning(NamedTuple):
     speed: Fraction  # over the input's
     sense: int
     away: int  # meshes between it and the input
+
+    @property
+    def signed(self) -> Fraction:
+        """Speed, counter-clockwise positive."""
+        return self.speed * self.sense
+
+
+#: Away from the input by more meshes than any train has: what it does not turn.
+_HELD = 1_000_000
+
+
+def _driving(gears: Sequence[Toothed], mesh: Joint, found: dict[int, _Turning]) -> tuple[int, int]:
+    """Driving and driven gear of a mesh in the housing."""
+    one, two = mesh.ends
+    return (one, two) if found[gears[one].body].away < found[gears[two].body].away else (two, one)
+
+
+def _driving_in_set(
+    gears: Sequence[Toothed], mesh: Joint, members: SetMembers, drives: str
+) -> tuple[int, int]:
+    """Driving and driven gear of a set's mesh, where the sun or the ring `drives` the planets."""
+    one, two = mesh.ends
+    central, planet = (two, one) if gears[one].body in members.planets else (one, two)
+    is_driver = gears[central].body == members.members[drives]
+    return (central, planet) if is_driver else (planet, central)
+
+
+def _turn_set(bodies: Sequence[Named], own: SetMembers, found: dict[int, _Turning]) -> str:
+    """Add a set's held member and planets to what turns; returns which of sun and ring drives the planets."""
+    held = own.members[own.held]
+    if held in found and found[held].speed:
+        rule = f"{bodies[held].name} is held, and other stages or shafts turn it"
+        raise InputError(f"{own.key}.held", own.held, rule, "hold another member, or part the two")
+    members = [own.members[name] for name in own.turning() if own.members[name] in found]
+    if len(members) < 2:
+        names = " nor ".join(bodies[own.members[name]].name for name in own.turning())
+        rule = f"the input turns neither {names} of this planetary stage"
+        remedy = "add the [[stage]], [[shaft]] or [[link]] that turns one of them"
+        raise InputError(own.key, None, rule, remedy)
+    driving = min(own.turning(), key=lambda name: found[own.members[name]].away)
+    turning = found[own.members[driving]]
+    each = {name: speed * turning.signed for name, speed in speeds(own.teeth, own.held, driving).items()}
+    for name, speed in each.items():
+        for body in own.planets if name == "planet" else (own.members[name],):
+            rolling = speed if name == CARRIER else speed - each[CARRIER]
+            way = -1 if rolling < 0 else 1
+            if body == held and body in found and found[body].sense != way:
+                rule = f"{bodies[body].name} is held in two stages whose planets roll in opposite senses"
+                raise InputError(f"{own.key}.held", own.held, rule, "name two gears, one in each stage")
+            if name == "planet" or body == held:
+                found[body] = _Turning(abs(speed), way, turning.away + 1 if body != held else _HELD)
+    enters = willis(own.teeth)[SUN] * (each[SUN] - each[CARRIER]) / willis(own.teeth)[driving]
+    return SUN if enters * turning.sense > 0 else RING
 
 
 def _by_bodies(gears: Sequence[Toothed], mesh: Joint) -> tuple[int, int]:
@@ -147,6 +240,7 @@ def _spread(
     couplings: Iterable[Joint],
     source: int,
     sense: int,
+    sets: Sequence[SetMembers],
 ) -> dict[int, _Turning]:
     """Go outward from the input, over couplings first, so that every body is reached by fewest meshes."""
     coupled: list[list[int]] = [[] for _ in range(count)]
@@ -154,11 +248,18 @@ def _spread(
         one, two = coupling.ends
         coupled[one].append(two)
         coupled[two].append(one)
+    # bodies that a mesh or a set turns, and by how much, < 0: the other way
     meshing: list[list[tuple[int, Fraction]]] = [[] for _ in range(count)]
     for mesh, (one, two) in zip(meshes, joints, strict=True):
-        ratio = Fraction(gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth)
-        meshing[one].append((two, ratio))
-        meshing[two].append((one, 1 / ratio))
+        if mesh.of_set < 0:
+            ratio = Fraction(-gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth)
+            meshing[one].append((two, ratio))
+            meshing[two].append((one, 1 / ratio))
+    for own in sets:
+        one, two = own.turning()
+        ratio = speeds(own.teeth, own.held, one)[two]
+        meshing[own.members[one]].append((own.members[two], ratio))
+        meshing[own.members[two]].append((own.members[one], 1 / ratio))
     found = {source: _Turning(Fraction(1), sense, 0)}
     waiting = deque([source])
     done: set[int] = set()
@@ -174,7 +275,7 @@ def _spread(
                 waiting.appendleft(other)
         for other, ratio in meshing[body]:
             if other not in found:
-                found[other] = _Turning(speed * ratio, -way, away + 1)
+                found[other] = _Turning(speed * abs(ratio), way if ratio > 0 else -way, away + 1)
                 waiting.append(other)
     return found
 
@@ -198,11 +299,12 @@ def _check_mesh(
 ) -> None:
     one, two = (found[body] for body in joint)
     names = [bodies[body].name for body in joint]
-    if one.sense == two.sense:
+    external = gears[mesh.ends[0]].teeth * gears[mesh.ends[1]].teeth > 0
+    if (one.sense == two.sense) is external:
         rule = f"closes a loop in which {names[0]} and {names[1]} turn the same way, and cannot mesh"
         remedy = "a loop of external gears needs an even number of meshes"
         raise InputError(mesh.key, None, rule, remedy)
-    by_mesh = one.speed * gears[mesh.ends[0]].teeth / gears[mesh.ends[1]].teeth
+    by_mesh = one.speed * abs(Fraction(gears[mesh.ends[0]].teeth, gears[mesh.ends[1]].teeth))
     if by_mesh != two.speed:
         rule = (
             f"closes a loop whose ratios contradict each other: by this mesh {names[1]} turns at {by_mesh} "

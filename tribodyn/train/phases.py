@@ -30,9 +30,19 @@ class ToothedShaft(NamedTuple):
 
     name: str
     shaft: int
-    teeth: int
-    sense: int  # +1 counter-clockwise seen from +z, −1 clockwise
+    teeth: int  # negative of an internal gear
+    sense: int  # +1 counter-clockwise seen from +z, −1 clockwise; of a gear of a set against its carrier
     tooth_angle: float = 0.0  # of one of its teeth from the shaft's mark, counter-clockwise, rad
+
+    @property
+    def signed_sense(self) -> int:
+        """The sense in which a gear of the signed radius turns positively."""
+        return self.sense if self.teeth > 0 else -self.sense
+
+    @property
+    def signed_angle(self) -> float:
+        """The tooth's angle in polar coordinates whose radius is negative of an internal gear, rad."""
+        return self.tooth_angle if self.teeth > 0 else self.tooth_angle + pi
 
 
 class Engagement(NamedTuple):
@@ -88,14 +98,14 @@ def nominal_phases(gears: Sequence[ToothedShaft], meshes: Sequence[Engagement]) 
 
 def driver_phase(driver: ToothedShaft, mesh: Engagement, mark: float) -> float:
     """Phase of a mesh, 0 ≤ … < 1, by its driver, whose shaft's mark stands in this direction (rad)."""
-    place = driver.sense * (mark + driver.tooth_angle - mesh.azimuth)
+    place = driver.signed_sense * (mark + driver.signed_angle - mesh.azimuth)
     return _fraction(driver.teeth * (place + mesh.half_angles[0] - mesh.entry) / (2.0 * pi))
 
 
 def driven_phase(gears: Sequence[ToothedShaft], mesh: Engagement, mark: float) -> float:
     """Phase of a mesh, 0 ≤ … < 1, by its driven gear, whose shaft's mark stands in this direction (rad)."""
     driver, driven = (gears[end] for end in mesh.gears)
-    place = driven.sense * (mark + driven.tooth_angle - mesh.azimuth - pi)
+    place = driven.signed_sense * (mark + driven.signed_angle - mesh.azimuth - pi)
     turned = driven.teeth * (place - mesh.half_angles[1]) - driver.teeth * mesh.entry
     return _fraction(turned / (2.0 * pi))
 
@@ -110,14 +120,14 @@ def _driver_mark(gears: Sequence[ToothedShaft], mesh: Engagement, phase: float) 
     """Direction of the mark of the driver's shaft at a phase of the mesh, rad."""
     driver = gears[mesh.gears[0]]
     place = 2.0 * pi * phase / driver.teeth + mesh.entry - mesh.half_angles[0]
-    return mesh.azimuth + driver.sense * place - driver.tooth_angle
+    return mesh.azimuth + driver.signed_sense * place - driver.signed_angle
 
 
 def _driven_mark(gears: Sequence[ToothedShaft], mesh: Engagement, phase: float) -> float:
     """Direction of the mark of the driven gear's shaft at a phase of the mesh, rad."""
     driver, driven = (gears[end] for end in mesh.gears)
     place = (2.0 * pi * phase + driver.teeth * mesh.entry) / driven.teeth + mesh.half_angles[1]
-    return mesh.azimuth + pi + driven.sense * place - driven.tooth_angle
+    return mesh.azimuth + pi + driven.signed_sense * place - driven.signed_angle
 
 
 def _check_loop(
@@ -135,7 +145,7 @@ def _check_loop(
     for end, cycles in zip(mesh.gears, (-missed, missed), strict=True):
         gear = gears[end]
         if sum(other.shaft == gear.shaft for other in gears) > 1:
-            pitch = 2.0 * pi / gear.teeth
+            pitch = 2.0 * pi / abs(gear.teeth)
             turned = gear.tooth_angle + gear.sense * cycles * pitch
             wanted = (turned + pitch / 2.0) % pitch - pitch / 2.0
             remedy += f', or turn {gear.name} on its shaft: tooth_angle = "{180.0 / pi * wanted:.6f} deg"'

@@ -25,23 +25,30 @@ def nominal_torques(
 ) -> Torques:
     """Balance the loads (N m, of every body against its motion) through meshes and couplings.
 
-    `teeth` are those of each mesh's driver and driven gear; couplings join bodies, by their new indices. In a
-    train with loops the balance leaves open how these share the load: here the sum of the squares of all
-    tangential forces, taken over their modules, is least.
+    `teeth` are those of each mesh's driver and driven gear, without signs; couplings join bodies, by their
+    new indices. Bodies that do not turn bear any torque. In a train with loops the balance leaves open how these
+    share the load: here the sum of the squares of all tangential forces, taken over their modules, is least.
     """
     bodies, meshes = len(motion.bodies), len(teeth)
-    balance = np.zeros((bodies, meshes + len(couplings) + 1))
+    held = [body for body in range(bodies) if motion.ratio[body] == 0]
+    balance = np.zeros((bodies, meshes + len(couplings) + 1 + len(held)))
     for mesh, (own, other) in enumerate(teeth):
-        balance[motion.driver[mesh], mesh] -= own
-        balance[motion.driven[mesh], mesh] += other
+        driver, driven, carrier = motion.driver[mesh], motion.driven[mesh], motion.carrier[mesh]
+        balance[driver, mesh] -= own
+        balance[driven, mesh] += other
+        if carrier >= 0:  # the pin bears what the planet's forces have about the axis of the set
+            on_both = other * motion.sense[driven] - own * motion.sense[driver]
+            balance[carrier, mesh] -= motion.sense[carrier] * on_both
     scale = float(np.mean(teeth))  # a coupling's torque counts like that of a gear of the mean size
     for place, (one, two) in enumerate(couplings, start=meshes):
         balance[one, place] -= scale
         balance[two, place] += scale
-    balance[motion.input, -1] = scale
+    balance[motion.input, meshes + len(couplings)] = scale
+    for place, body in enumerate(held, start=meshes + len(couplings) + 1):
+        balance[body, place] = scale
     found, *_ = np.linalg.lstsq(balance, np.asarray(loads, dtype=float), rcond=None)
     return Torques(
         tuple(float(force * other) for force, (_, other) in zip(found[:meshes], teeth, strict=True)),
-        float(found[-1] * scale),
-        tuple(float(torque * scale) for torque in found[meshes:-1]),
+        float(found[meshes + len(couplings)] * scale),
+        tuple(float(torque * scale) for torque in found[meshes : meshes + len(couplings)]),
     )

@@ -19,6 +19,7 @@ from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.train.links.law import LinkLaw
 from tribodyn.train.links.linear import LAW as LINEAR_LINK
 from tribodyn.train.phases import ToothedShaft
+from tribodyn.train.planetary import SetTeeth
 
 #: As an end of a link: the housing.
 HOUSING = -1
@@ -32,7 +33,7 @@ class GearData:
     key: str  # where it stands in the scenario, dotted
     body: int
     shaft: int  # number of its shaft: bodies that couplings join have one
-    teeth: int
+    teeth: int  # negative of an internal gear
     plane: int  # gears in the same plane need room beside each other
     tooth_angle: float  # of one of its teeth from the shaft's mark, counter-clockwise, rad
     given: BodyMass  # mass and inertia that the scenario gives
@@ -58,6 +59,7 @@ class BodyData:
     sense: int  # +1 counter-clockwise seen from +z, −1 clockwise
     centre: tuple[float, float]  # m; the reference body's is the origin
     attached: float = 0.0  # share of `inertia` that the body drives or is driven by, kg m²
+    floating: bool = False  # whether it moves in the plane without a bearing
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,10 @@ class LinkData:
     law: LinkLaw = LINEAR_LINK  # of its rotation
     values: Mapping[str, Any] = field(default_factory=dict)  # of the law's own keys, in SI units
     bearing: BearingData | None = None  # that the link is, for bodies that move in space
+    #: lever, offset: of a planet's pin, see `train.structure.Links`: lever of the carrier, m/rad; m
+    lever: tuple[float, float] | None = None
+    offset: tuple[float, float] = (0.0, 0.0)
+    holds: bool = False  # whether it holds the first end against rotation
 
 
 @dataclass(frozen=True)
@@ -95,6 +101,26 @@ class TrainMesh:
     #: its gears as a pair whose pinion is the driver, at the nominal speed of that and the nominal torque of
     #: the driven gear
     pair: LubricatedCase
+    carrier: int = -1  # body that carries it; -1: the housing
+
+
+@dataclass(frozen=True)
+class SetData:
+    """A planetary set by its bodies."""
+
+    name: str
+    key: str
+    members: Mapping[str, int]  # sun, ring, carrier
+    planets: tuple[int, ...]
+    angles: tuple[float, ...]  # of the planets, counter-clockwise from x, rad
+    teeth: SetTeeth
+    held: str  # the member that does not turn
+    frame_forces: bool  # whether Coriolis and centrifugal forces are counted
+
+    @property
+    def bodies(self) -> tuple[int, ...]:
+        """All of its bodies, the members first."""
+        return (*self.members.values(), *self.planets)
 
 
 @dataclass(frozen=True)
@@ -137,10 +163,11 @@ class TrainCase(CaseHead):
     max_period: int  # of which steady states are looked for, at most
     solver: SolverData
     output: OutputData
+    sets: tuple[SetData, ...] = ()
 
     @property
     def helical(self) -> bool:
-        """Whether a stage has helical teeth: bodies that bearings hold move in space then."""
+        """Whether a stage has helical teeth: bodies outside sets that bearings hold move in space then."""
         return any(float(mesh.pair.drive.helix_angle) != 0.0 for mesh in self.meshes)
 
     def chosen(self) -> dict[str, str]:

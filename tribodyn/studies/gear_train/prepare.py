@@ -26,6 +26,7 @@ from tribodyn.studies.gears.prepare import Thermal
 from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases
+from tribodyn.train.planetary import CARRIER
 from tribodyn.train.positions import frame_of
 from tribodyn.train.schedule import schedule_of
 from tribodyn.train.structure import GROUND, IN_SPACE, TURN, Bodies, Links, TrainLayout, layout_of
@@ -83,7 +84,8 @@ def prepare(case: TrainCase, made: tuple[Tabulated, ...] | None = None) -> Prepa
 
 def _held(case: TrainCase, body: int) -> bool:
     """Whether bearings hold a body, which then moves in the plane; another one only turns."""
-    return any(body in link.ends and min(link.stiffness[:2]) > 0.0 for link in case.links)
+    springs = any(body in link.ends and min(link.stiffness[:2]) > 0.0 for link in case.links)
+    return springs or case.bodies[body].floating
 
 
 def _order(case: TrainCase) -> tuple[int, ...]:
@@ -93,7 +95,14 @@ def _order(case: TrainCase) -> tuple[int, ...]:
     if held and 0 not in held:
         rule = "the body that drives the reference mesh has no bearing, but others have"
         raise InputError(case.bodies[0].key, case.bodies[0].name, rule, "give it a bearing, or none to any")
+    # those that move in space before those that only move in the plane
+    held.sort(key=lambda body: body != 0 and not _moves_in_space(case, body))
     return (*held, *(body for body in numbers if body not in held))
+
+
+def _moves_in_space(case: TrainCase, body: int) -> bool:
+    """Whether a body that bearings hold moves in space: in a helical train all outside planetary sets."""
+    return case.helical and not any(body in own.bodies for own in case.sets)
 
 
 def _model(
@@ -115,6 +124,7 @@ def _model(
         load=np.zeros(layout.bodies),
         load_damping=np.zeros(layout.bodies),
         tilting=np.array([inertias[body].tilting for body in order[: layout.spatial]]),
+        **_frames(case, order[: layout.planar]),
     )
     for load in case.loads:
         bodies.load[new[load.body]] += load.torque
@@ -131,10 +141,20 @@ def _model(
     own = [each.inertia - body.attached for each, body in zip(inertias, case.bodies, strict=True)]
     for mesh, each, pair, closure in zip(case.meshes, made, pairs, closures, strict=True):
         ends = own[mesh.driver], own[mesh.driven]
-        frame = frame_of(mesh.azimuth, case.bodies[mesh.driver].sense)
+        senses = [-1.0 if case.gears[gear].teeth < 0 else 1.0 for gear in mesh.gears]
+        frame = frame_of(mesh.azimuth, round(case.bodies[mesh.driver].sense * senses[0]))
         hand = hand_of(pair.drive, clockwise=case.bodies[mesh.driver].sense < 0)
         one, two = (case.gears[gear].axial_position for gear in mesh.gears)
-        meshes.append(mesh_of(pair, each, closure, ends, frame, hand, (one, two)))
+        own_mesh = mesh_of(pair, each, closure, ends, frame, hand, (one, two))
+        carried = [carried_ratio(case, body, mesh.carrier) for body in (mesh.driver, mesh.driven)]
+        meshes.append(
+            own_mesh._replace(
+                driver_carried=carried[0],
+                driven_carried=carried[1],
+                driver_sense=senses[0],
+                driven_sense=senses[1],
+            )
+        )
     drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
     varying = _varying(case)
     first = case.meshes[0].pair
@@ -146,6 +166,7 @@ def _model(
             np.array(damping).reshape(-1, 3),
             of_links,
             *_in_space(case, damping, inertias, layout),
+            *_pins(case, layout),
         ),
         schedule_of(
             [np.asarray(each.table.boundary) for each in made],
@@ -154,7 +175,7 @@ def _model(
         ),
         parameters.Operation(
             nominal_speed=source.speed / float(case.bodies[source.body].ratio),
-            pitch_angle=2.0 * pi / float(first.drive.pinion.teeth),
+            pitch_angle=2.0 * pi / abs(float(first.drive.pinion.teeth)) / _rolling(case),
             drive_torque=source.torque,
             speed_regulation=source.speed_regulation,
             contact_width=first.mesh.contact_width,
@@ -163,6 +184,45 @@ def _model(
         ),
         options_of(first, [each.cycle for each in made], closures[0], layout, drive)._replace(links=chain),
     )
+
+
+def carried_ratio(case: TrainCase, body: int, carrier: int) -> float:
+    """Speed of a carrier over the reference's in the sense of a body; of −1 nothing."""
+    if carrier < 0:
+        return 0.0
+    other = case.bodies[carrier]
+    return float(other.ratio) * other.sense * case.bodies[body].sense
+
+
+def _rolling(case: TrainCase) -> float:
+    """Speed of the reference against what carries its mesh, over its own."""
+    return 1.0 - carried_ratio(case, 0, case.meshes[0].carrier)
+
+
+def _frames(case: TrainCase, bodies: Sequence[int]) -> dict[str, Float[Array, "..."]]:
+    """What `Bodies` says of frames that turn with carriers, of the case's bodies that move in the plane."""
+    if not case.sets:
+        return {}
+    speed = case.source.speed / float(case.bodies[case.source.body].ratio)
+    carried, frame_speed, place = np.zeros(len(bodies)), np.zeros(len(bodies)), np.zeros((len(bodies), 2))
+    for own in case.sets:
+        carrier = case.bodies[own.members[CARRIER]]
+        for row in (row for row, body in enumerate(bodies) if body in own.bodies):
+            carried[row] = float(carrier.ratio) * carrier.sense
+            frame_speed[row] = carried[row] * speed if own.frame_forces else 0.0
+            place[row] = np.subtract(case.bodies[bodies[row]].centre, carrier.centre)
+    return {"carried": carried, "frame_speed": frame_speed, "place": place}
+
+
+def _pins(case: TrainCase, layout: TrainLayout) -> tuple[Float[Array, "link end 2"], Float[Array, "link 2"]]:
+    """Levers and offsets of the links; empty where there are no sets."""
+    count = layout.links if case.sets else 0
+    lever, offset = np.zeros((count, 2, 2)), np.zeros((count, 2))
+    for number, link in enumerate(case.links if count else ()):
+        offset[number] = link.offset
+        if link.lever:
+            lever[number, 1] = link.lever
+    return lever, offset
 
 
 def _in_space(
@@ -220,7 +280,10 @@ def _layout(case: TrainCase, new: dict[int, int]) -> TrainLayout:
         ends,
         count if shaft else source,
         new[_varying(case).body],
-        spatial=planar if case.helical else 0,
+        spatial=sum(_held(case, body) and _moves_in_space(case, body) for body in new),
+        pins=[number for number, link in enumerate(case.links) if link.lever],
+        holds=[number for number, link in enumerate(case.links) if link.holds],
+        frames=int(bool(case.sets)),
     )
 
 

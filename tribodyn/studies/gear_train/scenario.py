@@ -1,8 +1,10 @@
 """The scenario of a train, and the case that is made of it."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Annotated, Any, Literal, NamedTuple
 
+import numpy as np
 from pydantic import Discriminator, Field, Tag
 
 from tribodyn.dynamics.data import BearingData, OperatingData
@@ -20,22 +22,24 @@ from tribodyn.studies.gear_train.case import (
     BodyData,
     GearData,
     LinkData,
+    SetData,
     SourceData,
     TrainCase,
     TrainMesh,
 )
 from tribodyn.studies.gear_train.described.drawn import Drawn, Moving, drawn, moving
 from tribodyn.studies.gear_train.described.duty import TrainDuty, duty_of, motor_torque
+from tribodyn.studies.gear_train.described.planets import SetPart, pin_offset
 from tribodyn.studies.gear_train.described.structure import bearings_by_body, mesh_table
 from tribodyn.studies.gear_train.described.tables import (
     MOST_PARTS,
+    AnyStage,
     BareBody,
     BareMesh,
     Link,
     LoadTable,
     PartName,
     Shaft,
-    Stage,
     TrainBearings,
     TrainGear,
     TrainOperating,
@@ -46,6 +50,7 @@ from tribodyn.studies.gears.motion import Friction, Mesh, Output, Solver, moving
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
 from tribodyn.train.links import LINK_LAWS
+from tribodyn.train.planetary import CARRIER
 
 
 def _sort(mesh: Any) -> str:
@@ -76,7 +81,7 @@ class GearTrainScenario(ScenarioHead):
         None, description="a pair of gears, in place of [gear] and [[stage]]: a train of one stage"
     )
     gear: dict[PartName, TrainGear] = written({}, description="gears by name")
-    stage: tuple[Stage, ...] = Field((), max_length=MOST_PARTS, description="which gears mesh")
+    stage: tuple[AnyStage, ...] = Field((), max_length=MOST_PARTS, description="which gears mesh")
     shaft: tuple[Shaft, ...] = Field((), max_length=MOST_PARTS, description="which gears turn together")
     body: tuple[BareBody, ...] = Field((), max_length=MOST_PARTS, description="bodies without teeth")
     link: tuple[Link, ...] = Field((), max_length=MOST_PARTS, description="springs between bodies")
@@ -96,6 +101,10 @@ class GearTrainScenario(ScenarioHead):
 
 
 Scenario = GearTrainScenario
+
+
+#: Stiffness on its pitch circle with which a member is held where none is given, N/m: that of a stiff bearing.
+USUAL_SUPPORT = 1e9
 
 
 class PairView(NamedTuple):
@@ -147,7 +156,7 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
         **head,
         gears=gears,
         bodies=_bodies(scenario, train, figure, duty),
-        links=_links(scenario, train),
+        links=_links(scenario, train, figure),
         meshes=_meshes(scenario, train, figure, duty, head),
         source=_source(scenario, train, duty),
         loads=duty.loads,
@@ -155,6 +164,7 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
         max_period=max_period,
         solver=SolverData(**solver),
         output=OutputData(**scenario.output.model_dump()),
+        sets=tuple(_set(own, train) for own in train.parts.sets),
     )
 
 
@@ -170,7 +180,7 @@ def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:
                 gear.key,
                 new[gear.body],
                 figure.shafts[number],
-                gear.table.teeth,
+                gear.teeth,
                 figure.planes[number],
                 gear.tooth_angle,
                 _given_mass(train, number),
@@ -193,6 +203,7 @@ def _given_mass(train: Moving, number: int) -> BodyMass:
 
 def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tuple[BodyData, ...]:
     motion, operating, found = train.motion, scenario.operating, []
+    floating = {own.members[name] for own in train.parts.sets for name in own.table.floating}
     for number, body in enumerate(motion.bodies):
         part = train.parts.bodies[body]
         attached = sum(own for at, own in duty.inertias if at == number)
@@ -211,17 +222,19 @@ def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tup
                 motion.sense[number],
                 (float(x), float(y)),
                 attached,
+                body in floating,
             )
         )
     return tuple(found)
 
 
-def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
+def _links(scenario: Any, train: Moving, figure: Drawn) -> tuple[LinkData, ...]:
     new, found = train.numbers, []
     bearings = bearings_by_body(scenario, train.parts)
+    planets = {body for own in train.parts.sets for body in own.planets}
     for number, body in enumerate(train.motion.bodies):
         bearing = bearings[body]
-        if bearing is not None:
+        if bearing is not None and body not in planets:
             data: BearingData = bearing_of(bearing)
             found.append(
                 LinkData(
@@ -234,6 +247,8 @@ def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
                     bearing=data,
                 )
             )
+    for own in train.parts.sets:
+        found += _links_of_set(own, train, figure, bearings)
     for link in train.parts.links:
         one, two = (HOUSING if end < 0 else new[end] for end in link.ends)
         ends = (two, one) if one == HOUSING else (one, two)
@@ -244,6 +259,61 @@ def _links(scenario: Any, train: Moving) -> tuple[LinkData, ...]:
     return tuple(found)
 
 
+def _links_of_set(own: SetPart, train: Moving, figure: Drawn, bearings: Sequence[Any]) -> Iterator[LinkData]:
+    """Pins of the planets, and what holds a member against rotation."""
+    stage, new = own.table, train.numbers
+    carrier = new[own.members[CARRIER]]
+    sense, centre = train.motion.sense[carrier], figure.places.centres
+    for number, body in enumerate(own.planets):
+        bearing = bearings[body]
+        if bearing is None:
+            continue
+        data = bearing_of(bearing)
+        x, y = centre[new[body]] - centre[carrier]
+        yield LinkData(
+            f"pin-{train.parts.bodies[body].name}",
+            own.key,
+            (new[body], carrier),
+            (data.stiffness_x, data.stiffness_y, 0.0),
+            (0.0, 0.0, 0.0),
+            (data.damping_ratio_x, data.damping_ratio_y, 0.0),
+            lever=(-sense * float(y), sense * float(x)),
+            offset=pin_offset(stage, number),
+        )
+    stiffness = stage.support_stiffness
+    if stiffness is None:
+        stiffness = USUAL_SUPPORT * held_radius(own, train, figure) ** 2
+    yield LinkData(
+        f"support-{train.parts.bodies[own.held].name}",
+        own.key,
+        (new[own.held], HOUSING),
+        (0.0, 0.0, stiffness),
+        (0.0, 0.0, 0.0),
+        (0.0, 0.0, stage.support_damping_ratio),
+        holds=True,
+    )
+
+
+def held_radius(own: SetPart, train: Moving, figure: Drawn) -> float:
+    """Radius (m) of the pitch circle of the held member; of a carrier that on which the pins are."""
+    for mesh, gears in enumerate(train.motion.gears):
+        path = figure.assemblies[mesh].path
+        for gear, radius in zip(gears, (path.pinion_pitch_radius, path.gear_pitch_radius), strict=True):
+            if train.parts.gears[gear].body == own.held:
+                return abs(float(radius))
+    centre, new = figure.places.centres, train.numbers
+    return float(np.hypot(*(centre[new[own.planets[0]]] - centre[new[own.held]])))
+
+
+def _set(own: SetPart, train: Moving) -> SetData:
+    new, stage = train.numbers, own.table
+    members = {name: new[body] for name, body in own.members.items()}
+    planets = tuple(new[body] for body in own.planets)
+    return SetData(
+        stage.name, own.key, members, planets, stage.placed, own.teeth, stage.held, stage.frame_forces
+    )
+
+
 def _meshes(
     scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty, head: dict[str, str]
 ) -> tuple[TrainMesh, ...]:
@@ -251,7 +321,8 @@ def _meshes(
     first: LubricatedCase | None = None
     for mesh, place in enumerate(motion.meshes):
         view = pair_view(scenario, train, mesh)
-        speed = duty.speed * float(motion.ratio[motion.driver[mesh]])
+        driver, carrier = motion.driver[mesh], motion.carrier[mesh]
+        speed = duty.speed * float(motion.ratio[driver] - motion.carried(driver, carrier))
         pair = LubricatedCase(
             **head,
             **teeth_of(view.drive),
@@ -276,6 +347,7 @@ def _meshes(
                 figure.places.azimuths[mesh],
                 motion.rate[mesh],
                 _with_laws_of(pair, first),
+                carrier,
             )
         )
     return tuple(found)

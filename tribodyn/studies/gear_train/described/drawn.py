@@ -11,6 +11,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable
+from tribodyn.studies.gear_train.described.planets import coaxial
 from tribodyn.studies.gear_train.described.structure import (
     OF_DRIVE,
     Structure,
@@ -102,7 +103,7 @@ def drawn(train: Moving) -> Drawn:
         ]
         check_same_teeth(gear.key, gear.name, seen)
     new, couplings = train.numbers, train.couplings
-    axes = _placed(train, assemblies, couplings)
+    axes = _placed(train, assemblies)
     planes = _planes(parts)
     discs = [
         Disc(gear.name, gear.key, new[gear.body], plane, _tip(train, assemblies, number))
@@ -150,7 +151,7 @@ def key_in_train(key: str, train: Moving, mesh: int) -> str:
     return f"{part.key}.{rest}" if hasattr(part.table, side) else rest
 
 
-def _placed(train: Moving, assemblies: tuple[Assembly, ...], couplings: list[tuple[int, int]]) -> Centres:
+def _placed(train: Moving, assemblies: tuple[Assembly, ...]) -> Centres:
     """Axes, with azimuths from driver to driven."""
     parts, motion, new = train.parts, train.motion, train.numbers
     distances, turned = [], []
@@ -162,7 +163,8 @@ def _placed(train: Moving, assemblies: tuple[Assembly, ...], couplings: list[tup
         tolerance = LOOP_TOLERANCE * float(assembly.drive.module)
         distances.append(Distance(mesh.key, (one, two), apart, mesh.azimuth, tolerance))
         turned.append(mesh.gears != motion.gears[motion.meshes.index(number)])
-    found = places(len(parts.bodies), distances, couplings)
+    on_one_axis = [(new[one], new[two]) for one, two in coaxial(parts.sets)]
+    found = places(len(parts.bodies), distances, [*train.couplings, *on_one_axis])
     azimuths = tuple(
         remainder(azimuth + pi * reverse, 2.0 * pi)
         for azimuth, reverse in zip(found.azimuths, turned, strict=True)
@@ -194,7 +196,7 @@ def _check_phases(train: Moving, found: Drawn) -> None:
     """Raise InputError where the teeth of a loop do not meet."""
     parts, motion, new = train.parts, train.motion, train.numbers
     shafts = [
-        ToothedShaft(gear.name, shaft, gear.table.teeth, motion.sense[new[gear.body]], gear.tooth_angle)
+        ToothedShaft(gear.name, shaft, gear.teeth, motion.sense[new[gear.body]], gear.tooth_angle)
         for gear, shaft in zip(parts.gears, found.shafts, strict=True)
     ]
     nominal_phases(

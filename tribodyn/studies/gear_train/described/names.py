@@ -4,8 +4,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.studies.gear_train.described.planets import broken_sets, planetary_stages
 from tribodyn.studies.gear_train.described.structure import OF_DRIVE
-from tribodyn.studies.gear_train.described.tables import GROUND, Link, Shaft
+from tribodyn.studies.gear_train.described.tables import GROUND, Link, PlanetaryStage, Shaft
 
 _PLACE = "gear, shaft or body"
 _DEFAULT = "default"
@@ -21,8 +22,12 @@ def broken_names(scenario: Any) -> Iterator[InputError]:
             yield InputError(key, quoted(name), "has a meaning of its own", "use another name")
         elif name in names[:place]:
             yield InputError(key, quoted(name), "names two parts of the train", "use another name")
+    of_planets = [stage.planet for _, stage in planetary_stages(scenario)]
     for number, stage in enumerate(scenario.stage):
-        yield from _several(f"stage.{number}.gears", stage.gears, gears, "gear")
+        if not isinstance(stage, PlanetaryStage):
+            single = [name for name in gears if name not in of_planets]
+            yield from _several(f"stage.{number}.gears", stage.gears, single, "gear")
+    yield from broken_sets(scenario, gears)
     if isinstance(scenario.mesh, tuple):
         for number, mesh in enumerate(scenario.mesh):
             yield from _several(f"mesh.{number}.bodies", mesh.bodies, names, "body")
@@ -129,6 +134,10 @@ def _ends(scenario: Any, names: list[str]) -> Iterator[InputError]:
 
 
 def _compliant(scenario: Any, key: str, name: str) -> Iterator[InputError]:
+    for _, stage in planetary_stages(scenario):
+        if name == stage.planet:
+            rule = f"is a planet, of which there are {stage.planets}"
+            yield InputError(key, quoted(name), rule, "name the sun, the ring, the carrier or another body")
     for shaft in scenario.shaft:
         if shaft.name == name and shaft.stiffness is not None:
             rule = "is a compliant shaft, which has a body at either end"

@@ -1,20 +1,37 @@
 """From the names of a scenario to the bodies, gears, links and meshes of its train, each by its number.
 
 Bodies are the gears that a rigid shaft joins, every other gear by itself, and the bodies without teeth. They
-are in the order of the file here; the train's own order begins with the reference body, see
-`train.kinematics`.
+are in the order of the file here, the planets behind them; the train's own order begins with the reference
+body, see `train.kinematics`.
 """
 
 from collections.abc import Iterator, Sequence
 from math import pi
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
+from tribodyn.geometry.families import family
 from tribodyn.scenario.quantity import Printed
 from tribodyn.scenario.tables.bearings import Bearing
+from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
-from tribodyn.studies.gear_train.described.tables import GROUND, BareMesh, Link, LinkTable, Shaft, Stage
+from tribodyn.studies.gear_train.described.planets import (
+    SetPart,
+    meshes_of_set,
+    planet_names,
+    planetary_stages,
+    set_of,
+)
+from tribodyn.studies.gear_train.described.tables import (
+    GROUND,
+    BareMesh,
+    Link,
+    LinkTable,
+    PlanetaryStage,
+    Shaft,
+    Stage,
+)
 from tribodyn.studies.gears.motion import Mesh
-from tribodyn.train.kinematics import Joint, Named, Toothed, TrainSpeeds, kinematics
+from tribodyn.train.kinematics import Joint, Named, SetMembers, Toothed, TrainSpeeds, kinematics
 
 #: Names of the gears of a drive file.
 OF_DRIVE = ("pinion", "gear")
@@ -40,6 +57,11 @@ class GearPart(NamedTuple):
     tooth_angle: float  # rad
     axial_position: float = 0.0  # m
 
+    @property
+    def teeth(self) -> int:
+        """Number of teeth; negative of an internal gear."""
+        return -self.table.teeth if self.table.internal else self.table.teeth
+
 
 class MeshPart(NamedTuple):
     """A mesh before it is known which of its gears drives."""
@@ -48,7 +70,8 @@ class MeshPart(NamedTuple):
     key: str
     gears: tuple[int, int]
     azimuth: float | None  # from the first gear's axis to the second's, rad
-    table: Stage | BareMesh | DriveTable
+    table: Stage | PlanetaryStage | BareMesh | DriveTable
+    of_set: int = -1  # number of its planetary set; −1: none
 
 
 class LinkPart(NamedTuple):
@@ -70,7 +93,9 @@ class Structure(NamedTuple):
     gears: tuple[GearPart, ...]
     meshes: tuple[MeshPart, ...]
     links: tuple[LinkPart, ...]
-    places: dict[str, tuple[int, ...]]  # name of a gear, shaft or body -> its body, both of a compliant shaft
+    #: name of a gear, shaft or body -> its body, both of a compliant shaft, all planets of a planet
+    places: dict[str, tuple[int, ...]]
+    sets: tuple[SetPart, ...] = ()
 
     def body(self, name: str) -> int:
         """The body of that name; of a compliant shaft the first."""
@@ -85,7 +110,9 @@ def structure(scenario: Any) -> Structure:
     """Number the parts of a scenario whose names are sound, see `names.broken_names`."""
     if isinstance(scenario.mesh, tuple):
         return _bare(scenario)
-    tables: dict[str, Gear] = dict(scenario.gear)
+    stages = planetary_stages(scenario)
+    of_planets = {stage.planet for _, stage in stages}
+    tables: dict[str, Gear] = {name: gear for name, gear in scenario.gear.items() if name not in of_planets}
     if scenario.drive is not None:
         tables = dict(zip(OF_DRIVE, (scenario.drive.pinion, scenario.drive.gear), strict=True))
     rigid = [(number, shaft) for number, shaft in enumerate(scenario.shaft) if shaft.stiffness is None]
@@ -100,6 +127,9 @@ def structure(scenario: Any) -> Structure:
             places[name] = (len(bodies),)
             bodies.append(BodyPart(name, _gear_key(scenario, name), 0.0, 0.0))
     _own_bodies(scenario, bodies, places)
+    for _, stage in stages:
+        places[stage.planet] = tuple(range(len(bodies), len(bodies) + stage.planets))
+        bodies += [BodyPart(name, f"gear.{stage.planet}", 0.0, 0.0) for name in planet_names(stage)]
     springs: list[LinkPart] = []
     for number, shaft in enumerate(scenario.shaft):
         if shaft.stiffness is not None:
@@ -110,21 +140,24 @@ def structure(scenario: Any) -> Structure:
                     mass=body.mass + shaft.mass / 2, inertia=body.inertia + shaft.inertia / 2
                 )
             places[shaft.name] = springs[-1].ends
-    gears = tuple(
-        GearPart(
-            name,
-            _gear_key(scenario, name),
-            places[name][0],
-            table,
-            getattr(table, "plane", None),
-            getattr(table, "tooth_angle", 0.0),
-            getattr(table, "axial_position", 0.0),
-        )
-        for name, table in tables.items()
-    )
+    gears = [_gear(name, _gear_key(scenario, name), places[name][0], table) for name, table in tables.items()]
+    for _, stage in stages:
+        table = scenario.gear[stage.planet]
+        each = zip(planet_names(stage), places[stage.planet], strict=True)
+        gears += [_gear(name, f"gear.{stage.planet}", body, table) for name, body in each]
     return Structure(
-        tuple(bodies), gears, _stages(scenario, gears), (*springs, *_links(scenario, places)), places
+        tuple(bodies),
+        tuple(gears),
+        tuple(_stages(scenario, gears)),
+        (*springs, *_links(scenario, places)),
+        places,
+        tuple(set_of(scenario, key, stage, places) for key, stage in stages),
     )
+
+
+def _gear(name: str, key: str, body: int, table: Gear) -> GearPart:
+    own = getattr(table, "plane", None), getattr(table, "tooth_angle", 0.0)
+    return GearPart(name, key, body, table, *own, getattr(table, "axial_position", 0.0))
 
 
 def _gear_key(scenario: Any, name: str) -> str:
@@ -137,21 +170,21 @@ def _own_bodies(scenario: Any, bodies: list[BodyPart], places: dict[str, tuple[i
         bodies.append(BodyPart(body.name, f"body.{number}", body.mass, body.inertia))
 
 
-def _stages(scenario: Any, gears: Sequence[GearPart]) -> tuple[MeshPart, ...]:
+def _stages(scenario: Any, gears: Sequence[GearPart]) -> Iterator[MeshPart]:
     if scenario.drive is not None:
         # as a pair is drawn: the gear above the pinion
-        return (MeshPart("mesh", "drive", (0, 1), pi / 2, scenario.drive),)
+        yield MeshPart("mesh", "drive", (0, 1), pi / 2, scenario.drive)
     numbers = {gear.name: number for number, gear in enumerate(gears)}
-    return tuple(
-        MeshPart(
-            stage.name or "-".join(stage.gears),
-            f"stage.{number}",
-            (numbers[stage.gears[0]], numbers[stage.gears[1]]),
-            stage.azimuth,
-            stage,
-        )
-        for number, stage in enumerate(scenario.stage)
-    )
+    sets = 0
+    for place, stage in enumerate(scenario.stage):
+        key = f"stage.{place}"
+        if isinstance(stage, PlanetaryStage):
+            for name, one, two, angle in meshes_of_set(stage):
+                yield MeshPart(name, key, (numbers[one], numbers[two]), angle, stage, sets)
+            sets += 1
+        else:
+            ends = numbers[stage.gears[0]], numbers[stage.gears[1]]
+            yield MeshPart(stage.name or "-".join(stage.gears), key, ends, stage.azimuth, stage)
 
 
 def _spring(number: int, shaft: Shaft, places: dict[str, tuple[int, ...]]) -> LinkPart:
@@ -222,11 +255,14 @@ def motion_of(parts: Structure, source: int, sense: int) -> TrainSpeeds:
     """Speeds and order of a train; raises as `train.kinematics.kinematics` does."""
     return kinematics(
         [Named(body.name, body.key) for body in parts.bodies],
-        [Toothed(gear.name, gear.key, gear.body, gear.table.teeth) for gear in parts.gears],
-        [Joint(mesh.key, mesh.gears) for mesh in parts.meshes],
+        [Toothed(gear.name, gear.key, gear.body, gear.teeth) for gear in parts.gears],
+        [Joint(mesh.key, mesh.gears, mesh.of_set) for mesh in parts.meshes],
         [Joint(link.key, ends) for link, ends in parts.couplings()],
         source,
         sense,
+        [SetMembers(own.key, own.members, own.planets, own.teeth, own.table.held) for own in parts.sets],
+        # bodies that move in space come first
+        [place for place, mesh in enumerate(parts.meshes) if getattr(mesh.table, "helix_angle", None)],
     )
 
 
@@ -249,7 +285,17 @@ def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, dr
         return DriveTable.model_construct(family="involute", **common)
     own = {name: getattr(table, name) for name in ("family", "rack", "shape", "roughness", "helix_angle")}
     distance: Printed | None = table.centre_distance
+    if distance is None and isinstance(table, PlanetaryStage) and (pinion.internal or gear.internal):
+        distance = _distance_of_set(scenario, parts, mesh)
     return DriveTable.model_construct(**common, **own, centre_distance=distance)
+
+
+def _distance_of_set(scenario: Any, parts: Structure, mesh: MeshPart) -> Printed:
+    """Distance of the planets' axes from the sun's where none is written: that of both without backlash."""
+    at_sun = next(other for other in parts.meshes if other.of_set == mesh.of_set)
+    drive = drive_of(drive_table(scenario, parts, at_sun, *at_sun.gears))
+    path = family(cast(PlanetaryStage, at_sun.table).family).working_path(drive)
+    return Printed(float(path.pinion_pitch_radius + path.gear_pitch_radius), 0.0)
 
 
 def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
@@ -261,7 +307,7 @@ def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
         compliance = "constant" if table.table is None else "table"
         return plain.model_copy(update=own | {"compliance": compliance})
     given = {}
-    if isinstance(table, Stage):
+    if isinstance(table, (Stage, PlanetaryStage)):
         given = {name: getattr(table, name) for name in ("damping_ratio", "backlash")}
     return scenario.mesh.model_copy(update={name: own for name, own in given.items() if own is not None})
 

@@ -1,8 +1,9 @@
 """Tables of a train: gears, stages, shafts; bodies, links and meshes of a bare model; bearings, duty."""
 
+from math import pi
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Discriminator, Field, Tag
 
 from tribodyn.errors import quoted
 from tribodyn.geometry.families import FAMILIES
@@ -28,6 +29,7 @@ from tribodyn.scenario.tables.model_files import (
 )
 from tribodyn.studies.gears.motion import MOST_HARMONICS, TorqueHarmonic
 from tribodyn.train.links import LINK_LAWS
+from tribodyn.train.planetary import CARRIER, RING, SUN
 
 #: Stages, shafts, bodies, links, meshes and loads, each: as many as any train has.
 MOST_PARTS = 100
@@ -70,11 +72,9 @@ class TrainGear(Gear):
     )
 
 
-class Stage(Table):
-    """Two gears that mesh: what a drive file says of both; its pinion is the gear that drives."""
+class StageTeeth(Table):
+    """What a drive file says of both gears of a mesh."""
 
-    name: PartName | None = Field(None, description="default: the names of its gears")
-    gears: tuple[Text, ...] = Field(min_length=2, max_length=2, description="that mesh, in either order")
     family: Annotated[Text, quantity.Names(FAMILIES)] = Field(
         "involute", description="family of the path of contact"
     )
@@ -82,11 +82,6 @@ class Stage(Table):
     pressure_angle: PressureAngle = None
     helix_angle: HelixAngle = None
     centre_distance: CentreDistance = None
-    azimuth: Azimuth | None = Field(
-        None,
-        description="direction from the first gear's axis to the second's, counter-clockwise from x; "
-        "default: as the other stages leave it, else along x away from the input",
-    )
     backlash: Backlash | None = Field(
         None, description="normal backlash at the pitch point; default: that of [mesh], or of the teeth"
     )
@@ -94,6 +89,70 @@ class Stage(Table):
     shape: FamilyKeys = None
     roughness: CompositeRoughness = None
     damping_ratio: NotNegative | None = Field(None, description="default: that of [mesh]")
+
+
+class Stage(StageTeeth):
+    """Two gears that mesh; the pinion of a drive file is the gear that drives."""
+
+    type: Literal["pair", "planetary"] = "pair"
+    name: PartName | None = Field(None, description="default: the names of its gears")
+    gears: tuple[Text, ...] = Field(min_length=2, max_length=2, description="that mesh, in either order")
+    azimuth: Azimuth | None = Field(
+        None,
+        description="direction from the first gear's axis to the second's, counter-clockwise from x; "
+        "default: as the other stages leave it, else along x away from the input",
+    )
+
+
+class PlanetaryStage(StageTeeth):
+    """Sun, planets and ring on one axis, and the carrier of the planets; one member of the set is held."""
+
+    type: Literal["planetary"]
+    name: PartName
+    sun: Text = Field(description="gear")
+    planet: Text = Field(description="gear, of which there are several")
+    ring: Text = Field(description="internal gear")
+    carrier: Text = Field(description="[[body]]")
+    planets: Annotated[int, Field(strict=True, ge=1, le=12)] = Field(description="number of them")
+    angles: tuple[Azimuth, ...] = Field(
+        (), max_length=12, description="of the planets, counter-clockwise from x; default: evenly spaced"
+    )
+    held: Literal["sun", "ring", "carrier"] = Field(description="which member does not turn")
+    support_stiffness: fields.TorsionalStiffness | None = Field(
+        None, description="that holds it against rotation; default: 1e9 N/m on its pitch circle"
+    )
+    support_damping_ratio: NotNegative = Field(0.02, description="of this")
+    floating: tuple[Literal["sun", "ring", "carrier"], ...] = Field(
+        (), max_length=3, description="members that no bearing holds in x and y"
+    )
+    radial_pin_errors: tuple[Annotated[float, InUnit(units.LENGTH)], ...] = Field(
+        (), max_length=12, description="of every planet's pin, outwards; default: none"
+    )
+    tangential_pin_errors: tuple[Annotated[float, InUnit(units.LENGTH)], ...] = Field(
+        (), max_length=12, description="of every planet's pin, counter-clockwise; default: none"
+    )
+    frame_forces: bool = Field(True, description="Coriolis and centrifugal forces in the carrier's frame")
+
+    @property
+    def members(self) -> dict[str, str]:
+        """Names of sun, ring and carrier by what they are."""
+        return {SUN: self.sun, RING: self.ring, CARRIER: self.carrier}
+
+    @property
+    def placed(self) -> tuple[float, ...]:
+        """Angles of the planets, rad."""
+        return self.angles or tuple(2.0 * pi * i / self.planets for i in range(self.planets))
+
+
+def _stage_type(stage: Any) -> str:
+    """Which of both a [[stage]] is."""
+    kind = stage.get("type") if isinstance(stage, dict) else getattr(stage, "type", None)
+    return "planetary" if kind == "planetary" else "pair"
+
+
+AnyStage = Annotated[
+    Annotated[Stage, Tag("pair")] | Annotated[PlanetaryStage, Tag("planetary")], Discriminator(_stage_type)
+]
 
 
 class LinkTable(LawTable):
@@ -171,7 +230,10 @@ class BareMesh(Table):
 
 
 class TrainBearings(Described, extra="allow"):
-    """Bearings by what they carry: a gear, a shaft or a body, or "default"; x and y are the train's."""
+    """Bearings by what they carry: a gear, a shaft or a body, or "default"; x and y are the train's.
+
+    Those of a planet are between every planet and its pin on the carrier.
+    """
 
     __pydantic_extra__: dict[str, Bearing]  # pyright: ignore[reportIncompatibleVariableOverride]
 

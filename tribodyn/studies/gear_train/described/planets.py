@@ -1,0 +1,147 @@
+"""The planetary stages of a scenario: their parts by number, and whether what they name is there."""
+
+from collections.abc import Iterator
+from math import cos, sin
+from typing import Any, NamedTuple
+
+from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.studies.gear_train.described.tables import PlanetaryStage
+from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly
+
+
+class SetPart(NamedTuple):
+    """A planetary set by its bodies."""
+
+    key: str
+    table: PlanetaryStage
+    members: dict[str, int]  # bodies of sun, ring and carrier
+    planets: tuple[int, ...]  # bodies
+    teeth: SetTeeth
+
+    @property
+    def held(self) -> int:
+        """The body that does not turn."""
+        return self.members[self.table.held]
+
+
+def planetary_stages(scenario: Any) -> list[tuple[str, PlanetaryStage]]:
+    """The planetary stages with their keys."""
+    stages = ((f"stage.{number}", stage) for number, stage in enumerate(scenario.stage))
+    return [(key, stage) for key, stage in stages if isinstance(stage, PlanetaryStage)]
+
+
+def planet_names(stage: PlanetaryStage) -> list[str]:
+    """Names of the planets, which are gears and bodies: planet-1, planet-2."""
+    return [f"{stage.planet}-{number}" for number in range(1, stage.planets + 1)]
+
+
+def teeth_of_set(scenario: Any, stage: PlanetaryStage) -> SetTeeth:
+    """Numbers of teeth of a stage whose names are sound."""
+    sun, planet, ring = (scenario.gear[name].teeth for name in (stage.sun, stage.planet, stage.ring))
+    return SetTeeth(sun, planet, -ring)
+
+
+def set_of(scenario: Any, key: str, stage: PlanetaryStage, places: dict[str, tuple[int, ...]]) -> SetPart:
+    """The set of a stage; `places` are the bodies of names."""
+    members = {name: places[own][0] for name, own in stage.members.items()}
+    return SetPart(key, stage, members, places[stage.planet], teeth_of_set(scenario, stage))
+
+
+def meshes_of_set(stage: PlanetaryStage) -> Iterator[tuple[str, str, str, float]]:
+    """The meshes of a stage: name, both gears, direction from the first one's axis to the second's, rad.
+
+    First those of the sun with every planet, then those of the planets with the ring.
+    """
+    each = list(zip(planet_names(stage), stage.placed, strict=True))
+    for number, (planet, angle) in enumerate(each, start=1):
+        yield f"{stage.name}-sun-{number}", stage.sun, planet, angle
+    for number, (planet, angle) in enumerate(each, start=1):
+        yield f"{stage.name}-ring-{number}", planet, stage.ring, angle
+
+
+def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
+    """Go through what contradicts itself in the planetary stages, by names and numbers."""
+    of_sets: dict[str, str] = {}
+    bodies = [body.name for body in scenario.body]
+    for key, stage in planetary_stages(scenario):
+        for name in ("sun", "planet", "ring"):
+            given = getattr(stage, name)
+            if given not in gears:
+                yield unknown_name(f"{key}.{name}", given, gears, "gear")
+                continue
+            internal = scenario.gear[given].internal
+            if internal is not (name == "ring"):
+                kind = "an internal" if name == "ring" else "an external"
+                remedy = f"add internal = true to [gear.{given}]" if name == "ring" else "name another gear"
+                yield InputError(f"{key}.{name}", quoted(given), f"must be {kind} gear", remedy)
+        if stage.carrier not in bodies:
+            yield unknown_name(f"{key}.carrier", stage.carrier, bodies, "[[body]]")
+        for name in ("sun", "planet", "ring", "carrier"):
+            given = getattr(stage, name)
+            if (
+                of_sets.setdefault(given, key) != key
+                or [*stage.members.values(), stage.planet].count(given) > 1
+            ):
+                rule = f"{given} is named twice in planetary stages"
+                yield InputError(f"{key}.{name}", quoted(given), rule, "use a gear of its own for each")
+        yield from _counts(key, stage)
+        if all(name in gears for name in (stage.sun, stage.planet, stage.ring)):
+            yield from _assembly(scenario, key, stage)
+    yield from _joined_rigidly(scenario, of_sets)
+
+
+def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
+    for name in ("angles", "radial_pin_errors", "tangential_pin_errors"):
+        given = getattr(stage, name)
+        if given and len(given) != stage.planets:
+            rule = f"has {len(given)} values for {stage.planets} planets"
+            yield InputError(f"{key}.{name}", None, rule, "give one for every planet, or leave it out")
+    for number, name in enumerate(stage.floating):
+        if name in stage.floating[:number]:
+            yield InputError(f"{key}.floating", None, f"names {name} twice", "name each member once")
+    if len(stage.floating) == len(MEMBERS):
+        rule = "no member of the set has a bearing: it has no place"
+        yield InputError(f"{key}.floating", None, rule, "let one of them have a bearing")
+
+
+def _assembly(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError]:
+    if stage.angles and len(stage.angles) != stage.planets:
+        return
+    teeth = teeth_of_set(scenario, stage)
+    if teeth.sun >= -teeth.ring:
+        rule = f"the ring's {-teeth.ring} teeth do not reach around the sun's {teeth.sun}"
+        yield InputError(f"{key}.ring", quoted(stage.ring), rule, "give the ring more teeth")
+        return
+    try:
+        check_assembly(teeth, stage.placed, f"{key}.{'angles' if stage.angles else 'planets'}")
+    except InputError as error:
+        yield error
+
+
+def _joined_rigidly(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
+    """Members of sets move in the frames of their carriers, others in the housing."""
+    for number, shaft in enumerate(scenario.shaft):
+        for name in shaft.gears:
+            if name in of_sets:
+                rule = f"{name} is of a planetary stage, which moves in the frame of its carrier"
+                remedy = f'join it by a [[link]] with ends = ["{name}", …] and a torsional stiffness'
+                yield InputError(f"shaft.{number}.gears", quoted(name), rule, remedy)
+                break
+
+
+def coaxial(sets: tuple[SetPart, ...]) -> list[tuple[int, int]]:
+    """Bodies on one axis, in pairs."""
+    return [
+        (own.members["carrier"], body)
+        for own in sets
+        for name, body in own.members.items()
+        if name != "carrier"
+    ]
+
+
+def pin_offset(stage: PlanetaryStage, planet: int) -> tuple[float, float]:
+    """Place of a planet's pin from where it should be, x and y, m."""
+    angle = stage.placed[planet]
+    outwards = stage.radial_pin_errors[planet] if stage.radial_pin_errors else 0.0
+    onwards = stage.tangential_pin_errors[planet] if stage.tangential_pin_errors else 0.0
+    return outwards * cos(angle) - onwards * sin(angle), outwards * sin(angle) + onwards * cos(angle)
