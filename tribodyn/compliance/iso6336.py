@@ -1,6 +1,6 @@
 """Reference stiffness after ISO 6336-1, method B: the values that ours are compared with.
 
-External gears, theory after Weber & Banaschek for solid discs of steel with the standard basic rack,
+External gears, and internal ones in place of which a rack counts; theory after Weber & Banaschek for solid discs of steel with the standard basic rack,
 corrected by measurements and by factors for what differs. Formulas and limits are those of ISO 6336-1:2019,
 9.3, from memory of the standard, not transcribed from it. Example 1 of ISO/TR 6336-30 confirms q', C_M, C_B
 for the dedendum, c_γα and c_γβ (test_iso6336); C_R, C_B for the pressure angle and the reduction at low loads
@@ -73,12 +73,14 @@ def theoretical_stiffness(
     """Maximum stiffness c'_th of one pair of steel teeth, solid discs, standard rack, per face width, Pa.
 
     Of z and x of the gear with fewer teeth and of its mate; valid for x1 ≥ x2, −0.5 ≤ x1 + x2 ≤ 2 and line
-    loads from 100 to 1600 N/mm. Of helical gears the virtual numbers of teeth z/(cos² β_b cos β) count.
+    loads from 100 to 1600 N/mm. Of helical gears the virtual numbers of teeth z/(cos² β_b cos β) count. An
+    internal mate, z2 < 0, counts as a rack, z_n2 = ∞, without a shift of its own.
     ISO 6336-1:2019, 9.3.2: c'_th = 1/q', q' the series (82).
     """
     base = math.asin(math.sin(helix_angle) * math.cos(pressure_angle))
     z1, z2 = (z / (math.cos(base) ** 2 * math.cos(helix_angle)) for z in teeth)
     x1, x2 = profile_shift
+    z2, x2 = (z2, x2) if z2 > 0.0 else (math.inf, 0.0)
     flexibility = (
         0.04723
         + 0.15551 / z1
@@ -160,10 +162,11 @@ def pair_of(
     """
     drive, path = normal_section(assembly.drive), assembly.path
     # of equal numbers of teeth the larger profile shift comes first
-    ranks = [(body.teeth, -body.profile_shift) for body in (drive.pinion, drive.gear)]
-    order = SIDES if ranks[0] <= ranks[1] else SIDES[::-1]
+    ranks = [(1.0 / body.teeth, body.profile_shift) for body in (drive.pinion, drive.gear)]
+    order = SIDES if ranks[0] >= ranks[1] else SIDES[::-1]
     bodies = [body_of(drive, side) for side in order]
     transverse = normal_load * math.cos(float(base_helix_angle(assembly.drive)))
+    # of the sign of the gear's radii, as the reference radius below
     torque = transverse * float(path.gear_pitch_radius) * math.cos(float(path.pressure_angle(0.0)))
     modulus = dict(zip(SIDES, (material.youngs_modulus for material in materials), strict=True))
     return ReferencePair(

@@ -74,7 +74,8 @@ class PairEvaluation:
     @cached_property
     def state(self) -> QuasiStatic:
         """Loads and deflection without friction."""
-        return quasi_static(self.cycle, absolute(self.case.operating.gear_torque))
+        torque = self.cycle.gear_sense * absolute(self.case.operating.gear_torque)
+        return quasi_static(self.cycle, torque)
 
     @cached_property
     def rubbing_cycle(self) -> MeshCycle:
@@ -131,7 +132,7 @@ def _hertz_pressure(at: PairEvaluation) -> Any:
     """Of a line of contact over the whole face."""
     path, case, slope = at.gears.path, at.case, pitch_slope(at.gears)
     angle = path.pressure_angle(0.0)
-    across = absolute(case.operating.gear_torque) / path.gear_pitch_radius / cos(angle)
+    across = absolute(case.operating.gear_torque / path.gear_pitch_radius) / cos(angle)
     load = across * sqrt(1.0 + normal_slope(slope, angle) ** 2)
     length = at.gears.common_width * line_stretch(slope, path, 0.0)
     return hertz_pressure(load / length, 1.0 / _equivalent_radius(at), surfaces_of(case).effective_modulus)
@@ -145,7 +146,7 @@ def _swing(at: PairEvaluation, values: Any) -> Any:
 
 def _loss_factor(at: PairEvaluation) -> Any:
     cycle = at.cycle
-    torque = absolute(at.case.operating.gear_torque) * cycle.pinion_pitch_radius / cycle.gear_pitch_radius
+    torque = absolute(at.case.operating.gear_torque) * cycle.speed_ratio
     return friction_loss(cycle, at.state.normal_load, 1.0, at.weight) / torque
 
 

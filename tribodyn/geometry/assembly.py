@@ -56,12 +56,12 @@ class Assembly:
 
     @property
     def r_start(self) -> Any:
-        """Signed distance of the first contact, m, < 0."""
+        """Signed distance of the first contact, m; < 0 unless the pitch point lies before the path."""
         return self.limits[0]
 
     @property
     def r_end(self) -> Any:
-        """Signed distance of the last contact, m, > 0."""
+        """Signed distance of the last contact, m; > 0 unless the pitch point lies behind the path."""
         return self.limits[1]
 
     @cached_property

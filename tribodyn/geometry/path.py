@@ -196,9 +196,10 @@ def _step_to_radius(
 def contact_limits(
     path: Path, pinion_tip_radius: Float[Array, ""], gear_tip_radius: Float[Array, ""]
 ) -> tuple[Float[Array, ""], Float[Array, ""]]:
-    """Signed distances r_start < 0 < r_end (m) at which the tip circles cut the path.
+    """Signed distances r_start < r_end (m) at which the tip circles cut the path.
 
-    Contact begins at the gear's tip and ends at the pinion's.
+    Contact begins at the gear's tip and ends at the pinion's. The pitch point lies between them, but for some
+    internal pairs, whose flanks slide one way only.
     """
     return (-distance_at_radius(mirrored(path), gear_tip_radius), distance_at_radius(path, pinion_tip_radius))
 

@@ -115,7 +115,7 @@ class GearPair:
         slots = pair_slots(self._assembly)
         cycle = tabulate(self._assembly, self._model.materials, MeshData("energy", 0.05), slots)
         phase = np.asarray(cycle.phase).ravel()
-        total = np.asarray(quasi_static(cycle, torque).mesh_stiffness).ravel()
+        total = np.asarray(quasi_static(cycle, cycle.gear_sense * torque).mesh_stiffness).ravel()
         named = {"units": "N/m", "long_name": "mesh stiffness, all pairs"}
         axis = ("phase", phase, {"units": "1", "long_name": "mesh phase"})
         return xr.DataArray(total, {"phase": axis}, ("phase",), "mesh_stiffness", named)

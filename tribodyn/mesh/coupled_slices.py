@@ -79,7 +79,7 @@ def couple_slices(
     teeth, bodies, between = _parts(assembly, materials, mesh, r, slices)
     own = cycle.compliance[front] - slices * (teeth + bodies)  # of the contact alone
     arms = normal_arms(cycle)[front]
-    force = absolute(gear_torque) / cycle.gear_pitch_radius
+    force = absolute(gear_torque / cycle.gear_pitch_radius)
     share = cycle.share[front]
     width = assembly.common_width / cos(assembly.drive.helix_angle)
     wave = np.pi * np.arange(_WAVES * slices) / width * normal_module(assembly.drive)

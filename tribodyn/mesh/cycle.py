@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.elementary import namespace
+from tribodyn.numerics.elementary import namespace, sense
 from tribodyn.numerics.shapes import Array, Float
 
 
@@ -108,6 +108,25 @@ class MeshCycle(NamedTuple):
     def slice_width(self) -> Any:
         """Width of a slice, m."""
         return self.face_width / self.slices
+
+    @property
+    def pinion_sense(self) -> Any:
+        """1, or −1 of an internal pinion: its own sense of turning over that of its signed radius.
+
+        A gear's torque and speed are positive in its own sense; formulas with signed radii have them times
+        this (ISO 21771).
+        """
+        return sense(self.pinion_pitch_radius)
+
+    @property
+    def gear_sense(self) -> Any:
+        """The same of the gear."""
+        return sense(self.gear_pitch_radius)
+
+    @property
+    def speed_ratio(self) -> Any:
+        """Speed of the gear over that of the pinion, each in its own sense; > 0."""
+        return self.pinion_sense * self.pinion_pitch_radius / (self.gear_sense * self.gear_pitch_radius)
 
     @property
     def pitch_angle(self) -> Any:

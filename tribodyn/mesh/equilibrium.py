@@ -46,7 +46,8 @@ class Contacts(NamedTuple):
     side: Any  # sign of the sliding
     vanishing: tuple[Any, Any]  # as `contact_friction` takes them
     carrying: Any  # 1 where the pair may carry load, else 0
-    #: normal_arm, friction_arm: (2, …), arms of normal load and friction about pinion and gear, m
+    #: normal_arm, friction_arm: (2, …), arms of normal load and friction about pinion and gear, m, each in
+    #: the gear's own sense: positive of the load, of an internal gear too
     normal_arm: Any
     friction_arm: Any
 
@@ -84,8 +85,9 @@ def contacts(
     xp = namespace(*cycle, gear_torque, pinion_speed, *closure.surfaces)
     way = xp.sign(gear_torque)
     r, angle = cycle.signed_distance, cycle.pressure_angle
-    speed, side = way * pinion_speed, way * sliding_side(cycle)
+    speed, side = way * cycle.pinion_sense * pinion_speed, way * sliding_side(cycle)
     normal, length = normal_arms(cycle), cycle.face_width
+    own = cycle.pinion_sense, cycle.gear_sense
     if cycle.slices > 1:
         # of a slice that comes or goes over its whole width: what is inside it is not resolved
         length = cycle.slice_width / cycle.line_load_friction
@@ -99,14 +101,19 @@ def contacts(
         side,
         (cycle.pitch_point_length, speed * cycle.pitch_point_rate) if averaged else (0.0, 0.0),
         (cycle.in_contact * (cycle.side > 0))[:, None, :],
-        xp.stack([cycle.pinion_pitch_radius * normal, cycle.gear_pitch_radius * normal]),
-        xp.stack([cycle.pinion_pitch_radius * sin(angle) + r, cycle.gear_pitch_radius * sin(angle) - r]),
+        xp.stack([own[0] * cycle.pinion_pitch_radius * normal, own[1] * cycle.gear_pitch_radius * normal]),
+        xp.stack(
+            [
+                own[0] * (cycle.pinion_pitch_radius * sin(angle) + r),
+                own[1] * (cycle.gear_pitch_radius * sin(angle) - r),
+            ]
+        ),
     )
 
 
 def elastic(cycle: MeshCycle, gear_torque: Any) -> Share:
     """Sharing of the gear's torque by the compliances of the table."""
-    torque = namespace(gear_torque).abs(gear_torque)
+    torque = cycle.gear_sense * namespace(gear_torque).abs(gear_torque)
     return lambda friction: quasi_static(cycle, torque, friction)
 
 

@@ -71,7 +71,7 @@ def quasi_static(
     """Share the gear's torque among the driving pairs by their compliances and gaps.
 
     With h_i = cos α_i every loaded pair has Δ h_i − e_i = Σ_j C_ij F_j (+ A F_i^0.9), and r_g Σ F_i h_i is
-    the torque (N m, > 0), to which friction adds Σ μ_i F_i (r_g sin α_i − r_i); `friction` is its force over
+    the torque (N m, of the sign of r_g: `MeshCycle.gear_sense`), to which friction adds Σ μ_i F_i (r_g sin α_i − r_i); `friction` is its force over
     the normal load, with the sign of the sliding: negative in approach. Bearings are rigid, and a back flank
     carries nothing. The table may be traced.
 
@@ -211,7 +211,7 @@ def single_pair(cycle: MeshCycle, gear_torque: float) -> SinglePair:
     arm = float(np.cos(angle))
     if slices > 1:
         arm = arm / float(np.hypot(1.0, cycle.pitch_slope * arm))
-    load = abs(gear_torque) / (float(cycle.gear_pitch_radius) * arm)
+    load = abs(gear_torque) / (float(cycle.gear_sense * cycle.gear_pitch_radius) * arm)
     contact = 0.9 * float(cycle.hertz_coefficient) * max(load / slices, 1.0) ** -0.1
     return SinglePair(load, slices / (compliance + contact))
 
@@ -279,7 +279,8 @@ def mean_efficiency(
     """
     loads = normal_load
     if loads is None:
-        loads = quasi_static(cycle, namespace(gear_torque).abs(gear_torque)).normal_load
-    gear = gear_torque * cycle.pinion_pitch_radius / cycle.gear_pitch_radius
+        torque = cycle.gear_sense * namespace(gear_torque).abs(gear_torque)
+        loads = quasi_static(cycle, torque).normal_load
+    gear = gear_torque * cycle.speed_ratio
     loss = friction_loss(cycle, loads, friction_coefficient, weight)
     return efficiency(gear + loss, gear, loss)

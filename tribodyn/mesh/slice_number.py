@@ -52,7 +52,7 @@ def slices_needed(
     def error(slices: int) -> tuple[Float[Array, " phase"], float]:
         layout = slice_layout(assembly, mesh, slices)._replace(nodes=_NODES)
         cycle = tabulate_helical(assembly, materials, mesh, layout, gear_torque)
-        deflection = quasi_static(cycle, abs(gear_torque)).deflection[0]
+        deflection = quasi_static(cycle, float(cycle.gear_sense) * abs(gear_torque)).deflection[0]
         mean = float(np.mean(deflection))
         return deflection - mean, mean
 

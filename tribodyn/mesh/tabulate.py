@@ -25,7 +25,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import check_cover, interpolate
-from tribodyn.numerics.elementary import cos, is_jax, maximum, minimum, namespace, within
+from tribodyn.numerics.elementary import cos, is_jax, maximum, minimum, namespace, where, within
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
 
@@ -125,23 +125,34 @@ def _apart(boundary: Float[Array, " boundary"]) -> Float[Array, " boundary"]:
 class RollCurve(NamedTuple):
     """Interpolation over the roll angle, by a Chebyshev series on either side of the pitch point.
 
-    Two pieces, because the paths of some families have a kink there.
+    Two pieces, because the paths of some families have a kink there; where the pitch point lies beyond an end
+    of the path, as of some internal pairs, the one piece has no length.
     """
 
     start: Any
     end: Any
 
+    @property
+    def middle(self) -> Any:
+        """Where the pieces meet: the pitch point, or the end of the path nearest to it."""
+        return within(0.0, self.start, self.end)
+
     def nodes(self) -> Float[Array, "2 17"]:
         """Roll angles of the nodes, (2, 17), rad."""
-        xp = namespace(self.start, self.end)
+        xp, middle = namespace(self.start, self.end), self.middle
         unit = 0.5 + 0.5 * _POINTS
-        return xp.stack([self.start * (1.0 - unit), self.end * unit])
+        return xp.stack(
+            [middle + (self.start - middle) * (1.0 - unit), middle + (self.end - middle) * unit]
+        )
 
     def interpolate(self, values: Float[Array, "2 17 ..."], roll: Float[Array, "..."]) -> Float[Array, "..."]:
         """Values (…, k) at the roll angles (…), from values (2, 17, k) at the nodes; k may be missing."""
         xp = namespace(values, roll)
-        approach = roll < 0
-        at = xp.where(approach, 1.0 - 2.0 * roll / self.start, 2.0 * roll / self.end - 1.0)
+        middle = self.middle
+        approach, beyond = roll < middle, roll - middle
+        before = where(self.start < middle, self.start - middle, -1.0)
+        after = where(self.end > middle, self.end - middle, 1.0)
+        at = xp.where(approach, 1.0 - 2.0 * beyond / before, 2.0 * beyond / after - 1.0)
         basis = chebyshev_basis(at, _DEGREE) @ _TO_SERIES
         if values.ndim == 3:
             approach = approach[..., None]

@@ -170,6 +170,11 @@ def absolute(x: Any) -> Any:
     return abs(x)
 
 
+def sense(radius: Any) -> Any:
+    """−1 for the radius or number of teeth of an internal gear, which is negative, else 1."""
+    return absolute(radius) / radius
+
+
 def plain(x: Any) -> Any:
     """The number alone, where compiled code carries derivatives beside it."""
     return x

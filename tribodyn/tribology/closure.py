@@ -255,7 +255,7 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
         raise InputError("friction.law", name, rule, remedy)
     oil = lubricant_around(case.lubricant)
     return NominalConditions(
-        as_float(abs(torque) / path.gear_pitch_radius),
+        as_float(abs(torque / path.gear_pitch_radius)),
         as_float(path.pinion_pitch_radius),
         as_float(path.gear_pitch_radius),
         as_float(angle),

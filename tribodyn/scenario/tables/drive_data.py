@@ -153,7 +153,8 @@ def with_axes_held(drive: dict[str, Any]) -> dict[str, Any]:
     """A drive file's data with the centre distance to the last digit, so that nothing of it is rounding."""
     if "family" not in drive or "centre_distance" not in drive:
         return drive
-    distance = drive_of(DriveTable.model_validate(drive)).centre_distance
+    table = DriveTable.model_validate(drive)
+    distance = _sense(table) * drive_of(table).centre_distance
     return drive | {"centre_distance": f"{1e3 * distance:.12f} mm"}
 
 

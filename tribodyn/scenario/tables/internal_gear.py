@@ -1,6 +1,7 @@
 """The keys of an internal gear: written without signs, its body with those of ISO 21771."""
 
 from collections.abc import Iterator
+from typing import Any
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import GearBody
@@ -10,6 +11,10 @@ from tribodyn.scenario.tables.model_files import DriveTable, Gear
 #: Teeth of the cutter where none are given, at most half the gear's, and rim outside the root circle,
 #: modules: choices; the first a common size, the second near a rim that bends little.
 USUAL_CUTTER, USUAL_RIM = 20, 3.0
+#: Compliances that are of external teeth alone -> what to use for them.
+_NOT_OF_INTERNAL = {
+    name: 'use compliance = "constant", with stiffness = "1e10 N/m", or "table"' for name in ("energy", "fem")
+}
 _OWN = ("outer_diameter", "cutter_teeth", "cutter_profile_shift", "cutter_addendum", "cutter_rounding")
 
 
@@ -66,6 +71,21 @@ def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
 def internal_refused(drive: DriveTable) -> InputError:
     """Refuse an internal gear where a study has only external ones."""
     side = "gear" if drive.gear.internal else "pinion"
-    rule = "internal gears are not simulated: this version computes their geometry alone"
-    remedy = "use tribodyn gear of a drive file, or describe an external gear"
+    rule = "this kind of study has external gears alone"
+    remedy = 'write kind = "gear-pair" or "efficiency", or describe an external gear'
     return InputError(f"drive.{side}.internal", "true", rule, remedy)
+
+
+def broken_internal_runs(scenario: Any) -> Iterator[InputError]:
+    """Go through what a study that knows internal gears has no formula for; tables may be absent."""
+    if (compliance := getattr(scenario.mesh, "compliance", None)) in _NOT_OF_INTERNAL:
+        rule = "is of external teeth"
+        yield InputError("mesh.compliance", f'"{compliance}"', rule, _NOT_OF_INTERNAL[compliance])
+    losses, temperature = getattr(scenario, "losses", None), getattr(scenario, "temperature", None)
+    for name in ("churning", "windage"):
+        if losses is not None and (law := getattr(losses, name)) is not None:
+            rule = "is the loss of external gears that turn in free oil or air, and the gear is internal"
+            yield InputError(f"losses.{name}", f'"{law}"', rule, "leave it out")
+    if temperature is not None and temperature.model == "iso":
+        rule = "is of external gears (ISO/TR 15144-1), and the gear is internal"
+        yield InputError("temperature.model", '"iso"', rule, 'use "network", or leave the table out')

@@ -97,7 +97,6 @@ def engage(mesh: Places, duty: MeshDuty) -> PathState:
     contact = seen.under(shared.peak_load)
     closure_shares, friction_shares = range_shares(contact.contact, duty.closure)
     torques = duty.way * np.sum(load * seen.arms(found.friction_coefficient)[:, :, 0], axis=-1)
-    ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
     sliding = (seen.pinion_speed - seen.gear_speed)[:, 0]
     return PathState(
         normal_load=load,
@@ -113,7 +112,7 @@ def engage(mesh: Places, duty: MeshDuty) -> PathState:
         pinion_torque=torques[0],
         gear_torque=torques[1],
         power_in=torques[0] * duty.pinion_speed,
-        power_out=torques[1] * duty.pinion_speed * ratio,
+        power_out=torques[1] * duty.pinion_speed * cycle.speed_ratio,
         # of a slice that passes the pitch point the mean over its width
         power_friction=np.sum(mu * load * seen.side[:, 0] * sliding, axis=-1),
     )
@@ -129,7 +128,7 @@ def _share(mesh: Places, duty: MeshDuty, seen: Contacts, friction: Array) -> _Lo
         ratios = friction_ratio(shared.slice_load)[:, None], peak_ratio(shared.slice_load)[:, None]
         return _Loads(load, load * ratios[0], load * ratios[1], shared.deflection[:, None])
     if duty.sharing == "elastic":
-        state = quasi_static(mesh.cycle, torque, friction)
+        state = quasi_static(mesh.cycle, mesh.cycle.gear_sense * torque, friction)
         return _Loads(state.normal_load, state.normal_load, state.normal_load, state.deflection)
     arms = seen.normal_arm[1] + friction * seen.friction_arm[1]
     if mesh.cycle.slices > 1:
@@ -220,7 +219,7 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
     cycle = mesh.cycle
     touching = (cycle.in_contact > 0) & judged(cycle, state.normal_load)
     angle = over.turned * cycle.pitch_angle
-    ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
+    ratio = cycle.speed_ratio
     zero, speed = np.zeros_like(angle), np.full_like(angle, duty.pinion_speed)
     share = cycle.share[:, 0] if cycle.slices > 1 else 1.0
     in_space = (len(DOF_IN_SPACE) - len(DOF)) * [zero] if cycle.slices > 1 else []
@@ -228,7 +227,8 @@ def record_arrays(over: Samples, mesh: Places, state: PathState, duty: MeshDuty)
     def contacting(values: Array) -> Array:
         return np.where(touching, values, np.nan)
 
-    gear_angle = ratio * angle - np.nan_to_num(state.deflection) / cycle.gear_pitch_radius
+    behind = np.nan_to_num(state.deflection) / (cycle.gear_sense * cycle.gear_pitch_radius)
+    gear_angle = ratio * angle - behind
     arrays = {
         "time": angle / duty.pinion_speed,
         "pinion_angle": angle,

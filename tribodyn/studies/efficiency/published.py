@@ -24,6 +24,7 @@ from tribodyn.geometry.path import Path, contact_limits, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.equilibrium import Contacts, settled
 from tribodyn.studies.efficiency.places import Array, from_pitch_point
+from tribodyn.numerics.elementary import sense
 from tribodyn.tribology.law import Closure
 
 #: Nodes on either side of the pitch point: the efficiency is then known to 1e-7 for every family and law.
@@ -84,14 +85,14 @@ def path_contact(
     psi, weight = rotation or rotations(pinion_teeth)
     motion = kinematics(path, path.signed_distance(psi))
     ratio = path.pinion_pitch_radius / path.gear_pitch_radius
-    vanishing = pitch_point(path)
+    vanishing, own = pitch_point(path), sense(path.gear_pitch_radius)
     return UnitContact(
         rotation=psi,
         weight=weight,
         pinion_normal_arm=motion.pinion_normal_arm,
-        gear_normal_arm=motion.gear_normal_arm,
+        gear_normal_arm=own * motion.gear_normal_arm,
         pinion_friction_arm=motion.pinion_friction_arm,
-        gear_friction_arm=motion.gear_friction_arm,
+        gear_friction_arm=own * motion.gear_friction_arm,
         curvature=motion.relative_curvature,
         pinion_speed=motion.pinion_speed if exact_speeds else motion.pinion_friction_arm,
         gear_speed=motion.gear_speed if exact_speeds else ratio * motion.gear_friction_arm,
@@ -165,8 +166,8 @@ def hoehn(
 ) -> float:
     """H_v = π (u + 1)/(z1 u cos β_b) (1 − ε_α + ε1² + ε2²), Diez-Ibarbia (10); with β_b as Ohlendorf has it.
 
-    For ε1 and ε2 (`pinion_tip`, `gear_tip`) ≤ 1 ≤ ε1 + ε2 only, with the pitch point where one pair alone
-    carries the load; beyond, see `exact`. `pinion_teeth` is z1, `ratio` u = z2/z1.
+    For 0 ≤ ε1, ε2 (`pinion_tip`, `gear_tip`) ≤ 1 ≤ ε1 + ε2 only, with the pitch point where one pair alone
+    carries the load; beyond, see `exact`. `pinion_teeth` is z1, `ratio` u = z2/z1, < 0 of an internal gear.
     """
     total = 1.0 - (pinion_tip + gear_tip) + pinion_tip**2 + gear_tip**2
     return math.pi * (ratio + 1.0) / (pinion_teeth * ratio) * total / math.cos(base_helix_angle)
@@ -212,6 +213,6 @@ def by_loss_factor(family: Family, drive: Drive, coefficient: float) -> dict[str
     lean = abs(float(base_helix_angle(drive)))
     factor = of_even_lines(*tips, teeth, ratio, lean) if lean else exact(*tips, teeth, ratio)
     results = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
-    if max(tips) <= 1.0 <= sum(tips):
+    if max(tips) <= 1.0 <= sum(tips) and min(tips) >= 0.0:
         results["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio, lean)
     return results

@@ -195,12 +195,14 @@ def efficiencies(
     case, duty = study.case, study.duty
     if case.drive.helix_angle:
         return results | _by_loss_factor(study)
-    ratio = float(study.cycle.gear_pitch_radius) / float(study.cycle.pinion_pitch_radius)
+    cycle = study.cycle
+    if not cycle.roll_start < 0.0 < cycle.roll_end:  # no pair about the pitch point, of some internal pairs
+        return results | _by_loss_factor(study)
     single = torque_ratio(
         path_contact(study.path, case.drive.pinion.teeth),
-        -duty.gear_torque if duty.way < 0.0 else duty.gear_torque / ratio,
+        -duty.gear_torque if duty.way < 0.0 else duty.gear_torque * float(cycle.speed_ratio),
         duty.pinion_speed,
-        float(study.cycle.face_width),
+        float(cycle.face_width),
         duty.closure,
         gear_drives=duty.way < 0.0,
     )

@@ -127,7 +127,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
-    yield from broken_gear_rules(scenario, every_duty=True)
+    yield from broken_gear_rules(scenario, every_duty=True, internal=True)
     drive, operating = scenario.drive, scenario.operating
     broken = broken_duty_rules(operating)
     yield from broken

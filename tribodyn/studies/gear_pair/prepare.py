@@ -53,7 +53,7 @@ def _model(
     shaft = operating.source == "torque" and operating.shaft_stiffness is not None
     (mass_1, inertia_1), (mass_2, inertia_2) = masses
     motor = [operating.drive_inertia] if shaft else []
-    ratio = float(cycle.pinion_pitch_radius) / float(cycle.gear_pitch_radius)
+    ratio = float(cycle.speed_ratio)
     bodies = Bodies(
         mass=np.array([mass_1, mass_2]),
         inertia=np.array(

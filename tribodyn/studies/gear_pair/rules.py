@@ -14,7 +14,7 @@ from tribodyn.studies.gears.scenario import broken_gear_rules
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
-    yield from broken_gear_rules(scenario)
+    yield from broken_gear_rules(scenario, internal=True)
     yield from broken_bearing_rules(scenario.bearings)
     yield from broken_source_rules(scenario.operating, "pinion_torque")
     yield from broken_mesh_rules(scenario.mesh)

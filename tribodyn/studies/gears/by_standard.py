@@ -73,7 +73,7 @@ def rated(
     speed, torque = duty
     cosine = math.cos(float(path.pressure_angle(0.0)))
     base = float(path.pinion_pitch_radius) * cosine, float(path.gear_pitch_radius) * cosine
-    pair = pair_of(assembly, materials, torque / base[1])
+    pair = pair_of(assembly, materials, torque / abs(base[1]))
     pair = pair._replace(line_load=pair.line_load * application_factor)
     stiffness = reference_stiffness(pair)
     inertias = float(bodies[0][1]), float(bodies[1][1])

@@ -39,7 +39,7 @@ def nominal_duty(case: GearCase, assembly: Assembly) -> DutyFigures:
     moduli = [(1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials]
     load = torque / abs(float(motion.gear_normal_arm)) / width
     pressure = hertz_pressure(load, abs(float(motion.relative_curvature)), 2.0 / sum(moduli))
-    own = torque * pinion / gear
+    own = torque * abs(pinion / gear)
     return DutyFigures(
         own,
         torque,

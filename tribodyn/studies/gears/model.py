@@ -53,6 +53,8 @@ def mesh_of(
         film=closure.film.parameters,
         friction=closure.friction.parameters,
         hand=hand,
+        driver_sense=float(cycle.pinion_sense),
+        driven_sense=float(cycle.gear_sense),
         moves=moves_of(frame, (radius_1, radius_2), places),
     )
 

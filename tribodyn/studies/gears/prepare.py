@@ -117,13 +117,13 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
     def wheel(side: Side) -> Wheel:
         body, place = body_of(drive, side), SIDES.index(side)
         return Wheel(
-            float(speed * drive.pinion.teeth / body.teeth),
-            float(radii[place]),
-            float(tip_radius(drive, side)),
-            float(assembly.tooth(side).root_radius),
+            float(speed * abs(drive.pinion.teeth / body.teeth)),
+            abs(float(radii[place])),
+            abs(float(tip_radius(drive, side))),
+            abs(float(assembly.tooth(side).root_radius)),
             float(body.face_width),
             float(drive.module),
-            float(body.teeth),
+            abs(float(body.teeth)),
             depths[place],
             abs(float(drive.helix_angle)),
         )
@@ -186,7 +186,7 @@ def _temperatures(
     case: Any, assembly: Assembly, wanted: TemperatureData, heat: Heat, lost: float, supplied: float
 ) -> tuple[Temperatures, float | None]:
     if wanted.model == "iso":
-        centre = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
+        centre = abs(float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius))
         width = float(min(case.drive.pinion.face_width, case.drive.gear.face_width))
         supply = LUBRICATION_FACTORS[wanted.lubrication] / wanted.tip_relief_factor
         bulk = supplied + bulk_rise(lost, 1.0, 1.0, centre, width, supply)

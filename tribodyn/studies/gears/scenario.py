@@ -22,7 +22,7 @@ from tribodyn.scenario.tables.drive_rules import (
     slices_of,
 )
 from tribodyn.scenario.tables.duty import SpectrumScenario, duty_of, unnamed_duty
-from tribodyn.scenario.tables.internal_gear import internal_refused
+from tribodyn.scenario.tables.internal_gear import broken_internal_runs, internal_refused
 from tribodyn.scenario.tables.laws import FilmTable, film_of, law_values
 from tribodyn.scenario.tables.losses import (
     LossesTable,
@@ -125,16 +125,21 @@ def mesh_of(scenario: Any, *, every_tooth: bool = False, error: Any = None, **ow
     return MeshData(**values | {"error_table": error} | own)
 
 
-def broken_gear_rules(scenario: Any, *, every_duty: bool = False, oil: bool = True) -> Iterator[InputError]:
+def broken_gear_rules(
+    scenario: Any, *, every_duty: bool = False, oil: bool = True, internal: bool = False
+) -> Iterator[InputError]:
     """Go through the broken rules of drive, duty, oil, temperatures, losses and mesh.
 
     Tables and keys that the scenario's kind does not have count as absent. `every_duty` says whether the
-    study runs all duties of a load spectrum at a time, `oil` whether the lubricant is looked at.
+    study runs all duties of a load spectrum at a time, `oil` whether the lubricant is looked at, `internal`
+    whether it knows internal gears.
     """
     drive, mesh, lubricant = scenario.drive, scenario.mesh, scenario.lubricant
     if drive.gear.internal or drive.pinion.internal:
-        yield internal_refused(drive)
-        return
+        if not internal:
+            yield internal_refused(drive)
+            return
+        yield from broken_internal_runs(scenario)
     yield from broken_drive_rules(drive)
     if not every_duty:
         yield from unnamed_duty(scenario)
