@@ -5,7 +5,7 @@ from typing import Any
 
 from tribodyn.errors import InputError
 
-INTERNAL, STAGES, HELIX = "internal gears", "several stages", "a helix"
+INTERNAL, STAGES, HELIX, PLANETS = "internal gears", "several stages", "a helix", "planetary gears"
 #: What is asked for -> the keys and names that ask for it, and what to do about it.
 _OUTSIDE = {
     "double helical gears": (r"herringbone|double_?heli", "describe one half of it, with helix_angle"),
@@ -17,9 +17,9 @@ _OUTSIDE = {
         r"^internal(_(gears?|teeth|mesh))?$|annulus|^ring(_|$)",
         "write internal = true in [drive.gear], and all numbers of teeth and lengths without sign",
     ),
-    "planetary gears": (
+    PLANETS: (
         r"planet|epicyclic|^(sun|carrier)s?(_|$)",
-        "describe an external mesh of it, sun and planet",
+        'write kind = "gear-train" with a [[stage]] of type = "planetary" (tribodyn init --kind gear-train)',
     ),
     STAGES: (
         r"multi_?stage|^((n|number_of)_)?(stage|shaft|gearbox|gear_?train|train|idler|gears|mesh(es)?|"
@@ -60,10 +60,10 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
     if what == INTERNAL:
         rule = "the key of an internal gear is internal, of the gear that it is"
         return InputError(error.key, error.value, rule, _OUTSIDE[INTERNAL][1], error.file)
-    rule = (
-        f"{what} are not modelled: this version computes external spur and helical gears, "
-        "and the geometry of internal ones, but no planetary gears"
-    )
+    if what == PLANETS:
+        rule = f"{PLANETS} are a stage of another kind of study"
+        return InputError(error.key, error.value, rule, _OUTSIDE[PLANETS][1], error.file)
+    rule = f"{what} are not modelled: this version computes spur and helical gears, and planetary ones of spur"
     return InputError(error.key, error.value, rule, remedy or _OUTSIDE[what][1], error.file)
 
 

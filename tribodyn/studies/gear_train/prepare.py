@@ -141,20 +141,13 @@ def _model(
     own = [each.inertia - body.attached for each, body in zip(inertias, case.bodies, strict=True)]
     for mesh, each, pair, closure in zip(case.meshes, made, pairs, closures, strict=True):
         ends = own[mesh.driver], own[mesh.driven]
-        senses = [-1.0 if case.gears[gear].teeth < 0 else 1.0 for gear in mesh.gears]
-        frame = frame_of(mesh.azimuth, round(case.bodies[mesh.driver].sense * senses[0]))
+        sense = case.bodies[mesh.driver].sense * int(each.cycle.pinion_sense)
+        frame = frame_of(mesh.azimuth, sense)
         hand = hand_of(pair.drive, clockwise=case.bodies[mesh.driver].sense < 0)
         one, two = (case.gears[gear].axial_position for gear in mesh.gears)
-        own_mesh = mesh_of(pair, each, closure, ends, frame, hand, (one, two))
-        carried = [carried_ratio(case, body, mesh.carrier) for body in (mesh.driver, mesh.driven)]
-        meshes.append(
-            own_mesh._replace(
-                driver_carried=carried[0],
-                driven_carried=carried[1],
-                driver_sense=senses[0],
-                driven_sense=senses[1],
-            )
-        )
+        plain = mesh_of(pair, each, closure, ends, frame, hand, (one, two))
+        carried = (carried_ratio(case, body, mesh.carrier) for body in (mesh.driver, mesh.driven))
+        meshes.append(plain._replace(**dict(zip(("driver_carried", "driven_carried"), carried, strict=True))))
     drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
     varying = _varying(case)
     first = case.meshes[0].pair

@@ -147,11 +147,11 @@ class PlanetaryStage(StageTeeth):
 def _stage_type(stage: Any) -> str:
     """Which of both a [[stage]] is."""
     kind = stage.get("type") if isinstance(stage, dict) else getattr(stage, "type", None)
-    return "planetary" if kind == "planetary" else "pair"
+    return "(planetary)" if kind == "planetary" else "(pair)"
 
 
 AnyStage = Annotated[
-    Annotated[Stage, Tag("pair")] | Annotated[PlanetaryStage, Tag("planetary")], Discriminator(_stage_type)
+    Annotated[Stage, Tag("(pair)")] | Annotated[PlanetaryStage, Tag("(planetary)")], Discriminator(_stage_type)
 ]
 
 
