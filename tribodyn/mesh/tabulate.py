@@ -141,9 +141,7 @@ class RollCurve(NamedTuple):
         """Roll angles of the nodes, (2, 17), rad."""
         xp, middle = namespace(self.start, self.end), self.middle
         unit = 0.5 + 0.5 * _POINTS
-        return xp.stack(
-            [middle + (self.start - middle) * (1.0 - unit), middle + (self.end - middle) * unit]
-        )
+        return xp.stack([middle + (self.start - middle) * (1.0 - unit), middle + (self.end - middle) * unit])
 
     def interpolate(self, values: Float[Array, "2 17 ..."], roll: Float[Array, "..."]) -> Float[Array, "..."]:
         """Values (…, k) at the roll angles (…), from values (2, 17, k) at the nodes; k may be missing."""

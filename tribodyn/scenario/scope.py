@@ -63,7 +63,9 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
     if what == PLANETS:
         rule = f"{PLANETS} are a stage of another kind of study"
         return InputError(error.key, error.value, rule, _OUTSIDE[PLANETS][1], error.file)
-    rule = f"{what} are not modelled: this version computes spur and helical gears, and planetary ones of spur"
+    rule = (
+        f"{what} are not modelled: this version computes spur and helical gears, and planetary ones of spur"
+    )
     return InputError(error.key, error.value, rule, remedy or _OUTSIDE[what][1], error.file)
 
 

@@ -42,4 +42,5 @@ def static_twist(model: Model) -> Float[Array, " mesh"]:
                 sense = float(np.sign(mesh.driver_carried))  # of the carrier, by that of the driver
                 turn -= sense * float(turned(layout.second[k], mean, layout))
         further[m] = float(mesh.driver_sense) * turn / float(mesh.table.pitch_angle)
-    return further
+    # cycles are counted from where the reference mesh begins one
+    return further - further[0] * np.asarray(model.schedule.rate)

@@ -41,9 +41,7 @@ def radians_of(case: LubricatedCase, bearings: Sequence[float]) -> float:
     density = min(material.density for material in case.materials)
     width = min(body.face_width for body in bodies)
     stiffness = mesh.stiffness if mesh.stiffness is not None else _MESH_STIFFNESS * modulus * width
-    areas = [
-        math.pi * abs((drive.module * body.teeth / 2) ** 2 - body.bore_radius**2) for body in bodies
-    ]
+    areas = [math.pi * abs((drive.module * body.teeth / 2) ** 2 - body.bore_radius**2) for body in bodies]
     masses = [max(density * area * body.face_width, 1e-9) for area, body in zip(areas, bodies, strict=True)]
     of_mesh = stiffness * (2.0 / masses[0] + 2.0 / masses[1])
     fastest = math.sqrt(max(of_mesh, *(k / m for k, m in zip(bearings, masses, strict=True))))

@@ -151,7 +151,8 @@ def _stage_type(stage: Any) -> str:
 
 
 AnyStage = Annotated[
-    Annotated[Stage, Tag("(pair)")] | Annotated[PlanetaryStage, Tag("(planetary)")], Discriminator(_stage_type)
+    Annotated[Stage, Tag("(pair)")] | Annotated[PlanetaryStage, Tag("(planetary)")],
+    Discriminator(_stage_type),
 ]
 
 
