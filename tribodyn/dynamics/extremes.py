@@ -28,7 +28,7 @@ from tribodyn.dynamics.parameters import SLIDING_DYNAMIC
 from tribodyn.dynamics.places import place_in_mesh
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, skippable, truncate, where
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.train.structure import TrainLayout, driven_arm, driver_arm, turned
+from tribodyn.train.structure import TrainLayout, rotational_error_of
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.law import ActiveLaw
 from tribodyn.tribology.surface_state import film_and_temperature
@@ -151,8 +151,7 @@ def measure_loads(interval, y, model, work, measures):
     for m in range(layout.meshes):
         mesh, contacts, first = model.meshes[m], work[m], m * of_mesh
         table = mesh.table
-        error = driver_arm(mesh) * turned(layout.driver[m], y, layout)
-        error = error - driven_arm(mesh) * turned(layout.driven[m], y, layout)
+        error = rotational_error_of(m, y, model)
         measures[first + ERROR_UP] = error
         measures[first + ERROR_DOWN] = -error
         driving, back = 0.0 * error, 0.0 * error

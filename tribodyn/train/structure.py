@@ -106,6 +106,9 @@ class GearMesh(NamedTuple):
     #: next likewise
     driver_sense: Any = 1.0
     driven_sense: Any = 1.0
+    carrier_arm: Any = (
+        0.0  # what the rotation of its carrier moves the pitch point by along the tangent, m/rad
+    )
 
 
 class TrainLayout(NamedTuple):
@@ -123,6 +126,7 @@ class TrainLayout(NamedTuple):
     states: StaticInt
     driver: Indices  # this and the next: bodies at the ends of every mesh
     driven: Indices
+    carrier: Indices  # of every mesh the body that carries it; `GROUND`: the housing
     first: Indices  # this and the next: bodies at the ends of every link; `GROUND`
     second: Indices
     pins: Indices  # of every link 1 where its ends have levers or an offset, else 0
@@ -144,10 +148,12 @@ def layout_of(
     pins: Sequence[int] = (),
     holds: Sequence[int] = (),
     frames: int = 0,
+    carriers: Sequence[int] = (),
 ) -> TrainLayout:
     """The layout of so many bodies; meshes (driver, driven) and links by their ends; input and output.
 
     `pins` and `holds` are numbers of links, see `TrainLayout`; only bodies that stand still are held.
+    `carriers` are those of the meshes; none: all in the housing.
     """
     half = 2 * planar + bodies + 3 * spatial
     states = 2 * half + OF_MESHES + WORKS_OF_MESH * len(meshes)
@@ -167,6 +173,7 @@ def layout_of(
         states=StaticInt(states),
         driver=driver,
         driven=driven,
+        carrier=Indices(carriers or [GROUND] * len(meshes)),
         first=first,
         second=second,
         pins=Indices([int(link in pins) for link in range(len(links))]),
@@ -292,22 +299,23 @@ def works_of_meshes(layout: TrainLayout, which: int) -> list[int]:
     return [work_of_mesh(layout, mesh, which) for mesh in range(layout.meshes)]
 
 
-def rotational_error(states: Any, mesh: int, model: Any) -> Any:
-    """Rotational transmission error r_1 θ_1 − r_2 θ_2 of a mesh, of its driver and driven body, m.
+@law
+def rotational_error_of(m, y, model):
+    """Rotational transmission error r_1 θ_1 − r_2 θ_2 of a mesh, of rotations against its carrier, m."""
+    layout, part = model.options.layout, model.meshes[m]
+    error = driver_arm(part) * turned(layout.driver[m], y, layout)
+    error = error - driven_arm(part) * turned(layout.driven[m], y, layout)
+    if layout.carrier[m] >= 0:
+        error = error - part.carrier_arm * turned(layout.carrier[m], y, layout)
+    return error
 
-    `states` has the states along its last axis.
-    """
-    layout, part = model.options.layout, model.meshes[mesh]
-    y = np.moveaxis(np.asarray(states), -1, 0)
-    return driver_arm(part) * turned(layout.driver[mesh], y, layout) - driven_arm(part) * turned(
-        layout.driven[mesh], y, layout
-    )
+
+def rotational_error(states: Any, mesh: int, model: Any) -> Any:
+    """`rotational_error_of` with the states along the last axis."""
+    return rotational_error_of(mesh, np.moveaxis(np.asarray(states), -1, 0), model)
 
 
 def rotational_error_rate(states: Any, mesh: int, model: Any) -> Any:
     """Its rate, m/s."""
-    layout, part = model.options.layout, model.meshes[mesh]
-    y = np.moveaxis(np.asarray(states), -1, 0)
-    return driver_arm(part) * turning(layout.driver[mesh], y, layout) - driven_arm(part) * turning(
-        layout.driven[mesh], y, layout
-    )
+    half = model.options.layout.half
+    return rotational_error_of(mesh, np.moveaxis(np.asarray(states), -1, 0)[half:], model)

@@ -18,7 +18,7 @@ from tribodyn.studies.gear_train.assembled import (
     phases,
     table_numbers,
 )
-from tribodyn.studies.gear_train.case import HOUSING, BodyData, LoadData, TrainCase
+from tribodyn.studies.gear_train.case import HOUSING, BodyData, LoadData, TrainCase, TrainMesh
 from tribodyn.studies.gear_train.warmth import at_tooth_temperatures
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, varying_load
@@ -29,7 +29,18 @@ from tribodyn.train.phases import Phases
 from tribodyn.train.planetary import CARRIER
 from tribodyn.train.positions import frame_of
 from tribodyn.train.schedule import schedule_of
-from tribodyn.train.structure import GROUND, IN_SPACE, TURN, Bodies, Links, TrainLayout, layout_of
+from tribodyn.train.structure import (
+    GROUND,
+    IN_SPACE,
+    TURN,
+    Bodies,
+    GearMesh,
+    Links,
+    TrainLayout,
+    driven_arm,
+    driver_arm,
+    layout_of,
+)
 from tribodyn.tribology.closure import closure_of
 
 
@@ -146,8 +157,7 @@ def _model(
         hand = hand_of(pair.drive, clockwise=case.bodies[mesh.driver].sense < 0)
         one, two = (case.gears[gear].axial_position for gear in mesh.gears)
         plain = mesh_of(pair, each, closure, ends, frame, hand, (one, two))
-        carried = (carried_ratio(case, body, mesh.carrier) for body in (mesh.driver, mesh.driven))
-        meshes.append(plain._replace(**dict(zip(("driver_carried", "driven_carried"), carried, strict=True))))
+        meshes.append(plain._replace(**_carried(case, mesh, plain)))
     drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
     varying = _varying(case)
     first = case.meshes[0].pair
@@ -185,6 +195,18 @@ def carried_ratio(case: TrainCase, body: int, carrier: int) -> float:
         return 0.0
     other = case.bodies[carrier]
     return float(other.ratio) * other.sense * case.bodies[body].sense
+
+
+def _carried(case: TrainCase, mesh: TrainMesh, plain: GearMesh) -> dict[str, float]:
+    """What `GearMesh` says of the carrier of its mesh."""
+    if mesh.carrier < 0:
+        return {}
+    ways = [case.bodies[mesh.carrier].sense * case.bodies[body].sense for body in (mesh.driver, mesh.driven)]
+    return {
+        "driver_carried": carried_ratio(case, mesh.driver, mesh.carrier),
+        "driven_carried": carried_ratio(case, mesh.driven, mesh.carrier),
+        "carrier_arm": float(ways[0] * driver_arm(plain) - ways[1] * driven_arm(plain)),
+    }
 
 
 def _rolling(case: TrainCase) -> float:
@@ -277,6 +299,7 @@ def _layout(case: TrainCase, new: dict[int, int]) -> TrainLayout:
         pins=[number for number, link in enumerate(case.links) if link.lever],
         holds=[number for number, link in enumerate(case.links) if link.holds],
         frames=int(bool(case.sets)),
+        carriers=[new.get(mesh.carrier, GROUND) for mesh in case.meshes],
     )
 
 

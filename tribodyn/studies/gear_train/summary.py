@@ -90,7 +90,8 @@ def steady_quantities(
     del whole["driving_gear"]
     each = []
     for m, (window, mesh, found) in enumerate(zip(windows, meshes, extremes, strict=True)):
-        force = float(np.mean(window["driven_torque"])) / float(mesh.cycle.gear_pitch_radius)
+        arm = float(mesh.cycle.gear_sense * mesh.cycle.gear_pitch_radius)
+        force = float(np.mean(window["driven_torque"])) / arm
         frequency = mesh.rate * cycles / duration
         lost = float(work[work_of_mesh(layout, m, FRICTION)]) / duration
         through = float(np.mean(window["driven_power"]))
