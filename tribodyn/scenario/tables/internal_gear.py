@@ -52,17 +52,18 @@ def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
             if gear.internal and getattr(gear, bore) is not None:
                 remedy = "give outer_diameter in its place"
                 yield InputError(f"drive.{name}.{bore}", rule="an internal gear has no bore", remedy=remedy)
-    if drive.pinion.internal:
-        rule, remedy = "the pinion must be external", "make the internal gear the gear, [drive.gear]"
+    if drive.pinion.internal and drive.gear.internal:
+        rule, remedy = "two internal gears cannot mesh", "make one of them external"
         yield InputError("drive.pinion.internal", "true", rule, remedy)
-    if not drive.gear.internal:
+    side = "pinion" if drive.pinion.internal else "gear"
+    if not getattr(drive, side).internal:
         return
     if drive.family in FAMILIES and FAMILIES[drive.family].cutter_path is None:
         rule, remedy = (
             f"internal gears of the family {drive.family} are not modelled",
             'use family = "involute"',
         )
-        yield InputError("drive.gear.internal", "true", rule, remedy)
+        yield InputError(f"drive.{side}.internal", "true", rule, remedy)
     if drive.helix_angle:
         rule, remedy = "helical internal gears are not modelled", "leave helix_angle out"
         yield InputError("drive.helix_angle", f"{drive.helix_angle:g} rad", rule, remedy)
