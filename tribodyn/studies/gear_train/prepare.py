@@ -18,7 +18,8 @@ from tribodyn.studies.gear_train.assembled import (
     phases,
     table_numbers,
 )
-from tribodyn.studies.gear_train.case import HOUSING, BodyData, LoadData, TrainCase, TrainMesh
+from tribodyn.studies.gear_train.case import HOUSING, BodyData, LoadData, TrainCase
+from tribodyn.studies.gear_train.planetary.frames import carried_of, frames_of, pins_of, rolling_of
 from tribodyn.studies.gear_train.warmth import at_tooth_temperatures
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, varying_load
@@ -26,7 +27,6 @@ from tribodyn.studies.gears.prepare import Thermal
 from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases
-from tribodyn.train.planetary import CARRIER
 from tribodyn.train.positions import frame_of
 from tribodyn.train.schedule import schedule_of
 from tribodyn.train.structure import (
@@ -34,11 +34,8 @@ from tribodyn.train.structure import (
     IN_SPACE,
     TURN,
     Bodies,
-    GearMesh,
     Links,
     TrainLayout,
-    driven_arm,
-    driver_arm,
     layout_of,
 )
 from tribodyn.tribology.closure import closure_of
@@ -135,7 +132,7 @@ def _model(
         load=np.zeros(layout.bodies),
         load_damping=np.zeros(layout.bodies),
         tilting=np.array([inertias[body].tilting for body in order[: layout.spatial]]),
-        **_frames(case, order[: layout.planar]),
+        **frames_of(case, order[: layout.planar]),
     )
     for load in case.loads:
         bodies.load[new[load.body]] += load.torque
@@ -157,7 +154,7 @@ def _model(
         hand = hand_of(pair.drive, clockwise=case.bodies[mesh.driver].sense < 0)
         one, two = (case.gears[gear].axial_position for gear in mesh.gears)
         plain = mesh_of(pair, each, closure, ends, frame, hand, (one, two))
-        meshes.append(plain._replace(**_carried(case, mesh, plain)))
+        meshes.append(plain._replace(**carried_of(case, mesh, plain)))
     drive = parameters.DRIVE_TORQUE if source.kind == "torque" else parameters.DRIVE_SPEED
     varying = _varying(case)
     first = case.meshes[0].pair
@@ -169,7 +166,7 @@ def _model(
             np.array(damping).reshape(-1, 3),
             of_links,
             *_in_space(case, damping, inertias, layout),
-            *_pins(case, layout),
+            *pins_of(case, layout),
         ),
         schedule_of(
             [np.asarray(each.table.boundary) for each in made],
@@ -178,7 +175,7 @@ def _model(
         ),
         parameters.Operation(
             nominal_speed=source.speed / float(case.bodies[source.body].ratio),
-            pitch_angle=2.0 * pi / abs(float(first.drive.pinion.teeth)) / _rolling(case),
+            pitch_angle=2.0 * pi / abs(float(first.drive.pinion.teeth)) / rolling_of(case),
             drive_torque=source.torque,
             speed_regulation=source.speed_regulation,
             contact_width=first.mesh.contact_width,
@@ -187,57 +184,6 @@ def _model(
         ),
         options_of(first, [each.cycle for each in made], closures[0], layout, drive)._replace(links=chain),
     )
-
-
-def carried_ratio(case: TrainCase, body: int, carrier: int) -> float:
-    """Speed of a carrier over the reference's in the sense of a body; of −1 nothing."""
-    if carrier < 0:
-        return 0.0
-    other = case.bodies[carrier]
-    return float(other.ratio) * other.sense * case.bodies[body].sense
-
-
-def _carried(case: TrainCase, mesh: TrainMesh, plain: GearMesh) -> dict[str, float]:
-    """What `GearMesh` says of the carrier of its mesh."""
-    if mesh.carrier < 0:
-        return {}
-    ways = [case.bodies[mesh.carrier].sense * case.bodies[body].sense for body in (mesh.driver, mesh.driven)]
-    return {
-        "driver_carried": carried_ratio(case, mesh.driver, mesh.carrier),
-        "driven_carried": carried_ratio(case, mesh.driven, mesh.carrier),
-        "carrier_arm": float(ways[0] * driver_arm(plain) - ways[1] * driven_arm(plain)),
-    }
-
-
-def _rolling(case: TrainCase) -> float:
-    """Speed of the reference against what carries its mesh, over its own."""
-    return 1.0 - carried_ratio(case, 0, case.meshes[0].carrier)
-
-
-def _frames(case: TrainCase, bodies: Sequence[int]) -> dict[str, Float[Array, "..."]]:
-    """What `Bodies` says of frames that turn with carriers, of the case's bodies that move in the plane."""
-    if not case.sets:
-        return {}
-    speed = case.source.speed / float(case.bodies[case.source.body].ratio)
-    carried, frame_speed, place = np.zeros(len(bodies)), np.zeros(len(bodies)), np.zeros((len(bodies), 2))
-    for own in case.sets:
-        carrier = case.bodies[own.members[CARRIER]]
-        for row in (row for row, body in enumerate(bodies) if body in own.bodies):
-            carried[row] = float(carrier.ratio) * carrier.sense
-            frame_speed[row] = carried[row] * speed if own.frame_forces else 0.0
-            place[row] = np.subtract(case.bodies[bodies[row]].centre, carrier.centre)
-    return {"carried": carried, "frame_speed": frame_speed, "place": place}
-
-
-def _pins(case: TrainCase, layout: TrainLayout) -> tuple[Float[Array, "link end 2"], Float[Array, "link 2"]]:
-    """Levers and offsets of the links; empty where there are no sets."""
-    count = layout.links if case.sets else 0
-    lever, offset = np.zeros((count, 2, 2)), np.zeros((count, 2))
-    for number, link in enumerate(case.links if count else ()):
-        offset[number] = link.offset
-        if link.lever:
-            lever[number, 1] = link.lever
-    return lever, offset
 
 
 def _in_space(

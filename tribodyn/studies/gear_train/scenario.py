@@ -1,10 +1,8 @@
 """The scenario of a train, and the case that is made of it."""
 
-from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Annotated, Any, Literal, NamedTuple
 
-import numpy as np
 from pydantic import Discriminator, Field, Tag
 
 from tribodyn.dynamics.data import BearingData, OperatingData
@@ -22,14 +20,12 @@ from tribodyn.studies.gear_train.case import (
     BodyData,
     GearData,
     LinkData,
-    SetData,
     SourceData,
     TrainCase,
     TrainMesh,
 )
 from tribodyn.studies.gear_train.described.drawn import Drawn, Moving, drawn, moving
 from tribodyn.studies.gear_train.described.duty import TrainDuty, duty_of, motor_torque
-from tribodyn.studies.gear_train.described.planets import SetPart, pin_offset
 from tribodyn.studies.gear_train.described.structure import bearings_by_body, mesh_table
 from tribodyn.studies.gear_train.described.tables import (
     MOST_PARTS,
@@ -44,13 +40,13 @@ from tribodyn.studies.gear_train.described.tables import (
     TrainGear,
     TrainOperating,
 )
+from tribodyn.studies.gear_train.planetary.linked import links_of_set, set_data
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.studies.gears.case import LubricatedCase, OutputData
 from tribodyn.studies.gears.motion import Friction, Mesh, Output, Solver, moving_mesh_of
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
 from tribodyn.train.links import LINK_LAWS
-from tribodyn.train.planetary import CARRIER
 
 
 def _sort(mesh: Any) -> str:
@@ -101,10 +97,6 @@ class GearTrainScenario(ScenarioHead):
 
 
 Scenario = GearTrainScenario
-
-
-#: Stiffness on its pitch circle with which a member is held where none is given, N/m: that of a stiff bearing.
-USUAL_SUPPORT = 1e9
 
 
 class PairView(NamedTuple):
@@ -164,7 +156,7 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
         max_period=max_period,
         solver=SolverData(**solver),
         output=OutputData(**scenario.output.model_dump()),
-        sets=tuple(_set(own, train) for own in train.parts.sets),
+        sets=tuple(set_data(own, train) for own in train.parts.sets),
     )
 
 
@@ -248,7 +240,7 @@ def _links(scenario: Any, train: Moving, figure: Drawn) -> tuple[LinkData, ...]:
                 )
             )
     for own in train.parts.sets:
-        found += _links_of_set(own, train, figure, bearings)
+        found += links_of_set(own, train, figure, bearings)
     for link in train.parts.links:
         one, two = (HOUSING if end < 0 else new[end] for end in link.ends)
         ends = (two, one) if one == HOUSING else (one, two)
@@ -257,61 +249,6 @@ def _links(scenario: Any, train: Moving, figure: Drawn) -> tuple[LinkData, ...]:
             LinkData(link.name, link.key, ends, link.stiffness, link.damping, link.damping_ratio, law, values)
         )
     return tuple(found)
-
-
-def _links_of_set(own: SetPart, train: Moving, figure: Drawn, bearings: Sequence[Any]) -> Iterator[LinkData]:
-    """Pins of the planets, and what holds a member against rotation."""
-    stage, new = own.table, train.numbers
-    carrier = new[own.members[CARRIER]]
-    sense, centre = train.motion.sense[carrier], figure.places.centres
-    for number, body in enumerate(own.planets):
-        bearing = bearings[body]
-        if bearing is None:
-            continue
-        data = bearing_of(bearing)
-        x, y = centre[new[body]] - centre[carrier]
-        yield LinkData(
-            f"pin-{train.parts.bodies[body].name}",
-            own.key,
-            (new[body], carrier),
-            (data.stiffness_x, data.stiffness_y, 0.0),
-            (0.0, 0.0, 0.0),
-            (data.damping_ratio_x, data.damping_ratio_y, 0.0),
-            lever=(-sense * float(y), sense * float(x)),
-            offset=pin_offset(stage, number),
-        )
-    stiffness = stage.support_stiffness
-    if stiffness is None:
-        stiffness = USUAL_SUPPORT * held_radius(own, train, figure) ** 2
-    yield LinkData(
-        f"support-{train.parts.bodies[own.held].name}",
-        own.key,
-        (new[own.held], HOUSING),
-        (0.0, 0.0, stiffness),
-        (0.0, 0.0, 0.0),
-        (0.0, 0.0, stage.support_damping_ratio),
-        holds=True,
-    )
-
-
-def held_radius(own: SetPart, train: Moving, figure: Drawn) -> float:
-    """Radius (m) of the pitch circle of the held member; of a carrier that on which the pins are."""
-    for mesh, gears in enumerate(train.motion.gears):
-        path = figure.assemblies[mesh].path
-        for gear, radius in zip(gears, (path.pinion_pitch_radius, path.gear_pitch_radius), strict=True):
-            if train.parts.gears[gear].body == own.held:
-                return abs(float(radius))
-    centre, new = figure.places.centres, train.numbers
-    return float(np.hypot(*(centre[new[own.planets[0]]] - centre[new[own.held]])))
-
-
-def _set(own: SetPart, train: Moving) -> SetData:
-    new, stage = train.numbers, own.table
-    members = {name: new[body] for name, body in own.members.items()}
-    planets = tuple(new[body] for body in own.planets)
-    return SetData(
-        stage.name, own.key, members, planets, stage.placed, own.teeth, stage.held, stage.frame_forces
-    )
 
 
 def _meshes(

@@ -11,7 +11,6 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable
-from tribodyn.studies.gear_train.described.planets import coaxial
 from tribodyn.studies.gear_train.described.structure import (
     OF_DRIVE,
     Structure,
@@ -20,6 +19,7 @@ from tribodyn.studies.gear_train.described.structure import (
     structure,
 )
 from tribodyn.studies.gear_train.described.teeth import check_same_teeth, engagement
+from tribodyn.studies.gear_train.planetary.described import coaxial
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.phases import ToothedShaft, nominal_phases
 from tribodyn.train.positions import Centres, Disc, Distance, check_room, joined, places

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.studies.gear_train.described.planets import broken_sets, planetary_stages
 from tribodyn.studies.gear_train.described.structure import OF_DRIVE
 from tribodyn.studies.gear_train.described.tables import GROUND, Link, PlanetaryStage, Shaft
+from tribodyn.studies.gear_train.planetary.described import broken_sets, planetary_stages
 
 _PLACE = "gear, shaft or body"
 _DEFAULT = "default"

@@ -14,13 +14,6 @@ from tribodyn.scenario.quantity import Printed
 from tribodyn.scenario.tables.bearings import Bearing
 from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
-from tribodyn.studies.gear_train.described.planets import (
-    SetPart,
-    meshes_of_set,
-    planet_names,
-    planetary_stages,
-    set_of,
-)
 from tribodyn.studies.gear_train.described.tables import (
     GROUND,
     BareMesh,
@@ -29,6 +22,13 @@ from tribodyn.studies.gear_train.described.tables import (
     PlanetaryStage,
     Shaft,
     Stage,
+)
+from tribodyn.studies.gear_train.planetary.described import (
+    SetPart,
+    meshes_of_set,
+    planet_names,
+    planetary_stages,
+    set_of,
 )
 from tribodyn.studies.gears.motion import Mesh
 from tribodyn.train.kinematics import Joint, Named, SetMembers, Toothed, TrainSpeeds, kinematics

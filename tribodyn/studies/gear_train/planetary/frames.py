@@ -1,0 +1,63 @@
+"""What a train's model says of frames that turn with carriers: speeds, places, levers of pins."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.studies.gear_train.case import TrainCase, TrainMesh
+from tribodyn.train.planetary import CARRIER
+from tribodyn.train.structure import GearMesh, TrainLayout, driven_arm, driver_arm
+
+
+def carried_ratio(case: TrainCase, body: int, carrier: int) -> float:
+    """Speed of a carrier over the reference's in the sense of a body; of −1 nothing."""
+    if carrier < 0:
+        return 0.0
+    other = case.bodies[carrier]
+    return float(other.ratio) * other.sense * case.bodies[body].sense
+
+
+def carried_of(case: TrainCase, mesh: TrainMesh, plain: GearMesh) -> dict[str, float]:
+    """What `GearMesh` says of the carrier of its mesh."""
+    if mesh.carrier < 0:
+        return {}
+    ways = [case.bodies[mesh.carrier].sense * case.bodies[body].sense for body in (mesh.driver, mesh.driven)]
+    return {
+        "driver_carried": carried_ratio(case, mesh.driver, mesh.carrier),
+        "driven_carried": carried_ratio(case, mesh.driven, mesh.carrier),
+        "carrier_arm": float(ways[0] * driver_arm(plain) - ways[1] * driven_arm(plain)),
+    }
+
+
+def rolling_of(case: TrainCase) -> float:
+    """Speed of the reference against what carries its mesh, over its own."""
+    return 1.0 - carried_ratio(case, 0, case.meshes[0].carrier)
+
+
+def frames_of(case: TrainCase, bodies: Sequence[int]) -> dict[str, Float[Array, "..."]]:
+    """What `Bodies` says of frames that turn with carriers, of the case's bodies that move in the plane."""
+    if not case.sets:
+        return {}
+    speed = case.source.speed / float(case.bodies[case.source.body].ratio)
+    carried, frame_speed, place = np.zeros(len(bodies)), np.zeros(len(bodies)), np.zeros((len(bodies), 2))
+    for own in case.sets:
+        carrier = case.bodies[own.members[CARRIER]]
+        for row in (row for row, body in enumerate(bodies) if body in own.bodies):
+            carried[row] = float(carrier.ratio) * carrier.sense
+            frame_speed[row] = carried[row] * speed if own.frame_forces else 0.0
+            place[row] = np.subtract(case.bodies[bodies[row]].centre, carrier.centre)
+    return {"carried": carried, "frame_speed": frame_speed, "place": place}
+
+
+def pins_of(
+    case: TrainCase, layout: TrainLayout
+) -> tuple[Float[Array, "link end 2"], Float[Array, "link 2"]]:
+    """Levers and offsets of the links; empty where there are no sets."""
+    count = layout.links if case.sets else 0
+    lever, offset = np.zeros((count, 2, 2)), np.zeros((count, 2))
+    for number, link in enumerate(case.links if count else ()):
+        offset[number] = link.offset
+        if link.lever:
+            lever[number, 1] = link.lever
+    return lever, offset
