@@ -81,6 +81,12 @@ MOTION = (
     Quantity("dynamic_factor", "Dynamic factor", digits=".3f", symbol="K_v").defined_as(
         "Maximum of the loads' moment over that of the mean load, from the motion."
     ),
+    Quantity("mesh_load_factor", "Mesh load factor", digits=".3f", symbol="K_γ").defined_as(
+        "Of a planetary stage: mean torque between sun and planet of the planet with most, over that of all."
+    ),
+    Quantity("planet_load_factor_max", "Maximum load of a planet over the mean", digits=".3f").defined_as(
+        "Of a planetary stage: maximum torque between sun and planet, over time, over the mean of all planets."
+    ),
     Quantity(
         "dynamic_factor_iso", "Dynamic factor by ISO 6336-1, method B,", digits=".3f", symbol="K_v"
     ).defined_as(

@@ -1,6 +1,6 @@
 """What is said of a train without a run: speeds, frequencies, modes, and every mesh as of a pair."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import degrees, pi
 from typing import Any
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from tribodyn.dynamics.modes import Modes, modes
 from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.studies.gear_train.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.gears.prepare import PreparedGears
@@ -25,12 +26,15 @@ def check(case: TrainCase) -> CheckResult:
     """Check a case, tabulate its meshes, and say what train it describes."""
     prepared = prepare(case)
     found = modes(prepared.model, [made.cycle for made in prepared.made])
+    kinds = kinds_of(prepared, found)
     of_meshes = [_of_mesh(prepared, m) for m in range(len(case.meshes))]
     names = [mesh.name for mesh in case.meshes]
     train = _train(prepared)
     data = {
         **train,
         "natural_frequencies": found.frequency,
+        **({"mode_kinds": list(kinds)} if kinds else {}),
+        **({"planet_pass_frequencies": planet_pass(prepared)} if case.sets else {}),
         "mode_shares": [
             dict(zip(prepared.names, row, strict=True)) for row in np.round(found.share, 6).tolist()
         ],
@@ -39,7 +43,7 @@ def check(case: TrainCase) -> CheckResult:
     }
     tables = [
         *_train_tables(prepared, train),
-        _mode_table(prepared, found),
+        _mode_table(prepared, found, kinds),
         _campbell_table(prepared, found),
         *(
             table._replace(title=f"{table.title}, mesh {name}")
@@ -157,15 +161,15 @@ def _train_tables(prepared: PreparedTrain, found: dict[str, Any]) -> list[TextTa
     ]
 
 
-def _mode_table(prepared: PreparedTrain, found: Modes) -> TextTable:
-    """Natural frequencies, and the bodies that move in each mode."""
+def _mode_table(prepared: PreparedTrain, found: Modes, kinds: Sequence[str]) -> TextTable:
+    """Natural frequencies, kinds of modes where there are planets, and the bodies that move in each."""
     rows = []
     for frequency, share in zip(found.frequency, found.share, strict=True):
         order = np.argsort(-share, kind="stable")
         who = ", ".join(f"{prepared.names[b]} {100.0 * share[b]:.0f} %" for b in order if share[b] > LITTLE)
-        rows.append((f"{frequency:.5g}", who))
+        rows.append((f"{frequency:.5g}", *kinds[len(rows) : len(rows) + 1], who))
     title = "Natural frequencies, at the mean mesh stiffness, and shares of the kinetic energy"
-    return TextTable(title, ("Hz", "bodies"), rows)
+    return TextTable(title, ("Hz", *(("kind",) if kinds else ()), "bodies"), rows)
 
 
 def _campbell_table(prepared: PreparedTrain, found: Modes) -> TextTable:

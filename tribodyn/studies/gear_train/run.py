@@ -12,6 +12,7 @@ from tribodyn.errors import SimulationError
 from tribodyn.record.reader import MESHES
 from tribodyn.record.trust import judge_tribology
 from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.studies.gear_train.planetary.results import STAGES, stage_quantities
 from tribodyn.studies.gear_train.prepare import PreparedTrain, geometry_of, prepare
 from tribodyn.studies.gear_train.record import TrainRecord, record_of
 from tribodyn.studies.gear_train.summary import (
@@ -118,6 +119,8 @@ def _concluded(
         judge_tribology(statistics.judge, each[m])
     names = [mesh.name for mesh in case.meshes]
     whole |= worst_of(each) | {MESHES: dict(zip(names, each, strict=True))}
+    if case.sets:
+        whole[STAGES] = stage_quantities(prepared, windows, each)
     sliding = case.meshes[0].pair.friction.sliding
     whole["warning"] = warning_of(whole["friction_work_on_vibration"], sliding)
     statistics.judge.take({"efficiency": whole["efficiency"]})
