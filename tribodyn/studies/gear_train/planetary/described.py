@@ -4,7 +4,10 @@ from collections.abc import Iterator
 from math import cos, sin
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.scenario.tables.bearings import bearing_of
 from tribodyn.studies.gear_train.described.tables import PlanetaryStage
 from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly
@@ -176,3 +179,20 @@ def pin_offset(stage: PlanetaryStage, planet: int) -> tuple[float, float]:
     outwards = stage.radial_pin_errors[planet] if stage.radial_pin_errors else 0.0
     onwards = stage.tangential_pin_errors[planet] if stage.tangential_pin_errors else 0.0
     return outwards * cos(angle) - onwards * sin(angle), outwards * sin(angle) + onwards * cos(angle)
+
+
+def refuse_overlap(own: SetPart, tip_radius: float, centres: Float[Array, "planet 2"]) -> None:
+    """Raise InputError where the tip circles of planets overlap; centres, m."""
+    apart = np.hypot(*np.moveaxis(centres[:, None] - centres[None], -1, 0))
+    apart[np.diag_indices(len(centres))] = np.inf
+    overlap = 2.0 * tip_radius - float(apart.min())
+    if overlap <= 0.0:
+        return
+    one, two = sorted(int(place) + 1 for place in np.unravel_index(int(np.argmin(apart)), apart.shape))
+    radius = float(np.hypot(*(centres[0] - centres.mean(axis=0))))
+    rule = f"the tip circles of planets {one} and {two} overlap by {1e3 * overlap:.3g} mm"
+    remedy = "stand them further apart"
+    if not own.table.angles:
+        remedy = f"use at most {int(np.pi / np.arcsin(tip_radius / radius))}, or planets with fewer teeth"
+    key = "angles" if own.table.angles else "planets"
+    raise InputError(f"{own.key}.{key}", None if own.table.angles else own.table.planets, rule, remedy)
