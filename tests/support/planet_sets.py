@@ -40,7 +40,7 @@ def planet_set(
         "gear": {
             "sun": {"teeth": teeth[0], "bore_diameter": "40 mm", **width},
             "planet": {"teeth": teeth[1], "bore_diameter": "50 mm", **width},
-            "ring": {"teeth": teeth[2], "internal": True, **width},
+            "ring": {"teeth": teeth[2], "internal": True, "addendum": 0.9, **width},
         },
         "stage": [stage],
         "body": [{"name": "carrier", "mass": "6 kg", "inertia": "0.04 kg*m**2"}],
