@@ -139,6 +139,8 @@ def key_points(record: Record) -> list[KeyPoint]:
     begin, end = ((roll - table["roll_start"]) / pitch for roll in limits)
     # pitches of a pair from where pair 1 stands at the start of a mesh cycle
     places = {"B_g": begin, "B_p": end, "P": -table["roll_start"] / pitch}
+    if not begin <= places["P"] <= end:  # of some internal pairs, which slide one way only
+        del places["P"]
     if 1.0 < end - begin <= 2.0:
         places |= {"C_g": begin + 1.0, "C_p": end - 1.0}
     points: dict[float, dict[int, str]] = {}

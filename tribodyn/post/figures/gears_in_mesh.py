@@ -92,7 +92,8 @@ def draw_whole(axes: Axes, mesh: GearsInMesh, bore_radii: tuple[float, float]) -
 def reach(mesh: GearsInMesh) -> tuple[float, float]:
     """Half width and half height of the part that `draw_gears` shows, mm."""
     path = mesh.path / MILLIMETRE
-    across = max(0.75 * float(np.ptp(path[:, 0])), 1.6 * float(np.abs(path[:, 1]).max())) + 1e-9
+    x, y = np.abs(path).max(axis=0).tolist()
+    across = max(0.75 * float(np.ptp(path[:, 0])), 1.1 * x, 1.6 * y) + 1e-9
     return across, 0.8 * across
 
 

@@ -9,10 +9,14 @@
     for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
     return new Kind(bytes.buffer);
   }
-  function outlined(text) {
+  function outlined(text, outside) {
     const points = numbers(text, Float32Array), outline = new Path2D();
     for (let k = 0; k < points.length; k += 2) outline.lineTo(points[k], points[k + 1]);
     outline.closePath();
+    if (outside) {  // of an internal gear, whose outline is its hole
+      outline.moveTo(outside, 0);
+      outline.arc(0, 0, outside, 0, 2 * Math.PI);
+    }
     return outline;
   }
   // unpack the records
@@ -47,8 +51,8 @@
         teeth.roll = numbers(teeth.roll, Float64Array);
         teeth.path = numbers(teeth.path, Float32Array);
         const turns = { pinion: -1, gear: teeth.radii[0] / teeth.radii[1] }, places = { pinion: -teeth.radii[0], gear: teeth.radii[1] };
-        teeth.bodies = ["pinion", "gear"].map((name) => ({
-          path: outlined(teeth[name]), fill: name, pose: (frame) => [0, places[name], turns[name] * teeth.roll[frame]],
+        teeth.bodies = ["pinion", "gear"].map((name, n) => ({
+          path: outlined(teeth[name], teeth.outside[n]), fill: name, pose: (frame) => [0, places[name], turns[name] * teeth.roll[frame]],
         }));
       }
     }
@@ -309,7 +313,7 @@
       context.rotate(angle);
       context.fillStyle = color(body.fill === "paper" ? "--card" : "--" + body.fill);
       context.globalAlpha = body.opacity || 1;
-      if (body.fill !== "ring") context.fill(body.path);
+      if (body.fill !== "ring") context.fill(body.path, "evenodd");
       context.globalAlpha = 1;
       context.lineWidth = body.width || 1.4 * ratio / scale;
       context.strokeStyle = edges[body.fill];

@@ -48,6 +48,7 @@ def rolling_teeth(record: Record) -> dict[str, Any] | None:
         "gear": packed(shape["gear_outline"]),
         "path": packed(shape["path_of_contact"]),
         "radii": [float(shape["pinion_pitch_radius"]), float(shape["gear_pitch_radius"])],
+        "outside": outside_of(shape),
     }
 
 
@@ -72,7 +73,13 @@ def turning_teeth(shape: Mapping[str, Any], pinion_teeth: float) -> dict[str, An
         "gear": packed(shape["gear_outline"]),
         "path": packed(shape["path_of_contact"]),
         "radii": [pinion, gear],
+        "outside": outside_of(shape),
     }
+
+
+def outside_of(shape: Mapping[str, Any]) -> list[float]:
+    """Outer radii of internal gears, whose outlines are their holes, m; 0 of external ones."""
+    return [max(-float(shape.get(f"{side}_bore_radius", 0.0)), 0.0) for side in ("pinion", "gear")]
 
 
 class _Places(NamedTuple):
