@@ -87,6 +87,11 @@ def body_of(drive: Drive, side: Side) -> GearBody:
     return drive.pinion if side == "pinion" else drive.gear
 
 
+def internal_side(drive: Drive) -> Side | None:
+    """Which gear of the pair is internal; None: neither."""
+    return next((side for side in SIDES if body_of(drive, side).teeth < 0), None)
+
+
 def reference_radius(drive: Drive, side: Side) -> Number:
     """Radius of the circle that rolls with the rack: module × teeth / 2, m."""
     return drive.module * body_of(drive, side).teeth / 2

@@ -253,7 +253,7 @@ def friction_loss(
     """
     xp = namespace(*cycle, normal_load, friction_coefficient)
     pairs, fronts = cycle.front_pairs, cycle.front_slots
-    sliding = (cycle.pinion_speed - cycle.gear_speed)[..., :fronts]
+    sliding = cycle.pinion_sense * (cycle.pinion_speed - cycle.gear_speed)[..., :fronts]
     power = (friction_coefficient * cycle.in_contact[:, None, :] * normal_load)[..., :fronts] * sliding
     if weight is not None:
         return cycle_mean(cycle, power * sliding_side(cycle)[..., :fronts], weight).sum()

@@ -54,7 +54,10 @@ class MeshData:
 
 
 class Slots(NamedTuple):
-    """Where the pairs of the slots stand; as in `MeshCycle`, and `roll`: pinion angles (S, N, Q), rad."""
+    """Where the pairs of the slots stand; as in `MeshCycle`, and `roll`: pinion angles (S, N, Q), rad.
+
+    Angles of an internal pinion fall (`path`), and its pitch is negative.
+    """
 
     boundary: Float[Array, " boundary"]
     phase: Float[Array, "segment node"]
@@ -106,7 +109,8 @@ def slots(
     centre = (position[:, 0] + position[:, -1]) / 2
     in_contact = xp.where(centre < (end - start) / pitch, 1.0, 0.0)
     side = np.where(np.arange(position.shape[-1]) < pairs, 1.0, -1.0)
-    return Slots(boundary, phase, in_contact, side, within(start + pitch * position, start, end), limits)
+    roll = within(start + pitch * position, minimum(start, end), maximum(start, end))
+    return Slots(boundary, phase, in_contact, side, roll, limits)
 
 
 def unloaded_gap(
@@ -128,8 +132,9 @@ def unloaded_gap(
         gap = gap + (amplitude * cos(2.0 * np.pi * order * (slots.phase - begin) + angle))[..., None]
     if mesh.error_table is not None:
         at, error = mesh.error_table
-        check_cover(at, start, end, "mesh.transmission_error.table")
-        gap = gap + interpolate(at, error, within(roll, maximum(at[0], start), minimum(at[-1], end)))
+        low, high = minimum(start, end), maximum(start, end)
+        check_cover(at, low, high, "mesh.transmission_error.table")
+        gap = gap + interpolate(at, error, within(roll, maximum(at[0], low), minimum(at[-1], high)))
     if np.all(slots.side > 0):
         return gap
     backlash = (mesh.backlash or 0.0) * cos(pressure_angle) / cos(assembly.path.pressure_angle(0.0))

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tribodyn.errors import InputError
-from tribodyn.post.cycles import along_path, pair_history, path_limits
+from tribodyn.post.cycles import along_path, outside_of, pair_history, path_limits
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh, draw_gears, key_rolls, placed
 from tribodyn.post.figures.panel import ALONE, KEY_POINTS, View, record_label, record_title
 from tribodyn.post.style import QUIET, WIDTH, new_figure
@@ -53,7 +53,7 @@ def draw_path(axes: Axes, record: Record) -> None:
     pinion, gear = gears_in_mesh(record, late * table["pinion_teeth"] / (2 * np.pi))
     tips = geometry["pinion_tip_radius"], geometry["gear_tip_radius"]
     path = geometry["path_of_contact"]
-    points, outside = key_positions(record), max(-geometry.get("gear_bore_radius", 0.0), 0.0)
+    points, outside = key_positions(record), outside_of(geometry)
     draw_gears(axes, GearsInMesh(pinion, gear, path, _pitch_radii(record), tips, points, outside))
 
 

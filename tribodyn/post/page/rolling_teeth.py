@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.post.cycles import along_path, in_the_middle
+from tribodyn.post.cycles import along_path, in_the_middle, outside_of
 from tribodyn.post.page.data import packed
 from tribodyn.record.reader import Record
 
@@ -75,11 +75,6 @@ def turning_teeth(shape: Mapping[str, Any], pinion_teeth: float) -> dict[str, An
         "radii": [pinion, gear],
         "outside": outside_of(shape),
     }
-
-
-def outside_of(shape: Mapping[str, Any]) -> list[float]:
-    """Outer radii of internal gears, whose outlines are their holes, m; 0 of external ones."""
-    return [max(-float(shape.get(f"{side}_bore_radius", 0.0)), 0.0) for side in ("pinion", "gear")]
 
 
 class _Places(NamedTuple):

@@ -75,6 +75,13 @@ def internal_refused(drive: DriveTable) -> InputError:
     return InputError(f"drive.{side}.internal", "true", rule, remedy)
 
 
+def driving_internal(drive: DriveTable) -> Iterator[InputError]:
+    """Refuse an internal gear that drives, where a study takes the pinion to turn in it."""
+    if drive.pinion.internal:
+        rule, remedy = "of a pair the gear is internal, and the pinion turns in it", "make it [drive.gear]"
+        yield InputError("drive.pinion.internal", "true", rule, f"{remedy}; a negative torque lets it drive")
+
+
 def broken_internal_runs(scenario: Any) -> Iterator[InputError]:
     """Go through what a study that knows internal gears has no formula for; tables may be absent."""
     losses, temperature = getattr(scenario, "losses", None), getattr(scenario, "temperature", None)

@@ -11,6 +11,7 @@ from tribodyn.errors import InputError
 from tribodyn.scenario.quantity import Table, written
 from tribodyn.scenario.tables.bearings import Stiffness
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
+from tribodyn.scenario.tables.internal_gear import driving_internal
 from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
@@ -130,6 +131,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
+    yield from driving_internal(scenario.drive)
     yield from broken_gear_rules(scenario, every_duty=True, internal=True)
     yield from broken_stiffness_rules(scenario.mesh, ("constant",))
     drive, operating = scenario.drive, scenario.operating
