@@ -63,6 +63,7 @@ class GearBody(NamedTuple):
     #: addendum of this cutter, in modules, of which the root circle follows; None: as high as the dedendum of
     #: the gear needs
     cutter_addendum: Number = None
+    free_rim: Number = 0.0  # 1: nothing holds the outside of an internal gear's rim in shape; 0: its fit does
 
 
 class Drive(NamedTuple):

@@ -172,11 +172,11 @@ def mesh_table(assembly: Assembly, slots: Slots, motion: Kinematics, elastic: El
 def check_bores(drive: Drive) -> None:
     """Raise InputError for a solid body where its elasticity is needed; traced radii are not checked."""
     for side in SIDES:
-        bore = body_of(drive, side).bore_radius
-        if not is_jax(bore) and bore <= 0:
+        body = body_of(drive, side)
+        if not is_jax(body.bore_radius) and body.bore_radius * body.teeth <= 0:
             raise InputError(
                 f"drive.{side}.bore_radius",
-                bore,
+                body.bore_radius,
                 "the elastic body is held at its bore",
                 "give the radius at which the shaft holds it",
             )

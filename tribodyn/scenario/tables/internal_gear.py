@@ -12,10 +12,6 @@ from tribodyn.scenario.tables.model_files import DriveTable, Gear
 #: Teeth of the cutter where none are given, at most half the gear's, and rim outside the root circle,
 #: modules: choices; the first a common size, the second near a rim that bends little.
 USUAL_CUTTER, USUAL_RIM = 20, 3.0
-#: Compliances that are of external teeth alone -> what to use for them.
-_NOT_OF_INTERNAL = {
-    name: 'use compliance = "constant", with stiffness = "1e10 N/m", or "table"' for name in ("energy", "fem")
-}
 _OWN = ("outer_diameter", "cutter_teeth", "cutter_profile_shift", "cutter_addendum", "cutter_rounding")
 
 
@@ -38,6 +34,7 @@ def internal_body(gear: Gear, external: GearBody, module: float) -> GearBody:
         cutter_teeth=_cutter_teeth(gear),
         cutter_shift=gear.cutter_profile_shift or 0.0,
         cutter_addendum=gear.cutter_addendum,
+        free_rim=float(gear.rim == "free"),
     )
 
 
@@ -50,6 +47,7 @@ def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
     for name, gear in (("pinion", drive.pinion), ("gear", drive.gear)):
         own = [key for key in _OWN if getattr(gear, key) is not None]
         own += ["profile_shift_of"] if gear.profile_shift_of == "gap" else []
+        own += ["rim"] if gear.rim == "free" else []
         if own and not gear.internal:
             rule, remedy = "is of an internal gear", "add internal = true, or leave it out"
             yield InputError(f"drive.{name}.{own[0]}", rule=rule, remedy=remedy)
@@ -93,9 +91,6 @@ def driving_internal(drive: DriveTable) -> Iterator[InputError]:
 
 def broken_internal_runs(scenario: Any) -> Iterator[InputError]:
     """Go through what a study that knows internal gears has no formula for; tables may be absent."""
-    if (compliance := getattr(scenario.mesh, "compliance", None)) in _NOT_OF_INTERNAL:
-        rule = "is of external teeth"
-        yield InputError("mesh.compliance", f'"{compliance}"', rule, _NOT_OF_INTERNAL[compliance])
     losses, temperature = getattr(scenario, "losses", None), getattr(scenario, "temperature", None)
     for name in ("churning", "windage"):
         if losses is not None and (law := getattr(losses, name)) is not None:
