@@ -114,7 +114,7 @@ INTERNAL = [
     ("load-contact-18-36", [], "drive.gear.internal", 'kind = "gear-pair"'),
     ("ehl-involute-23-47", [], "drive.gear.internal", "external gears alone"),
     ("ring-36-93", ["drive.pinion.internal=true"], "drive.pinion.internal", "[drive.gear]"),
-    ("involute-18-36", [], "mesh.compliance", 'use compliance = "constant"'),
+    ("involute-18-36", [], "drive.gear.bore_radius", "outer_diameter"),
     ("ring-36-93", ["losses.windage=dawson"], "losses.windage", "external gears"),
     ("ring-36-93", ["temperature.model=iso"], "temperature.model", 'use "network"'),
 ]
@@ -127,8 +127,7 @@ def test_studies_say_what_they_have_not_of_internal_gears(
     given = [part for setting in settings or ["drive.gear.internal=true"] for part in ("--set", setting)]
     code, lines = refused("check", name, *given)
     assert code == 2
-    (line,) = [line for line in lines if key in line]
-    assert says in line
+    assert any(key in line and says in line for line in lines)
 
 
 #: As users ask for several stages of a pair of gears: setting, key of the message.
