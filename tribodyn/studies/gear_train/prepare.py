@@ -199,8 +199,10 @@ def _in_space(
     stiffness = np.zeros((layout.links if layout.spatial else 0, IN_SPACE, IN_SPACE))
     losses = stiffness.copy()
     for number, link in enumerate(case.links if layout.spatial else ()):
-        gears = [case.gears[gear].face_width for gear in case.bodies[link.ends[0]].gears]
-        found = in_space_of(link, damping[number], inertias, max(gears, default=0.0))
+        body = link.ends[0]
+        of_sets = [planet for own in case.sets if body in own.bodies for planet in own.planets]
+        faces = [case.gears[gear].face_width for one in (body, *of_sets) for gear in case.bodies[one].gears]
+        found = in_space_of(link, damping[number], inertias, max(faces, default=0.0))
         stiffness[number], losses[number] = map(np.diag, found)
     return stiffness, losses
 
