@@ -200,10 +200,9 @@ def test_energy_balances_over_a_load_step(drive, turning):
     assert damped > 2e-5 * work_in
     # with centrifugal forces less what displaced ones do not turn the carrier by, see `dynamics.frame`
     speed = float(after.bodies.frame_speed[3])
-    arms = (
-        after.bodies.place[3:, :, None]
-        * samples[:, [[9, 10], [12, 13], [15, 16]]].transpose(1, 2, 0)[:, ::-1]
-    )
+    moved = samples[:, [[9, 10], [12, 13], [15, 16]]].transpose(1, 2, 0)
+    taken = np.asarray(after.links.lever)[3:, 1, :, None] * samples[:, turn_of(CARRIER, layout)]
+    arms = after.bodies.place[3:, :, None] * (moved - taken)[:, ::-1]
     duration = 6.0 * float(after.operation.pitch_angle) / 400.0
     missing = 0.66 * speed**3 * float(np.mean(np.sum(arms[:, 0] - arms[:, 1], axis=0))) * duration
     assert gained + missing == pytest.approx(stored[1] - stored[0], abs=1e-8 * work_in + 0.02 * abs(missing))

@@ -160,6 +160,12 @@ def planetary_springs(
         load_damping=np.zeros(len(members)),
         carried=np.full(len(members), carried),
         frame_speed=np.full(len(members), carried * speed if turning else 0.0),
+        hoop=np.array(
+            [
+                count * given.planet.mass * (carried * speed * pins) ** 2 * (m == CARRIER) * turning
+                for m in range(len(members))
+            ]
+        ),
         place=np.array([*3 * [(0.0, 0.0)], *((pins * np.cos(a), pins * np.sin(a)) for a in given.angles)]),
     )
     operation = first.operation._replace(

@@ -2,12 +2,12 @@
 
 The frame turns with the reference's actual rotation; x and y of its bodies are from where they are carried
 along. At a place r from its axis a body is accelerated by u'' + Ω' × r and, where these are switched on,
-by 2 Ω × u' − Ω² (r + u), Ω nominal. Levers and directions of meshes stay those of undisplaced bodies: what a
-centrifugal force turns the carrier by is exact to the displacement over the radius.
+by 2 Ω × u' − Ω² (r + u), Ω nominal. Levers and directions of meshes stay those of undisplaced bodies, so that
+the pins of a carrier that is turned by ϑ would turn it back by Σ m r² Ω² ϑ: that is taken off.
 """
 
 from tribodyn.numerics.elementary import law
-from tribodyn.train.structure import shift_of, slip_of
+from tribodyn.train.structure import shift_of, slip_of, turn_of, turned
 
 
 @law
@@ -25,6 +25,8 @@ def add_frame_forces(y, model, dy):
         dy[half + x + 1] = (
             dy[half + x + 1] - 2.0 * mass * speed * y[half + x] + outward * (bodies.place[b, 1] + y[x + 1])
         )
+        i = turn_of(b, layout)
+        dy[half + i] = dy[half + i] - bodies.hoop[b] * turned(b, y, layout)
 
 
 @law
@@ -40,7 +42,8 @@ def carried_along(b, direction, acceleration, model):
 def frame_energy(b, y, model):
     """Kinetic energy of a body less ½ m |u'|², and the potential of what `add_frame_forces` adds, J.
 
-    With these forces at prescribed speed exact to m Ω³ r × u, W, see above; a speed that varies adds to it.
+    With these forces at prescribed speed exact to m Ω³ r × u, W, u from where the carrier takes the body; a
+    speed that varies adds to it.
     """
     layout, bodies = model.options.layout, model.bodies
     x = shift_of(b)
@@ -52,4 +55,6 @@ def frame_energy(b, y, model):
     along = right * y[x] + up * y[x + 1]
     moved = squared + 2.0 * along + y[x] * y[x] + y[x + 1] * y[x + 1]
     kinetic = carried * across + 0.5 * carried * carried * squared
-    return mass * (kinetic - 0.5 * speed * speed * moved + 2.0 * speed * carried * along)
+    turn = turned(b, y, layout)
+    energy = mass * (kinetic - 0.5 * speed * speed * moved + 2.0 * speed * carried * along)
+    return energy + 0.5 * bodies.hoop[b] * turn * turn

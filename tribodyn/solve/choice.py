@@ -23,8 +23,8 @@ SWITCHING_ABOVE = {SLIDING_KINEMATIC: float("inf"), SLIDING_DYNAMIC: 100}
 REAL_STABILITY = 3.3
 #: Reference cycles of the common period that are looked at, evenly spread, where it has more.
 CYCLES = 8
-#: Phases in each segment at which the Jacobian is evaluated.
-PHASES = 9
+#: Phases in each segment at which the Jacobian is evaluated, and segments at most; evaluated at a time.
+PHASES, SEGMENTS, AT_A_TIME = 9, 96, 32
 #: Phases about the place where the friction of a pair reverses, and how far they reach, over its width.
 REVERSAL_PHASES, REVERSAL_REACH = 13, 1.5
 #: Difference of a state over its scale.
@@ -49,13 +49,19 @@ def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
     scale = state_scales(model, state)[:mechanical]
     shift = np.zeros((mechanical, states))
     shift[:, :mechanical] = SHARE * np.diag(scale)
-    shape = (len(phases), mechanical, states)
-    up, down = (
-        accelerations(np.broadcast_to(state + sign * shift, shape), phases[:, None], numbers[:, None], model)
-        for sign in (1, -1)
-    )
-    jacobians = np.swapaxes((up - down)[..., :mechanical] / (2.0 * SHARE * scale[:, None]), 1, 2)
-    radius = np.max(np.abs(np.linalg.eigvals(jacobians)), axis=1)
+    parts = []
+    for first in range(0, len(phases), AT_A_TIME):
+        some = slice(first, first + AT_A_TIME)
+        shape = (len(phases[some]), mechanical, states)
+        up, down = (
+            accelerations(
+                np.broadcast_to(state + sign * shift, shape), phases[some, None], numbers[some, None], model
+            )
+            for sign in (1, -1)
+        )
+        jacobians = np.swapaxes((up - down)[..., :mechanical] / (2.0 * SHARE * scale[:, None]), 1, 2)
+        parts.append(np.max(np.abs(np.linalg.eigvals(jacobians)), axis=1))
+    radius = np.concatenate(parts)
     width = np.diff(cycles)
     whole = float(np.sum(0.5 * width * (radius[1:] + radius[:-1])))
     return whole / float(cycles[-1] - cycles[0]) / REAL_STABILITY
@@ -72,6 +78,9 @@ def _places(
     of_cycles = [
         (number, n) for number, cycle in enumerate(chosen.tolist()) for n in intervals(schedule, cycle)
     ]
+    if len(of_cycles) > SEGMENTS:
+        spread = np.linspace(0, len(of_cycles) - 1, SEGMENTS).round().astype(int)
+        of_cycles = [of_cycles[place] for place in spread]
     passed, phases, found = [], [], []
     for number, interval in of_cycles:
         low, high = float(start[interval]), float(end[interval])
@@ -82,7 +91,8 @@ def _places(
             distance = np.asarray(mesh.table.channel)[segment, :, :, _DISTANCE, 0]
             own_nodes = np.linspace(float(own[0]), float(own[1]), distance.shape[0] + 1)[:-1]
             nodes = np.array([place_of(m, phase, schedule, interval) for phase in own_nodes])
-            for slot in np.flatnonzero(np.asarray(mesh.table.in_contact)[segment]):
+            slices = np.shape(mesh.table.face_position)[0]  # which reverse one after the other: of a pair one
+            for slot in np.flatnonzero(np.asarray(mesh.table.in_contact)[segment])[::slices]:
                 before, after = sorted((0, -1), key=lambda i, slot=slot: distance[i, slot])
                 if distance[before, slot] <= 0.0 <= distance[after, slot]:
                     order = np.argsort(distance[:, slot])
@@ -90,7 +100,8 @@ def _places(
                     slope = abs(distance[-1, slot] - distance[0, slot]) / (nodes[-1] - nodes[0])
                     width = float(model.operation.reversal_width) / slope
                     about = np.linspace(-REVERSAL_REACH, REVERSAL_REACH, REVERSAL_PHASES)
-                    places += list(np.clip(pitch_point + width * about, low, high))
+                    near = pitch_point + width * about
+                    places += list(near[(near > low) & (near < high)])
         phases += sorted(places)
         passed += [number] * len(places)
         found += [interval] * len(places)

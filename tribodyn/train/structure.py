@@ -52,6 +52,8 @@ class Bodies(NamedTuple):
     carried: Float[Array, " planar"] = np.zeros(0)
     frame_speed: Float[Array, " planar"] = np.zeros(0)
     place: Float[Array, "planar 2"] = np.zeros((0, 2))
+    #: Σ m r² Ω² of what a carrier carries, N m/rad: where it is turned, centrifugal forces turn with it
+    hoop: Float[Array, " planar"] = np.zeros(0)
 
 
 class Links(NamedTuple):

@@ -212,6 +212,8 @@ def differentiate(place, y, f, scale, model, work, into):
     if layout.frames > 0:
         for b in range(layout.planar):
             x, speed = shift_of(b), bodies.frame_speed[b]
+            if b > 0:
+                jacobian[half + turn_of(b, layout), turn_of(b, layout)] -= bodies.hoop[b]
             jacobian[half + x, half + x + 1] += 2.0 * bodies.mass[b] * speed
             jacobian[half + x + 1, half + x] -= 2.0 * bodies.mass[b] * speed
             jacobian[half + x, x] += bodies.mass[b] * speed * speed

@@ -128,14 +128,15 @@ def _model(
     closures = [closure_of(pair) for pair in pairs]
     layout = _layout(case, new)
     motor = [source.body] if layout.bodies > len(order) else []
+    mass = np.array([inertias[body].mass for body in order[: layout.planar]])
     bodies = Bodies(
-        mass=np.array([inertias[body].mass for body in order[: layout.planar]]),
+        mass=mass,
         inertia=np.array([*(inertias[body].inertia for body in order), *(source.inertia for _ in motor)]),
         ratio=np.array([float(case.bodies[body].ratio) for body in (*order, *motor)]),
         load=np.zeros(layout.bodies),
         load_damping=np.zeros(layout.bodies),
         tilting=np.array([inertias[body].tilting for body in order[: layout.spatial]]),
-        **frames_of(case, order[: layout.planar]),
+        **frames_of(case, order[: layout.planar], mass),
     )
     for load in case.loads:
         bodies.load[new[load.body]] += load.torque

@@ -36,19 +36,28 @@ def rolling_of(case: TrainCase) -> float:
     return float(case.bodies[first.driver].ratio) - carried_ratio(case, first.driver, first.carrier)
 
 
-def frames_of(case: TrainCase, bodies: Sequence[int]) -> dict[str, Float[Array, "..."]]:
-    """What `Bodies` says of frames that turn with carriers, of the case's bodies that move in the plane."""
+def frames_of(
+    case: TrainCase, bodies: Sequence[int], mass: Float[Array, " planar"]
+) -> dict[str, Float[Array, "..."]]:
+    """What `Bodies` says of frames that turn with carriers, of the case's bodies that move in the plane.
+
+    These have so much `mass`, kg.
+    """
     if not case.sets:
         return {}
     speed = case.source.speed / float(case.bodies[case.source.body].ratio)
-    carried, frame_speed, place = np.zeros(len(bodies)), np.zeros(len(bodies)), np.zeros((len(bodies), 2))
+    carried, frame_speed, hoop = np.zeros((3, len(bodies)))
+    place = np.zeros((len(bodies), 2))
     for own in case.sets:
         carrier = case.bodies[own.members[CARRIER]]
         for row in (row for row, body in enumerate(bodies) if body in own.bodies):
             carried[row] = float(carrier.ratio) * carrier.sense
             frame_speed[row] = carried[row] * speed if own.frame_forces else 0.0
             place[row] = np.subtract(case.bodies[bodies[row]].centre, carrier.centre)
-    return {"carried": carried, "frame_speed": frame_speed, "place": place}
+        rows = [bodies.index(planet) for planet in own.planets]
+        pulled = mass[rows] * frame_speed[rows] ** 2 * np.sum(place[rows] ** 2, axis=1)
+        hoop[bodies.index(own.members[CARRIER])] = np.sum(pulled)
+    return {"carried": carried, "frame_speed": frame_speed, "place": place, "hoop": hoop}
 
 
 def pins_of(
