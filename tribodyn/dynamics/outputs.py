@@ -194,6 +194,7 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         },
         "x": over(y[shift_of(b)] for b in planar),
         "y": over(y[shift_of(b) + 1] for b in planar),
+        "moved": over(_moved(b, y, model) for b in planar),
         "angle": over(ratio[b] * angle + turned(b, y, layout) for b in bodies),
         "x_rate": over(y[layout.half + shift_of(b)] for b in planar),
         "y_rate": over(y[layout.half + shift_of(b) + 1] for b in planar),
@@ -203,6 +204,17 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         **works,
         "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
     }
+
+
+def _moved(b: int, y: np.ndarray, model: Model) -> np.ndarray:
+    """How far a body is from where its bearing, or the carrier of its pin, would have it, m."""
+    layout = model.layout
+    x, across = y[shift_of(b)], y[shift_of(b) + 1]
+    for k in range(layout.links):
+        if layout.pins[k] and layout.first[k] == b:
+            lever, turn = np.asarray(model.links.lever)[k, 1], turned(layout.second[k], y, layout)
+            x, across = x - lever[0] * turn, across - lever[1] * turn
+    return np.hypot(x, across)
 
 
 def at_extremes(

@@ -145,7 +145,15 @@ def _held(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError
 
 
 def _bearings(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
-    """Bearings of members are the same in all directions, for their frame turns."""
+    """Bearings of members are the same in all directions, for their frame turns; and none is missing."""
+    known = scenario.bearings.by_name
+    for _, stage in planetary_stages(scenario):
+        floating = {stage.members[name] for name in stage.floating}
+        for name in {*stage.members.values(), stage.planet} - floating:
+            if not {name, "default", "gear"} & set(known):
+                rule = f"missing: {name} of the planetary stage {stage.name} moves in x and y"
+                remedy = f"add [bearings.{name}], or [bearings.default]"
+                yield InputError(f"bearings.{name}", None, rule, remedy)
     for name, bearing in scenario.bearings.by_name.items():
         if name not in of_sets and not (name == "default" and of_sets):
             continue

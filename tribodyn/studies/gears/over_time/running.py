@@ -118,7 +118,7 @@ def judge_run(
             ends = [body for body in (layout.driver[m], layout.driven[m]) if body < layout.planar]
             moved = np.zeros(len(part.cycles))
             for body in ends:
-                moved = np.maximum(moved, np.hypot(part.whole["x"][:, body], part.whole["y"][:, body]))
+                moved = np.maximum(moved, part.whole["moved"][:, body])
             quantities = quantities_of(values, mesh.module, moved / smallest_clearance(mesh.assembly))
             quantities |= heat_of(values["flash_temperature_rise"], mesh.oil_temperature)
             places = {"time": part.whole["time"], "mesh_cycle": mesh.cycles(part.cycles)}
