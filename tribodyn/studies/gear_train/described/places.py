@@ -109,17 +109,24 @@ def shifts(record: Record) -> Float[Array, "gear 2"]:
     found = np.zeros((len(places["gear_body"]), 2))
     if not np.any(carriers(record) >= 0):
         return found
-    reach: dict[int, list[float]] = {}
-    for gear in sorted(gear_outlines(record), key=lambda gear: gear.number):
-        about = carriers(record)[gear.body]
-        axis = places["centre"][about if about >= 0 else gear.body]
-        far = gear.outside + float(np.hypot(*(places["centre"][gear.body] - axis)))
-        ends = reach.setdefault(int(places["plane"][gear.number]), [np.inf, -np.inf])
-        ends[:] = min(ends[0], axis[0] - far), max(ends[1], axis[0] + far)
-    right = next(iter(reach.values()))[0]
-    for plane, (low, high) in reach.items():
-        found[np.asarray(places["plane"]) == plane, 0] = right - low
+    x, _, radius = reaches(record).T
+    planes, right = np.asarray(places["plane"]), None
+    for plane in dict.fromkeys(planes.tolist()):
+        of_plane = planes == plane
+        low, high = np.min((x - radius)[of_plane]), np.max((x + radius)[of_plane])
+        right = low if right is None else right
+        found[of_plane, 0] = right - low
         right += (1.0 + _GAP) * (high - low)
+    return found
+
+
+def reaches(record: Record) -> Float[Array, "gear 3"]:
+    """Centre and radius (m) of the circle that every gear stays in, of one that is carried about its axis."""
+    carried, centre = carriers(record), record.geometry["centre"]
+    found = np.zeros((len(record["gear"]), 3))
+    for gear in gear_outlines(record):
+        axis = centre[carried[gear.body] if carried[gear.body] >= 0 else gear.body]
+        found[gear.number] = *axis, gear.outside + float(np.hypot(*(centre[gear.body] - axis)))
     return found
 
 
