@@ -93,9 +93,9 @@ def _explain_one(found: dict[str, Any], model: type[BaseModel]) -> InputError:
             absent = found["input"] is None
             return InputError(dotted, None if absent else given, context["rule"], context["remedy"])
         case "missing":
-            return InputError(dotted, None, "missing", _how_to_write(model, key))
+            return InputError(dotted, None, "missing", _how_to_write(model, found["loc"]))
         case "extra_forbidden":
-            return InputError(dotted, given, "unknown key", _near_key(model, key))
+            return InputError(dotted, given, "unknown key", _near_key(model, found["loc"]))
         case "literal_error":
             expected = context["expected"].replace("'", '"')
             near = near_name(str(found["input"]), expected.replace('"', "").replace(" or ", ", ").split(", "))
@@ -160,7 +160,8 @@ def _how_to_write(model: type[BaseModel], key: Key) -> str:
         return "write it"
     named = any(isinstance(mark, Reference) for mark in field.metadata)
     if any(inner_tables(field.annotation)) and not named:
-        return f"add the table [{'.'.join(map(str, key))}]"
+        named_parts = (str(part) for part in key if not str(part).startswith("("))
+        return f"add the table [{'.'.join(named_parts)}]"
     shape = table.model_json_schema()["properties"][str(key[-1])]
     if named:
         return f"give the {shape['anyOf'][0]['description']}"

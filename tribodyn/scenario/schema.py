@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from typing import Any, NamedTuple, get_args, get_origin
 
-from pydantic import BaseModel
+from pydantic import BaseModel, Tag
 
 from tribodyn.scenario.quantity import FamilyShape, Reference
 
@@ -40,11 +40,27 @@ def table_at(model: type[BaseModel], key: Iterable[str | int]) -> type[BaseModel
         if isinstance(key[place], int):
             place += 1
             continue
+        name = str(key[place])
         inner, place = _step(model, key, place)
         if inner is None:
             return None
+        # of a union the branch that pydantic names, (tag) behind the place in the list
+        branch = next((str(part) for part in key[place : place + 2] if str(part).startswith("(")), None)
+        if branch is not None:
+            place += key[place : place + 2].index(branch) + 1
+            inner = tagged(model.model_fields[name].annotation, branch) or inner
         model = inner
     return model
+
+
+def tagged(annotation: Any, tag: str) -> type[BaseModel] | None:
+    """The table in an annotation that a tag marks; None: there is none."""
+    for part in get_args(annotation):
+        if any(isinstance(mark, Tag) and mark.tag == tag for mark in get_args(annotation)):
+            return next((inner.table for inner in inner_tables(annotation)), None)
+        if (found := tagged(part, tag)) is not None:
+            return found
+    return None
 
 
 def holds_by_name(model: type[BaseModel], key: Iterable[str | int]) -> bool:

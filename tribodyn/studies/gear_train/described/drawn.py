@@ -19,7 +19,7 @@ from tribodyn.studies.gear_train.described.structure import (
     structure,
 )
 from tribodyn.studies.gear_train.described.teeth import check_same_teeth, engagement
-from tribodyn.studies.gear_train.planetary.described import coaxial
+from tribodyn.studies.gear_train.planetary.described import coaxial, refuse_overlap
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.phases import ToothedShaft, nominal_phases
 from tribodyn.train.positions import Centres, Disc, Distance, check_room, joined, places
@@ -109,6 +109,9 @@ def drawn(train: Moving) -> Drawn:
         Disc(gear.name, gear.key, new[gear.body], plane, _tip(train, assemblies, number))
         for number, (gear, plane) in enumerate(zip(parts.gears, planes, strict=True))
     ]
+    for own in parts.sets:
+        disc = next(disc for disc in discs if disc.body == new[own.planets[0]])
+        refuse_overlap(own, disc.tip_radius, axes.centres[[new[planet] for planet in own.planets]])
     check_room(discs, axes.centres, [mesh.gears for mesh in parts.meshes])
     shafts = joined(len(parts.bodies), couplings)
     found = Drawn(assemblies, axes, planes, tuple(shafts[new[gear.body]] for gear in parts.gears))

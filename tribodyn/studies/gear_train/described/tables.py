@@ -146,8 +146,11 @@ class PlanetaryStage(StageTeeth):
 
 def _stage_type(stage: Any) -> str:
     """Which of both a [[stage]] is."""
-    kind = stage.get("type") if isinstance(stage, dict) else getattr(stage, "type", None)
-    return "(planetary)" if kind == "planetary" else "(pair)"
+    if isinstance(stage, dict):
+        planetary = stage.get("type") == "planetary" or "planet" in stage
+    else:
+        planetary = isinstance(stage, PlanetaryStage)
+    return "(planetary)" if planetary else "(pair)"
 
 
 AnyStage = Annotated[

@@ -4,7 +4,11 @@ from collections.abc import Iterator
 from math import cos, sin
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.scenario.tables.bearings import bearing_of
 from tribodyn.studies.gear_train.described.tables import PlanetaryStage
 from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly
 
@@ -87,7 +91,9 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
         yield from _counts(key, stage)
         if all(name in gears for name in (stage.sun, stage.planet, stage.ring)):
             yield from _assembly(scenario, key, stage)
+        yield from _held(scenario, key, stage)
     yield from _joined_rigidly(scenario, of_sets)
+    yield from _bearings(scenario, of_sets)
 
 
 def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
@@ -113,9 +119,37 @@ def _assembly(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputE
         yield InputError(f"{key}.ring", quoted(stage.ring), rule, "give the ring more teeth")
         return
     try:
-        check_assembly(teeth, stage.placed, f"{key}.{'angles' if stage.angles else 'planets'}")
+        check_assembly(teeth, stage.placed, f"{key}.angles")
     except InputError as error:
-        yield error
+        if stage.angles:
+            yield error
+        else:
+            yield InputError(f"{key}.planets", stage.planets, error.rule, error.remedy)
+
+
+def _held(scenario: Any, key: str, stage: PlanetaryStage) -> Iterator[InputError]:
+    """Refuse power at a member that is held."""
+    held, operating = stage.members[stage.held], scenario.operating
+    named = [("operating.input", operating.input), ("operating.output", operating.output)]
+    named += [(f"load.{number}.at", load.at) for number, load in enumerate(scenario.load)]
+    for place, name in named:
+        if name == held:
+            turning = " or ".join(own for member, own in stage.members.items() if member != stage.held)
+            rule = f"is held in the planetary stage {stage.name}, and does not turn"
+            yield InputError(place, quoted(name), rule, f"name {turning}, or hold another member: {key}.held")
+
+
+def _bearings(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
+    """Bearings of members are the same in all directions, for their frame turns."""
+    for name, bearing in scenario.bearings.by_name.items():
+        if name not in of_sets and not (name == "default" and of_sets):
+            continue
+        data = bearing_of(bearing)
+        both = (data.stiffness_x, data.damping_ratio_x), (data.stiffness_y, data.damping_ratio_y)
+        if both[0] != both[1]:
+            rule = "differs in x and y, and holds members of a planetary stage, whose frame turns"
+            remedy = "give stiffness_x and stiffness_y, and their damping ratios, the same values"
+            yield InputError(f"bearings.{name}", None, rule, remedy)
 
 
 def _joined_rigidly(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
@@ -145,3 +179,20 @@ def pin_offset(stage: PlanetaryStage, planet: int) -> tuple[float, float]:
     outwards = stage.radial_pin_errors[planet] if stage.radial_pin_errors else 0.0
     onwards = stage.tangential_pin_errors[planet] if stage.tangential_pin_errors else 0.0
     return outwards * cos(angle) - onwards * sin(angle), outwards * sin(angle) + onwards * cos(angle)
+
+
+def refuse_overlap(own: SetPart, tip_radius: float, centres: Float[Array, "planet 2"]) -> None:
+    """Raise InputError where the tip circles of planets overlap; centres, m."""
+    apart = np.hypot(*np.moveaxis(centres[:, None] - centres[None], -1, 0))
+    apart[np.diag_indices(len(centres))] = np.inf
+    overlap = 2.0 * tip_radius - float(apart.min())
+    if overlap <= 0.0:
+        return
+    one, two = sorted(int(place) + 1 for place in np.unravel_index(int(np.argmin(apart)), apart.shape))
+    radius = float(np.hypot(*(centres[0] - centres.mean(axis=0))))
+    rule = f"the tip circles of planets {one} and {two} overlap by {1e3 * overlap:.3g} mm"
+    remedy = "stand them further apart"
+    if not own.table.angles:
+        remedy = f"use at most {int(np.pi / np.arcsin(tip_radius / radius))}, or planets with fewer teeth"
+    key = "angles" if own.table.angles else "planets"
+    raise InputError(f"{own.key}.{key}", None if own.table.angles else own.table.planets, rule, remedy)

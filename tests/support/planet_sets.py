@@ -1,0 +1,69 @@
+"""Scenarios of one planetary set with teeth: numbers of teeth and planets, what is held, input and output."""
+
+from typing import Any
+
+from tests.support.train_scenarios import case_of_table
+from tribodyn.studies.gear_train.case import TrainCase
+
+#: Teeth of sun, planet and ring of one sum for three and four planets: all meshes in phase, or one after another.
+IN_PHASE, SEQUENTIAL = (24, 30, 84), (25, 29, 83)
+
+
+def planet_set(
+    teeth: tuple[int, int, int] = IN_PHASE,
+    planets: int = 3,
+    held: str = "ring",
+    ends: tuple[str, str] = ("sun", "carrier"),
+    **changes: Any,
+) -> dict[str, Any]:
+    """A scenario; `changes` are of the stage, or of other tables by their names."""
+    stage = {
+        "type": "planetary",
+        "name": "set",
+        "sun": "sun",
+        "planet": "planet",
+        "ring": "ring",
+        "carrier": "carrier",
+        "planets": planets,
+        "held": held,
+        "module": "3 mm",
+        "pressure_angle": "20 deg",
+        "support_damping_ratio": 0.05,
+    }
+    width = {"face_width": "30 mm"}
+    table: dict[str, Any] = {
+        "kind": "gear-train",
+        "title": "A planetary set",
+        "material": "18CrNiMo7-6",
+        "lubricant": "iso-vg-100-mineral",
+        "mean_roughness": "0.5 um",
+        "gear": {
+            "sun": {"teeth": teeth[0], "bore_diameter": "40 mm", **width},
+            "planet": {"teeth": teeth[1], "bore_diameter": "50 mm", **width},
+            "ring": {"teeth": teeth[2], "internal": True, "addendum": 0.9, **width},
+        },
+        "stage": [stage],
+        "body": [{"name": "carrier", "mass": "6 kg", "inertia": "0.04 kg*m**2"}],
+        "bearings": {"default": {"stiffness_x": "3e8 N/m", "stiffness_y": "3e8 N/m", "damping_ratio": 0.05}},
+        "operating": {
+            "input": ends[0],
+            "output": ends[1],
+            "sense": "counter-clockwise",
+            "input_speed": "900 rpm",
+            "output_torque": "600 N*m",
+            "oil_temperature": "70 degC",
+        },
+        "mesh": {"compliance": "constant", "stiffness": "3e8 N/m", "damping_ratio": 0.06},
+        "friction": {"law": "coulomb", "coefficient": 0.05},
+    }
+    for name, value in changes.items():
+        if name in table:
+            table[name] = table[name] | value
+        else:
+            stage[name] = value
+    return table
+
+
+def set_case(*given: Any, **changes: Any) -> TrainCase:
+    """The case of `planet_set`."""
+    return case_of_table(planet_set(*given, **changes))
