@@ -16,7 +16,7 @@ from tribodyn.studies.gears.prepare import PreparedGears
 from tribodyn.studies.gears.usual import with_duty
 from tribodyn.studies.protocol.recording import CheckResult, TextTable
 from tribodyn.train.flow import flow
-from tribodyn.train.planetary import CARRIER
+from tribodyn.train.planetary import CARRIER, RING, SUN
 
 #: Share of a mode's energy below which a body is left out of a table.
 LITTLE = 0.005
@@ -197,6 +197,16 @@ def _distinct(prepared: PreparedTrain) -> Iterator[tuple[str, float]]:
         yield together(names), frequency
 
 
+def _passes(prepared: PreparedTrain) -> Iterator[tuple[str, float]]:
+    """Frequencies at which planets pass a tooth of the ring and of the sun, N |n_c − n|, Hz."""
+    turning = [body.sense * float(body.ratio) for body in prepared.case.bodies]
+    shaft = float(prepared.model.operation.nominal_speed) / (2.0 * pi)
+    for own in prepared.case.sets:
+        for member in (RING, SUN):
+            passing = turning[own.members[CARRIER]] - turning[own.members[member]]
+            yield f"{own.name}: planets pass {member}", len(own.planets) * shaft * abs(passing)
+
+
 def _campbell_table(prepared: PreparedTrain, found: Modes) -> TextTable:
     """Speeds of the input at which harmonics of the meshes meet the modes."""
     speed = float(_speeds(prepared)[prepared.model.layout.input]) * 30.0 / pi
@@ -205,9 +215,7 @@ def _campbell_table(prepared: PreparedTrain, found: Modes) -> TextTable:
         own |= {
             f"{name} ×{order}" if order > 1 else name: (frequency, order) for order in range(1, HARMONICS + 1)
         }
-    own |= {
-        f"{name} planets": (frequency, 1) for name, frequency in planet_pass(prepared).items() if frequency
-    }
+    own |= {name: (frequency, 1) for name, frequency in _passes(prepared) if frequency}
     rows = [
         (f"{mode:.5g}", *(f"{mode / (order * frequency) * speed:.4g}" for frequency, order in own.values()))
         for mode in found.frequency

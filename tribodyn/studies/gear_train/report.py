@@ -70,7 +70,7 @@ def meshes_of(record: Record) -> dict[str, Mapping[str, Any]]:
 
 
 def tables(record: Record) -> list[TextTable]:
-    """Quantities of each mesh, a column for each; one for those that a member of a set has with its planets."""
+    """Quantities of each mesh, a column for each; one for those of a member of a set with its planets."""
     meshes, withheld = meshes_of(record), reasons(record.summary)
     groups = groups_of(meshes)
     return [

@@ -1,11 +1,13 @@
 """Planetary sets of a recorded train: what is carried by what, and which meshes are of which planet."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Int
 from tribodyn.record.reader import Record
+from tribodyn.studies.gear_train.described.alike import together
 
 
 class CarriedSet(NamedTuple):
@@ -46,3 +48,23 @@ def sets_of(record: Record) -> list[CarriedSet]:
         name = str(record["mesh"][next(iter(each.values()))[0]]).rsplit("-", 2)[0]
         sets.append(CarriedSet(name, carrier, planets, each))
     return sets
+
+
+def mesh_labels(record: Record) -> list[str]:
+    """Names of the meshes, one for all that a member of a set has with its planets."""
+    return _labels(
+        list(map(str, record["mesh"])), [own for each in sets_of(record) for own in each.meshes.values()]
+    )
+
+
+def body_labels(record: Record) -> list[str]:
+    """Names of the bodies, one for all planets of a set."""
+    return _labels(list(map(str, record["body"])), [own.planets for own in sets_of(record)])
+
+
+def _labels(names: list[str], groups: Sequence[Sequence[int]]) -> list[str]:
+    found = list(names)
+    for group in groups:
+        for number in group:
+            found[number] = together(names[one] for one in group)
+    return found

@@ -103,15 +103,15 @@ def gear_poses(record: Record) -> Float[Array, "gear time 3"]:
 def shifts(record: Record) -> Float[Array, "gear 2"]:
     """By how much every gear is drawn beside its place, m: where there are planetary sets, a plane by itself.
 
-    Sets on one axis would cover each other. The planes stand in x, in the order of the gears.
+    Sets on one axis would cover each other. The planes stand in x, in the order of the meshes.
     """
     places = record.geometry
     found = np.zeros((len(places["gear_body"]), 2))
     if not np.any(carriers(record) >= 0):
         return found
     x, _, radius = reaches(record).T
-    planes, right = np.asarray(places["plane"]), None
-    for plane in dict.fromkeys(planes.tolist()):
+    planes, right = np.asarray(places["plane"], int), None
+    for plane in dict.fromkeys(int(planes[int(gear)]) for gear in places["driver_gear"]):
         of_plane = planes == plane
         low, high = np.min((x - radius)[of_plane]), np.max((x + radius)[of_plane])
         right = low if right is None else right

@@ -14,7 +14,7 @@ from tribodyn.post.figures.gears_in_mesh import GEAR_FILL, MILLIMETRE, PINION_FI
 from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.gear_train.described.carried import sets_of
+from tribodyn.studies.gear_train.described.carried import mesh_labels, sets_of
 from tribodyn.studies.gear_train.described.places import (
     GearOutline,
     axes_of,
@@ -101,8 +101,10 @@ def _draw_carriers(axes: Axes, record: Record, sample: int) -> None:
 def _name_axes(axes: Axes, record: Record, sample: int) -> None:
     """Write the names of the bodies at their axes, those of one axis in one plane on lines of their own."""
     of_axis: dict[tuple[float, ...], list[str]] = {}
-    for name, centre in zip(record["body"], axes_of(record, sample), strict=True):
-        of_axis.setdefault(tuple(np.round(centre, 6)), []).append(literal(str(name)))
+    planets = {planet: number for own in sets_of(record) for number, planet in enumerate(own.planets, 1)}
+    for body, centre in enumerate(axes_of(record, sample)):
+        name = str(planets.get(body, record["body"][body]))
+        of_axis.setdefault(tuple(np.round(centre, 6)), []).append(literal(name))
     for (x, y), names in of_axis.items():
         box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
         place = x / MILLIMETRE, y / MILLIMETRE
@@ -132,7 +134,9 @@ def draw_mesh(axes: Axes, record: Record, m: int, sample: int) -> None:
 def train_figure(records: Sequence[Record], view: View) -> Figure:
     """Draw the first record's train where the part shown begins: whole, and the teeth in every mesh."""
     record = records[0]
-    meshes = list(record["mesh"])[:_MOST]
+    # of those that differ by their planet alone the first
+    labels = mesh_labels(record)
+    meshes = [m for m, label in enumerate(labels) if labels.index(label) == m][:_MOST]
     sample = last_cycles(record, view.cycles).part.start
     rows = ceil(len(meshes) / _ACROSS)
     columns = min(len(meshes), _ACROSS)
@@ -141,10 +145,10 @@ def train_figure(records: Sequence[Record], view: View) -> Figure:
     grid = figure.add_gridspec(1 + rows, columns, height_ratios=[3.2, *[min(beside, 3.0)] * rows])
     whole = figure.add_subplot(grid[0, :])
     draw_train(whole, record, sample)
-    mark_panel(whole, "a", "Train, drawn to scale; colours: sense of rotation")
-    for m, mesh in enumerate(meshes):
-        axes = figure.add_subplot(grid[1 + m // columns, m % columns])
+    mark_panel(whole, "a", "Train, drawn to scale; colours: sense of rotation; below: teeth and loads")
+    for number, m in enumerate(meshes):
+        axes = figure.add_subplot(grid[1 + number // columns, number % columns])
         draw_mesh(axes, record, m, sample)
-        mark_panel(axes, chr(ord("b") + m), f"{literal(str(mesh))}: teeth and loads")
+        mark_panel(axes, chr(ord("b") + number), literal(str(record["mesh"][m])))
     figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)
     return figure
