@@ -89,7 +89,7 @@ def _table(
         cells = [_cell(quantity, names, meshes, withheld) for names in groups]
         if any(cells):
             rows.append([quantity.title, *cells, quantity.unit])
-    title = "Each mesh" if len(groups) == len(meshes) else "Each mesh; of those of several planets from … to"
+    title = "Each mesh" if len(groups) == len(meshes) else "Each mesh; of several planets smallest … largest"
     return TextTable(title, ("", *map(together, groups), ""), rows)
 
 
