@@ -43,5 +43,5 @@ def statics(case, phase, segment, friction):
         system[n + 4, k] = rg * c + f * (rg * s - r[k])
     for row, k in enumerate(model.links.stiffness[:2, :TURN].ravel()):
         system[n + row, n + row] = -k
-    right[n + 4] = model.bodies.load[1]
+    right[n + 4] = cycle.gear_sense * model.bodies.load[1]
     return slots, np.linalg.solve(system, right)[:n]

@@ -5,7 +5,7 @@ from typing import Any
 from tests.support.train_scenarios import case_of_table
 from tribodyn.studies.gear_train.case import TrainCase
 
-#: Teeth of sun, planet and ring of one sum for three and four planets: all meshes in phase, or one after another.
+#: Teeth of sun, planet and ring, for three or four planets: all meshes in phase, or one after another.
 IN_PHASE, SEQUENTIAL = (24, 30, 84), (25, 29, 83)
 
 
@@ -57,7 +57,9 @@ def planet_set(
         "friction": {"law": "coulomb", "coefficient": 0.05},
     }
     for name, value in changes.items():
-        if name in table:
+        if name == "solver":
+            table[name] = value
+        elif name in table:
             table[name] = table[name] | value
         else:
             stage[name] = value

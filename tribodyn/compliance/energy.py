@@ -177,12 +177,20 @@ def tooth_compliance(
     across = cos(load_angle)
     root_load = namespace(x, lever).stack([sin(load_angle), across, across * lever / root], axis=-1)
     ring = root, loaded.body.bore_radius, root_angle, material.youngs_modulus
-    if body == "ring":
-        foundation = ring_foundation(root_load, *ring, material.poisson_ratio, body_length)
+    internal, free = _rim(loaded)
+    if body == "ring" or internal:  # the polynomials are of bodies inside their teeth
+        foundation = ring_foundation(root_load, *ring, material.poisson_ratio, body_length, free)
     else:
         foundation = foundation_compliance(load_angle, lever, *ring, body_length)
     scale = 1.0 / (material.youngs_modulus * length)
     return ToothCompliance(scale * bending, scale * shear, scale * axial, foundation, root_load)
+
+
+def _rim(loaded: LoadedTooth) -> tuple[bool, bool]:
+    """Whether the body is a rim around the teeth, and whether its outside is free."""
+    teeth = loaded.body.teeth
+    internal = not is_jax(teeth) and float(teeth) < 0.0
+    return internal, internal and bool(loaded.body.free_rim)
 
 
 def _towards_tip(
@@ -233,6 +241,7 @@ def neighbour_coupling(loaded: LoadedTooth, material: MaterialData, pitches: int
         loaded.root_half_angle,
         loaded.tooth.root_radius / loaded.body.bore_radius,
         material.poisson_ratio,
+        free=_rim(loaded)[1],
     )
     earlier_to_later = ring if loaded.side == "pinion" else ring.T
     return earlier_to_later / (material.youngs_modulus * loaded.body.face_width)

@@ -15,7 +15,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from tribodyn.numerics.elementary import cos, log, namespace, sin
+from tribodyn.numerics.elementary import cos, is_jax, log, namespace, sin
 from tribodyn.numerics.shapes import Array, Float
 
 # Sainsot & Velex (2004), table 1: X = A/θ² + B h² + C h/θ + D/θ + E h + F
@@ -95,12 +95,15 @@ def ring_foundation(
     youngs_modulus: Float[Array, ""],
     poisson_ratio: Float[Array, ""],
     width: Float[Array, ""],
+    free: bool = False,
 ) -> Float[Array, "*contact"]:
     """Return what `foundation_compliance` does, by the exact ring; for any 0 < bore radius < root radius.
 
-    The root load (..., 3) is (N, T, M/root radius) per unit normal load.
+    The root load (..., 3) is (N, T, M/root radius) per unit normal load. Both radii of an internal gear are
+    negative, and its outside may be `free`.
     """
-    ring = ring_compliance(0.0, root_half_angle, root_radius / bore_radius, poisson_ratio, SELF_HARMONICS)
+    ratio = root_radius / bore_radius
+    ring = ring_compliance(0.0, root_half_angle, ratio, poisson_ratio, SELF_HARMONICS, free)
     shape = namespace(root_load, ring).einsum("...i,ij,...j->...", root_load, ring, root_load)
     return shape / (youngs_modulus * width)
 
@@ -111,10 +114,12 @@ def ring_compliance(
     radius_ratio: Float[Array, ""],
     poisson_ratio: Float[Array, ""],
     harmonics: int = HARMONICS,
+    free: bool = False,
 ) -> Float[Array, "3 3"]:
     """Compliance between the root loads of two teeth of one body.
 
-    Exact for a ring in plane stress that is fixed at its bore, each tooth loading its arc of the root circle
+    Exact for a ring in plane stress that is fixed at its bore, or around the teeth (a ratio below 1) at its
+    outside or `free` there as `_ring_receptance` has it, each tooth loading its arc of the root circle
     with uniform (N, T) and linear (M) traction along its own axes; displacements are the work conjugates
     (means over the arc). Truncated after `harmonics` terms: the self term (angle 0) converges like
     (harmonics · root_half_angle)^−2 and needs about 40/root_half_angle of them, the term between two teeth
@@ -129,7 +134,7 @@ def ring_compliance(
     """
     xp = namespace(angle, root_half_angle, radius_ratio, poisson_ratio)
     order = np.arange(harmonics + 1.0)
-    receptance = _ring_receptance(order, 1.0 / radius_ratio, poisson_ratio)
+    receptance = _ring_receptance(order, 1.0 / radius_ratio, poisson_ratio, free)
     loads = _root_loads(order, root_half_angle)
     weight = np.where(order == 0, 0.5, 1.0) * np.pi
     products = xp.einsum("jna,nab,inb->nji", loads, receptance, loads) * weight[:, None, None]
@@ -166,12 +171,14 @@ def _root_loads(order: Float[Array, " order"], angle: Float[Array, ""]) -> Float
 
 
 def _ring_receptance(
-    order: Float[Array, " order"], bore: Float[Array, ""], poisson_ratio: Float[Array, ""]
+    order: Float[Array, " order"], bore: Float[Array, ""], poisson_ratio: Float[Array, ""], free: bool = False
 ) -> Float[Array, "order 2 2"]:
     """Displacement amplitudes (n, 2, 2) at radius 1 per traction amplitude, for E = 1, ring fixed at `bore`.
 
     Four plane solutions for each order: two that grow outwards, written in r, and two that decay, written in
-    bore/r, so that no power overflows; the fixed bore gives the latter in terms of the former.
+    bore/r, so that no power overflows; the fixed bore gives the latter in terms of the former. A ring around
+    the circle, bore > 1, is fixed at its outside, or free there but for what orders 0 and 1 move as a whole;
+    then those are written in r/bore and 1/r, and the traction acts on its inside.
     """
     xp = namespace(bore, poisson_ratio)
     kappa = (3.0 - poisson_ratio) / (1.0 + poisson_ratio)
@@ -191,16 +198,32 @@ def _ring_receptance(
         xp.where(first, 1.0 - kappa, -fade * (fade - 1.0)),
     )
     inward_bore = _columns(xp, near, (-ones, -ones))
-    slow, fast = bore ** (n - 1.0), bore ** (n + 1.0)
-    decay = xp.stack([slow, fast], axis=-1)[:, None, :]
-    inward = _columns(xp, far, (-ones, -ones)) * decay
-    inward_stress = _columns(xp, far_stress, (n + 1.0, n + 1.0)) * decay
-    outward_bore = outward * xp.stack([fast, slow], axis=-1)[:, None, :]
-
-    follow = -_inverse(xp, inward_bore) @ outward_bore
-    receptance = (outward + inward @ follow) @ _inverse(xp, outward_stress + inward_stress @ follow)
+    inward = _columns(xp, far, (-ones, -ones))
+    inward_stress = _columns(xp, far_stress, (n + 1.0, n + 1.0))
+    around = not is_jax(bore) and float(bore) > 1.0
+    size = 1.0 / bore if around else bore
+    slow, fast = size ** (n - 1.0), size ** (n + 1.0)
+    inwards, outwards = (
+        xp.stack([slow, fast], axis=-1)[:, None, :],
+        xp.stack([fast, slow], axis=-1)[:, None, :],
+    )
+    if around:
+        held_in, held_out = inward_bore, outward
+        if free:  # stresses take the place of displacements; of solutions in r over those at its own scale
+            by = (first | (order < 1))[:, None, None]
+            held_in = xp.where(by, inward_bore, inward_stress)
+            held_out = xp.where(by, outward, outward_stress)
+        follow = -_inverse(xp, held_out) @ (held_in * inwards)
+        outward, outward_stress = outward * outwards, outward_stress * outwards
+        receptance = -(inward + outward @ follow) @ _inverse(xp, inward_stress + outward_stress @ follow)
+    else:
+        inward, inward_stress = inward * inwards, inward_stress * inwards
+        follow = -_inverse(xp, inward_bore) @ (outward * outwards)
+        receptance = (outward + inward @ follow) @ _inverse(xp, outward_stress + inward_stress @ follow)
     radial = (kappa - 1.0) * (1.0 - bore**2) / (2.0 + (kappa - 1.0) * bore**2)
     torsion = 1.0 / bore**2 - 1.0
+    if around:
+        radial, torsion = -radial, -torsion
     breathing = xp.stack([xp.stack([radial, 0.0 * radial]), xp.stack([0.0 * torsion, torsion])])
     receptance = xp.where((order == 0)[:, None, None], breathing, receptance)
     return receptance * (1.0 + poisson_ratio)  # 2 G = E/(1 + ν)

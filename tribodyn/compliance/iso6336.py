@@ -1,10 +1,10 @@
 """Reference stiffness after ISO 6336-1, method B: the values that ours are compared with.
 
-External gears, and internal ones in place of which a rack counts; theory after Weber & Banaschek for solid discs of steel with the standard basic rack,
-corrected by measurements and by factors for what differs. Formulas and limits are those of ISO 6336-1:2019,
-9.3, from memory of the standard, not transcribed from it. Example 1 of ISO/TR 6336-30 confirms q', C_M, C_B
-for the dedendum, c_γα and c_γβ (test_iso6336); C_R, C_B for the pressure angle and the reduction at low loads
-have no such check.
+External gears, and internal ones in place of which a rack counts. Theory after Weber & Banaschek for solid
+discs of steel with the standard basic rack, corrected by measurements and by factors for what differs.
+Formulas and limits are those of ISO 6336-1:2019, 9.3, from memory of the standard, not transcribed from it.
+Example 1 of ISO/TR 6336-30 confirms q', C_M, C_B for the dedendum, c_γα and c_γβ (test_iso6336); C_R, C_B for
+the pressure angle, the reduction at low loads and internal gears have no such check.
 """
 
 import math

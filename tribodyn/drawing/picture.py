@@ -30,7 +30,7 @@ def gears_in_mesh(assembly: Assembly, flank_points: int = 60) -> GearsInMesh:
         pitch_radii=radii,
         tip_radii=(float(tip_radius(drive, "pinion")), float(tip_radius(drive, "gear"))),
         key_points={name: (float(x), float(y)) for name, (x, y) in points.items()},
-        outside=max(-float(drive.gear.bore_radius), 0.0),
+        outside=(max(-float(drive.pinion.bore_radius), 0.0), max(-float(drive.gear.bore_radius), 0.0)),
     )
 
 
@@ -40,7 +40,7 @@ def pair_figure(assembly: Assembly, title: str, flank_points: int = 60) -> Figur
     with house_style():
         # as tall as the whole pair at this width
         width = 1.5 * WIDTH
-        across = 2 * max(*mesh.tip_radii, mesh.outside)
+        across = 2 * max(*mesh.tip_radii, *mesh.outside)
         along = max(sum(mesh.tip_radii) + sum(mesh.pitch_radii), across)
         share = min(0.45, max(0.25, 0.62 * across / along))
         figure = new_figure(width, 0.8 * (1 - share) * width + 0.3)

@@ -63,6 +63,7 @@ class GearBody(NamedTuple):
     #: addendum of this cutter, in modules, of which the root circle follows; None: as high as the dedendum of
     #: the gear needs
     cutter_addendum: Number = None
+    free_rim: Number = 0.0  # 1: nothing holds the outside of an internal gear's rim in shape; 0: its fit does
 
 
 class Drive(NamedTuple):
@@ -84,6 +85,11 @@ class Drive(NamedTuple):
 def body_of(drive: Drive, side: Side) -> GearBody:
     """Return the pinion or the gear of the drive."""
     return drive.pinion if side == "pinion" else drive.gear
+
+
+def internal_side(drive: Drive) -> Side | None:
+    """Which gear of the pair is internal; None: neither."""
+    return next((side for side in SIDES if body_of(drive, side).teeth < 0), None)
 
 
 def reference_radius(drive: Drive, side: Side) -> Number:

@@ -119,8 +119,8 @@ def _internal_lines(assembly: Assembly, side: Side) -> dict[str, Quantity]:
         "tip diameter of the cutter": _millimetres(2 * cutter),
         "base circle margin of the tip": _millimetres(base_circle_margin(assembly, side)),
         "margin of the cutter's involute": _millimetres(cutter_margin(assembly, side)),
-        "trochoidal clearance of the tips": _millimetres(trochoidal_gap(assembly)),
-        "room for radial assembly": _millimetres(radial_assembly(assembly)),
+        "trochoidal clearance of the tips": _millimetres(trochoidal_gap(assembly, side)),
+        "room for radial assembly": _millimetres(radial_assembly(assembly, side)),
     }
 
 
@@ -140,7 +140,7 @@ def _rack_angle_lines(assembly: Assembly) -> dict[str, Quantity]:
     """The rack's pressure angle, of helical involutes in both sections."""
     of_rack, angle = (
         "pressure angle of the rack on its rolling line",
-        assembly.pinion.path.pressure_angle(0.0),
+        assembly.family.generating_path(assembly.drive, "pinion")[0].pressure_angle(0.0),
     )
     if not (assembly.drive.helix_angle and assembly.family.involute):
         return {of_rack: _degrees(angle)}

@@ -78,6 +78,8 @@ def compliance_remark(
     beyond, off = [], []
     for side, material in zip(SIDES, materials, strict=True):
         tooth = loaded_tooth(assembly, side)
+        if tooth.body.teeth < 0:  # its rim is solved
+            continue
         ratio = float(tooth.tooth.root_radius) / float(tooth.body.bore_radius)
         beyond += [f"{side} {limit}" for limit in outside_fitted_range(ratio, float(tooth.root_half_angle))]
         over = polynomials_over_ring(tooth, material)

@@ -71,9 +71,9 @@ def quasi_static(
     """Share the gear's torque among the driving pairs by their compliances and gaps.
 
     With h_i = cos α_i every loaded pair has Δ h_i − e_i = Σ_j C_ij F_j (+ A F_i^0.9), and r_g Σ F_i h_i is
-    the torque (N m, of the sign of r_g: `MeshCycle.gear_sense`), to which friction adds Σ μ_i F_i (r_g sin α_i − r_i); `friction` is its force over
-    the normal load, with the sign of the sliding: negative in approach. Bearings are rigid, and a back flank
-    carries nothing. The table may be traced.
+    the torque (N m, of the sign of r_g: `MeshCycle.gear_sense`), to which friction adds
+    Σ μ_i F_i (r_g sin α_i − r_i); `friction` is its force over the normal load, with the sign of the sliding:
+    negative in approach. Bearings are rigid, and a back flank carries nothing. The table may be traced.
 
     A slice of which the share s_i is on the path of contact has h_i = cos α_i cos β_n,i, and
     Δ h_i − e_i = C_i F_i/s_i (+ A (F_i/s_i)^0.9).
@@ -253,7 +253,7 @@ def friction_loss(
     """
     xp = namespace(*cycle, normal_load, friction_coefficient)
     pairs, fronts = cycle.front_pairs, cycle.front_slots
-    sliding = (cycle.pinion_speed - cycle.gear_speed)[..., :fronts]
+    sliding = cycle.pinion_sense * (cycle.pinion_speed - cycle.gear_speed)[..., :fronts]
     power = (friction_coefficient * cycle.in_contact[:, None, :] * normal_load)[..., :fronts] * sliding
     if weight is not None:
         return cycle_mean(cycle, power * sliding_side(cycle)[..., :fronts], weight).sum()

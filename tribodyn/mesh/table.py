@@ -54,7 +54,10 @@ class MeshData:
 
 
 class Slots(NamedTuple):
-    """Where the pairs of the slots stand; as in `MeshCycle`, and `roll`: pinion angles (S, N, Q), rad."""
+    """Where the pairs of the slots stand; as in `MeshCycle`, and `roll`: pinion angles (S, N, Q), rad.
+
+    Angles of an internal pinion fall (`path`), and its pitch is negative.
+    """
 
     boundary: Float[Array, " boundary"]
     phase: Float[Array, "segment node"]
@@ -106,7 +109,8 @@ def slots(
     centre = (position[:, 0] + position[:, -1]) / 2
     in_contact = xp.where(centre < (end - start) / pitch, 1.0, 0.0)
     side = np.where(np.arange(position.shape[-1]) < pairs, 1.0, -1.0)
-    return Slots(boundary, phase, in_contact, side, within(start + pitch * position, start, end), limits)
+    roll = within(start + pitch * position, minimum(start, end), maximum(start, end))
+    return Slots(boundary, phase, in_contact, side, roll, limits)
 
 
 def unloaded_gap(
@@ -128,8 +132,9 @@ def unloaded_gap(
         gap = gap + (amplitude * cos(2.0 * np.pi * order * (slots.phase - begin) + angle))[..., None]
     if mesh.error_table is not None:
         at, error = mesh.error_table
-        check_cover(at, start, end, "mesh.transmission_error.table")
-        gap = gap + interpolate(at, error, within(roll, maximum(at[0], start), minimum(at[-1], end)))
+        low, high = minimum(start, end), maximum(start, end)
+        check_cover(at, low, high, "mesh.transmission_error.table")
+        gap = gap + interpolate(at, error, within(roll, maximum(at[0], low), minimum(at[-1], high)))
     if np.all(slots.side > 0):
         return gap
     backlash = (mesh.backlash or 0.0) * cos(pressure_angle) / cos(assembly.path.pressure_angle(0.0))
@@ -167,11 +172,11 @@ def mesh_table(assembly: Assembly, slots: Slots, motion: Kinematics, elastic: El
 def check_bores(drive: Drive) -> None:
     """Raise InputError for a solid body where its elasticity is needed; traced radii are not checked."""
     for side in SIDES:
-        bore = body_of(drive, side).bore_radius
-        if not is_jax(bore) and bore <= 0:
+        body = body_of(drive, side)
+        if not is_jax(body.bore_radius) and body.bore_radius * body.teeth <= 0:
             raise InputError(
                 f"drive.{side}.bore_radius",
-                bore,
+                body.bore_radius,
                 "the elastic body is held at its bore",
                 "give the radius at which the shaft holds it",
             )

@@ -25,7 +25,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.curve import check_cover, interpolate
-from tribodyn.numerics.elementary import cos, is_jax, maximum, minimum, namespace, where, within
+from tribodyn.numerics.elementary import cos, is_jax, maximum, minimum, namespace, sense, where, within
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
 
@@ -135,7 +135,7 @@ class RollCurve(NamedTuple):
     @property
     def middle(self) -> Any:
         """Where the pieces meet: the pitch point, or the end of the path nearest to it."""
-        return within(0.0, self.start, self.end)
+        return within(0.0, minimum(self.start, self.end), maximum(self.start, self.end))
 
     def nodes(self) -> Float[Array, "2 17"]:
         """Roll angles of the nodes, (2, 17), rad."""
@@ -147,9 +147,10 @@ class RollCurve(NamedTuple):
         """Values (…, k) at the roll angles (…), from values (2, 17, k) at the nodes; k may be missing."""
         xp = namespace(values, roll)
         middle = self.middle
-        approach, beyond = roll < middle, roll - middle
-        before = where(self.start < middle, self.start - middle, -1.0)
-        after = where(self.end > middle, self.end - middle, 1.0)
+        beyond = roll - middle
+        approach = beyond * sense(self.end - self.start) < 0.0
+        before = where(self.start == middle, -1.0, self.start - middle)
+        after = where(self.end == middle, 1.0, self.end - middle)
         at = xp.where(approach, 1.0 - 2.0 * beyond / before, 2.0 * beyond / after - 1.0)
         basis = chebyshev_basis(at, _DEGREE) @ _TO_SERIES
         if values.ndim == 3:
@@ -173,7 +174,8 @@ def pair_compliance(
         return xp.full_like(roll, 1.0 / mesh.stiffness), uncoupled
     if mesh.compliance == "table" and mesh.table is not None:
         angle, stiffness = mesh.table
-        check_cover(angle, curve.start, curve.end, "mesh.table")
+        limits = minimum(curve.start, curve.end), maximum(curve.start, curve.end)
+        check_cover(angle, *limits, "mesh.table")
         return 1.0 / interpolate(angle, stiffness, within(roll, angle[0], angle[-1])), uncoupled
 
     width = assembly.common_width

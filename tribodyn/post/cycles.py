@@ -5,8 +5,9 @@ periods per mesh cycle whatever the speed does. At constant speed, frequency is 
 Whole cycles are taken, so harmonics of the mesh fall exactly on lines and no window is needed.
 """
 
+from collections.abc import Mapping
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -139,6 +140,8 @@ def key_points(record: Record) -> list[KeyPoint]:
     begin, end = ((roll - table["roll_start"]) / pitch for roll in limits)
     # pitches of a pair from where pair 1 stands at the start of a mesh cycle
     places = {"B_g": begin, "B_p": end, "P": -table["roll_start"] / pitch}
+    if not begin <= places["P"] <= end:  # of some internal pairs, which slide one way only
+        del places["P"]
     if 1.0 < end - begin <= 2.0:
         places |= {"C_g": begin + 1.0, "C_p": end - 1.0}
     points: dict[float, dict[int, str]] = {}
@@ -216,6 +219,12 @@ def path_limits(record: Record) -> tuple[float, float]:
     roll, distance = pair_history(record, "signed_distance")
     first, last = (np.hypot(*record.geometry["path_of_contact"][end]) for end in (0, -1))
     return float(np.interp(-first, distance, roll)), float(np.interp(last, distance, roll))
+
+
+def outside_of(shape: Mapping[str, Any]) -> tuple[float, float]:
+    """Outer radii of pinion and gear where they are internal, m, else 0, of a record's geometry."""
+    pinion, gear = (max(-float(shape.get(f"{side}_bore_radius", 0.0)), 0.0) for side in ("pinion", "gear"))
+    return pinion, gear
 
 
 def along_path(path: np.ndarray, pitch_radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -251,9 +251,9 @@ def _small(ring_teeth: int, addendum: float = 0.8) -> Drive:
 def test_tips_that_pass_run_into_each_other_where_the_distance_is_negative():
     """Outlines rolled, all teeth: for eight teeth more they pass, for six they do not."""
     kept, broken = (Assembly(family("involute"), _small(teeth)) for teeth in (44, 42))
-    assert trochoidal_gap(kept) > 0 > trochoidal_gap(broken)
+    assert trochoidal_gap(kept, "gear") > 0 > trochoidal_gap(broken, "gear")
     assert _penetration(_small(44)) < 1e-9
-    assert _penetration(_small(42)) > 0.2 * -trochoidal_gap(broken)
+    assert _penetration(_small(42)) > 0.2 * -trochoidal_gap(broken, "gear")
 
 
 @pytest.mark.parametrize(
@@ -294,6 +294,6 @@ def test_what_cannot_be_made_or_run_is_refused(drive: Drive, key: str, says: str
 
 def test_radial_assembly_needs_more_teeth_than_running():
     """The more teeth the ring has more than the planet, the more room there is; few are too few."""
-    room = [radial_assembly(Assembly(family("involute"), _small(teeth))) for teeth in range(42, 60)]
+    room = [radial_assembly(Assembly(family("involute"), _small(teeth)), "gear") for teeth in range(42, 60)]
     assert all(np.diff(room) > 0)
     assert room[0] < 0 < room[-1]

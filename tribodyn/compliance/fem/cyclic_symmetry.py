@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
+from tribodyn.compliance.fem.ring_mesh import signed_polar
 from tribodyn.numerics.shapes import Array, Complex, Float
 from tribodyn.numerics.work import steps
 
@@ -24,7 +25,7 @@ _SIDES = 4  # right-hand sides solved at a time
 class HalfSector(NamedTuple):
     """Nodes of half a sector between its axis of symmetry (the x axis) and its edge at the angle π/Z."""
 
-    teeth: int  # Z, number of sectors
+    teeth: int  # Z, number of sectors; negative of an internal gear, as its radii and angles
     nodes: int  # number of all nodes
     held: NDArray[np.int64]  # nodes that do not move
     axis: NDArray[np.int64]  # nodes on the axis of symmetry
@@ -43,15 +44,15 @@ class ReducedSector(NamedTuple):
 
 def half_sector(place: Float[Array, "2 node"], teeth: int, bore_radius: float) -> HalfSector:
     """Find the special nodes among the places (2, nodes)."""
-    radius, angle = np.hypot(*place), np.arctan2(place[1], place[0])
-    near = 1e-9 * bore_radius
+    radius, angle = signed_polar(place, teeth)
+    near = 1e-9 * abs(bore_radius)
     held = radius < bore_radius + near
     return HalfSector(
         teeth,
         place.shape[1],
         np.flatnonzero(held),
         np.flatnonzero(~held & (np.abs(place[1]) < near)),
-        np.flatnonzero(~held & (radius * np.abs(angle - np.pi / teeth) < near)),
+        np.flatnonzero(~held & (np.abs(radius * (angle - np.pi / teeth)) < near)),
     )
 
 
@@ -122,10 +123,11 @@ def phases(teeth: int) -> list[tuple[complex, float]]:
 
     The reading s sectors ahead of a load on one sector is the sum of weight · Re(zˢ reading at z).
     """
+    count = abs(teeth)
     turn = 2.0 * np.pi / teeth
     return [
-        (complex(np.exp(1j * turn * n)), (1.0 if n in (0, teeth / 2) else 2.0) / teeth)
-        for n in range(teeth // 2 + 1)
+        (complex(np.exp(1j * turn * n)), (1.0 if n in (0, count / 2) else 2.0) / count)
+        for n in range(count // 2 + 1)
     ]
 
 

@@ -14,7 +14,7 @@ from skfem import Basis
 
 from tribodyn.compliance.fem.cyclic_symmetry import HalfSector, half_sector, ring_response
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, ElasticGear, GearCompliance, LeadHarmonics
-from tribodyn.compliance.fem.ring_mesh import SectorMesh, half_sector_cells, half_sector_mesh
+from tribodyn.compliance.fem.ring_mesh import SectorMesh, half_sector_cells, half_sector_mesh, signed_polar
 from tribodyn.compliance.fem.strips import (
     COMPONENTS,
     curved_basis,
@@ -66,7 +66,7 @@ def gear_model(gear: ElasticGear) -> GearModel:
             "finite elements' mesh",
             "make the bore smaller, or the fillet rounder",
         )
-    direction = _load_directions(tooth, mesh)
+    direction = _load_directions(tooth, gear.teeth, mesh)
     position, root = mesh.nodes[:, mesh.flank], mesh.nodes[:, mesh.root]
     numbers = KDTree(basis.doflocs.T)
     near = numbers.query(position.T)[1]
@@ -82,11 +82,11 @@ def gear_model(gear: ElasticGear) -> GearModel:
     return GearModel(basis, half, position, loads, inner, beyond, root, along_root)
 
 
-def _load_directions(tooth: Tooth, mesh: SectorMesh) -> Float[Array, "2 vertex"]:
+def _load_directions(tooth: Tooth, teeth: int, mesh: SectorMesh) -> Float[Array, "2 vertex"]:
     """Unit vectors (2, M) of the normal load on the flank's vertices, into the tooth."""
-    reach = np.hypot(*mesh.nodes[:, mesh.flank])
+    reach, _ = signed_polar(mesh.nodes[:, mesh.flank], teeth)
     fine = np.linspace(tooth.form_distance, tooth.tip_distance, 2001)
-    r = np.interp(reach, np.hypot(*flank_point(tooth, fine)), fine)
+    r = np.interp(reach, signed_polar(np.stack(flank_point(tooth, fine)), teeth)[0], fine)
     # the load stands at α − ψ + φ to the perpendicular of the tooth's axis
     angle = kinematics(tooth.path, r).pressure_angle - tooth.half_angle + tooth.path.rotation(r)
     return np.stack([-np.sin(angle), -np.cos(angle)])
@@ -207,7 +207,7 @@ def gear_compliance(gear: ElasticGear) -> GearCompliance:
     stiffness = plane_stiffness(model.basis, gear.poisson_ratio)
     seen = ring_response(model.half, stiffness, model.loads, readers, mirrored, _SECTORS)
     inside, between = _parted(seen)
-    return GearCompliance(np.hypot(*model.position), inside, between, gear.depth)
+    return GearCompliance(signed_polar(model.position, gear.teeth)[0], inside, between, gear.depth)
 
 
 def lead_harmonics(gear: ElasticGear, wave_number: Float[Array, " wave"]) -> LeadHarmonics:

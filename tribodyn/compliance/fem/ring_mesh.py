@@ -97,10 +97,10 @@ def half_blocks(
     towards_axis = graded(across, _ACROSS_GRADING)
     corner = profile[0]
     # over a thin rim it drops less, so as not to meet the bore
-    middle_of_rim = (bore_radius + np.hypot(*corner)) / 2.0
+    middle_of_rim = (bore_radius + float(signed_polar(corner, teeth)[0])) / 2.0
     seam_end = np.array([max(corner[0] - _SEAM_DROP * corner[1], middle_of_rim), 0.0])
     seam = corner + towards_axis[:, None] * (seam_end - corner)
-    tip_angle = float(np.arctan2(profile[-1, 1], profile[-1, 0]))
+    tip_angle = float(signed_polar(profile[-1], teeth)[1])
     tip = tooth.tip_radius * _unit(tip_angle * (1 - towards_axis))
     height = _length(profile) / _length(profile)[-1]
     axis = seam_end + height[:, None] * (tip[-1] - seam_end)
@@ -124,7 +124,7 @@ def _profile(tooth: Tooth, teeth: int, level: int) -> Float[Array, "column 2"]:
     flank = np.stack(
         flank_point(tooth, tooth.form_distance + along * (tooth.tip_distance - tooth.form_distance)), axis=-1
     )
-    first = float(np.arctan2(fillet[0, 1], fillet[0, 0]))
+    first = float(signed_polar(fillet[0], teeth)[1])
     root = tooth.root_radius * _unit(np.linspace(np.pi / teeth, first, _CURVE_POINTS))
     lengths = _length(fillet)
     split = int(np.searchsorted(lengths, 0.5 * lengths[-1]))
@@ -143,9 +143,9 @@ def _below(
     boundary: Float[Array, "column 2"], tooth: Tooth, teeth: int, bore_radius: float
 ) -> Float[Array, "column 2"]:
     """Inner side (columns, 2) of the layer under the profile's nodes."""
-    tip_angle = float(np.arctan2(boundary[-1, 1], boundary[-1, 0]))
+    tip_angle = float(signed_polar(boundary[-1], teeth)[1])
     share = _length(boundary) / _length(boundary)[-1]
-    radius, angle = np.hypot(*boundary.T), np.arctan2(boundary[:, 1], boundary[:, 0])
+    radius, angle = signed_polar(boundary.T, teeth)
     order = np.argsort(radius)
     foot = tooth.form_radius * np.sin(np.interp(tooth.form_radius, radius[order], angle[order]))
     rim = _RIM_SHARE * (tooth.root_radius - bore_radius)
@@ -166,6 +166,14 @@ def _below(
     below = boundary + thickness[:, None] * inwards
     below[-1] = tooth.tip_radius * _unit(tip_angle - thickness[-1] / tooth.tip_radius)
     return below
+
+
+def signed_polar(
+    place: Float[Array, "2 ..."], teeth: int
+) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
+    """Radius (m) and angle (rad) of places in a tooth's frame; radii about an internal gear are negative."""
+    sign = np.sign(teeth)
+    return sign * np.hypot(*place), np.arctan2(sign * place[1], sign * place[0])
 
 
 def _coons(

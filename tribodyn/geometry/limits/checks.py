@@ -16,7 +16,7 @@ from tribodyn.geometry.assembly import (
     tip_corner_gap,
 )
 from tribodyn.geometry.backlash import normal_backlash
-from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_circle_radius
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, internal_side, tip_circle_radius
 from tribodyn.geometry.families import Family
 from tribodyn.geometry.limits.internal import check_cutter, check_outside, tip_in_base_circle, tips_collide
 from tribodyn.geometry.limits.sizes import advice, boundary, check_sizes, millimetres, replaced, require
@@ -53,8 +53,8 @@ def check(family: Family, drive: Drive) -> Assembly:
         _check_contact_ratio(assembly)
         for side in SIDES:
             _check_interference(assembly, side)
-        if drive.gear.teeth < 0:
-            _refuse_internal_tip(assembly, tips_collide)
+        if (ring := internal_side(drive)) is not None:
+            _refuse_internal_tip(assembly, ring, tips_collide)
     return assembly
 
 
@@ -180,7 +180,7 @@ def _check_tip(assembly: Assembly, side: Side) -> None:
         )
         raise InputError(*_tip_key(assembly, side), rule, "use a higher tooth")
     if body.teeth < 0:
-        _refuse_internal_tip(assembly, tip_in_base_circle)
+        _refuse_internal_tip(assembly, side, tip_in_base_circle)
         check_cutter(assembly, side)
     if thickness(assembly) > 0:
         _check_rounding(assembly, side)
@@ -237,9 +237,9 @@ def _refuse_tip(assembly: Assembly, side: Side, rule: str, holds: Callable[[Asse
     raise InputError(*_tip_key(assembly, side), rule, remedy)
 
 
-def _refuse_internal_tip(assembly: Assembly, broken: Callable[[Assembly], str]) -> None:
-    if rule := broken(assembly):
-        _refuse_tip(assembly, "gear", rule, lambda pair: not broken(pair))
+def _refuse_internal_tip(assembly: Assembly, ring: Side, broken: Callable[[Assembly, Side], str]) -> None:
+    if rule := broken(assembly, ring):
+        _refuse_tip(assembly, ring, rule, lambda pair: not broken(pair, ring))
 
 
 def _check_clearance(assembly: Assembly, side: Side) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.assembly import Assembly, mate_of
 from tribodyn.geometry.drive import Side, body_of, tip_circle_radius
 from tribodyn.geometry.limits.sizes import millimetres
 from tribodyn.geometry.path import kinematics
@@ -34,9 +34,9 @@ def cutter_margin(assembly: Assembly, side: Side) -> Any:
     return as_float(kinematics(tooth.path, tooth.tip_distance).gear_friction_arm)
 
 
-def tip_in_base_circle(assembly: Assembly) -> str:
+def tip_in_base_circle(assembly: Assembly, ring: Side) -> str:
     """Say that the ring's tip lies within its base circle, or nothing."""
-    if base_circle_margin(assembly, "gear") > 0:
+    if base_circle_margin(assembly, ring) > 0:
         return ""
     return "the tip lies within the base circle, where there is no involute"
 
@@ -60,52 +60,52 @@ def check_cutter(assembly: Assembly, side: Side) -> None:
         raise InputError(f"drive.{side}.cutter_teeth", given, rule, "use more, or a lower tip")
 
 
-def tips_collide(assembly: Assembly) -> str:
+def tips_collide(assembly: Assembly, ring: Side) -> str:
     """Say that the tips run into each other beyond the path of contact, or nothing."""
-    gap = trochoidal_gap(assembly)
+    gap = trochoidal_gap(assembly, ring)
     if gap > 0:
         return ""
     return f"the tips run into each other where they pass, {millimetres(-gap)} deep"
 
 
-def trochoidal_gap(assembly: Assembly) -> Any:
-    """Arc of the ring's tip circle between both tips' corners where the pinion's leaves the ring's teeth.
+def trochoidal_gap(assembly: Assembly, ring: Side) -> Any:
+    """Arc of the ring's tip circle between both tips' corners where its mate's leaves the ring's teeth.
 
-    The tip circles cross at angles δ_p and δ_g from the line of centres. The pinion's corner is there at
-    φ = δ_p + ψ_p − ψ_pa from the pitch point, its mate's at φ r_p/r_g + ψ_g − ψ_ga. Infinite where they
+    The tip circles cross at angles δ_p and δ_g from the line of centres. The mate's corner is there at
+    φ = δ_p + ψ_p − ψ_pa from the pitch point, the ring's at φ r_p/r_g + ψ_g − ψ_ga. Infinite where they
     do not cross.
     """
-    path, drive = assembly.path, assembly.drive
+    path, drive, mate = assembly.path_of(mate_of(ring)), assembly.drive, mate_of(ring)
     r_p, r_g = path.pinion_pitch_radius, path.gear_pitch_radius
-    tip, ring_tip = tip_circle_radius(drive, "pinion"), tip_circle_radius(drive, "gear")
+    tip, ring_tip = tip_circle_radius(drive, mate), tip_circle_radius(drive, ring)
     distance = r_p + r_g
     cosine = (ring_tip**2 - distance**2 - tip**2) / (-2 * distance * tip)
     ring_cosine = (distance**2 + ring_tip**2 - tip**2) / (2 * distance * ring_tip)
     if not abs(cosine) < 1:
         return np.inf
-    turned = _arccos(cosine) + _rise(assembly, "pinion", r_p, tip)
-    gap = turned * r_p / r_g + _rise(assembly, "gear", r_g, ring_tip) + _arccos(ring_cosine)
+    turned = _arccos(cosine) + _rise(assembly, mate, r_p, tip)
+    gap = turned * r_p / r_g + _rise(assembly, ring, r_g, ring_tip) + _arccos(ring_cosine)
     return as_float(ring_tip * gap)
 
 
-def radial_assembly(assembly: Assembly) -> Any:
-    """Smallest room of a pinion pushed in radially between the ring's tips, across its way.
+def radial_assembly(assembly: Assembly, ring: Side) -> Any:
+    """Smallest room of the ring's mate pushed in radially between its tips, across its way.
 
-    The pinion stands with a tooth, or with a gap, on the line of centres, whichever leaves more room. A pair
+    The mate stands with a tooth, or with a gap, on the line of centres, whichever leaves more room. A pair
     without room can be put together along the axis only. Plain numbers only.
     """
-    drive = assembly.drive
-    return max(_room(assembly, first, round(float(drive.pinion.teeth))) for first in (0.0, 0.5))
+    return max(_room(assembly, ring, first) for first in (0.0, 0.5))
 
 
-def _room(assembly: Assembly, first: float, teeth: int) -> float:
-    drive, path = assembly.drive, assembly.path
-    tip, ring_tip = tip_circle_radius(drive, "pinion"), tip_circle_radius(drive, "gear")
+def _room(assembly: Assembly, ring: Side, first: float) -> float:
+    drive, path, mate = assembly.drive, assembly.path, mate_of(ring)
+    teeth = round(float(body_of(drive, mate).teeth))
+    tip, ring_tip = tip_circle_radius(drive, mate), tip_circle_radius(drive, ring)
     distance = path.pinion_pitch_radius + path.gear_pitch_radius
     number = first + np.arange(teeth // 4 + 1)
-    corner = number * 2 * np.pi / teeth + float(thickness_half_angle(assembly.pinion, tip))
-    gap = (number + 0.5) * 2 * np.pi / drive.gear.teeth
-    gap = -gap + float(thickness_half_angle(assembly.gear, ring_tip))
+    corner = number * 2 * np.pi / teeth + float(thickness_half_angle(assembly.tooth(mate), tip))
+    gap = (number + 0.5) * 2 * np.pi / body_of(drive, ring).teeth
+    gap = -gap + float(thickness_half_angle(assembly.tooth(ring), ring_tip))
     x, y = tip * np.sin(corner), tip * np.cos(corner) - distance
     beyond = np.hypot(x, y) > -ring_tip  # in a gap of the ring when it is in place
     room = -ring_tip * np.sin(gap) - x

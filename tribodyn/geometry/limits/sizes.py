@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_radius
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, internal_side, tip_radius
 from tribodyn.geometry.path import Path, kinematics, radius, seen_from
 
 _SAMPLES = 2000
@@ -82,11 +82,11 @@ def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
         for name in GearBody._fields:
             if getattr(body, name) is not None:
                 require(f"{side}.{name}", getattr(body, name), True, "")
-        internal = side == "gear" and body.teeth < 0 and body.cutter_teeth is not None
+        internal = side == internal_side(drive) and body.cutter_teeth is not None
         whole = (body.teeth >= 3 or internal) and body.teeth == round(body.teeth)
         require(f"{side}.teeth", body.teeth, whole, "must be a whole number of at least 3")
         if internal:
-            _check_internal(drive)
+            _check_internal(drive, side)
         for name in ("addendum", "dedendum", "face_width"):
             value = getattr(body, name)
             require(f"{side}.{name}", value, value > 0, "must be greater than zero")
@@ -95,16 +95,17 @@ def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
             require(f"{side}.bore_radius", body.bore_radius, body.bore_radius >= 0, "must not be negative")
 
 
-def _check_internal(drive: Drive) -> None:
-    """Refuse an internal gear as small as the pinion or the cutter that turns in it."""
-    ring, pinion = drive.gear, drive.pinion
-    inside = -ring.teeth > pinion.teeth
+def _check_internal(drive: Drive, side: Side) -> None:
+    """Refuse an internal gear as small as its mate or the cutter that turns in it."""
+    mate: Side = "pinion" if side == "gear" else "gear"
+    ring, turning = body_of(drive, side), body_of(drive, mate)
+    inside = -ring.teeth > turning.teeth
     if not inside:
-        rule = f"the internal gear must have more teeth than the pinion that turns in it, {pinion.teeth:g}"
-        raise InputError("drive.gear.teeth", f"{-ring.teeth:g}", rule, "use more")
-    cutter = ring.cutter_teeth
-    require("gear.cutter_teeth", cutter, cutter == round(cutter), "must be a whole number")
-    require("gear.cutter_teeth", cutter, 3 <= cutter < -ring.teeth, "must be at least 3, and less than teeth")
+        rule = f"the internal gear must have more teeth than the {mate} that turns in it, {turning.teeth:g}"
+        raise InputError(f"drive.{side}.teeth", f"{-ring.teeth:g}", rule, "use more")
+    cutter, key = ring.cutter_teeth, f"{side}.cutter_teeth"
+    require(key, cutter, cutter == round(cutter), "must be a whole number")
+    require(key, cutter, 3 <= cutter < -ring.teeth, "must be at least 3, and less than teeth")
 
 
 def require(key: str, value: Any, holds: bool, rule: str) -> None:

@@ -23,7 +23,7 @@ class GearsInMesh(NamedTuple):
     pitch_radii: tuple[float, float]
     tip_radii: tuple[float, float]
     key_points: dict[str, tuple[float, float]]  # name, as mathematical text, -> (x, y)
-    outside: float = 0.0  # outer radius of an internal gear
+    outside: tuple[float, float] = (0.0, 0.0)  # outer radii of pinion and gear where they are internal
 
 
 def key_rolls(start: float, end: float, pitch: float) -> dict[str, float]:
@@ -92,16 +92,17 @@ def draw_whole(axes: Axes, mesh: GearsInMesh, bore_radii: tuple[float, float]) -
 def reach(mesh: GearsInMesh) -> tuple[float, float]:
     """Half width and half height of the part that `draw_gears` shows, mm."""
     path = mesh.path / MILLIMETRE
-    across = max(0.75 * float(np.ptp(path[:, 0])), 1.6 * float(np.abs(path[:, 1]).max())) + 1e-9
+    x, y = np.abs(path).max(axis=0).tolist()
+    across = max(0.75 * float(np.ptp(path[:, 0])), 1.1 * x, 1.6 * y) + 1e-9
     return across, 0.8 * across
 
 
 def _draw_outlines(axes: Axes, mesh: GearsInMesh) -> None:
     outlines = (mesh.pinion, PINION_FILL), (mesh.gear, GEAR_FILL)
-    for (outline, fill), color in zip(outlines, PALETTE, strict=False):
+    for number, ((outline, fill), color) in enumerate(zip(outlines, PALETTE, strict=False)):
         # the circles below give the limits: to seek those of the outlines takes longer than to draw them
-        if outline is mesh.gear and mesh.outside:
-            _draw_ring(axes, mesh, fill, color)
+        if mesh.outside[number]:
+            _draw_ring(axes, mesh, number, fill, color)
             continue
         axes.add_artist(Polygon(outline / MILLIMETRE, facecolor=fill, edgecolor=color, linewidth=0.9))
     sizes = zip(_centres(mesh), mesh.tip_radii, mesh.pitch_radii, PALETTE, strict=False)
@@ -115,10 +116,10 @@ def _draw_outlines(axes: Axes, mesh: GearsInMesh) -> None:
     axes.set_ylabel("Along the line of centres (mm)")
 
 
-def _draw_ring(axes: Axes, mesh: GearsInMesh, fill: str, color: str) -> None:
+def _draw_ring(axes: Axes, mesh: GearsInMesh, number: int, fill: str, color: str) -> None:
     """Draw an internal gear: material from its hole to its outer circle."""
-    outer = _centres(mesh)[1] + mesh.outside / MILLIMETRE * _circle()
-    hole = mesh.gear / MILLIMETRE
+    outer = _centres(mesh)[number] + mesh.outside[number] / MILLIMETRE * _circle()
+    hole = (mesh.pinion, mesh.gear)[number] / MILLIMETRE
     turns = np.sum(hole[:-1, 0] * hole[1:, 1] - hole[1:, 0] * hole[:-1, 1])
     material = np.concatenate([hole, outer[::-1] if turns > 0 else outer, hole[:1]])
     axes.add_artist(Polygon(material, facecolor=fill, edgecolor="none"))

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tribodyn.errors import InputError
-from tribodyn.post.cycles import along_path, pair_history, path_limits
+from tribodyn.post.cycles import along_path, outside_of, pair_history, path_limits
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh, draw_gears, key_rolls, placed
 from tribodyn.post.figures.panel import ALONE, KEY_POINTS, View, record_label, record_title
 from tribodyn.post.style import QUIET, WIDTH, new_figure
@@ -28,7 +28,8 @@ def key_positions(record: Record) -> dict[str, tuple[float, float]]:
         histories = [pair_history(record, name) for name in ("signed_distance", "pressure_angle")]
     distances, angles = (np.interp(list(rolls.values()), *history) for history in histories)
     places = zip((distances * np.cos(angles)).tolist(), (distances * np.sin(angles)).tolist(), strict=True)
-    return dict(zip(rolls, places, strict=True))
+    # the pitch point may lie beyond an end of an internal pair's path
+    return dict(zip(rolls, places, strict=True)) | {"P": (0.0, 0.0)}
 
 
 def gears_in_mesh(record: Record, phase: float) -> tuple[np.ndarray, np.ndarray]:
@@ -52,7 +53,8 @@ def draw_path(axes: Axes, record: Record) -> None:
     pinion, gear = gears_in_mesh(record, late * table["pinion_teeth"] / (2 * np.pi))
     tips = geometry["pinion_tip_radius"], geometry["gear_tip_radius"]
     path = geometry["path_of_contact"]
-    draw_gears(axes, GearsInMesh(pinion, gear, path, _pitch_radii(record), tips, key_positions(record)))
+    points, outside = key_positions(record), outside_of(geometry)
+    draw_gears(axes, GearsInMesh(pinion, gear, path, _pitch_radii(record), tips, points, outside))
 
 
 def _pitch_radii(record: Record) -> tuple[float, float]:

@@ -9,7 +9,7 @@
     for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
     return new Kind(bytes.buffer);
   }
-  function outlined(text) {
+  function outlined(text, outside) {
     const points = numbers(text, Float32Array), outline = new Path2D();
     let starts = true;
     for (let k = 0; k < points.length; k += 2) {
@@ -19,6 +19,10 @@
       starts = isNaN(points[k]);
     }
     outline.closePath();
+    if (outside) {  // of an internal gear, whose outline is its hole
+      outline.moveTo(outside, 0);
+      outline.arc(0, 0, outside, 0, 2 * Math.PI);
+    }
     return outline;
   }
   // unpack the records
@@ -53,8 +57,8 @@
         teeth.roll = numbers(teeth.roll, Float64Array);
         teeth.path = numbers(teeth.path, Float32Array);
         const turns = { pinion: -1, gear: teeth.radii[0] / teeth.radii[1] }, places = { pinion: -teeth.radii[0], gear: teeth.radii[1] };
-        teeth.bodies = ["pinion", "gear"].map((name) => ({
-          path: outlined(teeth[name]), fill: name, pose: (frame) => [0, places[name], turns[name] * teeth.roll[frame]],
+        teeth.bodies = ["pinion", "gear"].map((name, n) => ({
+          path: outlined(teeth[name], teeth.outside[n]), fill: name, pose: (frame) => [0, places[name], turns[name] * teeth.roll[frame]],
         }));
       }
     }

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.post.cycles import along_path, in_the_middle
+from tribodyn.post.cycles import along_path, in_the_middle, outside_of
 from tribodyn.post.page.data import packed
 from tribodyn.record.reader import Record
 
@@ -48,6 +48,7 @@ def rolling_teeth(record: Record) -> dict[str, Any] | None:
         "gear": packed(shape["gear_outline"]),
         "path": packed(shape["path_of_contact"]),
         "radii": [float(shape["pinion_pitch_radius"]), float(shape["gear_pitch_radius"])],
+        "outside": outside_of(shape),
     }
 
 
@@ -72,6 +73,7 @@ def turning_teeth(shape: Mapping[str, Any], pinion_teeth: float) -> dict[str, An
         "gear": packed(shape["gear_outline"]),
         "path": packed(shape["path_of_contact"]),
         "radii": [pinion, gear],
+        "outside": outside_of(shape),
     }
 
 

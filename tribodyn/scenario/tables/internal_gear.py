@@ -11,10 +11,6 @@ from tribodyn.scenario.tables.model_files import DriveTable, Gear
 #: Teeth of the cutter where none are given, at most half the gear's, and rim outside the root circle,
 #: modules: choices; the first a common size, the second near a rim that bends little.
 USUAL_CUTTER, USUAL_RIM = 20, 3.0
-#: Compliances that are of external teeth alone -> what to use for them.
-_NOT_OF_INTERNAL = {
-    name: 'use compliance = "constant", with stiffness = "1e10 N/m", or "table"' for name in ("energy", "fem")
-}
 _OWN = ("outer_diameter", "cutter_teeth", "cutter_profile_shift", "cutter_addendum", "cutter_rounding")
 
 
@@ -37,6 +33,7 @@ def internal_body(gear: Gear, external: GearBody, module: float) -> GearBody:
         cutter_teeth=float(gear.cutter_teeth or min(USUAL_CUTTER, gear.teeth // 2)),
         cutter_shift=gear.cutter_profile_shift or 0.0,
         cutter_addendum=gear.cutter_addendum,
+        free_rim=float(gear.rim == "free"),
     )
 
 
@@ -45,6 +42,7 @@ def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
     for name, gear in (("pinion", drive.pinion), ("gear", drive.gear)):
         own = [key for key in _OWN if getattr(gear, key) is not None]
         own += ["profile_shift_of"] if gear.profile_shift_of == "gap" else []
+        own += ["rim"] if gear.rim == "free" else []
         if own and not gear.internal:
             rule, remedy = "is of an internal gear", "add internal = true, or leave it out"
             yield InputError(f"drive.{name}.{own[0]}", rule=rule, remedy=remedy)
@@ -77,11 +75,15 @@ def internal_refused(drive: DriveTable) -> InputError:
     return InputError(f"drive.{side}.internal", "true", rule, remedy)
 
 
+def driving_internal(drive: DriveTable) -> Iterator[InputError]:
+    """Refuse an internal gear that drives, where a study takes the pinion to turn in it."""
+    if drive.pinion.internal:
+        rule, remedy = "of a pair the gear is internal, and the pinion turns in it", "make it [drive.gear]"
+        yield InputError("drive.pinion.internal", "true", rule, f"{remedy}; a negative torque lets it drive")
+
+
 def broken_internal_runs(scenario: Any) -> Iterator[InputError]:
     """Go through what a study that knows internal gears has no formula for; tables may be absent."""
-    if (compliance := getattr(scenario.mesh, "compliance", None)) in _NOT_OF_INTERNAL:
-        rule = "is of external teeth"
-        yield InputError("mesh.compliance", f'"{compliance}"', rule, _NOT_OF_INTERNAL[compliance])
     losses, temperature = getattr(scenario, "losses", None), getattr(scenario, "temperature", None)
     for name in ("churning", "windage"):
         if losses is not None and (law := getattr(losses, name)) is not None:

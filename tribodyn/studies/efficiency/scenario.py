@@ -9,7 +9,9 @@ from pydantic import Field
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.errors import InputError
 from tribodyn.scenario.quantity import Table, written
+from tribodyn.scenario.tables.bearings import Stiffness
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_duty_rules, duty_of, spectrum_of
+from tribodyn.scenario.tables.internal_gear import driving_internal
 from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
@@ -25,6 +27,7 @@ from tribodyn.studies.gears.scenario import (
     SliceCoupling,
     TemperatureKeys,
     broken_gear_rules,
+    broken_stiffness_rules,
     gear_fields,
     oil_fields,
 )
@@ -63,11 +66,12 @@ def estimate(case: EfficiencyCase) -> cost.Estimate:
 class EfficiencyMesh(Table):
     """How the pairs in contact share the load, and the compliance they share it by."""
 
-    compliance: Literal["energy", "fem"] = Field(
+    compliance: Literal["energy", "fem", "constant"] = Field(
         "energy",
-        description="what elastic load sharing goes by: the energy method; or the load contact model on "
-        "finite elements, in which pairs touch beyond their path of contact as well",
+        description="what elastic load sharing goes by: the energy method; the load contact model on finite "
+        "elements, in which pairs touch beyond their path of contact as well; or the stiffness given",
     )
+    stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
     load_sharing: Literal["elastic", "uniform", "single-pair"] = Field(
         "elastic",
         description="by the compliances; equally; one pair about the pitch point. "
@@ -127,7 +131,9 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
+    yield from driving_internal(scenario.drive)
     yield from broken_gear_rules(scenario, every_duty=True, internal=True)
+    yield from broken_stiffness_rules(scenario.mesh, ("constant",))
     drive, operating = scenario.drive, scenario.operating
     broken = broken_duty_rules(operating)
     yield from broken

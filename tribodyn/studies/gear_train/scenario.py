@@ -195,7 +195,7 @@ def _given_mass(train: Moving, number: int) -> BodyMass:
 
 def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tuple[BodyData, ...]:
     motion, operating, found = train.motion, scenario.operating, []
-    floating = {own.members[name] for own in train.parts.sets for name in own.table.floating}
+    floating = {body for own in train.parts.sets for body in own.floating}
     for number, body in enumerate(motion.bodies):
         part = train.parts.bodies[body]
         attached = sum(own for at, own in duty.inertias if at == number)
@@ -223,10 +223,10 @@ def _bodies(scenario: Any, train: Moving, figure: Drawn, duty: TrainDuty) -> tup
 def _links(scenario: Any, train: Moving, figure: Drawn) -> tuple[LinkData, ...]:
     new, found = train.numbers, []
     bearings = bearings_by_body(scenario, train.parts)
-    planets = {body for own in train.parts.sets for body in own.planets}
+    without = {body for own in train.parts.sets for body in (*own.planets, *own.floating)}
     for number, body in enumerate(train.motion.bodies):
         bearing = bearings[body]
-        if bearing is not None and body not in planets:
+        if bearing is not None and body not in without:
             data: BearingData = bearing_of(bearing)
             found.append(
                 LinkData(

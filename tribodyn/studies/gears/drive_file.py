@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
-from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of
+from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of, internal_side
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.spline import FEWEST, MOST
 from tribodyn.geometry.gauges import Gauge
@@ -155,9 +155,9 @@ def as_spline(model: DriveModel, values: int, key: str = "n") -> SplineDrive:
     `key` is what messages call their number. Raises InputError for too few or too many, gears that cannot be
     made, and a fit of which none can be made.
     """
-    if model.drive.gear.teeth < 0:
+    if (side := internal_side(model.drive)) is not None:
         rule = "an internal gear has no free-form path"
-        raise InputError("drive.gear.internal", "true", rule, "fit the path of an external pair")
+        raise InputError(f"drive.{side}.internal", "true", rule, "fit the path of an external pair")
     if not FEWEST <= values <= MOST:
         raise InputError(key, values, f"a path has {FEWEST} to {MOST} values", "use 9")
     with model.origins.naming():

@@ -19,6 +19,7 @@ from tribodyn.studies.gears.scenario import (
     FoundationCoupling,
     SampleNumber,
     SliceCoupling,
+    broken_stiffness_rules,
     mesh_of,
 )
 
@@ -153,16 +154,7 @@ def broken_source_rules(operating: Any, motor_torque: str) -> Iterator[InputErro
 
 def broken_mesh_rules(mesh: Mesh) -> Iterator[InputError]:
     """Go through what a table [mesh] lacks, or says twice, of its compliance and its error."""
-    table = '"stiffness.csv", columns roll_angle and stiffness'
-    for choice, name, example in (("constant", "stiffness", '"2.8e8 N/m"'), ("table", "table", table)):
-        given = getattr(mesh, name) is not None
-        if mesh.compliance == choice and not given:
-            rule = f'missing: compliance = "{choice}" needs it'
-            yield InputError(f"mesh.{name}", rule=rule, remedy=f"add {name} = {example}")
-        if mesh.compliance != choice and given:
-            rule = f'contradicts compliance = "{mesh.compliance}"'
-            remedy = f'leave {name} out, or write compliance = "{choice}"'
-            yield InputError(f"mesh.{name}", rule=rule, remedy=remedy)
+    yield from broken_stiffness_rules(mesh)
     error = mesh.transmission_error
     if error.harmonics and error.table is not None:
         yield InputError(

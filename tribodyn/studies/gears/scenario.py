@@ -1,6 +1,6 @@
 """What scenarios of gears have in common: keys of their tables, rules, and the fields of a case."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import fields
 from typing import Annotated, Any
 
@@ -123,6 +123,27 @@ def mesh_of(scenario: Any, *, every_tooth: bool = False, error: Any = None, **ow
     values = {"compliance": "fem", "damping_ratio": 0.0} | {name: getattr(mesh, name) for name in given}
     values |= {"modifications": modifications, "slices": slices_of(slices, modifications, helical)}
     return MeshData(**values | {"error_table": error} | own)
+
+
+#: Compliances that are given -> the key that gives them, and an example.
+_GIVEN = {
+    "constant": ("stiffness", '"2.8e8 N/m"'),
+    "table": ("table", '"stiffness.csv", columns roll_angle and stiffness'),
+}
+
+
+def broken_stiffness_rules(mesh: Any, choices: Iterable[str] = tuple(_GIVEN)) -> Iterator[InputError]:
+    """Go through what a table [mesh] lacks, or says twice, of a compliance that is given."""
+    for choice in choices:
+        name, example = _GIVEN[choice]
+        given = getattr(mesh, name) is not None
+        if mesh.compliance == choice and not given:
+            rule = f'missing: compliance = "{choice}" needs it'
+            yield InputError(f"mesh.{name}", rule=rule, remedy=f"add {name} = {example}")
+        if mesh.compliance != choice and given:
+            rule = f'contradicts compliance = "{mesh.compliance}"'
+            remedy = f'leave {name} out, or write compliance = "{choice}"'
+            yield InputError(f"mesh.{name}", rule=rule, remedy=remedy)
 
 
 def broken_gear_rules(

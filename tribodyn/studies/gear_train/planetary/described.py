@@ -27,6 +27,11 @@ class SetPart(NamedTuple):
         """The body that does not turn."""
         return self.members[self.table.held]
 
+    @property
+    def floating(self) -> tuple[int, ...]:
+        """Bodies that no bearing holds."""
+        return tuple(self.members[name] for name in self.table.floating)
+
 
 def planetary_stages(scenario: Any) -> list[tuple[str, PlanetaryStage]]:
     """The planetary stages with their keys."""

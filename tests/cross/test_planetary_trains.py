@@ -1,0 +1,236 @@
+"""Planetary stages of trains: phases, forces on the sun, load shares, energy, by second methods."""
+
+import numpy as np
+import pytest
+
+from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case
+from tests.support.train_scenarios import case_of_table
+from tribodyn.dynamics.modes import modes
+from tribodyn.errors import InputError
+from tribodyn.record.reader import Record
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.orbit.gear_map import GearMap, moving_states
+from tribodyn.solve.orbit.periodic import steady_states
+from tribodyn.studies.gear_train.described.teeth import half_angles
+from tribodyn.studies.gear_train.planetary.results import STAGES, kinds_of
+from tribodyn.studies.gear_train.prepare import prepare
+from tribodyn.studies.gear_train.run import run
+from tribodyn.train.planetary import SetTeeth, excited, mesh_phases, torques
+from tribodyn.train.structure import shift_of, turn_of
+
+SUN, RING, CARRIER = 0, 1, 2
+
+
+@pytest.mark.parametrize("sense", ["clockwise", "counter-clockwise"])
+@pytest.mark.parametrize("places", [(0, 36, 72), (0, 31, 75)])
+@pytest.mark.parametrize("teeth", [IN_PHASE, SEQUENTIAL])
+def test_phases_are_those_of_the_turned_outlines(teeth, places, sense):
+    """The teeth put together tooth by tooth against the formula that turned outlines have checked."""
+    angles = [f"{360.0 / 108.0 * place:.12f} deg" for place in places]
+    prepared = prepare(set_case(teeth, angles=angles, operating={"sense": sense}))
+    own, at_sun, at_ring = prepared.case.sets[0], prepared.made[0], prepared.made[3]
+    entries = []
+    for made in (at_sun, at_ring):
+        path = made.assembly.path
+        base = float(path.pinion_pitch_radius * np.cos(path.pressure_angle(0.0)))
+        entries.append(float(made.cycle.roll_start) * base / (2.0 * np.pi * base) * made.cycle.pinion_teeth)
+    halves = half_angles(at_sun.assembly)[1], half_angles(at_ring.assembly)[0]
+    way = 1 if sense == "counter-clockwise" else -1
+    expected = np.concatenate(mesh_phases(own.teeth, own.angles, halves, tuple(entries), way))
+    off = (np.array(prepared.phases.meshes) - expected + 0.5) % 1.0 - 0.5
+    np.testing.assert_allclose(off, 0.0, atol=1e-9)
+
+
+@pytest.fixture(scope="module")
+def steady():
+    """Steady states of sets in phase and sequential, with their models."""
+    found = []
+    for teeth in (IN_PHASE, SEQUENTIAL):
+        model = prepare(set_case(teeth)).model
+        found.append((teeth, model, steady_states([model])[0]))
+    return found
+
+
+def test_meshes_excite_what_the_phases_allow(steady):
+    """Forces on the sun or torques on the carrier vanish by the harmonic's number times the sun's teeth."""
+    for (sun, planet, ring), model, motion in steady:
+        assert motion.period == 1
+        assert motion.stable
+        samples, layout = motion.samples, model.layout
+        whirl = np.fft.fft(samples[:, shift_of(SUN)] + 1j * samples[:, shift_of(SUN) + 1]) / len(samples)
+        turning = np.fft.rfft(samples[:, turn_of(CARRIER, layout)]) / len(samples)
+        moved = {h: max(abs(whirl[h]), abs(whirl[-h])) for h in range(1, 7)}
+        turned = {h: abs(turning[h]) for h in range(1, 7)}
+        for h in range(1, 7):
+            rotates = "rotational" in excited(SetTeeth(sun, planet, -ring), 3, h)
+            assert bool(turned[h] > 1e-2 * max(turned.values())) is rotates
+            if rotates:
+                # what is left of translation is the steady state's own tolerance
+                assert moved[h] < max(1e-3 * max(moved.values()), 1e-15)
+            else:
+                assert turned[h] < 1e-3 * max(turned.values())
+                assert moved[h] > 1e-2 * max(moved.values())
+
+
+def test_kinds_of_modes_are_kept_apart_where_all_meshes_are_in_phase():
+    """The derivative of a mesh cycle's map, without loss of contact: in phase it leaves rotations rotations."""
+    mixing = {}
+    for teeth in (IN_PHASE, SEQUENTIAL):
+        model = prepare(set_case(teeth, operating={"output_torque": "20000 N*m"})).model
+        state, moving = static_equilibrium(model), moving_states(model)
+        way = GearMap(
+            [model],
+            state[None],
+            moving,
+            solver="dopri5",
+            rtol=1e-7,
+            fine_rtol=1e-9,
+            max_steps=10**6,
+            workers=1,
+        )
+        jacobian = way.tangent(state[None, list(moving.states)], np.array([0]), 1).jacobian[0]
+        scaled = jacobian * way.scale[0] / way.scale[0][:, None]
+        rotational = _rotational(model, moving.states) / way.scale[0][:, None]
+        basis, _ = np.linalg.qr(rotational)
+        image = scaled @ basis
+        mixing[teeth] = np.linalg.norm(image - basis @ (basis.T @ image)) / np.linalg.norm(image)
+    assert mixing[IN_PHASE] < 1e-6
+    assert mixing[SEQUENTIAL] > 1e-3
+
+
+def _rotational(model, states):
+    """Displacements, and rates, at which all planets move alike and sun, ring and carrier only turn."""
+    layout = model.layout
+    patterns = []
+    for body in (RING, CARRIER):
+        patterns.append({turn_of(body, layout): 1.0})
+    planets = range(3, 6)
+    patterns.append({turn_of(body, layout): 1.0 for body in planets})
+    outwards = np.asarray(model.bodies.place)[3:6]
+    for turned in (outwards, outwards[:, ::-1] * [-1.0, 1.0]):
+        patterns.append(
+            {shift_of(b) + k: turned[b - 3, k] for b in planets for k in (0, 1)},
+        )
+    columns = []
+    for first in (0, int(layout.half)):
+        for pattern in patterns:
+            columns.append([pattern.get(state - first, 0.0) for state in states])
+    return np.array(columns).T
+
+
+@pytest.mark.parametrize("planets", [3, 4])
+def test_a_floating_sun_makes_three_planets_share_alike(planets):
+    """Under the error of one pin; four do not, and a sun in bearings does not."""
+    shares = {}
+    for floating in ((), ("sun",)):
+        errors = ["30 um", *["0 um"] * (planets - 1)]
+        case = set_case(
+            IN_PHASE, planets, floating=list(floating), tangential_pin_errors=errors, frame_forces=False
+        )
+        model = prepare(case).model
+        loads = _loads(model, static_equilibrium(model))
+        shares[floating] = loads[:planets]
+        # action = reaction: what the sun gives a planet, but for friction the ring takes
+        np.testing.assert_allclose(np.mean(loads[planets:]), np.mean(loads[:planets]), rtol=0.02)
+        np.testing.assert_allclose(np.mean(loads), 600.0 / (2.0 * 81e-3) / planets, rtol=0.02)
+    uneven = {floating: np.ptp(loads) / np.mean(loads) for floating, loads in shares.items()}
+    assert uneven[()] > 0.3
+    assert uneven["sun",] < 2e-3 if planets == 3 else uneven["sun",] > 0.3
+
+
+def _loads(model, state):
+    """Force of every mesh along its pitch tangent, N."""
+    from tribodyn.dynamics.outputs import evaluated, mesh_outputs
+
+    samples = evaluated(np.array([0.0]), state[None], model)
+    return np.array(
+        [
+            mesh_outputs(m, samples)["driven_torque"][0] / abs(float(mesh.driven_radius))
+            for m, mesh in enumerate(model.meshes)
+        ]
+    )
+
+
+@pytest.fixture(scope="module")
+def record(tmp_path_factory):
+    """A run of a set with a floating sun."""
+    path = tmp_path_factory.mktemp("set") / "set.h5"
+    case = set_case(SEQUENTIAL, floating=["sun"], solver={"cycles": 12})
+    result = run(case, path)
+    assert result.status == "complete"
+    return case, Record(path)
+
+
+def test_energy_and_efficiency_of_a_run(record):
+    """In = out + losses; and the efficiency is that of the rolling powers by Willis' torques."""
+    case, found = record
+    summary = found.summary
+    stage = summary[STAGES]["set"]
+    work = {name: found[f"work_{name}"] for name in ("in", "out", "friction", "damping")}
+    lost = work["friction"][-1] + work["damping"][-1]
+    gained = found["stored_energy"][-1] - found["stored_energy"][0]
+    assert work["in"][-1] - work["out"][-1] - lost == pytest.approx(
+        gained - found["work_parametric"][-1], abs=1e-6 * work["in"][-1]
+    )
+    rolling = np.prod(
+        [
+            np.mean([summary["meshes"][f"set-{at}-{n}"]["efficiency"] for n in (1, 2, 3)])
+            for at in ("sun", "ring")
+        ]
+    )
+    ideal, real = (torques(case.sets[0].teeth, "ring", "sun", 1.0, eta) for eta in (1.0, float(rolling)))
+    assert stage["efficiency"] == pytest.approx(real["carrier"] / ideal["carrier"], abs=2e-5)
+    # of means over samples, which jumps of the load fall between
+    assert stage["mesh_load_factor"] == pytest.approx(1.0, abs=3e-3)
+    assert stage["power_friction_mean"] == pytest.approx(summary["power_friction_mean"], rel=1e-9)
+
+
+def test_kinds_of_modes_have_names():
+    prepared = prepare(set_case(SEQUENTIAL, 4))
+    kinds = kinds_of(prepared, modes(prepared.model, [made.cycle for made in prepared.made]))
+    count = {kind: kinds.count(kind) for kind in set(kinds)}
+    # of 7 bodies 21 coordinates, less the rotation that is prescribed: translational ones in pairs
+    assert count == {"rotational": 5, "translational": 12, "planet": 3}
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"planets": 5}, "fewer teeth|whole number"),
+        ({"held": "sun"}, "is held in the planetary stage set"),
+        ({"angles": ["0 deg", "102 deg", "220 deg"]}, "pitches beside the gaps"),
+        ({"carrier": "arm"}, "no such"),
+        ({"planet": "ring"}, "must be an external gear|named twice"),
+        ({"radial_pin_errors": ["1 um"]}, "1 values for 3 planets"),
+        ({"centre_distance": "80 mm"}, "overlap"),
+        ({"floating": ["sun", "ring", "carrier"]}, "no member of the set has a bearing"),
+        ({"gear": {"ring": {"teeth": 84, "face_width": "30 mm"}}}, "must be an internal gear"),
+        (
+            {
+                "bearings": {
+                    "default": {"stiffness_x": "3e8 N/m", "stiffness_y": "2e8 N/m", "damping_ratio": 0.1}
+                }
+            },
+            "whose frame turns",
+        ),
+        ({"shaft": [{"name": "axle", "gears": ["sun", "ring"]}]}, "moves in the frame of its carrier"),
+    ],
+)
+def test_wrong_sets_are_refused(changes, said):
+    table = planet_set(IN_PHASE)
+    for name, value in changes.items():
+        if name in ("shaft", "bearings"):
+            table[name] = value
+        elif name == "gear":
+            table["gear"] |= value
+        else:
+            table["stage"][0][name] = value
+    with pytest.raises(InputError, match=said):
+        case_of_table(table)
+
+
+def test_planets_that_overlap_are_counted():
+    table = planet_set((18, 36, 90), 6)
+    table["gear"]["ring"]["addendum"] = 0.8
+    with pytest.raises(InputError, match=r"overlap by .* use at most 4"):
+        case_of_table(table)
