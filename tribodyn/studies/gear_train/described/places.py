@@ -166,33 +166,45 @@ def _carried(
     return axis + np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
 
 
-def contacts(record: Record) -> Float[Array, "time mesh pair 3"]:
-    """Place (m) of every pair's contact without load, and direction (rad) of its load on the driven gear.
+def contacts(record: Record, displaced: bool = True) -> Float[Array, "time mesh pair 3"]:
+    """Place (m) of every pair's contact, and direction (rad) of its load on the driven gear.
 
+    On the driver's flank where that is displaced and turned by the load, or on both as they are without it.
     NaN where a pair carries no load.
     """
     places = record.geometry
     mirrored = np.where(np.array(record.pairs) > 1, -1.0, 1.0)  # of back flanks, about the line of centres
     found = np.full((*record["normal_load"].shape, 3), np.nan)
-    beside = shifts(record)
+    beside, stand = shifts(record), poses(record)
     for m, mesh in enumerate(record["mesh"]):
         along, across = (np.array(direction) for direction in _frame(record, m))
-        driver = places["centre"][driver_of(record, m)]
-        pitch_point = driver + record.of_mesh(mesh, "geometry")["pinion_pitch_radius"] * across
+        body = driver_of(record, m)
+        pitch_point = record.of_mesh(mesh, "geometry")["pinion_pitch_radius"] * across
         angle = record["pressure_angle"][:, m]
         normal = (mirrored * np.cos(angle))[..., None] * along + np.sin(angle)[..., None] * across
-        turned, shift = mesh_turns(record, m)[:, None], beside[int(places["driver_gear"][m])]
+        turned = mesh_turns(record, m)
+        centre = _carried(places["centre"][body], _axis(record, m), turned)
+        if displaced:
+            rolled = 2.0 * np.pi / record.of_mesh(mesh, "mesh_cycle")["pinion_teeth"] * _sense(record, m)
+            turned = stand[body, :, 2] - rolled * (record["mesh_phase"][:, m] - places["phase"][m])
+            centre = stand[body, :, :2]
+        turned = turned[:, None]
         contact = pitch_point + record["signed_distance"][:, m, :, None] * normal
-        found[:, m, :, :2] = _carried(contact, _axis(record, m), turned) + shift
+        found[:, m, :, :2] = _carried(contact, np.zeros(2), turned) + centre[:, None]
+        found[:, m, :, :2] += beside[int(places["driver_gear"][m])]
         found[:, m, :, 2] = np.arctan2(normal[..., 1], normal[..., 0]) + turned
     return np.where(record["normal_load"][..., None] > 0.0, found, np.nan)
 
 
 def _frame(record: Record, m: int) -> tuple[tuple[float, float], tuple[float, float]]:
     """Directions along and across of a mesh, while its carrier has not turned."""
-    places, driver = record.geometry, driver_of(record, m)
+    return frame_of(float(record.geometry["azimuth"][m]), _sense(record, m))
+
+
+def _sense(record: Record, m: int) -> int:
+    """Sense in which the driver of a mesh turns; the other one of an internal gear."""
     radius = record.of_mesh(record["mesh"][m], "geometry")["pinion_pitch_radius"]
-    return frame_of(float(places["azimuth"][m]), int(places["sense"][driver] * np.sign(radius)))
+    return int(record.geometry["sense"][driver_of(record, m)] * np.sign(radius))
 
 
 def mesh_reach(record: Record, m: int, turned: float = 0.0) -> tuple[tuple[float, float], float]:
