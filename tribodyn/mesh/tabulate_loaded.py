@@ -134,6 +134,6 @@ def _pressed(
     gap = error[..., None] + flanks.gap(geometry)
     shared = flanks.share(roll, gear_torque, 0.0, gap)
     check_resolved(flanks, shared, gear_torque)
-    full = gear_torque / pair_geometry(flexible.assembly, np.zeros(1)).motion.gear_normal_arm[0]
+    full = abs(gear_torque / pair_geometry(flexible.assembly, np.zeros(1)).motion.gear_normal_arm[0])
     whole = geometry.gap[..., None] + gap
     return condense(flexible, geometry, whole, shared, _MINIMUM_SHARE * full, flanks.coupled)

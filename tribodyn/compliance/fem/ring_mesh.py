@@ -168,9 +168,7 @@ def _below(
     return below
 
 
-def signed_polar(
-    place: Float[Array, "2 ..."], teeth: int
-) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
+def signed_polar(place: Float[Array, "2 ..."], teeth: int) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
     """Radius (m) and angle (rad) of places in a tooth's frame; radii about an internal gear are negative."""
     sign = np.sign(teeth)
     return sign * np.hypot(*place), np.arctan2(sign * place[1], sign * place[0])

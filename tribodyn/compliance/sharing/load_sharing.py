@@ -32,6 +32,7 @@ from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
 from tribodyn.geometry.helix import pitch_slope, roll_shift
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.blas_threads import one_blas_thread
+from tribodyn.numerics.elementary import sense
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import steps
 from tribodyn.tribology.contact import averaged_radius
@@ -263,7 +264,8 @@ class LoadedFlanks(NamedTuple):
         geometry = pair_geometry(self.flexible.assembly, roll)
         motion = geometry.motion
         side = np.sign(motion.signed_distance)
-        lever = motion.gear_normal_arm + side * friction_coefficient * motion.gear_friction_arm
+        own = sense(self.flexible.assembly.path.gear_pitch_radius)
+        lever = own * (motion.gear_normal_arm + side * friction_coefficient * motion.gear_friction_arm)
         extra = self.gap(geometry) if gap is None else np.asarray(gap, dtype=float)
         extra = extra if extra.ndim == 3 else extra[..., None]
         whole = np.broadcast_to(geometry.gap[..., None] + extra, (*roll.shape, self.slices))

@@ -49,7 +49,7 @@ def check_contact(flanks: LoadedFlanks, gear_torque: float) -> None:
     if broken := too_few_slices(slices, varies):
         raise broken
     motion = pair_geometry(flexible.assembly, np.zeros(1)).motion
-    line_load = gear_torque / motion.gear_normal_arm / flexible.width
+    line_load = np.abs(gear_torque / motion.gear_normal_arm) / flexible.width
     contact = 2.0 * float(half_width(flexible, motion.relative_curvature, line_load)[0])
     if contact > flexible.width:
         raise InputError(
@@ -167,7 +167,7 @@ def roll_through(
         root_tension=tension,
         root_compression=compression,
         face_load_factor=factor,
-        mesh_stiffness=shared.stiffness / flexible.assembly.path.gear_pitch_radius,
+        mesh_stiffness=shared.stiffness / np.abs(flexible.assembly.path.gear_pitch_radius),
         contact_ratio=mean_pairs(np.max(shared.overlap, axis=-1), positions),
     )
 

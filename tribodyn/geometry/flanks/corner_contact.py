@@ -14,7 +14,7 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Side
 from tribodyn.geometry.path import Kinematics, PerContact, distance_at_radius, kinematics, radius
-from tribodyn.geometry.tooth import thickness_half_angle
+from tribodyn.geometry.tooth import polar, thickness_half_angle
 from tribodyn.numerics.shapes import Array, Bool
 
 
@@ -90,12 +90,11 @@ def _corner(
     r_body, r_mate = path.pinion_pitch_radius, path.gear_pitch_radius
     turn = roll if side == "pinion" else -roll * assembly.path.pinion_pitch_radius / r_body
     alpha = path.pressure_angle(first)
-    x, y = first * np.cos(alpha), r_mate - first * np.sin(alpha)
-    mate = np.arctan2(x, y) + (turn - path.rotation(first)) * r_body / r_mate
-    tip = np.hypot(x, y)
+    tip, angle = polar(first * np.cos(alpha), -first * np.sin(alpha), r_mate)
+    mate = angle + (turn - path.rotation(first)) * r_body / r_mate
     x, y = tip * np.sin(mate), r_mate - tip * np.cos(mate)
-    reach = np.hypot(x, r_body + y)
-    corner = thickness_half_angle(tooth, r_body) + np.arctan2(x, r_body + y) - turn
+    reach, angle = polar(x, y, r_body)
+    corner = thickness_half_angle(tooth, r_body) + angle - turn
     flank = distance_at_radius(path, reach)
     arm = r_body * np.cos(path.pressure_angle(flank))
     return np.hypot(x, y), (corner - thickness_half_angle(tooth, reach)) * arm, reach, flank

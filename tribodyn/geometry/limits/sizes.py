@@ -1,7 +1,7 @@
 """Sizes of a drive, how far its path reaches, and the limits that messages name."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -86,7 +86,9 @@ def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
         whole = (body.teeth >= 3 or internal) and body.teeth == round(body.teeth)
         require(f"{side}.teeth", body.teeth, whole, "must be a whole number of at least 3")
         if internal:
-            _check_internal(drive, side)
+            mate = drive.pinion if side == "gear" else drive.gear
+            for broken in broken_internal_sizes(side, -body.teeth, mate.teeth, body.cutter_teeth):
+                raise broken
         for name in ("addendum", "dedendum", "face_width"):
             value = getattr(body, name)
             require(f"{side}.{name}", value, value > 0, "must be greater than zero")
@@ -95,17 +97,18 @@ def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
             require(f"{side}.bore_radius", body.bore_radius, body.bore_radius >= 0, "must not be negative")
 
 
-def _check_internal(drive: Drive, side: Side) -> None:
-    """Refuse an internal gear as small as its mate or the cutter that turns in it."""
-    mate: Side = "pinion" if side == "gear" else "gear"
-    ring, turning = body_of(drive, side), body_of(drive, mate)
-    inside = -ring.teeth > turning.teeth
-    if not inside:
-        rule = f"the internal gear must have more teeth than the {mate} that turns in it, {turning.teeth:g}"
-        raise InputError(f"drive.{side}.teeth", f"{-ring.teeth:g}", rule, "use more")
-    cutter, key = ring.cutter_teeth, f"{side}.cutter_teeth"
-    require(key, cutter, cutter == round(cutter), "must be a whole number")
-    require(key, cutter, 3 <= cutter < -ring.teeth, "must be at least 3, and less than teeth")
+def broken_internal_sizes(side: Side, teeth: float, mate: float, cutter: float) -> Iterator[InputError]:
+    """Refuse an internal gear as small as its mate or the cutter that turns in it; numbers of teeth > 0."""
+    other = "pinion" if side == "gear" else "gear"
+    if not teeth > mate:
+        rule = f"the internal gear must have more teeth than the {other} that turns in it, {mate:g}"
+        yield InputError(f"drive.{side}.teeth", f"{teeth:g}", rule, "use more")
+    if cutter != round(cutter):
+        yield InputError(f"drive.{side}.cutter_teeth", cutter, "must be a whole number")
+    elif not 3 <= cutter < teeth:
+        yield InputError(
+            f"drive.{side}.cutter_teeth", f"{cutter:g}", "must be at least 3, and less than teeth"
+        )
 
 
 def require(key: str, value: Any, holds: bool, rule: str) -> None:

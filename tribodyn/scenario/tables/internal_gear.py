@@ -4,8 +4,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import GearBody
+from tribodyn.geometry.drive import GearBody, Side
 from tribodyn.geometry.families import FAMILIES
+from tribodyn.geometry.limits.sizes import broken_internal_sizes
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
 
 #: Teeth of the cutter where none are given, at most half the gear's, and rim outside the root circle,
@@ -30,11 +31,15 @@ def internal_body(gear: Gear, external: GearBody, module: float) -> GearBody:
         fillet_radius=rounding,
         bore_radius=-(outside if gear.outer_diameter is None else gear.outer_diameter / 2),
         tip_radius=None if external.tip_radius is None else -external.tip_radius,
-        cutter_teeth=float(gear.cutter_teeth or min(USUAL_CUTTER, gear.teeth // 2)),
+        cutter_teeth=_cutter_teeth(gear),
         cutter_shift=gear.cutter_profile_shift or 0.0,
         cutter_addendum=gear.cutter_addendum,
         free_rim=float(gear.rim == "free"),
     )
+
+
+def _cutter_teeth(gear: Gear) -> float:
+    return float(gear.cutter_teeth or min(USUAL_CUTTER, gear.teeth // 2))
 
 
 def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
@@ -53,9 +58,11 @@ def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
     if drive.pinion.internal and drive.gear.internal:
         rule, remedy = "two internal gears cannot mesh", "make one of them external"
         yield InputError("drive.pinion.internal", "true", rule, remedy)
-    side = "pinion" if drive.pinion.internal else "gear"
-    if not getattr(drive, side).internal:
+    side: Side = "pinion" if drive.pinion.internal else "gear"
+    ring, mate = (drive.pinion, drive.gear) if side == "pinion" else (drive.gear, drive.pinion)
+    if not ring.internal:
         return
+    yield from broken_internal_sizes(side, ring.teeth, mate.teeth, _cutter_teeth(ring))
     if drive.family in FAMILIES and FAMILIES[drive.family].cutter_path is None:
         rule, remedy = (
             f"internal gears of the family {drive.family} are not modelled",

@@ -196,7 +196,8 @@ def efficiencies(
     if case.drive.helix_angle:
         return results | _by_loss_factor(study)
     cycle = study.cycle
-    if not cycle.roll_start < 0.0 < cycle.roll_end:  # no pair about the pitch point, of some internal pairs
+    start, end = study.assembly.roll_limits
+    if not start < 0.0 < end:  # no pair about the pitch point, of some internal pairs
         return results | _by_loss_factor(study)
     single = torque_ratio(
         path_contact(study.path, case.drive.pinion.teeth),

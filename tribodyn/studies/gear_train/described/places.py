@@ -107,10 +107,10 @@ def shifts(record: Record) -> Float[Array, "gear 2"]:
     """
     places = record.geometry
     found = np.zeros((len(places["gear_body"]), 2))
-    if not np.any(carriers(record) >= 0):
+    planes, right = np.asarray(places.get("plane", [0]), int), None
+    if not np.any(carriers(record) >= 0) or len(set(planes.tolist())) == 1:
         return found
     x, _, radius = reaches(record).T
-    planes, right = np.asarray(places["plane"], int), None
     for plane in dict.fromkeys(int(planes[int(gear)]) for gear in places["driver_gear"]):
         of_plane = planes == plane
         low, high = np.min((x - radius)[of_plane]), np.max((x + radius)[of_plane])
