@@ -1,13 +1,16 @@
 """Planetary sets as they are drawn: teeth interleave while the carrier turns; what is alike is said once."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from matplotlib.path import Path as Closed
 
 from tests.support.outlines import distance, turned
-from tests.support.planet_sets import SEQUENTIAL, set_case
+from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case
+from tests.support.train_scenarios import case_of_table
+from tribodyn.geometry.body import geometry_arrays
 from tribodyn.post.figures.panel import View
 from tribodyn.record.reader import Record
 from tribodyn.studies.gear_train.check import check
@@ -19,9 +22,12 @@ from tribodyn.studies.gear_train.described.places import (
     gear_poses,
     mesh_reach,
     mesh_turns,
+    reaches,
+    shifts,
 )
 from tribodyn.studies.gear_train.figures import DRAWINGS, mesh_forces
 from tribodyn.studies.gear_train.pictures.planet_figures import planet_loads
+from tribodyn.studies.gear_train.prepare import geometry_of, prepare
 from tribodyn.studies.gear_train.report import mechanism, tables, verdict
 from tribodyn.studies.gear_train.run import run
 
@@ -180,3 +186,40 @@ def test_names_that_differ_by_a_number_are_put_together():
     assert together(["sun", "sun"]) == "sun"
     assert between(["1.0", "1.0"], [1.0, 1.01]) == "1.0"
     assert between(["-2", "-3"], [-2.0, -3.0]) == "-3 … -2"
+
+
+def two_sets() -> Any:
+    """What a record of two sets in series has before a run."""
+    table, second = planet_set(SEQUENTIAL), planet_set(IN_PHASE)
+    for name, gear in second["gear"].items():
+        table["gear"][f"{name}-b"] = gear
+    names = {key: f"{key}-b" for key in ("sun", "planet", "ring", "carrier")}
+    table["stage"] += [second["stage"][0] | names | {"name": "second"}]
+    table["body"] += [second["body"][0] | {"name": "carrier-b"}]
+    table["link"] = [{"ends": ["carrier", "sun-b"], "stiffness": "1e6 N*m/rad"}]
+    table["operating"]["output"] = "carrier-b"
+    prepared = prepare(case_of_table(table))
+    shapes = {
+        mesh.name: geometry_arrays(made.assembly)
+        | {"pinion_teeth": made.cycle.pinion_teeth, "roll_start": 0.0}
+        for mesh, made in zip(prepared.case.meshes, prepared.made, strict=True)
+    }
+    content = {"geometry": geometry_of(prepared), "of_mesh": lambda _, mesh, group: shapes[mesh]}
+    return type("OfTrain", (dict,), content)(
+        mesh=list(shapes), body=list(prepared.names), gear=[gear.name for gear in prepared.case.gears]
+    )
+
+
+def test_sets_on_one_axis_stand_beside_each_other():
+    found = two_sets()
+    assert [own.name for own in sets_of(found)] == ["set", "second"]
+    where = reaches(found)
+    where[:, :2] += shifts(found)
+    rings = [number for number, name in enumerate(found["gear"]) if name.startswith("ring")]
+    (x, _, radius), (other_x, _, other_radius) = where[rings]
+    assert other_x - x > radius + other_radius
+    np.testing.assert_array_equal(where[:, 1], 0.0)
+    for gear, name in enumerate(found["gear"]):
+        ring = rings[int(name.endswith(("-b", "-b-1", "-b-2", "-b-3")))]
+        assert abs(where[gear, 0] - where[ring, 0]) < 1e-12
+        assert where[gear, 2] <= where[ring, 2]
