@@ -66,7 +66,7 @@ def _named(names: list[str], said: list[Any]) -> Iterator[str]:
             yield f"Mesh {together(of)}: {line}"
 
 
-def _once(names: list[str], tables: list[list[TextTable]]) -> Iterator[TextTable]:
+def _once(names: list[str], tables: Sequence[Sequence[TextTable]]) -> Iterator[TextTable]:
     """The tables of the meshes, equal ones once."""
     found: list[tuple[TextTable, list[str]]] = []
     for name, each in zip(names, tables, strict=True):

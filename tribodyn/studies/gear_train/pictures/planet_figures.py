@@ -72,10 +72,11 @@ def orbit_figure(records: Sequence[Record], view: View) -> Figure:
     for number, (own, body) in enumerate(panels):
         place = np.stack([record["x"][part, body], record["y"][part, body]], axis=-1) / MICROMETRE
         turned = record.geometry["carried"][body] * record["reference_angle"][part]
-        whole = place[:, 0] + 1j * place[:, 1]
-        from_housing = whole * np.exp(1j * turned)
+        x, y = place.T
+        cosine, sine = np.cos(turned), np.sin(turned)
+        from_housing = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
         name = _named(record, own, body)
-        for axes, path, seen in zip(rows[number], (whole, from_housing), ("carrier", "housing"), strict=True):
+        for axes, path, seen in zip(rows[number], (place, from_housing), ("carrier", "housing"), strict=True):
             _draw_orbit(axes, path, PALETTE[number % len(PALETTE)])
             letter = _LETTERS[(2 * number + (seen == "housing")) % len(_LETTERS)]
             mark_panel(axes, letter, f"{name}, from the {seen}")
@@ -84,13 +85,14 @@ def orbit_figure(records: Sequence[Record], view: View) -> Figure:
 
 
 def _draw_orbit(axes: Axes, path: np.ndarray, color: str) -> None:
-    """Draw a path, x + i y in µm, and where it begins; a square, with room for a point that rests."""
-    axes.plot(path.real, path.imag, color=color, linewidth=1.0)
-    axes.plot(path.real[0], path.imag[0], marker="o", markersize=3, color=color)
-    middle = complex((path.real.max() + path.real.min()) / 2, (path.imag.max() + path.imag.min()) / 2)
-    half = max(0.55 * float(np.ptp(path.real)), 0.55 * float(np.ptp(path.imag)), _SMALLEST)
-    axes.set_xlim(middle.real - half, middle.real + half)
-    axes.set_ylim(middle.imag - half, middle.imag + half)
+    """Draw a path (points, 2), µm, and where it begins; a square, with room for a point that rests."""
+    axes.plot(*path.T, color=color, linewidth=1.0)
+    axes.plot(*path[0], marker="o", markersize=3, color=color)
+    low, high = np.min(path, axis=0), np.max(path, axis=0)
+    half = max(0.55 * float(np.max(high - low)), _SMALLEST)
+    x, y = (low + high) / 2.0
+    axes.set_xlim(x - half, x + half)
+    axes.set_ylim(y - half, y + half)
     axes.set_aspect("equal")
     axes.set_xlabel("x (µm)")
     axes.set_ylabel("y (µm)")
