@@ -1,5 +1,7 @@
 """Planetary stages of trains: phases, forces on the sun, load shares, energy, by second methods."""
 
+from itertools import permutations
+
 import numpy as np
 import pytest
 
@@ -15,7 +17,7 @@ from tribodyn.studies.gear_train.described.teeth import half_angles
 from tribodyn.studies.gear_train.planetary.results import STAGES, kinds_of
 from tribodyn.studies.gear_train.prepare import prepare
 from tribodyn.studies.gear_train.run import run
-from tribodyn.train.planetary import SetTeeth, excited, mesh_phases, torques
+from tribodyn.train.planetary import MEMBERS, SetTeeth, excited, mesh_phases, torques
 from tribodyn.train.structure import shift_of, turn_of
 
 SUN, RING, CARRIER = 0, 1, 2
@@ -116,6 +118,20 @@ def _rotational(model, states):
         for pattern in patterns:
             columns.append([pattern.get(state - first, 0.0) for state in states])
     return np.array(columns).T
+
+
+@pytest.mark.parametrize(("held", "driving"), list(permutations(MEMBERS, 2)))
+def test_loads_at_rest_in_all_arrangements(held, driving):
+    """Whichever member is held, drives and is driven: without friction every mesh bears its share of Willis'."""
+    (driven,) = (member for member in MEMBERS if member not in (held, driving))
+    table = planet_set(IN_PHASE, 3, held, (driving, driven), friction={"law": "none"})
+    del table["friction"]["coefficient"]
+    prepared = prepare(case_of_table(table))
+    model = prepared.model
+    loads = _loads(model, static_equilibrium(model))
+    on_sun = 600.0 * abs(1.0 / torques(prepared.case.sets[0].teeth, held, driven, 1.0)[driven])
+    on_sun *= abs(torques(prepared.case.sets[0].teeth, held, driven, 1.0)["sun"])
+    np.testing.assert_allclose(loads, on_sun / 36e-3 / 3.0, rtol=2e-3)
 
 
 @pytest.mark.parametrize("planets", [3, 4])

@@ -104,6 +104,7 @@ def planetary_springs(
                 moves=moves_of(frame, (sun, planet)),
                 driver_carried=carried,
                 driven_carried=-carried,
+                carrier_arm=sun + planet,
             )
         )
         cycles.append(sun_cycle)
@@ -122,6 +123,7 @@ def planetary_springs(
                 driver_carried=-carried,
                 driven_carried=-carried,
                 driven_sense=-1.0,
+                carrier_arm=ring - planet,
             )
         )
         cycles.append(ring_cycle._replace(gear_pitch_radius=-ring))
@@ -146,6 +148,7 @@ def planetary_springs(
         pins=[k for k, (_, second_end) in enumerate(links) if second_end == CARRIER],
         holds=[RING] if given.ring_support else [],
         frames=1,
+        carriers=[CARRIER] * len(meshes),
     )
     load = np.zeros(len(members))
     load[CARRIER] = torque

@@ -149,6 +149,8 @@ def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> F
 def _closed(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float[Array, " state"]:
     """State in which the meshes have rotational errors (m) and shafts the twist of their torque."""
     layout = model.layout
+    if any(layout.pins):
+        return _closed_on_pins(model, errors, torques)
     y = np.zeros(layout.states)
     for body, nearer, m, link in torques.branches:
         start = float(turned(nearer, y, layout))
@@ -163,6 +165,32 @@ def _closed(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float
             else:
                 value = (ends[1] * start + errors[m]) / ends[0]
         y[turn_of(body, layout)] = value
+    return y
+
+
+def _closed_on_pins(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float[Array, " state"]:
+    """The same where planets close loops: the smallest rotations that do so; planets go with their carriers."""
+    layout, y = model.layout, np.zeros(model.layout.states)
+    rows, wanted = np.zeros((layout.meshes + len(torques.on_link), layout.bodies)), []
+    for m, mesh in enumerate(model.meshes):
+        rows[m, layout.driver[m]] += float(driver_arm(mesh))
+        rows[m, layout.driven[m]] -= float(driven_arm(mesh))
+        rows[m, layout.carrier[m]] -= float(mesh.carrier_arm)  # 0 of one in the housing
+        wanted.append(float(errors[m]))
+    for row, (link, torque) in enumerate(torques.on_link.items(), start=layout.meshes):
+        if layout.second[link] >= 0:
+            rows[row, layout.first[link]], rows[row, layout.second[link]] = 1.0, -1.0
+        wanted.append(twist_under(link, torque, model) if layout.second[link] >= 0 else 0.0)
+    still = [0, *(body for k, body in enumerate(layout.first) if layout.holds[k])]
+    rows[:, still] = 0.0
+    size = np.linalg.norm(rows, axis=1)
+    size[size == 0.0] = 1.0
+    turns, *_ = np.linalg.lstsq(rows / size[:, None], np.array(wanted) / size)
+    y[[turn_of(body, layout) for body in range(layout.bodies)]] = turns
+    for k, planet in enumerate(layout.first):
+        if layout.pins[k]:
+            moved = np.asarray(model.links.lever)[k, 1] * turns[layout.second[k]]
+            y[shift_of(planet) : shift_of(planet) + 2] = moved
     return y
 
 

@@ -18,12 +18,15 @@ class TreeBranch(NamedTuple):
 
 
 def tree(layout: TrainLayout, turning_links: tuple[bool, ...]) -> list[TreeBranch]:
-    """A tree from the reference to all bodies, nearer ones first; of a closed loop it leaves a joint out."""
+    """A tree from the reference to all bodies, nearer ones first; of a closed loop it leaves a joint out.
+
+    Bodies that are held are roots too.
+    """
     joints = [(a, b, m, -1) for m, (a, b) in enumerate(zip(layout.driver, layout.driven, strict=True))]
     ends = zip(layout.first, layout.second, turning_links, strict=True)
     joints += [(a, b, -1, k) for k, (a, b, turns) in enumerate(ends) if b >= 0 and turns]
     found: list[TreeBranch] = []
-    reached = [0]
+    reached = [0, *(a for k, a in enumerate(layout.first) if layout.holds[k])]
     for nearer in reached:
         for a, b, mesh, link in joints:
             body = b if a == nearer else a

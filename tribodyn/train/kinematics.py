@@ -5,8 +5,9 @@ rigid or compliant) turns its bodies alike. A planetary set of which one member 
 one ratio. Power flows outward from the input: of a mesh's two bodies the one that is fewer meshes away from
 the input drives; in a set as its torques have it, from the sun or from the ring to the planets.
 
-Body 0 of the result is the *reference body*: it drives mesh 0, the *reference mesh*, the first one that the
-input's power meets. Speeds are given over that body's; turns are measured in cycles of that mesh.
+Mesh 0 of the result is the *reference mesh*, the first one that the input's power meets; body 0, the
+*reference body*, drives it, or carries the planet that does. Speeds are given over that body's; turns are
+measured in cycles of that mesh.
 """
 
 from collections import deque
@@ -94,14 +95,12 @@ def kinematics(
     source: int,
     sense: int,
     sets: Sequence[SetMembers] = (),
-    preferred: Sequence[int] = (),
 ) -> TrainSpeeds:
     """Work out which end of each mesh drives, and how fast and which way every body turns.
 
     `source` is the body at which power enters, `sense` its sense of rotation (+1: counter-clockwise seen from
-    +z); the reference mesh is one of the `preferred` ones, if there are any. Raises InputError for a gear
-    without a mesh, a mesh of gears that turn together, loops whose ratios or senses contradict each other,
-    bodies that the input does not turn, and a train without a mesh.
+    +z). Raises InputError for a gear without a mesh, a mesh of gears that turn together, loops whose ratios
+    or senses contradict each other, bodies that the input does not turn, and a train without a mesh.
     """
     _refuse_idle_gears(gears, meshes)
     joints = [_by_bodies(gears, mesh) for mesh in meshes]
@@ -122,14 +121,16 @@ def kinematics(
     ]
     away = [min(found[end].away for end in joint) for joint in joints]
     turning = [place for place, (driver, _) in enumerate(driving) if found[gears[driver].body].speed]
-    reference = min([place for place in turning if place in preferred] or turning, key=lambda m: (away[m], m))
+    reference = min(turning, key=lambda m: (away[m], m))
     order = (reference, *(place for place in range(len(meshes)) if place != reference))
     carrier = [sets[mesh.of_set].members[CARRIER] if mesh.of_set >= 0 else -1 for mesh in meshes]
     driving, carrier = [driving[place] for place in order], [carrier[place] for place in order]
-    first = gears[driving[0][0]]
-    numbers = (first.body, *(body for body in range(len(bodies)) if body != first.body))
+    first = gears[driving[0][0]].body
+    if carrier[0] >= 0 and first in sets[meshes[reference].of_set].planets and found[carrier[0]].speed:
+        first = carrier[0]
+    numbers = (first, *(body for body in range(len(bodies)) if body != first))
     new = {body: index for index, body in enumerate(numbers)} | {-1: -1}
-    scale = found[first.body].speed
+    scale = found[first].speed
     ratio = tuple(found[body].speed / scale for body in numbers)
     cycles = [
         abs(gears[driver].teeth)

@@ -66,7 +66,7 @@ class Phases(NamedTuple):
 def nominal_phases(gears: Sequence[ToothedShaft], meshes: Sequence[Engagement]) -> Phases:
     """Put the teeth together from mesh 0 outward, at the turn at which its cycle begins.
 
-    A mesh that no teeth join to those before it begins its cycle then, too. Raises InputError where the teeth of a loop's last mesh do not
+    Where no mesh reaches a shaft, for it drives a carrier, the first mesh behind it begins its cycle too. Raises InputError where the teeth of a loop's last mesh do not
     meet, by more than `LOOP_TOLERANCE`.
     """
     first = meshes[0]
@@ -88,7 +88,7 @@ def nominal_phases(gears: Sequence[ToothedShaft], meshes: Sequence[Engagement]) 
                 phase = driven_phase(gears, mesh, marks[driven.shaft])
                 marks[driver.shaft] = _driver_mark(gears, mesh, phase)
             phases[place] = phase
-        if len(phases) == before:  # no teeth join it to the others, as those of the next planetary set
+        if len(phases) == before:
             place = next(place for place in range(len(meshes)) if place not in phases)
             marks[gears[meshes[place].gears[0]].shaft] = _driver_mark(gears, meshes[place], 0.0)
     return Phases(

@@ -10,7 +10,7 @@ import numpy as np
 from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.path import kinematics
-from tribodyn.numerics.elementary import as_float, is_jax, minimum
+from tribodyn.numerics.elementary import as_float, is_jax, minimum, sense
 from tribodyn.tribology.contact import DutyRange, NominalConditions, Surfaces
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
@@ -259,7 +259,7 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
         as_float(path.pinion_pitch_radius),
         as_float(path.gear_pitch_radius),
         as_float(angle),
-        case.operating.pinion_speed,
+        case.operating.pinion_speed * sense(path.pinion_pitch_radius),
         minimum(case.drive.pinion.face_width, case.drive.gear.face_width),
         oil.inlet_viscosity,
         oil.density,

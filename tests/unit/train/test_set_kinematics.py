@@ -77,8 +77,8 @@ def test_sun_or_ring_drives_the_planets_as_the_torques_have_it():
 
 
 def test_reference_body_turns():
-    """Where a held member drives the planets, one of these is the reference."""
-    assert turning(RING, CARRIER).bodies[0] == 3
+    """Where a held member drives the planets, their carrier is the reference."""
+    assert turning(RING, CARRIER).bodies[0] == NUMBERS[CARRIER]
     assert turning(RING, SUN).bodies[0] == NUMBERS[SUN]
 
 

@@ -105,13 +105,16 @@ def _order(case: TrainCase) -> tuple[int, ...]:
         rule = "the body that drives the reference mesh has no bearing, but others have"
         raise InputError(case.bodies[0].key, case.bodies[0].name, rule, "give it a bearing, or none to any")
     # those that move in space before those that only move in the plane
-    held.sort(key=lambda body: body != 0 and not _moves_in_space(case, body))
+    held.sort(key=lambda body: not _moves_in_space(case, body))
     return (*held, *(body for body in numbers if body not in held))
 
 
 def _moves_in_space(case: TrainCase, body: int) -> bool:
-    """Whether a body that bearings hold moves in space: in a helical train all outside planetary sets."""
-    return case.helical and not any(body in own.bodies for own in case.sets)
+    """Whether a body that bearings hold moves in space: in a helical train all outside planetary sets.
+
+    And the reference, which comes before these.
+    """
+    return case.helical and (body == 0 or not any(body in own.bodies for own in case.sets))
 
 
 def _model(
@@ -197,8 +200,10 @@ def _in_space(
     stiffness = np.zeros((layout.links if layout.spatial else 0, IN_SPACE, IN_SPACE))
     losses = stiffness.copy()
     for number, link in enumerate(case.links if layout.spatial else ()):
-        gears = [case.gears[gear].face_width for gear in case.bodies[link.ends[0]].gears]
-        found = in_space_of(link, damping[number], inertias, max(gears, default=0.0))
+        body = link.ends[0]
+        of_sets = [planet for own in case.sets if body in own.bodies for planet in own.planets]
+        faces = [case.gears[gear].face_width for one in (body, *of_sets) for gear in case.bodies[one].gears]
+        found = in_space_of(link, damping[number], inertias, max(faces, default=0.0))
         stiffness[number], losses[number] = map(np.diag, found)
     return stiffness, losses
 

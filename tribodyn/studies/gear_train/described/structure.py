@@ -261,8 +261,6 @@ def motion_of(parts: Structure, source: int, sense: int) -> TrainSpeeds:
         source,
         sense,
         [SetMembers(own.key, own.members, own.planets, own.teeth, own.table.held) for own in parts.sets],
-        # bodies that move in space come first
-        [place for place, mesh in enumerate(parts.meshes) if getattr(mesh.table, "helix_angle", None)],
     )
 
 

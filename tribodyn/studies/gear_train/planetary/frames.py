@@ -31,8 +31,9 @@ def carried_of(case: TrainCase, mesh: TrainMesh, plain: GearMesh) -> dict[str, f
 
 
 def rolling_of(case: TrainCase) -> float:
-    """Speed of the reference against what carries its mesh, over its own."""
-    return 1.0 - carried_ratio(case, 0, case.meshes[0].carrier)
+    """Speed of the reference mesh's driver against what carries it, over that of the reference body."""
+    first = case.meshes[0]
+    return float(case.bodies[first.driver].ratio) - carried_ratio(case, first.driver, first.carrier)
 
 
 def frames_of(case: TrainCase, bodies: Sequence[int]) -> dict[str, Float[Array, "..."]]:
