@@ -28,9 +28,12 @@ UNREADABLE = (
 )
 #: What else it makes those raise who evaluate what it holds: numbers for texts, tables without their keys.
 _MISREAD = (*(error for error in UNREADABLE if error is not OSError), ArithmeticError, AssertionError)
-#: Maximum number of items in a group or attributes of an item, and of items in all; depth of groups, axes of
-#: a dataset, and bytes of an attribute. A record of a search has a dataset per free key, others a hundred.
-MAXIMUM_MEMBERS, MAXIMUM_ITEMS, MAXIMUM_DEPTH, MAXIMUM_AXES, MAXIMUM_ATTRIBUTE = 1000, 2000, 4, 8, 2**26
+#: Maximum number of items in a group, and of items in all; depth of groups, axes of a dataset, and bytes of
+#: an attribute. A record of a search has a dataset per free key, one of a train 45 items per mesh, others a
+#: hundred.
+MAXIMUM_MEMBERS, MAXIMUM_ITEMS, MAXIMUM_DEPTH, MAXIMUM_AXES, MAXIMUM_ATTRIBUTE = 1000, 5000, 4, 8, 2**26
+#: Maximum number of attributes of an item: a summary has 145 for every mesh of a train.
+MAXIMUM_ATTRIBUTES = 20_000
 #: Maximum ratio of a compressed dataset's size to its bytes in the file, and bytes that need none.
 MAXIMUM_RATIO, SMALL = 1000, 2**20
 #: Attributes by which HDF5 connects datasets with their scales; they hold references.
@@ -166,7 +169,7 @@ class _Look:
                 _ = dim[0].name, dim[0].shape
 
     def _attributes(self, item: Any) -> None:
-        if len(item.attrs) > MAXIMUM_MEMBERS:
+        if len(item.attrs) > MAXIMUM_ATTRIBUTES:
             raise _Unsound(f"{item.name!r} has {len(item.attrs)} attributes")
         for name in item.attrs:
             if name in _REFERENCES:

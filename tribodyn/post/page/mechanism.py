@@ -14,7 +14,7 @@ MOST_FRAMES, MOST_PLACES = 1500, 60_000
 class Body(NamedTuple):
     """A body: its outline about its own centre, and where it is."""
 
-    outline: np.ndarray  # (points, 2), m
+    outline: np.ndarray  # (points, 2), m; NaN between closed lines that bound one area
     pose: np.ndarray  # (samples, 3); x and y of the centre, m, and rotation, rad, anticlockwise
     fill: Literal["pinion", "gear", "paper", "ring"]  # colour of the page; a ring is a line of `width`
     width: float = 0.0  # m
@@ -29,6 +29,8 @@ class Sight(NamedTuple):
     y: float
     reach: float  # half of what is seen in height, m
     front: Sequence[int] = ()  # numbers of the bodies that lie in front then
+    #: x and y (m) about which it turns with a body, and the number of that body; -1: it stands still
+    turns: tuple[float, float, int] = (0.0, 0.0, -1)
 
 
 class Mechanism(NamedTuple):

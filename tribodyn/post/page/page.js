@@ -11,7 +11,13 @@
   }
   function outlined(text, outside) {
     const points = numbers(text, Float32Array), outline = new Path2D();
-    for (let k = 0; k < points.length; k += 2) outline.lineTo(points[k], points[k + 1]);
+    let starts = true;
+    for (let k = 0; k < points.length; k += 2) {
+      if (isNaN(points[k])) outline.closePath();
+      else if (starts) outline.moveTo(points[k], points[k + 1]);
+      else outline.lineTo(points[k], points[k + 1]);
+      starts = isNaN(points[k]);
+    }
     outline.closePath();
     if (outside) {  // of an internal gear, whose outline is its hole
       outline.moveTo(outside, 0);
@@ -303,7 +309,13 @@
     const scale = teeth.reach ? canvas.height / 2 / sight.reach : canvas.width / 2 / (1.75 * across);
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, canvas.width, canvas.height);
-    const world = () => context.setTransform(scale, 0, 0, -scale, canvas.width / 2 - scale * sight.x, canvas.height / 2 + scale * sight.y);
+    const [aboutX, aboutY, carrier] = sight.turns || [0, 0, -1], carried = carrier >= 0 ? teeth.bodies[carrier].pose(frame)[2] : 0;
+    const world = () => {
+      context.setTransform(scale, 0, 0, -scale, canvas.width / 2 - scale * sight.x, canvas.height / 2 + scale * sight.y);
+      context.translate(aboutX, aboutY);
+      context.rotate(-carried);
+      context.translate(-aboutX, -aboutY);
+    };
     const edges = { pinion: COLORS[0], gear: COLORS[1], paper: color("--ink"), ring: color("--ring") };
     const front = (sight.front || []).map((number) => teeth.bodies[number]);
     for (const body of teeth.bodies.filter((one) => !front.includes(one)).concat(front)) {

@@ -8,6 +8,7 @@ import numpy as np
 
 from tribodyn.dynamics.modes import Modes, modes
 from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.studies.gear_train.described.alike import together
 from tribodyn.studies.gear_train.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare
 from tribodyn.studies.gears.check import check_gears
@@ -15,6 +16,7 @@ from tribodyn.studies.gears.prepare import PreparedGears
 from tribodyn.studies.gears.usual import with_duty
 from tribodyn.studies.protocol.recording import CheckResult, TextTable
 from tribodyn.train.flow import flow
+from tribodyn.train.planetary import CARRIER, RING, SUN
 
 #: Share of a mode's energy below which a body is left out of a table.
 LITTLE = 0.005
@@ -45,12 +47,7 @@ def check(case: TrainCase) -> CheckResult:
         *_train_tables(prepared, train),
         _mode_table(prepared, found, kinds),
         _campbell_table(prepared, found),
-        *(
-            table._replace(title=f"{table.title}, mesh {name}")
-            for name, checked in zip(names, of_meshes, strict=True)
-            for table in checked.tables
-            if checked is of_meshes[0] or table not in of_meshes[0].tables  # one oil for all
-        ),
+        *_once(names, [checked.tables for checked in of_meshes]),
     ]
     remarks = list(_named(names, [checked.remarks for checked in of_meshes]))
     warnings = tuple(dict.fromkeys(_named(names, [checked.warnings for checked in of_meshes])))
@@ -59,10 +56,28 @@ def check(case: TrainCase) -> CheckResult:
 
 def _named(names: list[str], said: list[Any]) -> Iterator[str]:
     """What is said of the meshes; once where it is said of all."""
-    common = [line for line in said[0] if all(line in each for each in said[1:])]
-    yield from common
+    of_line: dict[str, list[str]] = {}
     for name, each in zip(names, said, strict=True):
-        yield from (f"Mesh {name}: {line}" for line in each if line not in common)
+        for line in dict.fromkeys(each):
+            of_line.setdefault(line, []).append(name)
+    yield from (line for line, of in of_line.items() if len(of) == len(names))
+    for line, of in of_line.items():
+        if len(of) < len(names):
+            yield f"Mesh {together(of)}: {line}"
+
+
+def _once(names: list[str], tables: Sequence[Sequence[TextTable]]) -> Iterator[TextTable]:
+    """The tables of the meshes, equal ones once."""
+    found: list[tuple[TextTable, list[str]]] = []
+    for name, each in zip(names, tables, strict=True):
+        for table in each:
+            same = next((of for other, of in found if other == table), None)
+            if same is None:
+                found.append((table, [name]))
+            else:
+                same.append(name)
+    for table, of in found:
+        yield table._replace(title=f"{table.title}, mesh {together(of)}")
 
 
 def _of_mesh(prepared: PreparedTrain, m: int) -> CheckResult:
@@ -172,19 +187,38 @@ def _mode_table(prepared: PreparedTrain, found: Modes, kinds: Sequence[str]) -> 
     return TextTable(title, ("Hz", *(("kind",) if kinds else ()), "bodies"), rows)
 
 
+def _distinct(prepared: PreparedTrain) -> Iterator[tuple[str, float]]:
+    """Frequencies of the meshes, Hz, equal ones once; those of a planetary set by its name."""
+    case, of_rate = prepared.case, {}
+    sets = {own.members[CARRIER]: own.name for own in case.sets}
+    for mesh, frequency in zip(case.meshes, _mesh_frequencies(prepared), strict=True):
+        of_rate.setdefault(mesh.rate, (frequency, []))[1].append(sets.get(mesh.carrier, mesh.name))
+    for frequency, names in of_rate.values():
+        yield together(names), frequency
+
+
+def _passes(prepared: PreparedTrain) -> Iterator[tuple[str, float]]:
+    """Frequencies at which planets pass a tooth of the ring and of the sun, N |n_c − n|, Hz."""
+    turning = [body.sense * float(body.ratio) for body in prepared.case.bodies]
+    shaft = float(prepared.model.operation.nominal_speed) / (2.0 * pi)
+    for own in prepared.case.sets:
+        for member in (RING, SUN):
+            passing = turning[own.members[CARRIER]] - turning[own.members[member]]
+            yield f"{own.name}: planets pass {member}", len(own.planets) * shaft * abs(passing)
+
+
 def _campbell_table(prepared: PreparedTrain, found: Modes) -> TextTable:
     """Speeds of the input at which harmonics of the meshes meet the modes."""
     speed = float(_speeds(prepared)[prepared.model.layout.input]) * 30.0 / pi
-    names = [mesh.name for mesh in prepared.case.meshes]
-    columns = [(name, order) for name in names for order in range(1, HARMONICS + 1)]
-    own = dict(zip(names, _mesh_frequencies(prepared), strict=True))
+    own: dict[str, tuple[float, int]] = {}
+    for name, frequency in _distinct(prepared):
+        own |= {
+            f"{name} ×{order}" if order > 1 else name: (frequency, order) for order in range(1, HARMONICS + 1)
+        }
+    own |= {name: (frequency, 1) for name, frequency in _passes(prepared) if frequency}
     rows = [
-        (
-            f"{frequency:.5g}",
-            *(f"{frequency / (order * own[name]) * speed:.4g}" for name, order in columns),
-        )
-        for frequency in found.frequency
+        (f"{mode:.5g}", *(f"{mode / (order * frequency) * speed:.4g}" for frequency, order in own.values()))
+        for mode in found.frequency
     ]
-    heads = [f"{name} ×{order}" if order > 1 else name for name, order in columns]
     title = f"Campbell: input speed (rpm) at which a mesh meets a mode; now {speed:.4g}"
-    return TextTable(title, ("mode (Hz)", *heads), rows)
+    return TextTable(title, ("mode (Hz)", *own), rows)

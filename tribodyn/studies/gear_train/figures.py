@@ -13,20 +13,18 @@ from tribodyn.post.cycles import last_cycles
 from tribodyn.post.figures import over_mesh
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import (
-    MOST_CYCLES_DRAWN,
     ORDER,
     Trace,
     View,
-    abscissa,
-    abscissa_label,
     draw,
-    draw_ranges,
     record_label,
     record_title,
 )
-from tribodyn.post.figures.scale import scale
 from tribodyn.record.reader import Record
+from tribodyn.studies.gear_train.described.carried import body_labels, mesh_labels, sets_of
+from tribodyn.studies.gear_train.pictures.curves import draw_curves
 from tribodyn.studies.gear_train.pictures.modes_figure import modes_figure
+from tribodyn.studies.gear_train.pictures.planet_figures import has_orbits, orbit_figure, planet_load_figure
 from tribodyn.studies.gear_train.pictures.spectrum_figure import has_spectra, spectrum_figure
 from tribodyn.studies.gear_train.pictures.train_picture import draw_train, train_figure
 from tribodyn.studies.gears.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
@@ -47,7 +45,7 @@ _LOW, _FEW = 1.8, 3
 
 def mesh_forces(record: Record) -> np.ndarray:
     """Force of every mesh on its driven gear along the pitch tangent, N (samples, meshes)."""
-    radii = [record.of_mesh(mesh, "geometry")["gear_pitch_radius"] for mesh in record["mesh"]]
+    radii = [abs(record.of_mesh(mesh, "geometry")["gear_pitch_radius"]) for mesh in record["mesh"]]
     return record["driven_torque"] / np.array(radii)
 
 
@@ -62,32 +60,10 @@ def displacements(record: Record) -> np.ndarray:
     return np.hypot(record["x"], record["y"])
 
 
-def draw_curves(
-    axes: Axes, record: Record, values: np.ndarray, names: Sequence[str], trace: Trace, view: View
-) -> None:
-    """Draw a curve for each name, `values` (samples, names) in SI; over many cycles the range within each."""
-    window = last_cycles(record, view.cycles)
-    x, shown = abscissa(window, view), []
-    for number, name in enumerate(names):
-        curve, color = values[:, number] * trace.factor, style.PALETTE[number % len(style.PALETTE)]
-        if not np.any(np.isfinite(curve)):
-            continue
-        if window.phase[-1] > MOST_CYCLES_DRAWN:
-            labels = "_range", style.literal(name)
-            shown += draw_ranges(axes, record, curve, window, view, color, labels)
-        else:
-            axes.plot(x, curve[window.part], color=color, label=style.literal(name))
-            shown.append(curve[window.part])
-    scale(axes, shown, trace.from_zero)
-    axes.set_xlim(float(x[0]), float(x[-1]))
-    axes.set_ylabel(trace.label)
-    axes.set_xlabel(abscissa_label(view, str(record["mesh"][0])))
-
-
 def overview_figure(records: Sequence[Record], view: View) -> Figure:
     """Draw what the first record holds: the train, and forces, errors, films and losses of its meshes."""
     record = records[0]
-    meshes, bodies = list(record["mesh"]), list(record["body"])
+    meshes, bodies = mesh_labels(record), body_labels(record)
     figure = style.new_figure(11.0, 6.6)
     rows = figure.subplots(2, 3)
     draw_train(rows[0, 0], record, last_cycles(record, view.cycles).part.start)
@@ -130,7 +106,10 @@ def _all_meshes(trace: Trace, of: Any, over: str, records: Sequence[Record], vie
     """Draw a curve of every mesh or body, each record in a panel of its own."""
     figure, rows = _rows(len(records), records)
     for letter, axes, record in zip(_letters(records), rows, records, strict=True):
-        draw_curves(axes, record, of(record), list(record[over]), trace, view)
+        names = list(record[over])
+        if len(names) > len(style.PALETTE):
+            names = mesh_labels(record) if over == "mesh" else body_labels(record)
+        draw_curves(axes, record, of(record), names, trace, view)
         head = f"{record_label(record)}: " if len(records) > 1 else ""
         style.mark_panel(axes, letter, f"{head}{_lower(trace.title) if head else trace.title}")
     _finish(figure, rows, records)
@@ -192,6 +171,12 @@ DRAWINGS: dict[str, Drawing] = {
         "loss to friction in every mesh",
         partial(_all_meshes, LOSS, lambda record: record["mesh_power_friction"], "mesh"),
     ),
+    "planet-load": Drawing(
+        "load of every planet of planetary sets, at sun and ring",
+        planet_load_figure,
+        lambda record: bool(sets_of(record)),
+    ),
+    "orbit": Drawing("orbits of the central gears of planetary sets", orbit_figure, has_orbits),
     "spectrum": Drawing(
         "spectrum of every mesh's transmission error, with the modes", spectrum_figure, has_spectra
     ),

@@ -27,6 +27,7 @@ from tribodyn.studies.gears.prepare import Thermal
 from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.train.links.chain import chain_of
 from tribodyn.train.phases import Phases
+from tribodyn.train.planetary import CARRIER
 from tribodyn.train.positions import frame_of
 from tribodyn.train.schedule import schedule_of
 from tribodyn.train.structure import (
@@ -259,10 +260,18 @@ def geometry_of(prepared: PreparedTrain) -> dict[str, np.ndarray]:
     """Where bodies, gears and meshes stand, as `record.TRAIN_GEOMETRY` says."""
     case, order = prepared.case, prepared.order
     numbers = {body: number for number, body in enumerate(order)}
+    of_body = {body: numbers[own.members[CARRIER]] for own in case.sets for body in own.bodies}
+    carriers = [of_body.get(body, HOUSING) for body in order] + [HOUSING] * (
+        len(prepared.bodies) - len(order)
+    )
+    turning = [body.sense * float(body.ratio) for body in prepared.bodies] + [0.0]  # the last: the housing
     return {
         "centre": np.array([body.centre for body in prepared.bodies]),
         "sense": np.array([body.sense for body in prepared.bodies]),
+        "carrier": np.array(carriers),
+        "carried": np.array([turning[body] for body in carriers]),
         "gear_body": np.array([numbers[gear.body] for gear in case.gears]),
+        "plane": np.array([gear.plane for gear in case.gears]),
         "tooth_direction": np.array(prepared.phases.teeth),
         "driver_gear": np.array([mesh.gears[0] for mesh in case.meshes]),
         "driven_gear": np.array([mesh.gears[1] for mesh in case.meshes]),

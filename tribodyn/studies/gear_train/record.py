@@ -75,7 +75,19 @@ SCALES = {
 TRAIN_GEOMETRY: dict[str, Variable] = {
     "centre": Variable(("body", "axis"), "m", "axis of each body in x, y of the train, without load"),
     "sense": Variable(("body",), "1", "nominal sense of rotation, 1 counter-clockwise seen from +z, -1 not"),
+    "carrier": Variable(
+        ("body",),
+        "1",
+        "number of the carrier of the planetary set that each body is of; -1: none",
+    ),
+    "carried": Variable(
+        ("body",),
+        "1",
+        "rotation of the frame of x and y of each body about its carrier's axis, counter-clockwise, over "
+        "reference_angle: nominal",
+    ),
     "gear_body": Variable(("gear",), "1", "number of the body that each gear belongs to"),
+    "plane": Variable(("gear",), "1", "number of the axial plane that each gear is in"),
     "tooth_direction": Variable(
         ("gear",), "rad", "direction of the axis of a tooth where its body's angle is 0, from x"
     ),

@@ -9,6 +9,7 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.withheld import reasons
+from tribodyn.studies.gear_train.described.alike import between, groups_of, together
 from tribodyn.studies.gear_train.pictures.rolling_train import mechanism as mechanism
 from tribodyn.studies.gears.case import TEMPERATURE
 from tribodyn.studies.gears.over_time.extremes_said import on_extremes
@@ -69,25 +70,41 @@ def meshes_of(record: Record) -> dict[str, Mapping[str, Any]]:
 
 
 def tables(record: Record) -> list[TextTable]:
-    """Quantities of each mesh, a column for each."""
+    """Quantities of each mesh, a column for each; one for those of a member of a set with its planets."""
     meshes, withheld = meshes_of(record), reasons(record.summary)
-    names = list(meshes)
-    return [_table(names[start : start + ACROSS], meshes, withheld) for start in range(0, len(names), ACROSS)]
+    groups = groups_of(meshes)
+    return [
+        _table(groups[start : start + ACROSS], meshes, withheld) for start in range(0, len(groups), ACROSS)
+    ]
 
 
 def _table(
-    names: Sequence[str], meshes: Mapping[str, Mapping[str, Any]], withheld: Mapping[str, str]
+    groups: Sequence[Sequence[str]], meshes: Mapping[str, Mapping[str, Any]], withheld: Mapping[str, str]
 ) -> TextTable:
-    rows = [[what, *(str(meshes[name].get(what, "")) for name in names), ""] for what in ("driver", "driven")]
+    rows = [
+        [what, *(together(str(meshes[name].get(what, "")) for name in names) for names in groups), ""]
+        for what in ("driver", "driven")
+    ]
     for quantity in OF_A_MESH:
-        cells = []
-        for name in names:
-            value = meshes[name].get(quantity.name)
-            hidden = f"{MESHES}/{name}/{quantity.name}" in withheld
-            cells.append("withheld" if hidden else "" if value is None else quantity.written(value))
+        cells = [_cell(quantity, names, meshes, withheld) for names in groups]
         if any(cells):
             rows.append([quantity.title, *cells, quantity.unit])
-    return TextTable("Each mesh", ("", *names, ""), rows)
+    title = "Each mesh" if len(groups) == len(meshes) else "Each mesh; of several planets smallest … largest"
+    return TextTable(title, ("", *map(together, groups), ""), rows)
+
+
+def _cell(
+    quantity: Quantity,
+    names: Sequence[str],
+    meshes: Mapping[str, Mapping[str, Any]],
+    withheld: Mapping[str, str],
+) -> str:
+    """A quantity of meshes as it is written: of different values the smallest and the largest."""
+    if any(f"{MESHES}/{name}/{quantity.name}" in withheld for name in names):
+        return "withheld"
+    values = [meshes[name].get(quantity.name) for name in names]
+    known = [value for value in values if value is not None]
+    return between([quantity.written(value) for value in known], known)
 
 
 def verdict(record: Record) -> list[str]:
@@ -145,7 +162,10 @@ def _pressed(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]
 
 
 def _lost(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
-    losses = {name: of_any.numbers(mesh).get("power_friction_mean", 0.0) for name, mesh in meshes.items()}
+    losses = {
+        together(names): sum(of_any.numbers(meshes[name]).get("power_friction_mean", 0.0) for name in names)
+        for names in groups_of(meshes)
+    }
     whole = sum(losses.values())
     for line in of_any.lost(summary):
         if len(losses) <= NAMED:
@@ -175,7 +195,7 @@ def sentences(record: Record) -> list[str]:
         for line in (*on_extremes(mesh), *on_closures(mesh)):
             said.setdefault(line, []).append(name)
     of_meshes = [
-        line if len(names) == len(meshes) else f"{line[:-1]} ({', '.join(names)})."
+        line if len(names) == len(meshes) else f"{line[:-1]} ({together(names)})."
         for line, names in said.items()
     ]
     return [*on_methods(of_train), *_on_period(record), *of_meshes, *on_energy(summary)]

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.studies.gear_train.described.alike import ALIKE, alike_of
 from tribodyn.studies.gear_train.prepare import PreparedTrain
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.running import MeshOfRun
@@ -65,7 +66,9 @@ def meshes_of_run(prepared: PreparedTrain) -> list[MeshOfRun]:
 def mesh_at_rest(prepared: PreparedTrain, m: int) -> dict[str, Any]:
     """Quantities of a mesh that do not depend on its motion, and the names of its gears."""
     driver, driven = (prepared.case.gears[gear].name for gear in prepared.case.meshes[m].gears)
-    return {"driver": driver, "driven": driven} | at_rest(prepared.pairs[m], prepared.made[m])
+    name = alike_of(prepared.case)[m]
+    alike = {ALIKE: name} if name else {}
+    return {"driver": driver, "driven": driven} | alike | at_rest(prepared.pairs[m], prepared.made[m])
 
 
 def steady_quantities(

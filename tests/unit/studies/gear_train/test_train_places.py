@@ -50,7 +50,7 @@ def ends(record: Record, m: int) -> list:
 
 @pytest.mark.parametrize(("actual", "tolerance"), [(False, CHORD), (True, YIELD)])
 def test_contacts_lie_on_both_outlines(record: Record, actual: bool, tolerance: float):
-    found, moved = contacts(record), poses(record)
+    found, moved = contacts(record, displaced=actual), poses(record)
     for m in range(len(record["mesh"])):
         for gear in ends(record, m):
             for sample in SAMPLES:

@@ -116,3 +116,16 @@ def test_an_efficiency_that_cannot_be_is_withheld():
 def test_many_meshes_have_several_tables():
     found = tables(record({f"m{number}": FIRST for number in range(9)}))
     assert [len(table.columns) for table in found] == [6, 6, 3]
+
+
+def test_meshes_of_all_planets_have_one_column():
+    of_set = {f"set-sun-{n}": FIRST | {"alike": "set-sun", "driven": f"planet-{n}"} for n in (1, 2, 3)}
+    of_set["set-sun-2"] |= {"film_min": 5e-7, "normal_backlash": 1e-4}
+    found = record({"first": SECOND, **of_set})
+    (table,) = tables(found)
+    rows = {row[0]: row[1:] for row in table.rows}
+    assert table.columns == ("", "first", "set-sun-1 (and 2, 3)", "")
+    assert rows["driven"] == ["wheel-1", "planet-1 (and 2, 3)", ""]
+    assert rows["Minimum film thickness"] == ["0.4", "0.5 … 0.6", "µm"]
+    assert rows["Normal backlash"] == ["0.1", "0.1", "mm"]
+    assert "50 % in first and 50 % in set-sun-1 (and 2, 3)" in verdict(found)[2]

@@ -12,6 +12,8 @@ from tribodyn.post.figures.panel import View, record_title
 from tribodyn.post.figures.spectrum import apart, mode_frequencies
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, literal, mark_panel, new_figure, write_beside
 from tribodyn.record.reader import Record
+from tribodyn.studies.gear_train.described.alike import together
+from tribodyn.studies.gear_train.described.carried import body_labels, sets_of
 
 #: Harmonics of the mesh frequencies, the speeds shown over the mean one, and room below and above.
 HARMONICS, SPEEDS, ROOM = 3, (0.25, 1.6), (0.8, 1.3)
@@ -38,17 +40,22 @@ def _draw_campbell(axes: Axes, record: Record, modes: np.ndarray) -> None:
     mesh = last_cycles(record, None).mesh_frequency
     speed = float(np.mean(record["speed"][:, 0])) * 30.0 / np.pi
     rates = mesh_rates(record)
-    ends = np.array([*modes, SPEEDS[0] * mesh * rates.min(), mesh * rates.max()]) * 1e-3
+    passes = [found for found in _passes(record) if found[1] > 0.0]
+    lowest = min([mesh * rates.min(), *(frequency for _, frequency in passes)])
+    ends = np.array([*modes, SPEEDS[0] * lowest, mesh * rates.max()]) * 1e-3
     low, high = ROOM[0] * float(ends.min()), ROOM[1] * float(ends.max())
     at = np.array(SPEEDS)
     alike: dict[float, list[str]] = {}
+    sets = {
+        str(record["mesh"][m]): own.name for own in sets_of(record) for of in own.meshes.values() for m in of
+    }
     for name, rate in zip(record["mesh"], rates, strict=True):
-        alike.setdefault(round(float(rate), 6), []).append(literal(str(name)))
+        alike.setdefault(round(float(rate), 6), []).append(literal(sets.get(str(name), str(name))))
     for number, (rate, names) in enumerate(alike.items()):
         color = PALETTE[number % len(PALETTE)]
         for order in range(1, HARMONICS + 1):
             frequency = order * rate * mesh * 1e-3
-            label = f"mesh frequency $f_m$ of {', '.join(names)}" if order == 1 else None
+            label = f"mesh frequency $f_m$ of {together(names)}" if order == 1 else None
             axes.plot(at * speed, at * frequency, color=color, linewidth=1.4 / order + 0.3, label=label)
             # those of different meshes beside each other, as their lines may coincide
             place = SPEEDS[0] * (SPEEDS[1] / SPEEDS[0]) ** (0.05 + 0.09 * (number % 8))
@@ -61,6 +68,9 @@ def _draw_campbell(axes: Axes, record: Record, modes: np.ndarray) -> None:
                 color=color,
                 bbox={"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none"},
             )
+    for number, (name, frequency) in enumerate(passes):
+        color = PALETTE[(len(alike) + number) % len(PALETTE)]
+        axes.plot(at * speed, at * frequency * 1e-3, color=color, linestyle=":", label=name)
     for number, frequency in enumerate(modes):
         label = "natural frequency" if number == 0 else None
         axes.axhline(frequency * 1e-3, color=QUIET, linestyle=(0, (4, 2)), linewidth=0.8, label=label)
@@ -78,13 +88,27 @@ def _draw_campbell(axes: Axes, record: Record, modes: np.ndarray) -> None:
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
 
 
+def _passes(record: Record) -> list[tuple[str, float]]:
+    """Frequencies at which planets pass a tooth of the gears on their axis, Hz: N |n_c − n|."""
+    turning = record.geometry["sense"] * np.mean(record["speed"], axis=0) / (2.0 * np.pi)
+    return [
+        (
+            literal(f"{own.name}: planets pass {record['body'][body]}"),
+            len(own.planets) * abs(float(turning[own.carrier] - turning[body])),
+        )
+        for own in sets_of(record)
+        for body in own.meshes
+    ]
+
+
 def _draw_shares(axes: Axes, record: Record, modes: np.ndarray) -> None:
     bodies = list(record["body"])
     shares = np.asarray(record.summary.get("mode_shares", [])).reshape(len(modes), len(bodies))
-    places, left = np.arange(len(modes)), np.zeros(len(modes))
-    for body, name in enumerate(bodies):
-        width = 100.0 * shares[:, body]
-        color = PALETTE[body % len(PALETTE)]
+    places, left, labels = np.arange(len(modes)), np.zeros(len(modes)), np.array(body_labels(record))
+    bodies = list(dict.fromkeys(labels.tolist()))
+    for number, name in enumerate(bodies):
+        width = 100.0 * np.sum(shares[:, labels == name], axis=1)
+        color = PALETTE[number % len(PALETTE)]
         axes.barh(places, width, left=left, height=0.72, color=color, alpha=0.8, label=literal(str(name)))
         left = left + width
     names = [f"{number + 1}: {frequency:,.0f} Hz" for number, frequency in enumerate(modes)]
