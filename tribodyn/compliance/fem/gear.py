@@ -77,7 +77,7 @@ def gear_model(gear: ElasticGear) -> GearModel:
     beyond = below[1] < 0.0
     reflected = np.where(beyond, [[1.0], [-1.0]], 1.0)
     inner = _probes(basis, below * reflected, np.tile(direction, 2) * reflected)
-    half = half_sector(basis.doflocs, gear.teeth, bore_radius)
+    half = half_sector(basis.doflocs, gear.teeth, bore_radius, gear.free_rim)
     along_root = np.asarray(numbers.query(root.T)[1])
     return GearModel(basis, half, position, loads, inner, beyond, root, along_root)
 

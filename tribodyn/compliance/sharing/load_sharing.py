@@ -87,6 +87,7 @@ def flexibility(
                 material.poisson_ratio,
                 depth * float(drive.module),
                 level,
+                bool(body_of(drive, side).free_rim),
             ),
             width * length_per_width(assembly) if lead else None,
         )
