@@ -84,9 +84,9 @@ def free_receptance(
         ),
     ]
     moved = np.stack([np.concatenate(column[:2]) for column in columns], axis=-1).swapaxes(0, 1)
-    traction = np.stack(
-        [np.concatenate([-column[2], column[3]]) for column in columns], axis=-1
-    ).swapaxes(0, 1)
+    traction = np.stack([np.concatenate([-column[2], column[3]]) for column in columns], axis=-1).swapaxes(
+        0, 1
+    )
     whole = order == 0
     # u = r and 1/r, v = r and 1/r
     stretch = (1.0 + poisson_ratio) / (1.0 - poisson_ratio)

@@ -31,9 +31,7 @@ def on_pins(fitted: GearCompliance, assembly: Assembly, side: Side, material: Ma
 
     def softer(pitches: int) -> Any:
         pinned, held = (rim_compliance(loaded, strain, -pitches, fitted) for fitted in (False, True))
-        return (1.0 - ratio**2) * np.einsum(
-            "mi,ij,nj->mn", even.root_load, pinned - held, even.root_load
-        )
+        return (1.0 - ratio**2) * np.einsum("mi,ij,nj->mn", even.root_load, pinned - held, even.root_load)
 
     between = np.stack([softer(pitches) for pitches in range(-NEIGHBOURS, NEIGHBOURS + 1)])
     return fitted._replace(

@@ -12,7 +12,14 @@ from tribodyn.scenario.tables.model_files import DriveTable, Gear
 #: Teeth of the cutter where none are given, at most half the gear's, and rim outside the root circle,
 #: modules: choices; the first a common size, the second near a rim that bends little.
 USUAL_CUTTER, USUAL_RIM = 20, 3.0
-_OWN = ("outer_diameter", "pins", "cutter_teeth", "cutter_profile_shift", "cutter_addendum", "cutter_rounding")
+_OWN = (
+    "outer_diameter",
+    "pins",
+    "cutter_teeth",
+    "cutter_profile_shift",
+    "cutter_addendum",
+    "cutter_rounding",
+)
 
 
 def shift_of(gear: Gear) -> float:
