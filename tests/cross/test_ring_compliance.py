@@ -7,16 +7,22 @@ import numpy as np
 import pytest
 
 from tribodyn.compliance.energy import loaded_tooth, neighbour_coupling, tooth_compliance
+from tribodyn.compliance.fem.gear import gear_compliance, lead_harmonics
+from tribodyn.compliance.fem.gear_compliance import ElasticGear
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
 from tribodyn.geometry.families import family
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.path import kinematics
+from tribodyn.geometry.tooth import thickness_half_angle
 
 NU, LINE_LOAD, PHASES = 0.3, 235e3, 8
 STEEL = MaterialData("steel", 206e9, NU, 7850.0, 46.0, 470.0, 6e9)
+#: Base radius of the first pair's planet, m.
+BASE = 36 * 21e-3 / 2 * math.cos(math.radians(20.0))
 #: Teeth, module, both shifts, rim in modules; the first a published pair (KISSsoft 2017).
 PAIRS = {
     "36/93": (36, 93, 21e-3, 0.5039, 0.1171, 3.0),
@@ -126,3 +132,43 @@ def test_a_ring_and_a_gear_of_many_teeth_are_one_rack():
         near, far = (stiffness(-teeth, method) / stiffness(teeth, method) - 1.0 for teeth in (150.0, 600.0))
         assert 0.0 < near < 0.05
         assert far == pytest.approx(near / 4.0, rel=0.2)
+
+
+@pytest.mark.parametrize("free", [False, True])
+def test_waves_along_the_teeth_of_a_ring_begin_with_plane_strain(free: bool):
+    """Long waves are the even load; short ones do not reach the next tooth, nor see what holds the rim."""
+    tooth = _pair("18/60").gear
+    ring = ElasticGear(tooth, -60, -0.1, NU, 0.75e-3, 1, free)
+    even, waves = gear_compliance(ring), lead_harmonics(ring, np.array([0.0, 0.3, 3e3]))
+    np.testing.assert_allclose(waves.inside[0], even.inside, rtol=1e-8)
+    np.testing.assert_allclose(waves.between[0], even.between, rtol=1e-8, atol=1e-8 * even.inside.min())
+    np.testing.assert_allclose(waves.inside[1], even.inside, rtol=0.05)
+    np.testing.assert_allclose(waves.between[1, 2], waves.between[1, 2].T, rtol=1e-6)
+    assert np.abs(waves.between[2, 3]).max() < 0.01 * waves.inside[2].min()
+
+
+def test_gaps_outside_the_path_are_those_of_the_outlines():
+    """Angles of the tips' corners from the mate's flanks, in a frame at the ring's axis."""
+    pair = _pair("36/93")
+    planet, ring = pair.pinion, pair.gear
+    r_p, r_g = float(pair.path.pinion_pitch_radius), -float(pair.path.gear_pitch_radius)
+    start, end = pair.roll_limits
+    half_p, half_g = float(thickness_half_angle(planet, r_p)), -float(thickness_half_angle(ring, -r_g))
+    for outside in (2e-3, 10e-3):
+        roll = end + outside
+        size = float(planet.tip_radius)
+        angle = roll - half_p + float(thickness_half_angle(planet, size))
+        x, y = size * math.sin(angle), size * math.cos(angle) - r_p + r_g
+        at = math.hypot(x, y)
+        flank = roll * r_p / r_g + half_g + float(thickness_half_angle(ring, -at))
+        gap = (flank - math.atan2(x, y)) * BASE * 93 / 36
+        assert pair_geometry(pair, np.array([roll])).gap[0] == pytest.approx(gap, rel=1e-6)
+
+        roll, size = start - outside, -float(ring.tip_radius)
+        angle = roll * r_p / r_g + half_g + float(thickness_half_angle(ring, -size))
+        x, y = size * math.sin(angle), size * math.cos(angle) + r_p - r_g
+        at = math.hypot(x, y)
+        flank = roll - half_p + float(thickness_half_angle(planet, at))
+        gap = (math.atan2(x, y) - flank) * BASE
+        assert pair_geometry(pair, np.array([roll])).gap[0] == pytest.approx(gap, rel=1e-6)
+        assert gap > 0.0

@@ -1,4 +1,4 @@
-"""Rims of internal gears: the plane ring against formulas for thin rings, and pins against their reactions."""
+"""Rims of internal gears: the plane ring by formulas for thin rings, pins by their reactions."""
 
 import math
 

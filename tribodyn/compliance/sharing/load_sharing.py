@@ -23,7 +23,7 @@ from tribodyn.compliance.sharing.active_set import press
 from tribodyn.compliance.sharing.flank_gap import flank_gap, oblique_gap
 from tribodyn.compliance.sharing.oblique import oblique_compliance
 from tribodyn.compliance.sharing.oblique_faces import oblique_faces
-from tribodyn.compliance.sharing.pinned import on_pins
+from tribodyn.compliance.sharing.pinned import check_even, on_pins
 from tribodyn.compliance.sharing.section import elastic_section, is_helical, length_per_width
 from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions, slice_compliance
 from tribodyn.geometry.assembly import Assembly
@@ -79,6 +79,8 @@ def flexibility(
     section = elastic_section(assembly)
     drive = section.drive
     width = float(assembly.common_width)
+    if lead:
+        check_even(assembly)
     gears = [
         cached_gear_compliance(
             ElasticGear(

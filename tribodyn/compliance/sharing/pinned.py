@@ -12,19 +12,21 @@ from tribodyn.compliance.energy import loaded_tooth, rim_compliance, tooth_compl
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import MaterialData, Side
+from tribodyn.geometry.drive import SIDES, MaterialData, Side, body_of
 from tribodyn.geometry.path import distance_at_radius
 
 
-def on_pins(fitted: GearCompliance, assembly: Assembly, side: Side, material: MaterialData) -> GearCompliance:
-    """Take an internal gear's compliance, held in its fit, to the support that its body has.
+def check_even(assembly: Assembly) -> None:
+    """Refuse rims on pins under loads that vary along the teeth: the rings' difference is that of even ones."""
+    for side in SIDES:
+        if body_of(assembly.drive, side).pins:
+            rule = "of a rim on pins the load is even along the teeth, and slices or root stress are wanted"
+            raise InputError(f"drive.{side}.rim", '"pins"', rule, 'use "fixed" or "free", or leave them out')
 
-    Raises InputError for loads that vary along the teeth: the rings' difference is that of even ones.
-    """
+
+def on_pins(fitted: GearCompliance, assembly: Assembly, side: Side, material: MaterialData) -> GearCompliance:
+    """Take an internal gear's compliance, held in its fit, to the support that its body has."""
     loaded, ratio = loaded_tooth(assembly, side), material.poisson_ratio
-    if fitted.lead is not None:
-        rule = "of a rim on pins the load is even along the teeth, and slices or root stress are wanted"
-        raise InputError(f"drive.{side}.rim", '"pins"', rule, 'use "fixed" or "free", or leave them out')
     own = distance_at_radius(loaded.path, fitted.radius)
     even = tooth_compliance(loaded, material, 1.0, own if side == "pinion" else -own)
     strain = ratio / (1.0 - ratio)  # plane strain by plane stress
