@@ -11,6 +11,7 @@ from tribodyn.compliance.fem.gear import gear_compliance, lead_harmonics
 from tribodyn.compliance.fem.gear_compliance import ElasticGear
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
+from tribodyn.compliance.sharing.pinned import on_pins
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
 from tribodyn.geometry.families import family
@@ -116,6 +117,18 @@ def test_both_methods_agree_on_rims_that_bend(name: str, pins: float):
     """The free rim of the elements has its own teeth; its pins are those of the energy method."""
     pair = _pair(name, pins)
     assert _mean(pair, _energy) == pytest.approx(_mean(pair, _elements), rel=0.05)
+
+
+@pytest.mark.parametrize("name", ["36/93", "18/60", "24/72"])
+def test_a_rim_freed_by_rings_is_the_free_rim_of_the_elements(name: str):
+    """The loaded flank and its neighbours on either side, within 5 % of what the loaded one deflects."""
+    freed = _pair(name, 0.0)
+    fitted, free = (flexibility(pair, (STEEL, STEEL)).gears[1] for pair in (_pair(name), freed))
+    found = on_pins(fitted, freed, "gear", STEEL)
+    np.testing.assert_allclose(found.inside, free.inside, rtol=0.05)
+    for flank in (0, 1, 3, 4):
+        error = np.abs(found.between[flank] - free.between[flank])
+        assert error.max() < 0.05 * free.inside.min()
 
 
 def test_a_ring_and_a_gear_of_many_teeth_are_one_rack():
