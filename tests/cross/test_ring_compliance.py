@@ -90,7 +90,7 @@ def _energy(pair: Assembly, r: Any) -> float:
     compliance *= 1.0 - NU**2
     curvature = np.asarray(kinematics(pair.path, r).relative_curvature)
     touching = np.ones(len(r), dtype=bool)
-    load = np.full(len(r), LINE_LOAD / len(r))
+    load, stiff = np.full(len(r), LINE_LOAD / len(r)), np.ones(1)
     for _ in range(30):
         half = hertz_half_width(load[touching], curvature[touching], STEEL, STEEL)
         local = sum(weber_banaschek(load[touching], half, depth[touching], STEEL)[0] for depth in depths)
@@ -119,16 +119,19 @@ def test_both_methods_agree_on_rims_that_bend(name: str, pins: float):
     assert _mean(pair, _energy) == pytest.approx(_mean(pair, _elements), rel=0.05)
 
 
-@pytest.mark.parametrize("name", ["36/93", "18/60", "24/72"])
+@pytest.mark.parametrize("name", ["36/93", "24/72", "30/99", "20/120"])
 def test_a_rim_freed_by_rings_is_the_free_rim_of_the_elements(name: str):
-    """The loaded flank and its neighbours on either side, within 5 % of what the loaded one deflects."""
+    """The loaded flank and its neighbours on either side, within 2 % of what the loaded one deflects.
+
+    Of rims of 2 modules, where the teeth are more of the rim, within 5.1 %.
+    """
     freed = _pair(name, 0.0)
     fitted, free = (flexibility(pair, (STEEL, STEEL)).gears[1] for pair in (_pair(name), freed))
     found = on_pins(fitted, freed, "gear", STEEL)
-    np.testing.assert_allclose(found.inside, free.inside, rtol=0.05)
+    np.testing.assert_allclose(found.inside, free.inside, rtol=0.02)
     for flank in (0, 1, 3, 4):
         error = np.abs(found.between[flank] - free.between[flank])
-        assert error.max() < 0.05 * free.inside.min()
+        assert error.max() < 0.02 * free.inside.min()
 
 
 def test_a_ring_and_a_gear_of_many_teeth_are_one_rack():

@@ -61,8 +61,8 @@ def half_sector(
     axis, edge = np.abs(place[1]) < near, np.abs(radius * (angle - np.pi / teeth)) < near
 
     def with_held(held: NDArray[np.bool_], other: HalfSector | None) -> HalfSector:
-        special = (np.flatnonzero(where) for where in (held, ~held & axis, ~held & edge))
-        return HalfSector(teeth, place.shape[1], *special, other)
+        on_axis, on_edge = np.flatnonzero(~held & axis), np.flatnonzero(~held & edge)
+        return HalfSector(teeth, place.shape[1], np.flatnonzero(held), on_axis, on_edge, other)
 
     held = radius < bore_radius + near
     return with_held(held, with_held(np.zeros_like(held), None) if free else None)

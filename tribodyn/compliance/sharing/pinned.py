@@ -17,7 +17,7 @@ from tribodyn.geometry.path import distance_at_radius
 
 
 def check_even(assembly: Assembly) -> None:
-    """Refuse rims on pins under loads that vary along the teeth: the rings' difference is that of even ones."""
+    """Refuse rims on pins under loads that vary along the teeth: the difference is of even ones."""
     for side in SIDES:
         if body_of(assembly.drive, side).pins:
             rule = "of a rim on pins the load is even along the teeth, and slices or root stress are wanted"
