@@ -12,6 +12,7 @@ from tribodyn.compliance.fem.gear_compliance import ElasticGear
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.pinned import on_pins
+from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
 from tribodyn.geometry.families import family
@@ -161,6 +162,11 @@ def test_waves_along_the_teeth_of_a_ring_begin_with_plane_strain(free: bool):
     np.testing.assert_allclose(waves.inside[1], even.inside, rtol=0.05)
     np.testing.assert_allclose(waves.between[1, 2], waves.between[1, 2].T, rtol=1e-6)
     assert np.abs(waves.between[2, 3]).max() < 0.01 * waves.inside[2].min()
+
+
+def test_uneven_loads_on_pins_are_refused():
+    with pytest.raises(InputError, match=r"drive\.gear\.rim"):
+        flexibility(_pair("18/60", 12.0), (STEEL, STEEL), lead=True)
 
 
 def test_gaps_outside_the_path_are_those_of_the_outlines():

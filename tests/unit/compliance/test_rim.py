@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from tribodyn.compliance.foundation import _ring_receptance, ring_compliance
 from tribodyn.compliance.rim import PIN, free_receptance, pinned_receptance
@@ -14,33 +13,6 @@ MODULUS = 1.0 + NU  # for 2 G = 1
 THIN = 0.01
 #: Radius of the thin ring's middle, and its bending stiffness per width.
 MIDDLE, BENDING = 1.0 + THIN / 2.0, MODULUS * THIN**3 / 12.0
-
-
-@pytest.mark.parametrize("order", [0, 1, 2, 7, 40])
-@pytest.mark.parametrize("outside", [1.07, 1.5])
-def test_a_held_rim_solves_the_equations_of_plane_stress(order: int, outside: float):
-    """Equilibrium and Hooke's law for (u, v, σ_r, τ) of one harmonic, from the held outside to the inside."""
-
-    def slope(r: float, y: np.ndarray) -> list[float]:
-        u, v, normal, shear = y
-        hoop_strain = (u + order * v) / r
-        hoop = hoop_strain + NU * normal
-        return [
-            (1 - NU**2) * normal - NU * hoop_strain,
-            2 * (1 + NU) * shear + (order * u + v) / r,
-            (hoop - normal - order * shear) / r,
-            (order * hoop - 2 * shear) / r,
-        ]
-
-    ends = np.array(
-        [
-            solve_ivp(slope, (outside, 1), start, method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
-            for start in ([0, 0, 1, 0], [0, 0, 0, 1])
-        ]
-    ).T
-    exact = -ends[:2] @ np.linalg.inv(ends[2:])
-    found = _ring_receptance(np.arange(41.0), outside, NU)[order]
-    np.testing.assert_allclose(found, exact, rtol=1e-6, atol=1e-9)
 
 
 def test_a_thin_ring_bends_as_timoshenko_has_it():
