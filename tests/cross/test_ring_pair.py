@@ -11,6 +11,7 @@ from tests.support.creeping_drive import SLOW, creep, statics
 from tests.support.mesh_balance import mesh_actions, residuals
 from tests.support.states import sampled
 from tests.support.train_matrices import Mesh
+from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.outputs import evaluated, mesh_outputs, train_outputs
 from tribodyn.solve.transient import TransientSettings
 
@@ -99,3 +100,22 @@ def test_loads_at_creep_are_those_of_statics(prepared: Any, coefficient: float):
 def _with(pair: Any, cycle: Any) -> Any:
     """The pair with its driving flanks alone in contact."""
     return type("Pair", (), {"cycle": cycle, "model": pair.model})
+
+
+def test_its_modes_are_those_of_a_spring_along_the_line_of_action(prepared: Any):
+    """Planet held in rotation, both on bearings; the mean of k ε_α pairs between them, by vectors."""
+    stiffness = 7.5e9
+    pair = prepared("ring-36-93", **{"mesh.compliance": "constant", "mesh.stiffness": f"{stiffness} N/m"})
+    angle = float(pair.cycle.pressure_angle.flat[0])
+    along = np.array([math.cos(angle), math.sin(angle)])
+    # x_p, y_p, x_g, y_g and the ring's rotation, clockwise, by which its flank moves along the line of action
+    reach = along, -along, [-0.9176112]
+    row = np.concatenate(reach)
+    (mass_1, _), (mass_2, inertia) = pair.masses
+    mass = np.diag([mass_1, mass_1, mass_2, mass_2, inertia])
+    bearings = np.diag([*4 * [2e9], 0.0])
+    matrix = bearings + stiffness * float(pair.cycle.contact_ratio) * np.outer(row, row)
+    squares = np.linalg.eigvals(np.linalg.solve(mass, matrix)).real
+    expected = np.sort(np.sqrt(np.maximum(squares, 0.0))) / (2 * math.pi)
+    found = np.sort(natural_frequencies(pair.model, [pair.cycle]))
+    np.testing.assert_allclose(found, expected, rtol=1e-5, atol=1e-2)

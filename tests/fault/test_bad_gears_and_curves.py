@@ -115,6 +115,11 @@ INTERNAL = [
     ("ehl-involute-23-47", [], "drive.gear.internal", "external gears alone"),
     ("ring-36-93", ["drive.pinion.internal=true"], "drive.pinion.internal", "[drive.gear]"),
     ("involute-18-36", [], "drive.gear.bore_radius", "outer_diameter"),
+    ("ring-36-93", ["drive.gear.rim=pins"], "drive.gear.pins", "give pins"),
+    ("ring-36-93", ["drive.gear.pins=12"], "drive.gear.pins", 'write rim = "pins"'),
+    ("ring-36-93", ["drive.gear.rim=pins", "drive.gear.pins=2"], "drive.gear.pins", "3"),
+    ("ring-36-93", ["drive.pinion.pins=12"], "drive.pinion.pins", "add internal = true"),
+    ("ring-36-93", ["mesh.compliance=fem", "mesh.slices=7"], "mesh.slices", "even along the face"),
     ("ring-36-93", ["losses.windage=dawson"], "losses.windage", "external gears"),
     ("ring-36-93", ["temperature.model=iso"], "temperature.model", 'use "network"'),
 ]

@@ -15,6 +15,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from tribodyn.compliance.rim import pinned_receptance
 from tribodyn.numerics.elementary import cos, is_jax, log, namespace, sin
 from tribodyn.numerics.shapes import Array, Float
 
@@ -95,15 +96,12 @@ def ring_foundation(
     youngs_modulus: Float[Array, ""],
     poisson_ratio: Float[Array, ""],
     width: Float[Array, ""],
-    free: bool = False,
 ) -> Float[Array, "*contact"]:
     """Return what `foundation_compliance` does, by the exact ring; for any 0 < bore radius < root radius.
 
-    The root load (..., 3) is (N, T, M/root radius) per unit normal load. Both radii of an internal gear are
-    negative, and its outside may be `free`.
+    The root load (..., 3) is (N, T, M/root radius) per unit normal load.
     """
-    ratio = root_radius / bore_radius
-    ring = ring_compliance(0.0, root_half_angle, ratio, poisson_ratio, SELF_HARMONICS, free)
+    ring = ring_compliance(0.0, root_half_angle, root_radius / bore_radius, poisson_ratio, SELF_HARMONICS)
     shape = namespace(root_load, ring).einsum("...i,ij,...j->...", root_load, ring, root_load)
     return shape / (youngs_modulus * width)
 
@@ -114,12 +112,13 @@ def ring_compliance(
     radius_ratio: Float[Array, ""],
     poisson_ratio: Float[Array, ""],
     harmonics: int = HARMONICS,
-    free: bool = False,
+    pins: float | None = None,
 ) -> Float[Array, "3 3"]:
     """Compliance between the root loads of two teeth of one body.
 
     Exact for a ring in plane stress that is fixed at its bore, or around the teeth (a ratio below 1) at its
-    outside or `free` there as `_ring_receptance` has it, each tooth loading its arc of the root circle
+    outside, on `pins` there (`rim`) or, with none, free as `_ring_receptance` has it; each tooth loads its
+    arc of the root circle
     with uniform (N, T) and linear (M) traction along its own axes; displacements are the work conjugates
     (means over the arc). Truncated after `harmonics` terms: the self term (angle 0) converges like
     (harmonics · root_half_angle)^−2 and needs about 40/root_half_angle of them, the term between two teeth
@@ -134,7 +133,11 @@ def ring_compliance(
     """
     xp = namespace(angle, root_half_angle, radius_ratio, poisson_ratio)
     order = np.arange(harmonics + 1.0)
-    receptance = _ring_receptance(order, 1.0 / radius_ratio, poisson_ratio, free)
+    if pins:
+        receptance = pinned_receptance(order, 1.0 / radius_ratio, poisson_ratio, round(pins))
+        receptance = receptance * (1.0 + poisson_ratio)
+    else:
+        receptance = _ring_receptance(order, 1.0 / radius_ratio, poisson_ratio, pins == 0)
     loads = _root_loads(order, root_half_angle)
     weight = np.where(order == 0, 0.5, 1.0) * np.pi
     products = xp.einsum("jna,nab,inb->nji", loads, receptance, loads) * weight[:, None, None]

@@ -63,7 +63,8 @@ class GearBody(NamedTuple):
     #: addendum of this cutter, in modules, of which the root circle follows; None: as high as the dedendum of
     #: the gear needs
     cutter_addendum: Number = None
-    free_rim: Number = 0.0  # 1: nothing holds the outside of an internal gear's rim in shape; 0: its fit does
+    #: what holds the outside of an internal gear in shape: None: its fit; 0: nothing; else so many pins
+    pins: Number | None = None
 
 
 class Drive(NamedTuple):

@@ -22,6 +22,7 @@ from tribodyn.compliance.fem.gear_compliance import (
 from tribodyn.geometry.body import tooth_outline
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.cache import arrays_kept_or_made
+from tribodyn.numerics.elementary import sense
 from tribodyn.numerics.sources import digest_of
 from tribodyn.numerics.work import part
 
@@ -48,7 +49,7 @@ def cached_gear_compliance(gear: ElasticGear, width: float | None = None) -> Gea
     plane = plane._replace(depth=float(plane.depth))
     if width is None:
         return plane
-    root = float(gear.tooth.root_radius)
+    root = float(sense(gear.teeth) * gear.tooth.root_radius)
     module = 2.0 * float(gear.tooth.path.pinion_pitch_radius) / gear.teeth
     with part(0.05, 0.5):
         harmonics = _kept(LeadHarmonics, gear, wave_numbers(module, root))

@@ -30,6 +30,16 @@ class HalfSector(NamedTuple):
     held: NDArray[np.int64]  # nodes that do not move
     axis: NDArray[np.int64]  # nodes on the axis of symmetry
     edge: NDArray[np.int64]  # nodes on the edge that are not held
+    #: the same with nothing held, for all harmonics but those that move the ring as a whole (n = 0, 1); None:
+    #: held in all of them
+    free: "HalfSector | None" = None
+
+    def supports(self) -> list[tuple["HalfSector", list[tuple[complex, float]]]]:
+        """Half sectors as they are held, each with the `phases` of the harmonics for which it counts."""
+        harmonics = phases(self.teeth)
+        if self.free is None:
+            return [(self, harmonics)]
+        return [(self, harmonics[:2]), (self.free, harmonics[2:])]
 
 
 class ReducedSector(NamedTuple):
@@ -42,18 +52,20 @@ class ReducedSector(NamedTuple):
     per_edge: Float[Array, "reader edge"]  # (reader, edge): reading is alone − per_edge @ edge
 
 
-def half_sector(place: Float[Array, "2 node"], teeth: int, bore_radius: float) -> HalfSector:
-    """Find the special nodes among the places (2, nodes)."""
+def half_sector(
+    place: Float[Array, "2 node"], teeth: int, bore_radius: float, free: bool = False
+) -> HalfSector:
+    """Find the special nodes among the places (2, nodes); `free`: the bore is held as a whole only."""
     radius, angle = signed_polar(place, teeth)
     near = 1e-9 * abs(bore_radius)
+    axis, edge = np.abs(place[1]) < near, np.abs(radius * (angle - np.pi / teeth)) < near
+
+    def with_held(held: NDArray[np.bool_], other: HalfSector | None) -> HalfSector:
+        on_axis, on_edge = np.flatnonzero(~held & axis), np.flatnonzero(~held & edge)
+        return HalfSector(teeth, place.shape[1], np.flatnonzero(held), on_axis, on_edge, other)
+
     held = radius < bore_radius + near
-    return HalfSector(
-        teeth,
-        place.shape[1],
-        np.flatnonzero(held),
-        np.flatnonzero(~held & (np.abs(place[1]) < near)),
-        np.flatnonzero(~held & (np.abs(radius * (angle - np.pi / teeth)) < near)),
-    )
+    return with_held(held, with_held(np.zeros_like(held), None) if free else None)
 
 
 class Ring(NamedTuple):
@@ -143,10 +155,11 @@ def ring_response(
 
     Sectors are counted in pitches from the loaded one, in the sense from x to y.
     """
-    ring = reduced_ring(half, stiffness, loads, readers, mirrored)
     seen = np.zeros((len(sectors), len(readers), loads.shape[1]))
-    for z, weight in steps(phases(half.teeth)):
-        seen += weight * np.real(z ** sectors[:, None, None] * ring.at_phase(z))
+    for support, harmonics in half.supports():
+        ring = reduced_ring(support, stiffness, loads, readers, mirrored)
+        for z, weight in steps(harmonics):
+            seen += weight * np.real(z ** sectors[:, None, None] * ring.at_phase(z))
     return seen
 
 

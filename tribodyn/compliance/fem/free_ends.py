@@ -32,9 +32,10 @@ from scipy.sparse import csr_matrix, kron
 from scipy.spatial import KDTree
 from skfem import Basis, BilinearForm, ElementQuad1
 
-from tribodyn.compliance.fem.cyclic_symmetry import Ring, phases, reduced_ring
+from tribodyn.compliance.fem.cyclic_symmetry import Ring, reduced_ring
 from tribodyn.compliance.fem.gear import GearModel, gear_model
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, ElasticGear, FreeEnds, spline_weights
+from tribodyn.compliance.fem.ring_mesh import signed_polar
 from tribodyn.compliance.fem.strips import (
     COMPONENTS,
     edge_parameters,
@@ -136,26 +137,29 @@ def free_ends(gear: ElasticGear, wave_number: Float[Array, " wave"], width: floa
     level is that of the root's points at which the stress is wanted; the elements are those of `LEVEL`.
     """
     model, poisson_ratio = gear_model(gear._replace(level=LEVEL)), gear.poisson_ratio
-    face = face_of(model, openings(model.basis, poisson_ratio))
+    opening = openings(model.basis, poisson_ratio)
     matrices = strip_stiffness(model.basis, poisson_ratio)
-    with part(0.0, 0.4):
-        harmonics = [
-            harmonic_of(model, face.openings, matrices, poisson_ratio, k) for k in steps(wave_number)
-        ]
     weights = parity_weights(np.asarray(wave_number), width)
     count, flank = len(wave_number), model.loads.shape[1]
-    roots = harmonics[0].on_root.shape[0]
+    roots = 2 * (len(model.root) // 2)
     flanks = np.zeros((2, len(_SECTORS), count * flank, count * flank))
     stress = np.zeros((2, len(_SECTORS), count * 2 * roots, count * flank))
-    with part(0.4, 1.0):
-        for phase, weight in steps(phases(gear.teeth)):
-            held, reached, seen = at_phase(harmonics, face, phase)
-            turns = weight * phase ** _SECTORS[:, None, None]
-            for parity in (0, 1):
-                stiffness = np.tensordot(weights[parity], held, 1)
-                opened = np.linalg.solve(stiffness, reached)
-                flanks[parity] += np.real(turns * (reached.conj().T @ opened))
-                stress[parity] += np.real(turns * (seen @ opened))
+    for support, ring_phases in model.half.supports():
+        supported = model._replace(half=support)
+        face = face_of(supported, opening)
+        with part(0.0, 0.4):
+            harmonics = [
+                harmonic_of(supported, opening, matrices, poisson_ratio, k) for k in steps(wave_number)
+            ]
+        with part(0.4, 1.0):
+            for phase, weight in steps(ring_phases):
+                held, reached, seen = at_phase(harmonics, face, phase)
+                turns = weight * phase ** _SECTORS[:, None, None]
+                for parity in (0, 1):
+                    stiffness = np.tensordot(weights[parity], held, 1)
+                    opened = np.linalg.solve(stiffness, reached)
+                    flanks[parity] += np.real(turns * (reached.conj().T @ opened))
+                    stress[parity] += np.real(turns * (seen @ opened))
     flanks = flanks.reshape(2, -1, count, flank, count, flank).transpose(0, 2, 4, 1, 3, 5)
     stress = stress.reshape(2, -1, count, 2, roots, count, flank).transpose(0, 2, 5, 1, 3, 4, 6)
     edges = roots // (2 * LEVEL)
@@ -163,7 +167,7 @@ def free_ends(gear: ElasticGear, wave_number: Float[Array, " wave"], width: floa
     along = between_points(edge_parameters(edges, gear.level))
     return FreeEnds(
         wave_number=np.asarray(wave_number, dtype=float),
-        radius=np.hypot(*model.position),
+        radius=signed_polar(model.position, gear.teeth)[0],
         own=np.einsum("pklmm->pklm", flanks[:, :, :, NEIGHBOURS]).copy(),
         between=flanks,
         root_stress=np.einsum("qr,...rm->...qm", along, stress),

@@ -59,12 +59,17 @@ def gear_model(gear: ElasticGear) -> GearModel:
     basis = curved_basis(mesh.nodes, mesh.cells)
     mapping: Any = basis.mapping
     if not np.all(mapping.detDF(basis.X) > 0):
+        size, key, change = (
+            (bore_radius, "bore_radius", "make the bore smaller")
+            if gear.teeth > 0
+            else (-2.0 * bore_radius, "outer_diameter", "make the outside larger")
+        )
         raise InputError(
-            "bore_radius",
-            bore_radius,
-            f"the rim under teeth with a root radius of {tooth.root_radius:.4g} m is too thin for the "
+            key,
+            size,
+            f"the rim under teeth with a root radius of {abs(tooth.root_radius):.4g} m is too thin for the "
             "finite elements' mesh",
-            "make the bore smaller, or the fillet rounder",
+            f"{change}, or the fillet rounder",
         )
     direction = _load_directions(tooth, gear.teeth, mesh)
     position, root = mesh.nodes[:, mesh.flank], mesh.nodes[:, mesh.root]
@@ -77,7 +82,7 @@ def gear_model(gear: ElasticGear) -> GearModel:
     beyond = below[1] < 0.0
     reflected = np.where(beyond, [[1.0], [-1.0]], 1.0)
     inner = _probes(basis, below * reflected, np.tile(direction, 2) * reflected)
-    half = half_sector(basis.doflocs, gear.teeth, bore_radius)
+    half = half_sector(basis.doflocs, gear.teeth, bore_radius, gear.free_rim)
     along_root = np.asarray(numbers.query(root.T)[1])
     return GearModel(basis, half, position, loads, inner, beyond, root, along_root)
 

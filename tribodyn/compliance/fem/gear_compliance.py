@@ -40,6 +40,8 @@ class ElasticGear(NamedTuple):
     #: cell or more, so that the mesh resolves it
     depth: float
     level: int  # multiplies the number of cells in both directions
+    #: whether the outside of an internal gear is held as a whole only, and free to bend
+    free_rim: bool = False
 
 
 class LeadHarmonics(NamedTuple):

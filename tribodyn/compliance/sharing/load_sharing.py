@@ -23,6 +23,7 @@ from tribodyn.compliance.sharing.active_set import press
 from tribodyn.compliance.sharing.flank_gap import flank_gap, oblique_gap
 from tribodyn.compliance.sharing.oblique import oblique_compliance
 from tribodyn.compliance.sharing.oblique_faces import oblique_faces
+from tribodyn.compliance.sharing.pinned import check_even, on_pins
 from tribodyn.compliance.sharing.section import elastic_section, is_helical, length_per_width
 from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions, slice_compliance
 from tribodyn.geometry.assembly import Assembly
@@ -78,6 +79,8 @@ def flexibility(
     section = elastic_section(assembly)
     drive = section.drive
     width = float(assembly.common_width)
+    if lead:
+        check_even(assembly)
     gears = [
         cached_gear_compliance(
             ElasticGear(
@@ -87,11 +90,15 @@ def flexibility(
                 material.poisson_ratio,
                 depth * float(drive.module),
                 level,
+                body_of(drive, side).pins == 0,
             ),
             width * length_per_width(assembly) if lead else None,
         )
         for side, material in steps(list(zip(SIDES, materials, strict=True)))
     ]
+    for at, side in enumerate(SIDES):
+        if body_of(drive, side).pins:
+            gears[at] = on_pins(gears[at], section, side, materials[at])
     return PairFlexibility(assembly, materials, width, (gears[0], gears[1]))
 
 

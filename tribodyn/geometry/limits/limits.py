@@ -12,7 +12,7 @@ from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clea
 from tribodyn.geometry.drive import SIDES, Drive, Side
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point
-from tribodyn.numerics.elementary import maximum, minimum, namespace, smallest
+from tribodyn.numerics.elementary import maximum, minimum, namespace, sense, smallest
 from tribodyn.numerics.shapes import Array, Float
 
 _SAMPLES = 129
@@ -62,6 +62,7 @@ def _of_body(assembly: Assembly, side: Side) -> dict[str, Any]:
     r = start + (end - start) * np.linspace(0.0, 1.0, _SAMPLES)
     motion = kinematics(assembly.path, r)
     speed = motion.pinion_speed if side == "pinion" else motion.gear_speed
+    speed = speed * sense(assembly.path.pinion_pitch_radius)  # in the pinion's own sense of turning
     # at the pitch point of a cycloid the speed of a sound flank is zero
     beside = xp.abs(r) / (1e-2 * drive.module)
     sound = drive.module * maximum(1.0 - beside, 0.0)

@@ -82,12 +82,13 @@ def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
         for name in GearBody._fields:
             if getattr(body, name) is not None:
                 require(f"{side}.{name}", getattr(body, name), True, "")
-        internal = side == internal_side(drive) and body.cutter_teeth is not None
+        cutter = body.cutter_teeth
+        internal = side == internal_side(drive) and cutter is not None
         whole = (body.teeth >= 3 or internal) and body.teeth == round(body.teeth)
         require(f"{side}.teeth", body.teeth, whole, "must be a whole number of at least 3")
-        if internal:
+        if internal and cutter is not None:
             mate = drive.pinion if side == "gear" else drive.gear
-            for broken in broken_internal_sizes(side, -body.teeth, mate.teeth, body.cutter_teeth):
+            for broken in broken_internal_sizes(side, -body.teeth, mate.teeth, cutter):
                 raise broken
         for name in ("addendum", "dedendum", "face_width"):
             value = getattr(body, name)

@@ -29,13 +29,13 @@ class GearsInMesh(NamedTuple):
 def key_rolls(start: float, end: float, pitch: float) -> dict[str, float]:
     """Roll angles (rad) of the key points in order: B_g, C_p, P, C_g, B_p as Liu & Ni name them.
 
-    From `start` to `end` of contact with `pitch` between pairs; C_p and C_g only where one and two pairs
-    alternate.
+    From `start` to `end` of contact with `pitch` between pairs, < 0 of an internal pinion; C_p and C_g only
+    where one and two pairs alternate.
     """
     rolls = {"B_g": start, "P": 0.0, "B_p": end}
-    if pitch < end - start < 2 * pitch:
+    if 1.0 < (end - start) / pitch < 2.0:
         rolls |= {"C_p": end - pitch, "C_g": start + pitch}
-    return dict(sorted(rolls.items(), key=lambda item: item[1]))
+    return dict(sorted(rolls.items(), key=lambda item: item[1] / pitch))
 
 
 def placed(

@@ -29,7 +29,8 @@ EXTRAPOLATED = {
 #: What the numbers of pairs mean, in a legend.
 ORDER = {"pair 1": " (entered last)", "pair 0": " (before it)"}
 #: What the names of the key points mean.
-KEY_POINTS = "$B_g$: a pair enters,  $P$: it passes the pitch point,  $B_p$: it leaves"
+ENTERS, PASSES, LEAVES = "$B_g$: a pair enters", ",  $P$: it passes the pitch point", ",  $B_p$: it leaves"
+KEY_POINTS = ENTERS + PASSES + LEAVES
 ALONE = ",  $C_p$ to $C_g$: it carries alone"
 
 
@@ -275,7 +276,7 @@ def legend(figure: Figure, panels: Sequence[Axes], records: Sequence[Record], vi
     cycles = [round(last_cycles(record, view.cycles).phase[-1]) for record in records]
     if any(0 < count <= MOST_CYCLES_MARKED for count in cycles):
         names = {name for record in records for point in key_points(record) for name in point.names.values()}
-        title = KEY_POINTS + ALONE * ("C_p" in names)
+        title = ENTERS + PASSES * ("P" in names) + LEAVES + ALONE * ("C_p" in names)
     if len(entries) > 1 or title:
         figure.legend(
             list(entries.values()),

@@ -12,7 +12,14 @@ from tribodyn.scenario.tables.model_files import DriveTable, Gear
 #: Teeth of the cutter where none are given, at most half the gear's, and rim outside the root circle,
 #: modules: choices; the first a common size, the second near a rim that bends little.
 USUAL_CUTTER, USUAL_RIM = 20, 3.0
-_OWN = ("outer_diameter", "cutter_teeth", "cutter_profile_shift", "cutter_addendum", "cutter_rounding")
+_OWN = (
+    "outer_diameter",
+    "pins",
+    "cutter_teeth",
+    "cutter_profile_shift",
+    "cutter_addendum",
+    "cutter_rounding",
+)
 
 
 def shift_of(gear: Gear) -> float:
@@ -34,8 +41,14 @@ def internal_body(gear: Gear, external: GearBody, module: float) -> GearBody:
         cutter_teeth=_cutter_teeth(gear),
         cutter_shift=gear.cutter_profile_shift or 0.0,
         cutter_addendum=gear.cutter_addendum,
-        free_rim=float(gear.rim == "free"),
+        pins=_pins(gear),
     )
+
+
+def _pins(gear: Gear) -> float | None:
+    if gear.rim == "fixed":
+        return None
+    return float(gear.pins or 0)
 
 
 def _cutter_teeth(gear: Gear) -> float:
@@ -47,10 +60,17 @@ def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
     for name, gear in (("pinion", drive.pinion), ("gear", drive.gear)):
         own = [key for key in _OWN if getattr(gear, key) is not None]
         own += ["profile_shift_of"] if gear.profile_shift_of == "gap" else []
-        own += ["rim"] if gear.rim == "free" else []
+        own += ["rim"] if gear.rim != "fixed" else []
         if own and not gear.internal:
             rule, remedy = "is of an internal gear", "add internal = true, or leave it out"
             yield InputError(f"drive.{name}.{own[0]}", rule=rule, remedy=remedy)
+        if gear.internal and (gear.pins is None) == (gear.rim == "pins"):
+            rule, remedy = (
+                ('rim = "pins" needs their number', "give pins")
+                if gear.pins is None
+                else ("is of a rim on pins", 'write rim = "pins", or leave it out')
+            )
+            yield InputError(f"drive.{name}.pins", gear.pins, rule, remedy)
         for bore in ("bore_radius", "bore_diameter"):
             if gear.internal and getattr(gear, bore) is not None:
                 remedy = "give outer_diameter in its place"

@@ -162,8 +162,11 @@ class Gear(quantity.Table):
     outer_diameter: Diameter | None = Field(
         None, description="of the body of an internal gear; default: 3 modules outside its root circle"
     )
-    rim: Literal["fixed", "free"] = Field(
-        "fixed", description="outside of an internal gear: held in its fit, or free to bend"
+    rim: Literal["fixed", "pins", "free"] = Field(
+        "fixed", description="outside of an internal gear: held in its fit, on pins, or free to bend"
+    )
+    pins: Annotated[int, Field(strict=True, ge=3, le=1000)] | None = Field(
+        None, description="number of pins that hold the rim, evenly spaced"
     )
     cutter_teeth: Annotated[int, Field(strict=True, ge=3, le=10_000)] | None = Field(
         None, description="of the pinion-type cutter of an internal gear; default: 20, at most half its teeth"

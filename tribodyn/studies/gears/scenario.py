@@ -146,6 +146,18 @@ def broken_stiffness_rules(mesh: Any, choices: Iterable[str] = tuple(_GIVEN)) ->
             yield InputError(f"mesh.{name}", rule=rule, remedy=remedy)
 
 
+def _broken_internal_face(scenario: Any) -> Iterator[InputError]:
+    """Refuse what varies along the face of an internal pair, whose teeth are not cut into slices."""
+    modifications = modifications_of(scenario.drive, getattr(scenario.mesh, "misalignment", _ALIGNED))
+    given = getattr(scenario.mesh, "slices", None)
+    if slices_of(given, modifications) > 1:
+        rule = (
+            "internal pairs are even along the face: no slices, and nothing modified or misaligned along it"
+        )
+        remedy = "leave out slices, misalignment, and the crowning and end relief of both gears"
+        yield InputError("mesh.slices", given, rule, remedy)
+
+
 def broken_gear_rules(
     scenario: Any, *, every_duty: bool = False, oil: bool = True, internal: bool = False
 ) -> Iterator[InputError]:
@@ -161,6 +173,7 @@ def broken_gear_rules(
             yield internal_refused(drive)
             return
         yield from broken_internal_runs(scenario)
+        yield from _broken_internal_face(scenario)
     yield from broken_drive_rules(drive)
     if not every_duty:
         yield from unnamed_duty(scenario)
