@@ -54,7 +54,7 @@ def steady():
 
 
 def test_meshes_excite_what_the_phases_allow(steady):
-    """Forces on the sun or torques on the carrier vanish by the harmonic's number times the sun's teeth."""
+    """Forces on the sun or torques on the carrier vanish, by the harmonic times the sun's teeth."""
     for (sun, planet, ring), model, motion in steady:
         assert motion.period == 1
         assert motion.stable
@@ -75,7 +75,7 @@ def test_meshes_excite_what_the_phases_allow(steady):
 
 
 def test_kinds_of_modes_are_kept_apart_where_all_meshes_are_in_phase():
-    """The derivative of a mesh cycle's map, without loss of contact: in phase it leaves rotations rotations."""
+    """The derivative of a mesh cycle's map, without loss of contact: in phase rotations stay rotations."""
     mixing = {}
     for teeth in (IN_PHASE, SEQUENTIAL):
         model = prepare(set_case(teeth, operating={"output_torque": "20000 N*m"})).model
@@ -122,7 +122,7 @@ def _rotational(model, states):
 
 @pytest.mark.parametrize(("held", "driving"), list(permutations(MEMBERS, 2)))
 def test_loads_at_rest_in_all_arrangements(held, driving):
-    """Whichever member is held, drives and is driven: without friction every mesh bears its share of Willis'."""
+    """Whichever is held, drives and is driven: without friction every mesh bears its share by Willis."""
     (driven,) = (member for member in MEMBERS if member not in (held, driving))
     table = planet_set(IN_PHASE, 3, held, (driving, driven), friction={"law": "none"})
     del table["friction"]["coefficient"]

@@ -85,7 +85,7 @@ MOTION = (
         "Of a planetary stage: mean torque between sun and planet of the planet with most, over that of all."
     ),
     Quantity("planet_load_factor_max", "Maximum load of a planet over the mean", digits=".3f").defined_as(
-        "Of a planetary stage: maximum torque between sun and planet, over time, over the mean of all planets."
+        "Of a planetary stage: maximum torque between sun and planet over the mean in time of all planets."
     ),
     Quantity(
         "dynamic_factor_iso", "Dynamic factor by ISO 6336-1, method B,", digits=".3f", symbol="K_v"

@@ -169,7 +169,7 @@ def _closed(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float
 
 
 def _closed_on_pins(model: Model, errors: Float[Array, " mesh"], torques: Flow) -> Float[Array, " state"]:
-    """The same where planets close loops: the smallest rotations that do so; planets go with their carriers."""
+    """The same where planets close loops, by the smallest rotations; planets go with their carriers."""
     layout, y = model.layout, np.zeros(model.layout.states)
     rows, wanted = np.zeros((layout.meshes + len(torques.on_link), layout.bodies)), []
     for m, mesh in enumerate(model.meshes):

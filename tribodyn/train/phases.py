@@ -66,8 +66,8 @@ class Phases(NamedTuple):
 def nominal_phases(gears: Sequence[ToothedShaft], meshes: Sequence[Engagement]) -> Phases:
     """Put the teeth together from mesh 0 outward, at the turn at which its cycle begins.
 
-    Where no mesh reaches a shaft, for it drives a carrier, the first mesh behind it begins its cycle too. Raises InputError where the teeth of a loop's last mesh do not
-    meet, by more than `LOOP_TOLERANCE`.
+    Where no mesh reaches a shaft, for it drives a carrier, the first mesh behind it begins its cycle too.
+    Raises InputError where the teeth of a loop's last mesh do not meet, by more than `LOOP_TOLERANCE`.
     """
     first = meshes[0]
     marks = {gears[first.gears[0]].shaft: _driver_mark(gears, first, 0.0)}

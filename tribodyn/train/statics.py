@@ -26,8 +26,9 @@ def nominal_torques(
     """Balance the loads (N m, of every body against its motion) through meshes and couplings.
 
     `teeth` are those of each mesh's driver and driven gear, without signs; couplings join bodies, by their
-    new indices. Bodies that do not turn bear any torque. In a train with loops the balance leaves open how these
-    share the load: here the sum of the squares of all tangential forces, taken over their modules, is least.
+    new indices. Bodies that do not turn bear any torque. In a train with loops the balance leaves open how
+    these share the load: here the sum of the squares of all tangential forces, taken over their modules, is
+    least.
     """
     bodies, meshes = len(motion.bodies), len(teeth)
     held = [body for body in range(bodies) if motion.ratio[body] == 0]

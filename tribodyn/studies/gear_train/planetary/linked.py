@@ -11,7 +11,7 @@ from tribodyn.studies.gear_train.described.drawn import Drawn, Moving
 from tribodyn.studies.gear_train.planetary.described import SetPart, pin_offset
 from tribodyn.train.planetary import CARRIER
 
-#: Stiffness on its pitch circle with which a member is held where none is given, N/m: that of a stiff bearing.
+#: Stiffness on its pitch circle with which a member is held where none is given, N/m: of a stiff bearing.
 USUAL_SUPPORT = 1e9
 
 
