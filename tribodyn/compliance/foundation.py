@@ -117,10 +117,9 @@ def ring_compliance(
     """Compliance between the root loads of two teeth of one body.
 
     Exact for a ring in plane stress that is fixed at its bore, or around the teeth (a ratio below 1) at its
-    outside, on `pins` there (`rim`) or, with none, free as `_ring_receptance` has it; each tooth loads its
-    arc of the root circle
-    with uniform (N, T) and linear (M) traction along its own axes; displacements are the work conjugates
-    (means over the arc). Truncated after `harmonics` terms: the self term (angle 0) converges like
+    outside, on `pins` there (`rim`) or, with 0, free as `_ring_receptance` has it; each tooth loads its arc
+    of the root circle with uniform (N, T) and linear (M) traction along its own axes; displacements are the
+    work conjugates (means over the arc). Truncated after `harmonics` terms: the self term (angle 0) converges like
     (harmonics · root_half_angle)^−2 and needs about 40/root_half_angle of them, the term between two teeth
     converges faster.
 
