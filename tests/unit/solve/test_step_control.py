@@ -34,7 +34,7 @@ def test_no_step_is_taken(steps, step, speed, status):
 @pytest.mark.parametrize("place", range(PAIR.states))
 def test_only_displacements_beyond_the_centre_distance_are_unbounded(place):
     """Of either sign, rotations at the pitch circle; speeds, the lag of time and the works have no bound."""
-    mesh = SimpleNamespace(driver_radius=0.05, driven_radius=0.1)
+    mesh = SimpleNamespace(driver_radius=0.05, driven_radius=0.1, driver_sense=1.0, driven_sense=1.0)
     model = SimpleNamespace(meshes=(mesh,), options=SimpleNamespace(layout=PAIR))
     per_length = 10.0 if place == TURN_G else 1.0
     for value in (0.149, -0.149, 0.151, -0.151, 1e20):

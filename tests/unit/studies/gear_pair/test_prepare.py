@@ -73,7 +73,8 @@ def model_of(case: Any) -> parameters.Model:
         "compliance": 1e-9,
         "slices": 1,
     }
-    cycle = SimpleNamespace(**radii, **numbers)
+    senses = {"pinion_sense": 1.0, "gear_sense": 1.0, "speed_ratio": RADII[0] / RADII[1]}
+    cycle = SimpleNamespace(**radii, **senses, **numbers)
     made: Any = SimpleNamespace(cycle=cycle, table=None, schedule=None)
     law = SimpleNamespace(functions=None, parameters=None)
     laws: Any = SimpleNamespace(surfaces=None, film=law, friction=law)
@@ -123,6 +124,7 @@ def test_numbers_of_the_model(operating: dict[str, Any]):
             "load": [0.0, 410.0, 0.0] if shaft else [0.0, 410.0],
             "load_damping": [0.0, 0.0, 0.0] if shaft else [0.0, 0.4],
             "tilting": [],
+            "hoop": [],
         },
         "links": {
             "stiffness": [[3e8, 5e8, 0], [7e8, 11e8, 0], *([[0, 0, 4100.0]] if shaft else [])],

@@ -39,7 +39,11 @@ CYCLE = cast(
 MODEL = SimpleNamespace(
     layout=PAIR,
     options=SimpleNamespace(layout=PAIR),
-    meshes=[SimpleNamespace(driver_radius=CYCLE.pinion_pitch_radius, driven_radius=RADIUS)],
+    meshes=[
+        SimpleNamespace(
+            driver_radius=CYCLE.pinion_pitch_radius, driven_radius=RADIUS, driver_sense=1.0, driven_sense=1.0
+        )
+    ],
 )
 PREPARED = cast(Any, SimpleNamespace(cycle=CYCLE, model=MODEL))
 
