@@ -169,9 +169,9 @@ def _loads(model, state):
 
 @pytest.fixture(scope="module")
 def record(tmp_path_factory):
-    """A run of a set with a floating sun."""
+    """A run of a set with a floating sun; of forces of the frame the balance leaves m Ω³ r × u."""
     path = tmp_path_factory.mktemp("set") / "set.h5"
-    case = set_case(SEQUENTIAL, floating=["sun"], solver={"cycles": 12})
+    case = set_case(SEQUENTIAL, floating=["sun"], frame_forces=False, solver={"cycles": 12})
     result = run(case, path)
     assert result.status == "complete"
     return case, Record(path)
@@ -199,6 +199,22 @@ def test_energy_and_efficiency_of_a_run(record):
     # of means over samples, which jumps of the load fall between
     assert stage["mesh_load_factor"] == pytest.approx(1.0, abs=3e-3)
     assert stage["power_friction_mean"] == pytest.approx(summary["power_friction_mean"], rel=1e-9)
+
+
+def test_pins_bear_the_torque_of_the_carrier(record):
+    """And bearings nothing in the mean, as all planets bear alike."""
+    _, found = record
+    names = [str(name) for name in found["bearing"]]
+    last = slice(-200, None)
+    force = np.stack([found[f"bearing_force_{axis}"][last] for axis in "xy"], axis=-1)
+    arms = found.geometry["centre"][3:6]
+    pins = [names.index(f"pin-planet-{n}") for n in (1, 2, 3)]
+    mean = np.mean(force[:, pins], axis=0)
+    torque = np.sum(arms[:, 0] * mean[:, 1] - arms[:, 1] * mean[:, 0])
+    assert torque == pytest.approx(600.0, rel=2e-3)
+    assert set(names) == {"bearing-ring", "bearing-carrier", "pin-planet-1", "pin-planet-2", "pin-planet-3"}
+    held = np.mean(force[:, names.index("bearing-carrier")], axis=0)
+    assert np.all(np.abs(held) < 0.02 * np.hypot(*mean[0]))
 
 
 def test_kinds_of_modes_have_names():

@@ -9,6 +9,7 @@ from tribodyn.dynamics.energy import stored_energy
 from tribodyn.dynamics.equations import derivatives, resultants
 from tribodyn.dynamics.extremes import LOWEST, Extremes, highest_loaded
 from tribodyn.dynamics.faces import over_faces
+from tribodyn.dynamics.loads import apart_in_plane, apart_in_space, stretch_in_plane
 from tribodyn.dynamics.parameters import Model
 from tribodyn.dynamics.places import motion_of, place_in_mesh
 from tribodyn.mesh.quasi_static import efficiency
@@ -17,8 +18,10 @@ from tribodyn.train.schedule import interval_of
 from tribodyn.train.structure import (
     DAMPING,
     IN,
+    IN_SPACE,
     OUT,
     PARAMETRIC,
+    TURN,
     rotational_error,
     shift_of,
     speed_of,
@@ -195,6 +198,10 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         "x": over(y[shift_of(b)] for b in planar),
         "y": over(y[shift_of(b) + 1] for b in planar),
         "moved": over(_moved(b, y, model) for b in planar),
+        **{
+            f"bearing_force_{name}": over(bearing_force(k, row, y, model) for k in holding_links(model))
+            for row, name in enumerate("xy")
+        },
         "angle": over(ratio[b] * angle + turned(b, y, layout) for b in bodies),
         "x_rate": over(y[layout.half + shift_of(b)] for b in planar),
         "y_rate": over(y[layout.half + shift_of(b) + 1] for b in planar),
@@ -204,6 +211,28 @@ def train_outputs(samples: Evaluated, sliding_loss: Float[Array, " sample"]) -> 
         **works,
         "efficiency": efficiency(power["power_in"], power["power_out"], sliding_loss),
     }
+
+
+def holding_links(model: Model) -> list[int]:
+    """Numbers of the links that hold bodies in x and y: bearings, pins."""
+    layout, links = model.layout, model.links
+    planar = np.any(np.asarray(links.stiffness)[:, :TURN] > 0.0, axis=1) if layout.links else np.zeros(0)
+    return [k for k in np.flatnonzero(planar) if layout.first[k] < layout.planar > layout.second[k]]
+
+
+def bearing_force(k: int, row: int, y: np.ndarray, model: Model) -> np.ndarray:
+    """Force of the first body of a link on what holds it, in x or y (0, 1), N."""
+    layout, links = model.layout, model.links
+    first, second, half = layout.first[k], layout.second[k], layout.half
+    if first < layout.spatial and second < layout.spatial:
+        moved, moving = (
+            np.stack([apart_in_space(first, second, i, at, y, layout) for i in range(IN_SPACE)])
+            for at in (0, half)
+        )
+        elastic = np.tensordot(np.asarray(links.stiffness_in_space)[k, row], moved, axes=1)
+        return elastic + np.tensordot(np.asarray(links.damping_in_space)[k, row], moving, axes=1)
+    damping = links.damping[k, row] * apart_in_plane(k, row, half, y, model)
+    return links.stiffness[k, row] * stretch_in_plane(k, row, y, model) + damping
 
 
 def _moved(b: int, y: np.ndarray, model: Model) -> np.ndarray:

@@ -24,7 +24,12 @@ from tribodyn.record.reader import Record
 from tribodyn.studies.gear_train.described.carried import body_labels, mesh_labels, sets_of
 from tribodyn.studies.gear_train.pictures.curves import draw_curves
 from tribodyn.studies.gear_train.pictures.modes_figure import modes_figure
-from tribodyn.studies.gear_train.pictures.planet_figures import has_orbits, orbit_figure, planet_load_figure
+from tribodyn.studies.gear_train.pictures.planet_figures import (
+    bearing_load_figure,
+    has_orbits,
+    orbit_figure,
+    planet_load_figure,
+)
 from tribodyn.studies.gear_train.pictures.spectrum_figure import has_spectra, spectrum_figure
 from tribodyn.studies.gear_train.pictures.train_picture import draw_train, train_figure
 from tribodyn.studies.gears.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
@@ -175,6 +180,11 @@ DRAWINGS: dict[str, Drawing] = {
         "load of every planet of planetary sets, at sun and ring",
         planet_load_figure,
         lambda record: bool(sets_of(record)),
+    ),
+    "bearing-load": Drawing(
+        "force on every bearing and pin",
+        bearing_load_figure,
+        lambda record: "bearing_force_x" in record,
     ),
     "orbit": Drawing("orbits of the central gears of planetary sets", orbit_figure, has_orbits),
     "spectrum": Drawing(

@@ -106,6 +106,12 @@ IN_SPACE: dict[str, Variable] = {
     "z_rate": Variable(_BODY, "m/s", "velocity of each body along its axis"),
     "axial_force": Variable(_MESH, "N", "force of each mesh on its driver along z"),
 }
+#: And of one whose bodies bearings hold.
+BEARINGS: dict[str, Variable] = {
+    "bearing_force_x": Variable(("time", "bearing"), "N", "force of each body on its bearing or pin in x"),
+    "bearing_force_y": Variable(("time", "bearing"), "N", "force of each body on its bearing or pin in y"),
+}
+_BEARING = {"bearing": Variable(("bearing",), "1", "bearing or pin, by the body that it holds")}
 #: A mesh has as many pairs as it needs: they are counted beside those of the record.
 _SLOTS = {"pair": "slot", "other_pair": "other_slot"}
 
@@ -157,10 +163,11 @@ def record_of(
     assemblies: Sequence[Assembly],
     gears: Sequence[str],
     geometry: Mapping[str, Any],
+    bearings: Sequence[str] = (),
 ) -> TrainRecord:
     """The layout of a record of meshes, bodies and gears with these names, and what it holds from the start.
 
-    `geometry` are the values of `TRAIN_GEOMETRY`.
+    `geometry` are the values of `TRAIN_GEOMETRY`, `bearings` the names of what holds bodies in x and y.
     """
     numbers = [number for mesh in meshes for number in mesh_pairs(mesh.cycle)]
     pairs = tuple(range(min(numbers), max(numbers) + 1))
@@ -178,5 +185,8 @@ def record_of(
         "pair": np.array(pairs),
     }
     helical = any(mesh.cycle.slices > 1 for mesh in meshes)
-    samples = SAMPLES | (IN_SPACE if helical else {})
-    return TrainRecord(Layout(TIME, samples, SCALES, groups=tables), scales, groups, pairs, meshes)
+    samples, axes = SAMPLES | (IN_SPACE if helical else {}), SCALES
+    if bearings:
+        samples, axes = samples | BEARINGS, SCALES | _BEARING
+        scales["bearing"] = np.array(bearings)
+    return TrainRecord(Layout(TIME, samples, axes, groups=tables), scales, groups, pairs, meshes)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.modes import modes
+from tribodyn.dynamics.outputs import holding_links
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import MESHES
 from tribodyn.record.trust import judge_tribology
@@ -70,6 +71,7 @@ def _run(case: TrainCase, path: Path, force: bool, *, progress: Progress | None)
         [made.assembly for made in prepared.made],
         [gear.name for gear in case.gears],
         geometry_of(prepared),
+        [case.links[k].name for k in holding_links(model)],
     )
     more = {"groups": kept.groups, "scales": kept.scales}
     with writer(case, path, kept.layout, cycles * samples + 1, force=force, **more) as record:

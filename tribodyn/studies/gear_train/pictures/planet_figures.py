@@ -14,6 +14,7 @@ from tribodyn.studies.gear_train.described.carried import CarriedSet, sets_of
 from tribodyn.studies.gear_train.pictures.curves import draw_curves
 
 LOAD = Trace("normal_load", "Load of every planet", "$F_n$", "N", from_zero=True)
+BEARING = Trace("bearing_force_x", "Force on bearings", "$F$", "N", from_zero=True)
 MICROMETRE = 1e-6
 #: Half of what is shown of a body that rests but for rounding, µm.
 _SMALLEST = 1e-3
@@ -38,6 +39,28 @@ def planet_load_figure(records: Sequence[Record], view: View) -> Figure:
         draw_curves(axes, record, planet_loads(record, meshes), names, LOAD, view)
         mark_panel(axes, letter, f"{_named(record, own, body)}: load of the teeth of every planet")
         axes.legend(loc="upper right", ncols=len(names), fontsize=6.5)
+    for axes in rows[:-1]:
+        axes.set_xlabel("")
+    figure.align_ylabels()
+    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+def bearing_load_figure(records: Sequence[Record], view: View) -> Figure:
+    """Draw of the first record the forces on bearings and pins, those of a kind in one panel."""
+    record = records[0]
+    force = np.hypot(record["bearing_force_x"], record["bearing_force_y"])
+    names = [str(name) for name in record["bearing"]]
+    groups: dict[str, list[int]] = {}
+    for place, name in enumerate(names):
+        groups.setdefault("pins" if name.startswith("pin-") else "bearings", []).append(place)
+    figure = new_figure(WIDTH, (PANEL_HEIGHT + 0.15) * len(groups) + 0.6)
+    rows = figure.subplots(len(groups), 1, squeeze=False, sharex=True)[:, 0]
+    for letter, axes, (kind, places) in zip(_LETTERS, rows, groups.items(), strict=False):
+        labels = [names[place].partition("-")[2] for place in places]
+        draw_curves(axes, record, force[:, places], labels, BEARING, view)
+        mark_panel(axes, letter, f"Force on {kind}")
+        axes.legend(loc="upper right", ncols=4, fontsize=6.5)
     for axes in rows[:-1]:
         axes.set_xlabel("")
     figure.align_ylabels()
