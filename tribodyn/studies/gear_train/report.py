@@ -11,6 +11,7 @@ from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.withheld import reasons
 from tribodyn.studies.gear_train.described.alike import between, groups_of, together
 from tribodyn.studies.gear_train.pictures.rolling_train import mechanism as mechanism
+from tribodyn.studies.gear_train.planetary.results import STAGES
 from tribodyn.studies.gears.case import TEMPERATURE
 from tribodyn.studies.gears.over_time.extremes_said import on_extremes
 from tribodyn.studies.protocol.recording import TextTable
@@ -19,6 +20,7 @@ from tribodyn.studies.protocol.recording import TextTable
 REPORTED: Reported = {
     "Train": quantities("train_ratio", "common_period"),
     "Dynamics": quantities("dynamic_factor", "normal_load_max", "contact_loss_fraction"),
+    "Planets": quantities("mesh_load_factor", "planet_load_factor_max"),
     "Tribology": quantities("film_min", "film_parameter_min", "hertz_pressure_max", "flash_temperature_max"),
     "Energy": quantities(
         *("power_in_mean", "power_friction_mean", "power_damping_mean"),
@@ -37,6 +39,10 @@ OF_A_MESH: tuple[Quantity, ...] = (
     *quantities("hertz_pressure_max", "flash_temperature_max", "friction_coefficient_mean"),
     *quantities("power_in_mean", "power_friction_mean", "efficiency"),
     *TEMPERATURE,
+)
+#: Of each planetary stage.
+OF_A_STAGE: tuple[Quantity, ...] = quantities(
+    *("mesh_load_factor", "planet_load_factor_max", "power_in_mean", "power_friction_mean", "efficiency")
 )
 #: One number per case, from its steady window; of all meshes the worst.
 SWEPT = (
@@ -74,8 +80,26 @@ def tables(record: Record) -> list[TextTable]:
     meshes, withheld = meshes_of(record), reasons(record.summary)
     groups = groups_of(meshes)
     return [
-        _table(groups[start : start + ACROSS], meshes, withheld) for start in range(0, len(groups), ACROSS)
+        *_stages(record.summary),
+        *(
+            _table(groups[start : start + ACROSS], meshes, withheld)
+            for start in range(0, len(groups), ACROSS)
+        ),
     ]
+
+
+def _stages(summary: Mapping[str, Any]) -> Iterable[TextTable]:
+    """Quantities of each planetary stage, a column for each."""
+    stages = summary.get(STAGES)
+    if not isinstance(stages, Mapping) or not stages:
+        return
+    rows = [
+        [quantity.title, *(quantity.written(own[quantity.name]) for own in stages.values()), quantity.unit]
+        for quantity in OF_A_STAGE
+    ]
+    shares = (", ".join(f"{100.0 * share:.1f}" for share in own["planet_shares"]) for own in stages.values())
+    rows.insert(1, ["Shares of the planets", *shares, "%"])
+    yield TextTable("Each planetary stage", ("", *stages, ""), rows)
 
 
 def _table(

@@ -122,7 +122,9 @@ def _concluded(
     names = [mesh.name for mesh in case.meshes]
     whole |= worst_of(each) | {MESHES: dict(zip(names, each, strict=True))}
     if case.sets:
-        whole[STAGES] = stage_quantities(prepared, windows, each)
+        whole[STAGES] = stages = stage_quantities(prepared, windows, each)
+        for name in ("mesh_load_factor", "planet_load_factor_max"):
+            whole[name] = max(float(own[name]) for own in stages.values())
     sliding = case.meshes[0].pair.friction.sliding
     whole["warning"] = warning_of(whole["friction_work_on_vibration"], sliding)
     statistics.judge.take({"efficiency": whole["efficiency"]})

@@ -144,8 +144,9 @@ def test_what_is_alike_is_said_once(record: Record):
     assert len(own.planets) == 3
     assert set(mesh_labels(record)) == {"set-sun-1 (and 2, 3)", "set-ring-1 (and 2, 3)"}
     assert set(body_labels(record)) == {"sun", "ring", "carrier", "planet-1 (and 2, 3)"}
-    (table,) = tables(record)
-    assert len(table.columns) == 4
+    stages, meshes = tables(record)
+    assert stages.columns == ("", "set", "")
+    assert len(meshes.columns) == 4
     assert any("set-sun-1 (and 2, 3)" in line for line in verdict(record))
 
 
@@ -161,7 +162,7 @@ def test_the_page_turns_with_the_carrier(record: Record):
 
 
 @pytest.mark.parametrize("record", ["from sun"], indirect=True)
-@pytest.mark.parametrize("name", ["overview", "train", "planet-load", "orbit", "modes"])
+@pytest.mark.parametrize("name", ["overview", "train", "planet-load", "bearing-load", "orbit", "modes"])
 def test_figures_are_drawn(record: Record, name: str):
     assert DRAWINGS[name].fits(record)
     figure = DRAWINGS[name].draw([record], View())
