@@ -100,6 +100,51 @@ def test_kinds_of_modes_are_kept_apart_where_all_meshes_are_in_phase():
     assert mixing[SEQUENTIAL] > 1e-3
 
 
+def test_sequential_meshes_do_not_excite_a_rotational_mode_by_its_double():
+    """Floquet multipliers at twice the frequency of a rotational mode, all flanks in contact, little damping.
+
+    In phase there is an unstable tongue about it; where the meshes come one after another their first
+    harmonics cancel for rotations (Lin & Parker, J. Sound Vib. 249 (2002) 129).
+    """
+    largest = {}
+    for teeth in (IN_PHASE, SEQUENTIAL):
+        prepared = prepare(_lightly_damped(teeth, 900.0))
+        found = modes(prepared.model, [made.cycle for made in prepared.made])
+        kinds = kinds_of(prepared, found)
+        mode = found.frequency[[i for i, kind in enumerate(kinds) if kind == "rotational"][3]]
+        meshing = 900.0 / 60.0 * teeth[0] * teeth[2] / (teeth[0] + teeth[2])
+        speeds = [900.0 * 2.0 * share * mode / meshing for share in (0.97, 1.0, 1.03)]
+        models = [prepare(_lightly_damped(teeth, speed)).model for speed in speeds]
+        starts, moving = np.array([static_equilibrium(model) for model in models]), moving_states(models[0])
+        way = GearMap(
+            models, starts, moving, solver="dopri5", rtol=1e-7, fine_rtol=1e-9, max_steps=10**6, workers=1
+        )
+        tangent = way.tangent(starts[:, list(moving.states)], np.arange(len(models)), 1)
+        largest[teeth] = [np.max(np.abs(np.linalg.eigvals(one))) for one in tangent.jacobian]
+    below, at, above = largest[IN_PHASE]
+    assert at > 1.03
+    assert max(below, above, *largest[SEQUENTIAL]) < 1.0
+
+
+def _lightly_damped(teeth, speed):
+    """A set of large contact ratios at a load that keeps all flanks together; speed of the sun in rpm."""
+    ratio = 0.002
+    bearing = {"stiffness_x": "3e8 N/m", "stiffness_y": "3e8 N/m", "damping_ratio": ratio}
+    table = planet_set(
+        teeth,
+        support_damping_ratio=ratio,
+        mesh={"damping_ratio": ratio},
+        bearings={"default": bearing},
+        operating={"input_speed": f"{speed} rpm", "output_torque": "200000 N*m"},
+        frame_forces=False,
+    )
+    table["friction"] = {"law": "none"}
+    table["gear"]["sun"] |= {"addendum": 1.22, "dedendum": 1.45, "fillet_radius": 0.1}
+    table["gear"]["planet"] |= {"addendum": 1.15, "dedendum": 1.5, "fillet_radius": 0.1}
+    table["gear"]["ring"] |= {"addendum": 0.9, "dedendum": 1.4, "fillet_radius": 0.05}
+    return case_of_table(table)
+
+
 def _rotational(model, states):
     """Displacements, and rates, at which all planets move alike and sun, ring and carrier only turn."""
     layout = model.layout
