@@ -16,47 +16,17 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.train.planetary import CARRIER, RING, SUN, SetTeeth, speeds, willis
+from tribodyn.train.planetary import CARRIER, speeds
 from tribodyn.train.schedule import common_period
-
-
-class Named(NamedTuple):
-    """A body, or whatever else a message may have to name."""
-
-    name: str
-    key: str  # where it stands in the scenario, dotted
-
-
-class Toothed(NamedTuple):
-    """A gear on a body."""
-
-    name: str
-    key: str
-    body: int
-    teeth: int  # negative of an internal gear
-
-
-class Joint(NamedTuple):
-    """A mesh of two gears, or a coupling of two bodies, by their indices, in either order."""
-
-    key: str
-    ends: tuple[int, int]
-    of_set: int = -1  # number of the planetary set that a mesh belongs to; -1: none
-
-
-class SetMembers(NamedTuple):
-    """A planetary set by its bodies."""
-
-    key: str  # where it stands in the scenario, dotted
-    members: dict[str, int]  # sun, ring, carrier
-    planets: tuple[int, ...]
-    teeth: SetTeeth
-    held: str  # the member that does not turn
-
-    def turning(self) -> tuple[str, str]:
-        """The two members that turn."""
-        first, second = (name for name in self.members if name != self.held)
-        return first, second
+from tribodyn.train.turning import (
+    Joint,
+    Named,
+    SetMembers,
+    Toothed,
+    Turning,
+    driving_in_set,
+    turn_set,
+)
 
 
 class TrainSpeeds(NamedTuple):
@@ -105,7 +75,7 @@ def kinematics(
     _refuse_idle_gears(gears, meshes)
     joints = [_by_bodies(gears, mesh) for mesh in meshes]
     found = _spread(len(bodies), gears, meshes, joints, couplings, source, sense, sets)
-    drives = [_turn_set(bodies, one, found) for one in sets]
+    drives = [turn_set(bodies, one, found) for one in sets]
     _refuse_unreached(bodies, gears, found)
     for place, mesh in enumerate(meshes):
         if mesh.of_set < 0:
@@ -116,7 +86,7 @@ def kinematics(
     driving = [
         _driving(gears, mesh, found)
         if mesh.of_set < 0
-        else _driving_in_set(gears, mesh, sets[mesh.of_set], drives[mesh.of_set])
+        else driving_in_set(gears, mesh, sets[mesh.of_set], drives[mesh.of_set])
         for mesh in meshes
     ]
     away = [min(found[end].away for end in joint) for joint in joints]
@@ -153,65 +123,10 @@ def kinematics(
     )
 
 
-class _Turning(NamedTuple):
-    """A body as it was reached."""
-
-    speed: Fraction  # over the input's
-    sense: int
-    away: int  # meshes between it and the input
-
-    @property
-    def signed(self) -> Fraction:
-        """Speed, counter-clockwise positive."""
-        return self.speed * self.sense
-
-
-#: Away from the input by more meshes than any train has: what it does not turn.
-_HELD = 1_000_000
-
-
-def _driving(gears: Sequence[Toothed], mesh: Joint, found: dict[int, _Turning]) -> tuple[int, int]:
+def _driving(gears: Sequence[Toothed], mesh: Joint, found: dict[int, Turning]) -> tuple[int, int]:
     """Driving and driven gear of a mesh in the housing."""
     one, two = mesh.ends
     return (one, two) if found[gears[one].body].away < found[gears[two].body].away else (two, one)
-
-
-def _driving_in_set(
-    gears: Sequence[Toothed], mesh: Joint, members: SetMembers, drives: str
-) -> tuple[int, int]:
-    """Driving and driven gear of a set's mesh, where the sun or the ring `drives` the planets."""
-    one, two = mesh.ends
-    central, planet = (two, one) if gears[one].body in members.planets else (one, two)
-    is_driver = gears[central].body == members.members[drives]
-    return (central, planet) if is_driver else (planet, central)
-
-
-def _turn_set(bodies: Sequence[Named], own: SetMembers, found: dict[int, _Turning]) -> str:
-    """Add a set's held member and planets to what turns; returns which of sun and ring drives the planets."""
-    held = own.members[own.held]
-    if held in found and found[held].speed:
-        rule = f"{bodies[held].name} is held, and other stages or shafts turn it"
-        raise InputError(f"{own.key}.held", own.held, rule, "hold another member, or part the two")
-    members = [own.members[name] for name in own.turning() if own.members[name] in found]
-    if len(members) < 2:
-        names = " nor ".join(bodies[own.members[name]].name for name in own.turning())
-        rule = f"the input turns neither {names} of this planetary stage"
-        remedy = "add the [[stage]], [[shaft]] or [[link]] that turns one of them"
-        raise InputError(own.key, None, rule, remedy)
-    driving = min(own.turning(), key=lambda name: found[own.members[name]].away)
-    turning = found[own.members[driving]]
-    each = {name: speed * turning.signed for name, speed in speeds(own.teeth, own.held, driving).items()}
-    for name, speed in each.items():
-        for body in own.planets if name == "planet" else (own.members[name],):
-            rolling = speed if name == CARRIER else speed - each[CARRIER]
-            way = -1 if rolling < 0 else 1
-            if body == held and body in found and found[body].sense != way:
-                rule = f"{bodies[body].name} is held in two stages whose planets roll in opposite senses"
-                raise InputError(f"{own.key}.held", own.held, rule, "name two gears, one in each stage")
-            if name == "planet" or body == held:
-                found[body] = _Turning(abs(speed), way, turning.away + 1 if body != held else _HELD)
-    enters = willis(own.teeth)[SUN] * (each[SUN] - each[CARRIER]) / willis(own.teeth)[driving]
-    return SUN if enters * turning.sense > 0 else RING
 
 
 def _by_bodies(gears: Sequence[Toothed], mesh: Joint) -> tuple[int, int]:
@@ -242,7 +157,7 @@ def _spread(
     source: int,
     sense: int,
     sets: Sequence[SetMembers],
-) -> dict[int, _Turning]:
+) -> dict[int, Turning]:
     """Go outward from the input, over couplings first, so that every body is reached by fewest meshes."""
     coupled: list[list[int]] = [[] for _ in range(count)]
     for coupling in couplings:
@@ -261,7 +176,7 @@ def _spread(
         ratio = speeds(own.teeth, own.held, one)[two]
         meshing[own.members[one]].append((own.members[two], ratio))
         meshing[own.members[two]].append((own.members[one], 1 / ratio))
-    found = {source: _Turning(Fraction(1), sense, 0)}
+    found = {source: Turning(Fraction(1), sense, 0)}
     waiting = deque([source])
     done: set[int] = set()
     while waiting:
@@ -272,16 +187,16 @@ def _spread(
         speed, way, away = found[body]
         for other in coupled[body]:
             if other not in found or found[other].away > away:
-                found[other] = _Turning(speed, way, away)
+                found[other] = Turning(speed, way, away)
                 waiting.appendleft(other)
         for other, ratio in meshing[body]:
             if other not in found:
-                found[other] = _Turning(speed * abs(ratio), way if ratio > 0 else -way, away + 1)
+                found[other] = Turning(speed * abs(ratio), way if ratio > 0 else -way, away + 1)
                 waiting.append(other)
     return found
 
 
-def _refuse_unreached(bodies: Sequence[Named], gears: Sequence[Toothed], found: dict[int, _Turning]) -> None:
+def _refuse_unreached(bodies: Sequence[Named], gears: Sequence[Toothed], found: dict[int, Turning]) -> None:
     for place, body in enumerate(bodies):
         if place in found:
             continue
@@ -296,7 +211,7 @@ def _check_mesh(
     gears: Sequence[Toothed],
     mesh: Joint,
     joint: tuple[int, int],
-    found: dict[int, _Turning],
+    found: dict[int, Turning],
 ) -> None:
     one, two = (found[body] for body in joint)
     names = [bodies[body].name for body in joint]
@@ -314,7 +229,7 @@ def _check_mesh(
         raise InputError(mesh.key, None, rule, "change numbers of teeth, or open the loop")
 
 
-def _check_coupling(bodies: Sequence[Named], coupling: Joint, found: dict[int, _Turning]) -> None:
+def _check_coupling(bodies: Sequence[Named], coupling: Joint, found: dict[int, Turning]) -> None:
     one, two = (found[body] for body in coupling.ends)
     names = [bodies[body].name for body in coupling.ends]
     if one.sense != two.sense or one.speed != two.speed:

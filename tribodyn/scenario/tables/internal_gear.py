@@ -98,7 +98,7 @@ def internal_refused(drive: DriveTable) -> InputError:
     """Refuse an internal gear where a study has only external ones."""
     side = "gear" if drive.gear.internal else "pinion"
     rule = "this kind of study has external gears alone"
-    remedy = 'write kind = "gear-pair" or "efficiency", or describe an external gear'
+    remedy = "run the pair over time, study its efficiency, or describe an external gear"
     return InputError(f"drive.{side}.internal", "true", rule, remedy)
 
 

@@ -31,7 +31,8 @@ from tribodyn.studies.gear_train.planetary.described import (
     set_of,
 )
 from tribodyn.studies.gears.motion import Mesh
-from tribodyn.train.kinematics import Joint, Named, SetMembers, Toothed, TrainSpeeds, kinematics
+from tribodyn.train.kinematics import TrainSpeeds, kinematics
+from tribodyn.train.turning import Joint, Named, SetMembers, Toothed
 
 #: Names of the gears of a drive file.
 OF_DRIVE = ("pinion", "gear")
