@@ -47,6 +47,7 @@ ALIKE = {
     "involute-shifted-23-47",
     "irefc-as-published",
     "jia-involute-17-29",
+    "wind-turbine-gearbox",
 }
 #: What makes a run of a kind short.
 SHORTER = {
