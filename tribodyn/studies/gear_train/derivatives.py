@@ -68,6 +68,9 @@ class DifferentiableTrain:
     def __init__(
         self, case: TrainCase, schema: type[BaseModel], of: Sequence[str], wrt: Sequence[str]
     ) -> None:
+        for own in case.sets:
+            rule = f"the stage {own.name} is planetary, and derivatives are of trains of external gears"
+            raise InputError(own.key, None, rule, "take differences of runs")
         table = tomllib.loads(case.toml)
         scenario: Any = schema.model_validate(table)
         train = moving(scenario)
