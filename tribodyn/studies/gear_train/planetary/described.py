@@ -93,6 +93,9 @@ def broken_sets(scenario: Any, gears: list[str]) -> Iterator[InputError]:
             ):
                 rule = f"{given} is named twice in planetary stages"
                 yield InputError(f"{key}.{name}", quoted(given), rule, "use a gear of its own for each")
+        if stage.helix_angle:
+            rule, remedy = "helical planetary stages are not modelled", "leave helix_angle out"
+            yield InputError(f"{key}.helix_angle", f"{stage.helix_angle:g} rad", rule, remedy)
         yield from _counts(key, stage)
         if all(name in gears for name in (stage.sun, stage.planet, stage.ring)):
             yield from _assembly(scenario, key, stage)
