@@ -113,6 +113,9 @@ def _counts(key: str, stage: PlanetaryStage) -> Iterator[InputError]:
     for number, name in enumerate(stage.floating):
         if name in stage.floating[:number]:
             yield InputError(f"{key}.floating", None, f"names {name} twice", "name each member once")
+    if stage.floating and stage.planets < 3:
+        rule = f"{stage.planets} planets do not hold a floating {stage.floating[0]} in place"
+        yield InputError(f"{key}.floating", None, rule, "give it a bearing, or the stage three planets")
     if len(stage.floating) == len(MEMBERS):
         rule = "no member of the set has a bearing: it has no place"
         yield InputError(f"{key}.floating", None, rule, "let one of them have a bearing")
