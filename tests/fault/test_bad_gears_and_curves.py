@@ -40,9 +40,6 @@ def test_gears_that_cannot_be(
 #: As users ask for gears that are not modelled: setting, what is said of it.
 OTHER_GEARS = {
     "drive.type=herringbone": "double helical gears",
-    "kind=planetary": "planetary gears",
-    "drive.planets=3": "planetary gears",
-    "drive.carrier.speed=1": "planetary gears",
     "drive.type=bevel": "bevel, worm and hypoid gears",
 }
 
@@ -111,7 +108,7 @@ def test_an_internal_gear_has_one_key(refused: Refused, scenario: Path, setting:
 
 #: What a study says of an internal gear: scenario, settings, key, and a part of the message.
 INTERNAL = [
-    ("load-contact-18-36", [], "drive.gear.internal", 'kind = "gear-pair"'),
+    ("load-contact-18-36", [], "drive.gear.internal", "over time"),
     ("ehl-involute-23-47", [], "drive.gear.internal", "external gears alone"),
     ("ring-36-93", ["drive.pinion.internal=true"], "drive.pinion.internal", "[drive.gear]"),
     ("involute-18-36", [], "drive.gear.bore_radius", "outer_diameter"),
@@ -154,7 +151,24 @@ def test_gears_that_are_not_modelled(refused: Refused, scenario: Path, setting: 
     key = setting.partition("=")[0]
     assert code == 2
     assert f": {key}" in line or f": {key.rpartition('.')[0]} = " in line
-    assert f"{what} are not modelled: this version computes external spur and helical gears" in line
+    assert f"{what} are not modelled: this version computes spur and helical gears" in line
+
+
+@pytest.mark.parametrize(
+    ("name", "setting"),
+    [
+        ("", "kind=planetary"),
+        ("", "drive.planets=3"),
+        ("", "drive.carrier.speed=1"),
+        ("two-stage-reducer", "planets=3"),
+        ("two-stage-reducer", "carrier.speed=1"),
+    ],
+)
+def test_planets_are_sent_to_their_stage(refused: Refused, scenario: Path, name: str, setting: str):
+    code, (line,) = refused("check", name or str(scenario), "--set", setting)
+    assert code == 2
+    assert "planetary gears are a stage of a train" in line
+    assert 'write kind = "gear-train" with a [[stage]] of type = "planetary"' in line
 
 
 @pytest.mark.parametrize(("setting", "key"), SEVERAL_STAGES.items())
@@ -165,20 +179,6 @@ def test_several_stages_are_sent_to_the_kind_that_has_them(
     assert code == 2
     assert f": {key} = " in line
     assert 'several stages are of another kind of study; write kind = "gear-train"' in line
-
-
-#: As users ask for other gears of a train: setting, what is said of it.
-OTHER_TRAINS = {
-    "planets=3": "planetary gears",
-    "carrier.speed=1": "planetary gears",
-}
-
-
-@pytest.mark.parametrize(("setting", "what"), OTHER_TRAINS.items())
-def test_trains_that_are_not_modelled(refused: Refused, setting: str, what: str):
-    code, (line,) = refused("check", "two-stage-reducer", "--set", setting)
-    assert code == 2
-    assert f"{what} are not modelled: this version computes external spur and helical gears" in line
 
 
 def test_a_planetary_gearbox_is_refused_once(refused: Refused, scenario: Path):

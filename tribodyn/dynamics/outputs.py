@@ -217,7 +217,8 @@ def holding_links(model: Model) -> list[int]:
     """Numbers of the links that hold bodies in x and y: bearings, pins."""
     layout, links = model.layout, model.links
     planar = np.any(np.asarray(links.stiffness)[:, :TURN] > 0.0, axis=1) if layout.links else np.zeros(0)
-    return [k for k in np.flatnonzero(planar) if layout.first[k] < layout.planar > layout.second[k]]
+    numbers = np.flatnonzero(planar).tolist()
+    return [k for k in numbers if layout.first[k] < layout.planar > layout.second[k]]
 
 
 def bearing_force(k: int, row: int, y: np.ndarray, model: Model) -> np.ndarray:

@@ -75,7 +75,8 @@ def _outside(found: dict[str, Any], error: InputError, several: bool) -> InputEr
         named = given if isinstance(given, str) and len(given.split()) < 3 else ""  # type = "planetary"
         if not several and scope.names_gears(name, given):
             return scope.refusal(error, scope.STAGES)
-        return scope.outside(error, name, named, but=(scope.STAGES, scope.PLANETS) if several else ())
+        stage = (scope.PLANETS,) if found["loc"][0] == "stage" else ()
+        return scope.outside(error, name, named, but=(scope.STAGES, *stage) if several else ())
     fewest = found.get("ctx", {}).get("ge")  # a number of teeth that only the sign of internal gears excludes
     if name == "teeth" and fewest is not None and given <= -fewest:
         return scope.refusal(error, scope.INTERNAL)

@@ -61,11 +61,9 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
         rule = "the key of an internal gear is internal, of the gear that it is"
         return InputError(error.key, error.value, rule, _OUTSIDE[INTERNAL][1], error.file)
     if what == PLANETS:
-        rule = f"{PLANETS} are a stage of another kind of study"
+        rule = f"{PLANETS} are a stage of a train"
         return InputError(error.key, error.value, rule, _OUTSIDE[PLANETS][1], error.file)
-    rule = (
-        f"{what} are not modelled: this version computes spur and helical gears, and planetary ones of spur"
-    )
+    rule = f"{what} are not modelled: this version computes spur and helical gears"
     return InputError(error.key, error.value, rule, remedy or _OUTSIDE[what][1], error.file)
 
 

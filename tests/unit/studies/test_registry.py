@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 from tests.support.record_samples import block, gear_pair_writer
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
+from tribodyn.numerics.sources import computing_digest
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
 from tribodyn.studies.pages import names, study_of_record
@@ -124,9 +125,12 @@ def offered(monkeypatch: pytest.MonkeyPatch):
 
         monkeypatch.setattr(importlib.metadata, "entry_points", entry_points)
         STUDIES.__dict__.pop("_outside", None)
+        computing_digest.cache_clear()  # it is of what is installed
 
     kept = dict(STUDIES._loaded)
     yield offer
+    monkeypatch.undo()
+    computing_digest.cache_clear()
     STUDIES.__dict__.pop("_outside", None)
     STUDIES._loaded.clear()
     STUDIES._loaded.update(kept)
