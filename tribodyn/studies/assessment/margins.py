@@ -19,7 +19,8 @@ from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards import micropitting, scuffing
 from tribodyn.standards.micropitting import Films
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.standard import ZERO_CELSIUS, Standard, Strength, by_point, flanks_of, oil_of
+from tribodyn.studies.assessment.standard import ZERO_CELSIUS, Standard, by_point
+from tribodyn.studies.gears.margins import Strength, bulk_of, flanks_of, oil_of
 
 #: Half width of a Hertz contact over its radius from which it is none: at the pitch point of a cycloid.
 _WIDEST = 0.1
@@ -89,23 +90,12 @@ def local_of(
         1.0 / curvature,
         speeds,
         quantities["friction_coefficient_mean"],
-        bulk_of(case, assembly, quantities),
+        bulk_of(case, assembly, quantities, case.oil_temperature, case.settings.lubrication),
         flanks,
-        oil_of(case),
+        oil_of(case.lubricant),
     )
     sliding = np.abs(speeds[0] - speeds[1])
     return LocalValues(roll, load, 1.0 / curvature, sliding, films, points)
-
-
-def bulk_of(case: AssessmentCase, assembly: Assembly, quantities: Mapping[str, Any]) -> float:
-    """Bulk temperature of the simulation, K: its own if it has one, else by its loss as in ISO/TR 15144-1."""
-    if quantities.get("bulk_temperature") is not None:
-        return float(quantities["bulk_temperature"])
-    path = assembly.path
-    centre = float(path.pinion_pitch_radius + path.gear_pitch_radius)
-    supply = micropitting.LUBRICATION_FACTORS[case.settings.lubrication]
-    loss, width = float(quantities["power_friction_mean"]), float(assembly.common_width)
-    return case.oil_temperature + micropitting.bulk_rise(loss, 1.0, 1.0, centre, width, supply)
 
 
 #: Quantity of the simulation -> its name by the standards.

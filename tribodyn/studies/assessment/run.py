@@ -21,8 +21,9 @@ from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import LAYOUT, AssessmentCase
 from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_and_limits, simulated_part
 from tribodyn.studies.assessment.parts import Part, TaskResult
-from tribodyn.studies.assessment.standard import iso_part, standard_of, strength_of
+from tribodyn.studies.assessment.standard import iso_part, standard_of
 from tribodyn.studies.gears.check import sheet_tables, with_oil
+from tribodyn.studies.gears.margins import strength_of
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
@@ -117,7 +118,14 @@ def assessed(
         "simulated": simulated,
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
         **{f"{name}_spread": [values[part] for part in SPREAD] for name, values in spread.items()},
-        **margins_and_limits(case, by_standard, strength_of(case), local, found, spread),
+        **margins_and_limits(
+            case,
+            by_standard,
+            strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor),
+            local,
+            found,
+            spread,
+        ),
         "assumed": _numbered(assumed(case, by_standard is not None)),
         "extrapolated": _numbered(extrapolated(taking_part, done)),
         **_trust(done, {task.name for part in taking_part for task in part.tasks if task.needed}),

@@ -8,9 +8,9 @@ import numpy as np
 from tribodyn.compliance.iso6336 import ReferenceStiffness
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
-from tribodyn.geometry.drive import MaterialData, reference_radius, tip_radius
+from tribodyn.geometry.drive import reference_radius, tip_radius
 from tribodyn.geometry.helix import base_helix_angle, normal_pressure_angle, overlap_ratio
-from tribodyn.standards import fzg, micropitting, scuffing
+from tribodyn.standards import micropitting, scuffing
 from tribodyn.standards.contact_path import (
     POINTS,
     ContactPath,
@@ -24,18 +24,11 @@ from tribodyn.standards.load_factors import DynamicFactor, transverse_factor_b
 from tribodyn.standards.micropitting import Films, Flanks, Load, Oil
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.gears.by_standard import rated
+from tribodyn.studies.gears.margins import flanks_of, oil_of
 
 #: Places along the path over which the flash temperature is looked at.
 _PLACES = 201
 ZERO_CELSIUS = 273.15
-
-
-class Strength(NamedTuple):
-    """What the oil stands, from its FZG load stages; None where there is none. Temperatures in K."""
-
-    scuffing: float | None
-    scuffing_integral: float | None
-    specific_film: float | None
 
 
 class Standard(NamedTuple):
@@ -51,45 +44,6 @@ class Standard(NamedTuple):
     flash_bulk: float
     flash_contact: float
     integral: float  # θ_int of ISO/TS 6336-21, K
-
-
-def oil_of(case: AssessmentCase) -> Oil:
-    """The oil over temperature."""
-    sheet = case.lubricant.sheet
-    assert sheet is not None  # a rule of the scenario
-    return Oil(sheet.viscosity, sheet.pressure_viscosity, case.lubricant.lubricant_factor)
-
-
-def flanks_of(case: AssessmentCase) -> Flanks:
-    """What the flanks are of."""
-    pinion, gear = case.materials
-    reduced = 2.0 / sum(
-        (1.0 - material.poisson_ratio**2) / material.youngs_modulus for material in (pinion, gear)
-    )
-    return Flanks(case.mean_roughness, reduced, (_contact(pinion), _contact(gear)), case.quality.grade)
-
-
-def _contact(material: MaterialData) -> float:
-    return math.sqrt(material.thermal_conductivity * material.density * material.specific_heat)
-
-
-def strength_of(case: AssessmentCase) -> Strength:
-    """Scuffing temperatures and permissible film of the oil."""
-    stages, sheet = case.lubricant.fzg, case.lubricant.sheet
-    assert sheet is not None
-    settings, factor = case.settings, case.lubricant.lubricant_factor
-    flash = integral = film = None
-    if stages.scuffing is not None:
-        of_flash = scuffing.lubricant_factor(factor, float(sheet.viscosity(case.oil_temperature)))
-        flash = fzg.scuffing_temperature(stages.scuffing, of_flash, settings.structure_factor)
-        integral = fzg.scuffing_integral_temperature(
-            stages.scuffing, factor, float(sheet.viscosity_40), settings.structure_factor
-        )
-    if stages.micropitting is not None:
-        film = fzg.permissible_specific_film(
-            stages.micropitting, oil_of(case), oil_temperature=stages.micropitting_temperature
-        )
-    return Strength(flash, integral, film)
 
 
 def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standard:
@@ -127,7 +81,7 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
         settings.lubrication,
         micropitting.tip_relief_factor(path.tip_contact_ratios, settings.adequate_tip_relief),
     )
-    flanks, oil = flanks_of(case), oil_of(case)
+    flanks, oil = flanks_of(case), oil_of(case.lubricant)
     films = micropitting.method_b(path, flanks, duty, oil)
     bulk, contact = _flash(case, path, duty, flanks, oil)
     integral = scuffing.integral_temperature(

@@ -27,6 +27,7 @@ REPORTED: Reported = {
         *("friction_work_on_vibration", "efficiency"),
     ),
     "Temperature": quantities("bulk_temperature", "contact_temperature_max"),
+    "Margins": quantities("S_B", "S_lambda"),
     "Solver": quantities("solver", "steps", "rhs_evaluations", "wall_time"),
 }
 #: Of each mesh, in a table with a column for each.
@@ -39,6 +40,7 @@ OF_A_MESH: tuple[Quantity, ...] = (
     *quantities("hertz_pressure_max", "flash_temperature_max", "friction_coefficient_mean"),
     *quantities("power_in_mean", "power_friction_mean", "efficiency"),
     *TEMPERATURE,
+    *quantities("S_B", "S_lambda"),
 )
 #: Of each planetary stage.
 OF_A_STAGE: tuple[Quantity, ...] = quantities(

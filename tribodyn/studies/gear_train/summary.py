@@ -7,6 +7,7 @@ import numpy as np
 
 from tribodyn.studies.gear_train.described.alike import ALIKE, alike_of
 from tribodyn.studies.gear_train.prepare import PreparedTrain
+from tribodyn.studies.gears.margins import margins_of
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.running import MeshOfRun
 from tribodyn.studies.gears.over_time.steady import LAST_ORDER, at_rest, mesh_quantities, power_quantities
@@ -30,6 +31,8 @@ WORST = {
     "flash_temperature_max": 1,
     "contact_temperature_max": 1,
     "bulk_temperature": 1,
+    "S_B": -1,
+    "S_lambda": -1,
     "closure_in_range_fraction": -1,
     "friction_in_range_fraction": -1,
 }
@@ -110,6 +113,7 @@ def steady_quantities(
         quantities |= thermal_quantities(prepared.thermal[m], put_in, quantities["efficiency"])
         each.append(quantities | found.values())
         each[-1] |= contact_quantities(prepared.pairs[m].lubricant, each[-1])
+        each[-1] |= margins_of(prepared.given.meshes[m].pair, mesh.assembly, window, each[-1])
     return whole, each
 
 
