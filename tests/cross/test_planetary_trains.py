@@ -262,6 +262,17 @@ def test_pins_bear_the_torque_of_the_carrier(record):
     assert np.all(np.abs(held) < 0.02 * np.hypot(*mean[0]))
 
 
+def test_margin_against_scuffing_by_hand(record):
+    """S_B of ISO/TS 6336-20 at the sun: FZG stage 12, mineral oil, bulk by the loss as in ISO/TR 15144-1."""
+    case, found = record
+    mesh = found.summary["meshes"]["set-sun-1"]
+    viscosity = 1e3 * case.meshes[0].pair.lubricant.inlet_viscosity  # mPa s, at the oil's 70 °C
+    scuffing = 80.0 + (0.85 + 1.4) * viscosity**-0.05 * 12.0**2
+    bulk = 70.0 + 7400.0 * (mesh["power_friction_mean"] / 1e3 / (81.0 * 30.0)) ** 0.72 / 1.2
+    contact = bulk + mesh["flash_temperature_max"]
+    assert mesh["S_B"] == pytest.approx((scuffing - 70.0) / (contact - 70.0), rel=1e-3)
+
+
 def test_kinds_of_modes_have_names():
     prepared = prepare(set_case(SEQUENTIAL, 4))
     kinds = kinds_of(prepared, modes(prepared.model, [made.cycle for made in prepared.made]))
