@@ -90,7 +90,7 @@ def local_of(
         1.0 / curvature,
         speeds,
         quantities["friction_coefficient_mean"],
-        bulk_of(case, assembly, quantities, case.oil_temperature, case.settings.lubrication),
+        bulk_of(assembly, quantities, case.oil_temperature, case.settings.lubrication),
         flanks,
         oil_of(case.lubricant),
     )

@@ -67,9 +67,7 @@ def strength_of(lubricant: LubricantData, oil_temperature: float, structure: flo
     return Strength(flash, integral, film)
 
 
-def bulk_of(
-    case: LubricatedCase, assembly: Assembly, quantities: Mapping[str, Any], oil: float, supply: str = "dip"
-) -> float:
+def bulk_of(assembly: Assembly, quantities: Mapping[str, Any], oil: float, supply: str = "dip") -> float:
     """Bulk temperature of the teeth in motion, K: its own, else by its loss as in ISO/TR 15144-1.
 
     `oil` is the temperature (K) of the oil that enters. The standard is of external gears; of a ring the
@@ -93,14 +91,14 @@ def margins_of(
     standard, which the permissible film is of. `window` are datasets of the mesh, `quantities` those of its
     summary.
     """
-    temperature, flash = case.lubricant.temperature, quantities.get("flash_temperature_max")
+    temperature, flash = case.lubricant.temperature, float(quantities.get("flash_temperature_max", 0.0))
     if case.lubricant.sheet is None or temperature is None or not flash > 0.0:
         return {}
-    oil = float(temperature)
-    strength, found = strength_of(case.lubricant, oil), {}
-    bulk = bulk_of(case, assembly, quantities, oil)
+    oil, found = float(temperature), dict[str, float]()
+    strength = strength_of(case.lubricant, oil)
+    bulk = bulk_of(assembly, quantities, oil)
     if strength.scuffing is not None:
-        found["S_B"] = scuffing.flash_safety(strength.scuffing, bulk + float(flash), oil)
+        found["S_B"] = scuffing.flash_safety(strength.scuffing, bulk + flash, oil)
     if strength.specific_film is not None:
         sliding, mean = np.abs(window["sliding_speed"]) / 2.0, np.abs(window["entrainment_speed"])
         with np.errstate(invalid="ignore", divide="ignore"):
