@@ -61,8 +61,20 @@ def thinnest_films(record: Record) -> np.ndarray:
 
 
 def displacements(record: Record) -> np.ndarray:
-    """Displacement of every body in its bearing, m (samples, bodies); NaN of those that only turn."""
-    return np.hypot(record["x"], record["y"])
+    """Displacement of every body in its bearing, of planets from their carriers' pins, m (samples, bodies).
+
+    NaN of those that only turn.
+    """
+    x, y = record["x"].copy(), record["y"].copy()
+    places = record.geometry
+    for own in sets_of(record):
+        ahead = places["sense"][own.carrier] * record["angle"][:, own.carrier]
+        ahead = ahead - places["carried"][own.carrier] * record["reference_angle"]
+        for planet in own.planets:
+            right, up = places["centre"][planet] - places["centre"][own.carrier]
+            x[:, planet] += ahead * up
+            y[:, planet] -= ahead * right
+    return np.hypot(x, y)
 
 
 def overview_figure(records: Sequence[Record], view: View) -> Figure:

@@ -25,7 +25,7 @@ from tribodyn.studies.gear_train.described.places import (
     reaches,
     shifts,
 )
-from tribodyn.studies.gear_train.figures import DRAWINGS, mesh_forces
+from tribodyn.studies.gear_train.figures import DRAWINGS, displacements, mesh_forces
 from tribodyn.studies.gear_train.pictures.planet_figures import planet_loads
 from tribodyn.studies.gear_train.prepare import geometry_of, prepare
 from tribodyn.studies.gear_train.report import mechanism, tables, verdict
@@ -34,6 +34,8 @@ from tribodyn.studies.gear_train.run import run
 #: Chords of the outlines' points, m.
 CHORD = 1e-6
 STIFFNESS = 3e7
+#: Of pins, N/m, as `planet_set` has them.
+PIN_STIFFNESS = 3e8
 #: (held, input, output): the sun drives the planets, and the ring does.
 FLOWS = {"from sun": ("ring", ("sun", "carrier")), "from ring": ("sun", ("ring", "carrier"))}
 
@@ -137,6 +139,15 @@ def test_loads_of_planets_carry_the_torque(record: Record):
         forces = mesh_forces(record)[half][:, list(meshes)]
         angle = np.nanmean(record["pressure_angle"][half][:, list(meshes)])
         assert np.mean(loads) * np.cos(angle) == pytest.approx(np.mean(forces), rel=0.05)
+
+
+def test_planets_move_in_their_pins_by_what_these_bear(record: Record):
+    names = [str(name) for name in record["bearing"]]
+    for planet in sets_of(record)[0].planets:
+        pin = names.index(f"pin-{record['body'][planet]}")
+        force = np.hypot(record["bearing_force_x"][-1, pin], record["bearing_force_y"][-1, pin])
+        moved = displacements(record)[-1, planet]
+        assert moved * PIN_STIFFNESS == pytest.approx(force, rel=0.05)
 
 
 def test_what_is_alike_is_said_once(record: Record):
