@@ -72,8 +72,8 @@ def displacements(record: Record) -> np.ndarray:
         ahead = ahead - places["carried"][own.carrier] * record["reference_angle"]
         for planet in own.planets:
             right, up = places["centre"][planet] - places["centre"][own.carrier]
-            x[:, planet] += ahead * up
-            y[:, planet] -= ahead * right
+            x[:, planet] += ahead * up - record["x"][:, own.carrier]
+            y[:, planet] -= ahead * right + record["y"][:, own.carrier]
     return np.hypot(x, y)
 
 

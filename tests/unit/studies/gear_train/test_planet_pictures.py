@@ -145,9 +145,10 @@ def test_planets_move_in_their_pins_by_what_these_bear(record: Record):
     names = [str(name) for name in record["bearing"]]
     for planet in sets_of(record)[0].planets:
         pin = names.index(f"pin-{record['body'][planet]}")
-        force = np.hypot(record["bearing_force_x"][-1, pin], record["bearing_force_y"][-1, pin])
-        moved = displacements(record)[-1, planet]
-        assert moved * PIN_STIFFNESS == pytest.approx(force, rel=0.05)
+        force = np.hypot(record["bearing_force_x"][-200:, pin], record["bearing_force_y"][-200:, pin])
+        moved = displacements(record)[-200:, planet]
+        # in the mean over the last mesh cycle, over which damping adds nothing
+        assert np.mean(moved) * PIN_STIFFNESS == pytest.approx(np.mean(force), rel=0.02)
 
 
 def test_what_is_alike_is_said_once(record: Record):
