@@ -5,6 +5,8 @@ turned into machine code that nobody runs. Here the functions are lowered one by
 parts of the kernel that calls them, and the kernel alone becomes machine code.
 """
 
+import re
+from collections import Counter
 from collections.abc import Callable
 from typing import Any, cast
 
@@ -23,18 +25,22 @@ from tribodyn.kernels.native.functions import register_laws
 from tribodyn.kernels.native.parts import FUSE, as_part
 from tribodyn.kernels.native.records import WORDS, RecordType, fields_of, letter_of, put
 
-#: Instructions of a function that becomes part of its callers. LLVM alone counts loops over constants as if
-#: nothing in them were known, and leaves calls in them.
-SMALL = 60
+#: Instructions of a function that becomes part of its callers, and of one that is called at a single place.
+#: LLVM alone counts loops over constants as if nothing in them were known, and leaves calls in them; and it
+#: does not know that nothing else calls a function.
+SMALL, SMALL_ONCE = 60, 160
+_CALLED = re.compile(r'(?:call|invoke) [^@\n]*@"?([^"(\n]+)"?\(')
 
 
 class KernelLibrary(JITCodeLibrary):
     """Code of a kernel with all its parts: optimised as one, and made an object file, which is not loaded."""
 
     def _optimize_final_module(self):
+        calls = Counter(_CALLED.findall(str(self._final_module)))
         for function in self._final_module.functions:
             size = sum(1 for block in function.blocks for _ in block.instructions)
-            if 0 < size <= SMALL and b"noinline" not in list(function.attributes):
+            small = SMALL_ONCE if calls[function.name] == 1 else SMALL
+            if 0 < size <= small and b"noinline" not in list(function.attributes):
                 function.add_function_attribute("alwaysinline")
         super()._optimize_final_module()
 

@@ -124,9 +124,9 @@ def keep(lanes, row, cycles, interval, y, search, layout):
     of_mesh = measures_in(measures, layout)
     for i in range(measures.shape[1]):
         value = measures[row, i]
-        which = extreme_of(i, of_mesh)
-        better = lanes & (value > extremes.measure[which])
+        better = lanes & (value > measures[EXTREME, i])
         if anywhere(better):
+            which = extreme_of(i, of_mesh)
             extremes.measure[which] = where(better, value, extremes.measure[which])
             extremes.cycles[which] = where(better, cycles, extremes.cycles[which])
             extremes.interval[which] = where(better, 1.0 * interval, extremes.interval[which])
@@ -180,8 +180,7 @@ def search_step(method, lanes, place, step, y, model, work, buffer, search):
 def look_inside(method, lanes, place, step, y, model, work, buffer, search):
     """Measure the middles of steps, and one after the other the places where measures are highest."""
     layout = model.options.layout
-    measures, extreme = search.measures, search.extremes.measure
-    of_mesh = measures_in(measures, layout)
+    measures = search.measures
     chosen, row, share, done = lanes, MIDDLE, 0.5 + 0.0 * step, 0.0 * step - 1.0
     while anywhere(chosen):
         phase = place.phase + share * step
@@ -193,7 +192,7 @@ def look_inside(method, lanes, place, step, y, model, work, buffer, search):
         following, share = 0.0 * step + NONE, 0.0 * step
         for i in range(measures.shape[1]):
             at, value = vertex(measures[START, i], measures[MIDDLE, i], measures[END, i])
-            wanted = lanes & (at > 0.0) & worthwhile(value, extreme[extreme_of(i, of_mesh)])
+            wanted = lanes & (at > 0.0) & worthwhile(value, measures[EXTREME, i])
             wanted = wanted & (done < i) & (following == NONE)
             following = where(wanted, 1.0 * i, following)
             share = where(wanted, at, share)
