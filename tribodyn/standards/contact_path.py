@@ -1,7 +1,8 @@
 """The path of contact of an involute pair and its points A, AB, B, C, D, DE, E, as the standards name them.
 
 Of both gears the pinion drives: contact begins at A, where the gear's tip meets the pinion's root. Distances
-g are along the path from A, m.
+g are along the path from A, m. Teeth and radii of an internal gear are negative, and so are the radii of
+curvature of its flanks and the centre distance.
 """
 
 from typing import Any, NamedTuple
@@ -73,9 +74,12 @@ class ContactPath(NamedTuple):
 
     @property
     def _tip_tangents(self) -> tuple[float, float]:
-        """Lengths of the tangents to the base circles up to the tip circles, m."""
-        (tip_1, tip_2), (base_1, base_2) = self.tip_radius, self.base_radius
-        return float(np.sqrt(tip_1**2 - base_1**2)), float(np.sqrt(tip_2**2 - base_2**2))
+        """Lengths of the tangents to the base circles up to the tip circles, m, with the sign of the gear."""
+        first, second = (
+            float(np.copysign(np.sqrt(tip**2 - base**2), base))
+            for tip, base in zip(self.tip_radius, self.base_radius, strict=True)
+        )
+        return first, second
 
 
 def point_distances(path: ContactPath) -> Float[Array, " point"]:
@@ -103,20 +107,27 @@ def equivalent_radius(path: ContactPath, distance: Any) -> Any:
 
 
 def rolling_speeds(path: ContactPath, distance: Any, pinion_speed: float) -> tuple[Any, Any]:
-    """Tangential speeds v_r1, v_r2 of both flanks, m/s; pinion speed in rad/s: ISO/TR 15144-1, (14), (15)."""
+    """Tangential speeds v_r1, v_r2 of both flanks, m/s: ISO/TR 15144-1, (14), (15).
+
+    Pinion speed in rad/s, positive in the pinion's own sense of rotation.
+    """
     first, second = curvature_radii(path, distance)
-    return pinion_speed * first, pinion_speed / path.ratio * second
+    speed = pinion_speed * float(np.sign(path.teeth[0]))
+    return speed * first, speed / path.ratio * second
 
 
 def loss_factor(path: ContactPath) -> float:
     """Gear loss factor H_v of unmodified flanks: ISO/TR 15144-1:2014, (91) and (92).
 
     H_v = (ε_1² + ε_2² + 1 − ε_α)(1/z_1 + 1/z_2) π/cos β_b for ε_α < 2, else half of
-    ε_α (1/z_1 + 1/z_2) π/cos β_b.
+    ε_α (1/z_1 + 1/z_2) π/cos β_b. Of a pitch point beyond an end of the path the integral that the former is:
+    of |x| over x in pitches from the pitch point, half the load where two pairs are on the path.
     """
     first, second = path.tip_contact_ratios
     total = first + second
-    sharing = first**2 + second**2 + 1.0 - total if total < 2.0 else 0.5 * total
+    ends = (-second, first - 1.0, 1.0 - second, first)  # A, B, D, E
+    start, inner, outer, end = (x * abs(x) for x in ends)
+    sharing = 0.5 * (end - start + outer - inner) if total < 2.0 else 0.5 * total
     return sharing * sum(1.0 / z for z in path.teeth) * np.pi / float(np.cos(path.base_helix_angle))
 
 

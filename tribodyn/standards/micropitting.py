@@ -98,9 +98,10 @@ def bulk_rise(
 ) -> float:
     """Rise of the bulk temperature θ_M − θ_oil, K: (84).
 
-    7400 (P μ_m H_v/(a b))^0.72 X_S/(1.2 X_Ca), P in kW, a and b in mm; `supply` is X_S/X_Ca.
+    7400 (P μ_m H_v/(a b))^0.72 X_S/(1.2 X_Ca), P in kW, a and b in mm; `supply` is X_S/X_Ca. Of a ring, whose
+    centre distance is negative and small, it is |a|, and the estimate is a high one.
     """
-    each = 1e-3 * power * friction * losses / (1e6 * centre_distance * face_width)
+    each = 1e-3 * power * friction * losses / (1e6 * abs(centre_distance) * face_width)
     return 7400.0 * each**0.72 * supply / 1.2
 
 
@@ -173,13 +174,12 @@ def method_b(path: ContactPath, flanks: Flanks, load: Load, oil: Oil) -> Films:
 
 def pair_friction(path: ContactPath, flanks: Flanks, load: Load, oil: Oil) -> float:
     """Mean friction coefficient of a pair at a load, see `mean_friction`."""
-    at_pitch = path.base_radius[0] * float(np.tan(path.pressure_angle))
     pitch_point = path.length - path.tip_contact_ratios[0] * path.base_pitch
     radius = float(equivalent_radius(path, pitch_point))
     line_load = load.factor * load.pinion_torque / path.base_radius[0] / load.face_width
     return mean_friction(
         line_load * helical_load_factor(path.total_contact_ratio),
-        2.0 * load.pinion_speed * at_pitch,
+        float(sum(rolling_speeds(path, pitch_point, load.pinion_speed))),
         radius,
         float(oil.viscosity(load.oil_temperature)),
         roughness_factor(flanks.mean_roughness, radius),

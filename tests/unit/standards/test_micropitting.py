@@ -16,7 +16,7 @@ from tribodyn.standards import contact_path as paths
 from tribodyn.standards import micropitting as films
 from tribodyn.standards import scuffing
 from tribodyn.standards.micropitting import Flanks, Load, Oil
-from tribodyn.studies.assessment.standard import path_of
+from tribodyn.studies.gears.rated.standard import path_of
 
 HELIX, RACK = math.radians(10.0), math.radians(20.0)
 

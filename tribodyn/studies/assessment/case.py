@@ -2,20 +2,20 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Field
 
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.scenario.quantity import NotNegative, Positive, Switch, Table, Text
+from tribodyn.scenario.quantity import NotNegative, Positive, Text
 from tribodyn.studies.gears.by_standard import Quality
-from tribodyn.studies.gears.case import GearCase, LubricatedCase
+from tribodyn.studies.gears.case import GearCase, LubricatedCase, OiledCase
 from tribodyn.studies.gears.prepare import with_chosen_laws
+from tribodyn.studies.gears.rated.settings import RatingTable
 from tribodyn.studies.protocol import cost
 from tribodyn.tribology.law import AUTO, FrictionData
-from tribodyn.tribology.oil import LubricantData
 
 _ALONG = ("roll_angle",)
 
@@ -39,19 +39,9 @@ SAMPLES: dict[str, Variable] = {
 LAYOUT = Layout(ROLL, SAMPLES, groups={"geometry": GEOMETRY})
 
 
-class AssessmentTable(Table):
+class AssessmentTable(RatingTable):
     """What is asked beyond the duty, and what the standards need to know."""
 
-    application_factor: Positive = Field(1.0, description="K_A, what the driven and the driving machine add")
-    lubrication: Literal["dip", "spray", "submerged"] = Field(
-        "dip", description="how the oil gets to the mesh"
-    )
-    structure_factor: Positive = Field(
-        1.0, description="X_W: 1 of case-hardened steel, 1.5 nitrided (ISO/TS 6336-20, table 2)"
-    )
-    adequate_tip_relief: Switch = Field(
-        False, description="whether the standards may count on the tip relief that the flanks have"
-    )
     torque_shares: tuple[Positive, ...] = Field(
         (0.25, 0.5, 0.75, 1.0, 1.25),
         min_length=2,
@@ -77,10 +67,9 @@ class AssessmentTable(Table):
 
 
 @dataclass(frozen=True, kw_only=True)
-class AssessmentCase(GearCase):
+class AssessmentCase(OiledCase):
     """One assessment, complete."""
 
-    lubricant: LubricantData  # with its data sheet, at the temperature of the oil
     oil_temperature: float  # of the duty, K
     quality: Quality  # deviations of the gears by ISO 1328-1
     settings: AssessmentTable

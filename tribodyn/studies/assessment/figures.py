@@ -11,7 +11,7 @@ from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
-from tribodyn.studies.assessment.standard import ZERO_CELSIUS
+from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS
 from tribodyn.studies.protocol.part import ReportCurve
 
 

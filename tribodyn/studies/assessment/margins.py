@@ -14,13 +14,12 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.helix import curvature_share, pitch_slope, speed_share
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.quantities.quantity import Quantity
 from tribodyn.standards import micropitting, scuffing
 from tribodyn.standards.micropitting import Films
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.assessment.standard import ZERO_CELSIUS, Standard, by_point
-from tribodyn.studies.gears.margins import Strength, bulk_of, flanks_of, oil_of
+from tribodyn.studies.gears.rated.limits import judged, worst
+from tribodyn.studies.gears.rated.margins import Strength, bulk_of, flanks_of, oil_of
+from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS, Standard, by_point, margins_by_standard
 
 #: Half width of a Hertz contact over its radius from which it is none: at the pitch point of a cycloid.
 _WIDEST = 0.1
@@ -147,27 +146,7 @@ def simulated_part(
     }
 
 
-class StandardLimit(NamedTuple):
-    """A limit of the scenario; `least`: the quantity must be at least the limit, else at most."""
-
-    label: str
-    quantity: Quantity
-    least: bool = False
-
-
-#: Name of a limit -> what it is.
-LIMITS: dict[str, StandardLimit] = {
-    "scuffing_flash": StandardLimit("Scuffing S_B, flash temperature", QUANTITIES["S_B"], least=True),
-    "scuffing_integral": StandardLimit("Scuffing S_intS, integral temp.", QUANTITIES["S_intS"], least=True),
-    "micropitting": StandardLimit("Micropitting S_λ", QUANTITIES["S_lambda"], least=True),
-    "dynamic_factor": StandardLimit("Dynamic factor K_v", QUANTITIES["dynamic_factor"]),
-    "hertz_pressure": StandardLimit("Hertz pressure with K_v", QUANTITIES["hertz_pressure_max"]),
-    "root_tension": StandardLimit("Root tension", QUANTITIES["pinion_root_tension_max"]),
-    "loaded_error": StandardLimit(
-        "Loaded error, peak to peak", QUANTITIES["loaded_transmission_error_peak_to_peak"]
-    ),
-}
-#: StandardLimit -> the quantity that it bounds, of those that scatter.
+#: Limit -> the quantity that it bounds, of those that scatter.
 _SCATTERED = {"dynamic_factor": "dynamic_factor", "loaded_error": "loaded_transmission_error_peak_to_peak"}
 
 
@@ -185,26 +164,18 @@ def margins_and_limits(
     left out. Where a quantity scatters over samples of deviations (`spread`, by the names of the quantities),
     its 95 % is compared too, as ``p95`` and ``kept_p95``.
     """
-    by_standard = _by_standard(case, found, strength) if found else {}
+    by_standard = margins_by_standard(found, strength, case.oil_temperature) if found else {}
     own = _by_simulation(case, strength, local)
     values = {
-        "scuffing_flash": _worse(by_standard.get("S_B"), own.get("S_B")),
+        "scuffing_flash": worst(by_standard.get("S_B"), own.get("S_B")),
         "scuffing_integral": by_standard.get("S_intS", math.nan),
-        "micropitting": _worse(by_standard.get("S_lambda"), own.get("S_lambda")),
+        "micropitting": worst(by_standard.get("S_lambda"), own.get("S_lambda")),
         "dynamic_factor": quantities["dynamic_factor"],
         "hertz_pressure": float(np.nanmax(local.films.pressure)),
         "root_tension": max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"]),
         "loaded_error": quantities["loaded_transmission_error_peak_to_peak"],
     }
-    limits = {}
-    for name, limit in case.limits.items():
-        if limit is None or not math.isfinite(values[name]):
-            continue
-        kept = values[name] >= limit if LIMITS[name].least else values[name] <= limit
-        limits[name] = {"value": float(values[name]), "limit": float(limit), "kept": bool(kept)}
-        upper = spread.get(_SCATTERED.get(name, ""), {}).get("p95", math.nan)
-        if math.isfinite(upper):
-            limits[name] |= {"p95": upper, "kept_p95": bool(upper <= limit)}
+    of_limits = {limit: spread[name] for limit, name in _SCATTERED.items() if name in spread}
     factors = {"K_A": case.settings.application_factor, "K_Hbeta": quantities["face_load_factor"]}
     if found:
         factors |= {
@@ -216,26 +187,7 @@ def margins_and_limits(
             "c_gamma_beta": found.stiffness.mesh_face,
         }
     margins = {"simulated": own} | ({"iso": by_standard} if by_standard else {})
-    return {"margins": margins, "load_factors": factors, "limits": limits}
-
-
-def _by_standard(case: AssessmentCase, found: Standard, strength: Strength) -> dict[str, float]:
-    margins = {
-        "theta_M_flash": found.flash_bulk - ZERO_CELSIUS,
-        "theta_B": found.flash_contact - ZERO_CELSIUS,
-        "theta_int": found.integral - ZERO_CELSIUS,
-    }
-    if strength.scuffing is not None and strength.scuffing_integral is not None:
-        margins |= {
-            "theta_S": strength.scuffing - ZERO_CELSIUS,
-            "theta_intS": strength.scuffing_integral - ZERO_CELSIUS,
-            "S_B": scuffing.flash_safety(strength.scuffing, found.flash_contact, case.oil_temperature),
-            "S_intS": scuffing.integral_safety(strength.scuffing_integral, found.integral),
-        }
-    if strength.specific_film is not None:
-        worst = float(np.min(found.films.specific_film))
-        margins |= {"lambda_GFP": strength.specific_film, "S_lambda": worst / strength.specific_film}
-    return margins
+    return {"margins": margins, "load_factors": factors, "limits": judged(case.limits, values, of_limits)}
 
 
 def _by_simulation(case: AssessmentCase, strength: Strength, local: LocalValues) -> dict[str, float]:
@@ -247,8 +199,3 @@ def _by_simulation(case: AssessmentCase, strength: Strength, local: LocalValues)
     if strength.specific_film is not None:
         margins["S_lambda"] = float(np.nanmin(films.specific_film)) / strength.specific_film
     return margins
-
-
-def _worse(first: float | None, second: float | None) -> float:
-    known = [value for value in (first, second) if value is not None and math.isfinite(value)]
-    return min(known, default=math.nan)

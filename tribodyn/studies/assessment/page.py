@@ -1,16 +1,13 @@
 """The report of an assessment: a first page for whoever asks, the details on those behind it."""
 
 import math
-from collections.abc import Mapping, Sequence
-from html import escape
-from importlib import resources
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
-from tribodyn.post.page.assembled import document
-from tribodyn.post.page.page import summary_tables, table, verdict_list, warnings_of
+from tribodyn.post.page.page import table
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import SPREAD, quantities
 from tribodyn.quantities.quantity import Quantity
@@ -19,11 +16,12 @@ from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.figures import pictures
-from tribodyn.studies.assessment.margins import LIMITS
-from tribodyn.studies.assessment.report import on_limits, verdict
+from tribodyn.studies.assessment.report import verdict
 from tribodyn.studies.assessment.run import check
-from tribodyn.studies.pages import loaded_again, overview
-from tribodyn.studies.protocol.study import Study
+from tribodyn.studies.gears.rated import first_page
+from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
+from tribodyn.studies.pages import loaded_again
+from tribodyn.studies.protocol import tasks
 
 _RPM = 30.0 / math.pi
 #: What stands in ``iso`` and ``simulated`` beside each other, in the spread, and in the margins.
@@ -43,47 +41,35 @@ def page(record: Record) -> str:
     case: AssessmentCase = loaded_again(record).case
     request = parts.request_of(case)
     taking_part = parts.parts(request)
-    behind = parts.folder_of(Path(record.path))
-    done = parts.kept(taking_part, behind)
+    behind = tasks.folder_of(Path(record.path))
+    done = tasks.kept(parts.tasks_of(taking_part), behind)
     answers = parts.answers(taking_part, request, done) if done is not None else ()
     curves = [curve for answer in answers for curve in answer.curves]
-    title = str(record.scenario.get("title", record.label))
-    created = str(record.attrs["created"]).partition("T")[0]
-    made = f"Assessment, {created}, tribodyn {record.attrs['tribodyn_version']}"
     picture = inline(pictures(record, curves), "error, vibration, film, losses")
     body = [
-        f"<header><h1>{escape(title)}</h1><p>{escape(made)}</p></header>",
-        _verdict(record, summary),
+        first_page.header(record, "Assessment"),
+        first_page.verdict_of(record, verdict(record)),
         _asked(case),
         _tiles(summary),
         '<div class="columns">',
-        f"<div>{_limits(summary)}{_scatter(summary)}{_list('Assumed', summary.get('assumed', {}))}</div>",
-        f"<div>{_by_standard(summary)}{_list('Extrapolated', summary.get('extrapolated', {}))}</div>",
+        f"<div>{limits_table(summary)}{_scatter(summary)}",
+        f"{listed('Assumed', summary.get('assumed', {}))}</div>",
+        f"<div>{_by_standard(summary)}{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
         f'<div class="pictures"><p>{picture}</p></div>',
         '<div class="break"></div>',
         _points(summary),
         *(
-            _part(part.study, part.role.title, [done[task.name] for task in part.tasks])
+            first_page.part_section(part.study, part.role.title, [done[task.name] for task in part.tasks])
             for part in taking_part
             if done
         ),
         "<section><h2>Gears and oil</h2>"
         + "".join(table(*sheet) for sheet in check(case).tables)
         + "</section>",
-        _origin(record),
+        first_page.origin(record),
     ]
-    style = resources.files(__package__ or "").joinpath("page.css").read_text(encoding="utf-8")
-    policy = "style-src 'unsafe-inline'; img-src data:"
-    return document(title, style, "\n".join(body) + "\n", policy)
-
-
-def _verdict(record: Record, summary: Mapping[str, Any]) -> str:
-    marked = [("good" if good else "bad", text) for good, text in on_limits(summary)]
-    paragraphs = [f'<p class="verdict {kind}">{escape(text)}</p>' for kind, text in marked]
-    warnings = warnings_of(record, named=False).replace('class="warning"', 'class="verdict bad"')
-    lines = [line for line in verdict(record) if line not in [text for _, text in marked]]
-    return "".join(paragraphs) + warnings + verdict_list(lines)
+    return first_page.written(record, body)
 
 
 def _asked(case: AssessmentCase) -> str:
@@ -106,9 +92,7 @@ def _asked(case: AssessmentCase) -> str:
     if sheet is not None:
         oil = f"{sheet.type}, {sheet.viscosity_40 * 1e6:.4g}/{sheet.viscosity_100 * 1e6:.4g} mm²/s, {oil}"
     materials = " / ".join(dict.fromkeys(material.name for material in case.materials))
-    rows = (("Gears", gears), ("Material", materials), ("Oil", oil), ("Duty", duty))
-    cells = (f"<tr><td><b>{name}</b></td><td>{escape(text)}</td></tr>" for name, text in rows)
-    return f'<table class="asked">{"".join(cells)}</table>'
+    return first_page.asked({"Gears": gears, "Material": materials, "Oil": oil, "Duty": duty})
 
 
 def _tiles(summary: Mapping[str, Any]) -> str:
@@ -130,40 +114,7 @@ def _tiles(summary: Mapping[str, Any]) -> str:
         if lost is None
         else (f"{lost * _RPM:.0f} rpm", "contact is lost from this pinion speed"),
     )
-    tiles = (
-        f'<div class="tile"><b>{escape(value)}</b><span>{escape(text)}</span></div>' for value, text in shown
-    )
-    return f'<div class="tiles">{"".join(tiles)}</div>'
-
-
-def _table(
-    heading: str, columns: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "", marked: Any = ()
-) -> str:
-    """A section with a table of numbers, some rows of which are marked as bad."""
-
-    def cells(tag: str, row: Sequence[str]) -> str:
-        return "".join(f"<{tag}>{escape(text)}</{tag}>" for text in row)
-
-    lines = [f"<tr>{cells('th', columns)}</tr>"]
-    for number, row in enumerate(rows):
-        mark = ' class="bad"' if number in marked else ""
-        lines.append(f"<tr{mark}>{cells('td', row)}</tr>")
-    table = f'<table class="numbers{kind}">{"".join(lines)}</table>'
-    dashes = '<p class="quiet">–: not determined.</p>' if any("–" in row for row in rows) else ""
-    return f'<section><h2>{heading}</h2><div class="wide">{table}</div>{dashes}</section>'
-
-
-def _limits(summary: Mapping[str, Any]) -> str:
-    limits = summary.get("limits", {})
-    rows = []
-    for name, found in limits.items():
-        limit = LIMITS[name]
-        value, bound = (f"{limit.quantity.in_unit(found[key]):.3g}" for key in ("value", "limit"))
-        required = f"{'≥' if limit.least else '≤'} {bound}"
-        verdict = "holds" if found["kept"] else "exceeded"
-        rows.append((limit.label, value, required, limit.quantity.unit, verdict))
-    exceeded = [number for number, found in enumerate(limits.values()) if not found["kept"]]
-    return _table("Limits", ("Limit", "value", "required", "", ""), rows, marked=exceeded)
+    return first_page.tiles(shown)
 
 
 def _by_standard(summary: Mapping[str, Any]) -> str:
@@ -178,7 +129,7 @@ def _by_standard(summary: Mapping[str, Any]) -> str:
         (quantity.title, *(_shown(part.get(quantity.name), quantity) for part in parts), _unit(quantity))
         for quantity, *parts in compared
     ]
-    return _table("Standard and simulation", ("", "ISO 6336", "simulated", ""), rows)
+    return numbers_table("Standard and simulation", ("", "ISO 6336", "simulated", ""), rows)
 
 
 def _scatter(summary: Mapping[str, Any]) -> str:
@@ -193,7 +144,7 @@ def _scatter(summary: Mapping[str, Any]) -> str:
         return ""
     known = min(int(found["samples"]) for found in spread.values())
     heading = f"Scatter over {known} samples of deviations"
-    return _table(heading, ("", "median", "5 %", "95 %", ""), rows, " scatter")
+    return numbers_table(heading, ("", "median", "5 %", "95 %", ""), rows, " scatter")
 
 
 def _shown(value: Any, quantity: Quantity) -> str:
@@ -215,30 +166,4 @@ def _points(summary: Mapping[str, Any]) -> str:
             if values := summary.get(part, {}).get(quantity.name):
                 label = f"{quantity._replace(unit=_unit(quantity)).titled}, {by}"
                 rows.append((label, *(_shown(values.get(name), quantity) for name in names)))
-    return _table("Along the path of contact", ("", *names), rows, " points")
-
-
-def _list(heading: str, sentences: Mapping[str, str]) -> str:
-    items = "".join(f"<li>{escape(str(text))}</li>" for text in sentences.values()) or "<li>Nothing.</li>"
-    return f'<section class="small"><h2>{heading}</h2><ul>{items}</ul></section>'
-
-
-def _part(study: Study, title: str, done: Sequence[parts.TaskResult]) -> str:
-    """Picture and summary of the first record of a part; of rows their extremes stand on the first page."""
-    for result in done:
-        if not result.summary:
-            continue
-        with Record(result.path) as record:
-            picture = f'<div class="pictures">{inline(overview(record), title)}</div>'
-            tables = summary_tables([record], [study.reported()])
-        return f"<section><h2>{escape(title)}</h2>{picture}{tables}</section>"
-    return ""
-
-
-def _origin(record: Record) -> str:
-    scenario = escape(str(record.attrs["scenario"]))
-    digest = escape(str(record.attrs["scenario_sha256"]))
-    return (
-        f'<section class="break"><h2>Scenario and origin</h2><p class="quiet">scenario sha256 {digest}</p>'
-        f"<details><summary>Scenario file</summary><pre>{scenario}</pre></details></section>"
-    )
+    return numbers_table("Along the path of contact", ("", *names), rows, " points")

@@ -1,38 +1,18 @@
-"""Runs the tasks of all studies that take part in an assessment; what is there is not done again.
+"""The studies that take part in the assessment of a pair of gears, and what it asks of them."""
 
-Beside every part lies a file that says what it is of: the digest of its scenario and of the code that
-computed it, and that of the part itself. A part of another scenario or of other code is computed again; one
-that is not what was written is refused.
-"""
-
-import hashlib
-import json
 import tomllib
-from collections.abc import Iterator, Mapping
-from contextlib import suppress
-from pathlib import Path
-from types import MappingProxyType
-from typing import Any, NamedTuple
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
-import tomli_w
 
-from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
-from tribodyn.numerics.output_files import write_output
-from tribodyn.numerics.sources import computing_digest
-from tribodyn.numerics.work import announce
-from tribodyn.record.reader import Record
-from tribodyn.record.schema import COMPLETE
-from tribodyn.scenario.resolve import resolve_table
 from tribodyn.studies import STUDIES
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.gears.by_standard import base_pitch_deviation
-from tribodyn.studies.protocol.evaluated import evaluated
-from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult
-from tribodyn.studies.protocol.study import Progress, Study
+from tribodyn.studies.protocol.study import Study
 from tribodyn.tribology.law import AUTO
 
 
@@ -84,66 +64,9 @@ def parts(request: Request) -> tuple[Part, ...]:
     )
 
 
-def case_of(task: Task, overrides: Mapping[str, Any] = MappingProxyType({})) -> Any:
-    """The case of a task; raises InputError if it cannot be run."""
-    path = Path(f"{task.name}.toml")
-    data = json.loads(json.dumps(task.scenario))
-    return loaded_from(resolve_table(data, path, overrides, table_of), path).case
-
-
-def folder_of(record: Path) -> Path:
-    """Where the parts of a record lie."""
-    return record.with_name(f"{record.stem}-parts")
-
-
-def results(
-    all_parts: tuple[Part, ...], folder: Path, progress: Progress | None = None, *, force: bool = False
-) -> dict[str, TaskResult]:
-    """Run every task, or take up what an earlier call left; results by name of the task.
-
-    Raises InputError or SimulationError if a task that is needed cannot be run; before any work where a part
-    was changed since it was written, unless `force` is given: then it is computed again.
-    """
-    every = [(part.study, task) for part in all_parts for task in part.tasks]
-    for _, task in every:  # whatever is wrong is said before any work
-        if task.needed:
-            _first(task)
-    for _, task in every:
-        sound = _sealed(task, folder) is not None and not _changed(task, folder)
-        if force and not sound and _file(task, folder).is_file():
-            _file(task, folder).unlink()
-        _require_unchanged(task, folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    done: dict[str, TaskResult] = {}
-    for number, (study, task) in enumerate(every):
-        announce(f"{number + 1}/{len(every)}, {task.about}")
-        if progress:
-            progress(number / len(every))
-        try:
-            done[task.name] = _kept(task, folder) or _computed(study, task, folder)
-        except (InputError, SimulationError) as error:
-            if task.needed:
-                raise
-            done[task.name] = TaskResult(folder / task.name, failures=(f"{task.about}: {error}",))
-    if progress:
-        progress(1.0)
-    return done
-
-
-def kept(all_parts: tuple[Part, ...], folder: Path) -> dict[str, TaskResult] | None:
-    """Results that an earlier call left, as `results` gives them; None where a needed one is missing.
-
-    Raises InputError if a part was changed since it was written.
-    """
-    done: dict[str, TaskResult] = {}
-    for part in all_parts:
-        for task in part.tasks:
-            _require_unchanged(task, folder)
-            found = _kept(task, folder)
-            if found is None and task.needed:
-                return None
-            done[task.name] = found or TaskResult(folder / task.name, failures=(task.about,))
-    return done
+def tasks_of(all_parts: Sequence[Part]) -> list[tuple[Study, Task]]:
+    """Every task of the parts with its study."""
+    return [(part.study, task) for part in all_parts for task in part.tasks]
 
 
 def answers(
@@ -152,105 +75,3 @@ def answers(
     """What every study says of its results."""
     for part in all_parts:
         yield part.role.answer(request, {task.name: done[task.name] for task in part.tasks})
-
-
-def _kept(task: Task, folder: Path) -> TaskResult | None:
-    """What the same code made of the same scenario; None: there is nothing."""
-    sealed, path = _sealed(task, folder), _file(task, folder)
-    if sealed is None or not path.exists() or sealed[0] != _origin(task):
-        return None
-    return _read(task, path)
-
-
-def _read(task: Task, path: Path) -> TaskResult:
-    if not task.values:
-        with Record(path) as record:
-            return TaskResult(path, record.summary)
-    data = json.loads(path.read_text(encoding="utf-8"))
-    rows = {name: np.array(row, dtype=float) for name, row in data["quantities"].items()}
-    return TaskResult(path, rows=rows, failures=tuple(data["failures"]))
-
-
-def _computed(study: Study, task: Task, folder: Path) -> TaskResult:
-    """Run a task, or the cases over which it varies, and seal what it gives; until then nothing is kept."""
-    path = _file(task, folder)
-    _seal(task, folder).unlink(missing_ok=True)
-    if task.values:
-        write_output(path, json.dumps(_varied(study, task), indent=1), force=True)
-    else:
-        result = study.run(case_of(task), path, force=True, allow_large=True)  # the whole was asked for
-        if result.status != COMPLETE:
-            raise SimulationError(f"{task.about}: {result.message}")
-    write_output(_seal(task, folder), f"{_origin(task)} {_digest(path)}\n", force=True)
-    return _read(task, path)
-
-
-def _varied(study: Study, task: Task) -> dict[str, Any]:
-    """Quantities over the cases of a task, None where one fails, and why those failed."""
-    rows: dict[str, list[float | None]] = {name: [] for name in study.swept()}
-    failures = []
-    base = case_of(task)
-    cases = [case_of(task, {task.key: value}).beside(base) for value in task.values]
-    for found in evaluated(study, cases):
-        if isinstance(found, str):
-            failures.append(found)
-        for name, row in rows.items():
-            value = None if isinstance(found, str) else found.get(name)
-            row.append(float(value) if value is not None and np.isfinite(value) else None)
-    return {
-        "scenario": tomli_w.dumps(dict(task.scenario)),
-        "varied": task.key,
-        "values": list(task.values),
-        "quantities": rows,
-        "failures": failures,
-    }
-
-
-def _first(task: Task) -> Any:
-    """The case of a task, or the first of its cases."""
-    return case_of(task, {task.key: task.values[0]} if task.values else {})
-
-
-def _file(task: Task, folder: Path) -> Path:
-    return folder / f"{task.name}.{'json' if task.values else 'h5'}"
-
-
-def _seal(task: Task, folder: Path) -> Path:
-    return folder / f"{task.name}.origin"
-
-
-def _origin(task: Task) -> str:
-    """Digest of everything that the part of a task depends on."""
-    parts = [_first(task).sha256, task.key, list(task.values), computing_digest()]
-    return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
-
-
-def _sealed(task: Task, folder: Path) -> tuple[str, str] | None:
-    """Origin and digest of a part as it was written; None where nothing was, or the seal is damaged."""
-    with suppress(OSError, ValueError):
-        origin, written = _seal(task, folder).read_text(encoding="ascii").split()
-        return origin, written
-    return None
-
-
-def _changed(task: Task, folder: Path) -> bool:
-    """Whether a part is not what was written."""
-    sealed, path = _sealed(task, folder), _file(task, folder)
-    if sealed is None or not path.exists():
-        return False
-    return not path.is_file() or _digest(path) != sealed[1]
-
-
-def _digest(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def _require_unchanged(task: Task, folder: Path) -> None:
-    if _changed(task, folder):
-        raise InputError(
-            "part",
-            str(_file(task, folder)),
-            "was changed since the assessment wrote it",
-            "remove it, or assess with --force, which computes it again",
-        )

@@ -7,7 +7,7 @@ from tribodyn.post.verdict import numbers, outside, with_unit
 from tribodyn.quantities.catalogue import quantities, scatter_of
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
-from tribodyn.studies.assessment.margins import LIMITS
+from tribodyn.studies.gears.rated.limits import on_limits
 
 REPORTED: Reported = {
     "Geometry": quantities(
@@ -41,28 +41,6 @@ SWEPT = quantities(
 )
 
 PANELS = ("hertz_pressure", "contact_temperature", "specific_film")
-
-
-def on_limits(summary: Mapping[str, Any]) -> list[tuple[bool, str]]:
-    """Whether the limits hold: good or bad, and the sentence."""
-    limits = summary.get("limits", {})
-    exceeded = [LIMITS[name].label for name, found in limits.items() if not found["kept"]]
-    within = [
-        f"{LIMITS[name].label} ({LIMITS[name].quantity.in_unit(found['p95']):.3g} at 95 %)"
-        for name, found in limits.items()
-        if found["kept"] and not found.get("kept_p95", True)
-    ]
-    found = []
-    if exceeded:
-        found.append((False, f"Limits exceeded: {'; '.join(exceeded)}."))
-    elif limits and not within:
-        found.append((True, f"All {len(limits)} limits hold."))
-    if within:
-        accurate = "" if exceeded else f"All {len(limits)} limits hold with accurate teeth. "
-        found.append(
-            (False, f"{accurate}Exceeded within the scatter of the deviations: {'; '.join(within)}.")
-        )
-    return found
 
 
 def verdict(record: Record) -> list[str]:

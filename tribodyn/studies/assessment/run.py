@@ -20,11 +20,13 @@ from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import LAYOUT, AssessmentCase
 from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_and_limits, simulated_part
-from tribodyn.studies.assessment.parts import Part, TaskResult
-from tribodyn.studies.assessment.standard import iso_part, standard_of
+from tribodyn.studies.assessment.parts import Part
 from tribodyn.studies.gears.check import sheet_tables, with_oil
-from tribodyn.studies.gears.margins import strength_of
 from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.rated.margins import strength_of
+from tribodyn.studies.gears.rated.standard import RatedDuty, iso_part, standard_of
+from tribodyn.studies.protocol import tasks
+from tribodyn.studies.protocol.part import TaskResult
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import laws_of
@@ -38,11 +40,9 @@ def check(case: AssessmentCase) -> CheckResult:
     """Check a case and what it asks of the other studies; say what gears and oil it describes."""
     sheet = geometry_sheet(assembled(case))
     request = parts.request_of(case)
-    tasks = [task for part in parts.parts(request) for task in part.tasks]
-    for task in tasks:
-        if task.needed:
-            parts.case_of(task, {task.key: task.values[0]} if task.values else {})
-    found = CheckResult({"geometry": sheet, "tasks": [task.name for task in tasks]}, sheet_tables(sheet))
+    every = parts.tasks_of(parts.parts(request))
+    tasks.require_cases(every)
+    found = CheckResult({"geometry": sheet, "tasks": [task.name for _, task in every]}, sheet_tables(sheet))
     return with_oil(found, case.lubricant)
 
 
@@ -59,13 +59,13 @@ def run(
     """
     path = target(case, output, force)
     try:
-        local, summary = assessed(case, parts.folder_of(path), progress, force)
+        local, summary = assessed(case, tasks.folder_of(path), progress, force)
     except SimulationError as error:
         with writer(case, path, LAYOUT, 0, force=force) as record:
             return RunResult(record.fail(str(error), {}), "failed", str(error), {})
     except KeyboardInterrupt as error:
         # what is left of the part in work is done again
-        error.__notes__ = [f"the parts done so far: {parts.folder_of(path)}, the same call goes on"]
+        error.__notes__ = [f"the parts done so far: {tasks.folder_of(path)}, the same call goes on"]
         raise
     groups = {"geometry": geometry_arrays(assembled(case))}
     with writer(case, path, LAYOUT, len(local.roll_angle), groups=groups, force=force) as record:
@@ -91,7 +91,7 @@ def assessed(
     assembly = assembled(case)
     request = parts.request_of(case)
     taking_part = parts.parts(request)
-    done = parts.results(taking_part, folder, progress, force=force)
+    done = tasks.results(parts.tasks_of(taking_part), folder, progress, force=force)
     found: dict[str, Any] = {}
     along: dict[str, Any] = {}
     spread: dict[str, dict[str, float]] = {}
@@ -102,7 +102,15 @@ def assessed(
     local = local_of(case, assembly, along, found)
     by_standard = None
     if assembly.family.involute:
-        by_standard = standard_of(case, assembly, found["face_load_factor"])
+        settings = case.settings
+        duty = RatedDuty(
+            case.oil_temperature,
+            settings.application_factor,
+            found["face_load_factor"],
+            settings.lubrication,
+            settings.adequate_tip_relief,
+        )
+        by_standard = standard_of(case, assembly, duty)
     simulated = simulated_part(case, assembly, local, found, spread)
     summary: dict[str, Any] = {
         "duty": {
@@ -128,7 +136,7 @@ def assessed(
         ),
         "assumed": _numbered(assumed(case, by_standard is not None)),
         "extrapolated": _numbered(extrapolated(taking_part, done)),
-        **_trust(done, {task.name for part in taking_part for task in part.tasks if task.needed}),
+        **_trust(done, {task.name for _, task in parts.tasks_of(taking_part) if task.needed}),
         "wall_time": perf_counter() - begun,
     }
     summary = {name: value for name, value in summary.items() if value not in ({}, [])}
@@ -173,7 +181,7 @@ def _arrays(local: LocalValues) -> dict[str, Any]:
     }
 
 
-def _trust(done: dict[str, parts.TaskResult], needed: Collection[str]) -> dict[str, Any]:
+def _trust(done: dict[str, TaskResult], needed: Collection[str]) -> dict[str, Any]:
     """Outside the model where any part is; laws extrapolated where those of a `needed` one are."""
     judged = {name: result.summary for name, result in done.items() if TRUST in result.summary}
     for verdict, parts_of in ((OUTSIDE, judged), (EXTRAPOLATED, needed)):
@@ -248,7 +256,7 @@ def _of_models(table: Mapping[str, Any]) -> Iterator[str]:
 def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, TaskResult]) -> list[str]:
     """Where laws are used outside their range, and what could not be computed."""
     remarks, compared = [], []
-    for study, task in [(part.study, task) for part in taking_part for task in part.tasks]:
+    for study, task in parts.tasks_of(taking_part):
         result = done[task.name]
         remarks += result.failures
         if result.summary and not task.needed:

@@ -9,7 +9,7 @@ from pydantic import Field
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario import units
 from tribodyn.scenario.fields import Temperature
-from tribodyn.scenario.quantity import InUnit, Positive, Table, model_file, written
+from tribodyn.scenario.quantity import InUnit, Table, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.duty import OperatingTable, broken_driving_rules
 from tribodyn.scenario.tables.losses import LossesTable, TemperatureTable
@@ -17,11 +17,11 @@ from tribodyn.scenario.tables.lubricant import lubricant_of
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.quality import tolerances_of
 from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
+from tribodyn.studies.gears.rated.limits import OilLimits, Pressure
 from tribodyn.studies.gears.scenario import FaceSlices, GearScenario, Oil, broken_gear_rules, gear_fields
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO
 
-Pressure = Annotated[float, InUnit(units.positive(units.PRESSURE), "1.5 GPa")]
 Length = Annotated[float, InUnit(units.positive(units.LENGTH), "5 um")]
 
 
@@ -38,14 +38,9 @@ class AssessmentMesh(Table):
     slices: FaceSlices = None
 
 
-class AssessmentLimits(Table):
+class AssessmentLimits(OilLimits):
     """What must hold: red on the first page where it does not. One that is not given is not judged."""
 
-    scuffing_flash: Positive | None = Field(1.5, description="minimum safety S_B of ISO/TS 6336-20")
-    scuffing_integral: Positive | None = Field(1.5, description="minimum safety S_intS of ISO/TS 6336-21")
-    micropitting: Positive | None = Field(1.0, description="minimum safety S_lambda of ISO/TS 6336-22")
-    dynamic_factor: Positive | None = Field(None, description="maximum K_v of the simulation at the duty")
-    hertz_pressure: Pressure | None = Field(None, description="maximum, of the simulation")
     root_tension: Pressure | None = Field(None, description="maximum in either fillet, of the simulation")
     loaded_error: Length | None = Field(
         None, description="maximum peak to peak of the loaded transmission error"

@@ -7,11 +7,11 @@ import numpy as np
 
 from tribodyn.studies.gear_train.described.alike import ALIKE, alike_of
 from tribodyn.studies.gear_train.prepare import PreparedTrain
-from tribodyn.studies.gears.margins import margins_of
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.running import MeshOfRun
 from tribodyn.studies.gears.over_time.steady import LAST_ORDER, at_rest, mesh_quantities, power_quantities
 from tribodyn.studies.gears.prepare import contact_quantities, thermal_quantities
+from tribodyn.studies.gears.rated.margins import margins_of
 from tribodyn.train.structure import FRICTION, work_of_mesh
 
 #: Numbers that an attribute of a record holds, and that a spectrum may have.

@@ -73,11 +73,17 @@ class GearCase(CaseHead):
 
 
 @dataclass(frozen=True, kw_only=True)
-class LubricatedCase(GearCase):
-    """Gears with oil between the flanks: the oil, the laws of film and friction, and where heat goes."""
+class OiledCase(GearCase):
+    """Gears and their oil."""
 
     #: at the temperature of the oil that enters the mesh; in `PreparedGears.case` at that of the teeth
     lubricant: LubricantData
+
+
+@dataclass(frozen=True, kw_only=True)
+class LubricatedCase(OiledCase):
+    """Gears with oil between the flanks: the oil, the laws of film and friction, and where heat goes."""
+
     film: FilmData = field(default_factory=FilmData)
     friction: FrictionData = field(default_factory=lambda: FrictionData("none"))
     #: how the bulk temperature of the teeth follows from the losses; None: it is that of the oil

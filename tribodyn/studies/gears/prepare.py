@@ -186,7 +186,7 @@ def _temperatures(
     case: Any, assembly: Assembly, wanted: TemperatureData, heat: Heat, lost: float, supplied: float
 ) -> tuple[Temperatures, float | None]:
     if wanted.model == "iso":
-        centre = abs(float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius))
+        centre = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
         width = float(min(case.drive.pinion.face_width, case.drive.gear.face_width))
         supply = LUBRICATION_FACTORS[wanted.lubrication] / wanted.tip_relief_factor
         bulk = supplied + bulk_rise(lost, 1.0, 1.0, centre, width, supply)

@@ -19,7 +19,7 @@ from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
 from tribodyn.studies.assessment.margins import local_of, point_angles
 from tribodyn.studies.assessment.parts import request_of
-from tribodyn.studies.assessment.standard import path_of
+from tribodyn.studies.gears.rated.standard import path_of
 from tribodyn.studies.protocol.load import load_scenario
 
 KIND = "assessment"

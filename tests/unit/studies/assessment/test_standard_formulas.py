@@ -4,15 +4,14 @@ Formulas of ISO/TR 15144-1:2014 and ISO 6336-1, method B, in their own units (mm
 """
 
 import math
-from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from tests.support.short_studies import written_template
 from tribodyn.standards import scuffing
-from tribodyn.studies.assessment.standard import Standard, iso_part, standard_of
 from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.rated.standard import RatedDuty, Standard, iso_part, standard_of
 from tribodyn.studies.protocol.load import load_scenario
 
 TEETH, SHIFT, MODULE, WIDTH, CENTRE = (25, 60), (0.2, 0.1), 3.0, 40.0, 129.0
@@ -77,7 +76,7 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 @pytest.fixture(scope="module")
 def found(case: Any) -> tuple[dict[str, Any], Any]:
-    standard = standard_of(case, assembled(case), 1.0)
+    standard = standard_of(case, assembled(case), RatedDuty(case.oil_temperature))
     return iso_part(case, standard), standard
 
 
@@ -87,9 +86,7 @@ APPLICATION, FACE, SPRAYED = 1.25, 1.3, 1.2
 
 @pytest.fixture(scope="module")
 def harder(case: Any) -> Standard:
-    settings = case.settings.model_copy(update={"application_factor": APPLICATION, "lubrication": "spray"})
-    loaded = replace(case, settings=settings)
-    return standard_of(loaded, assembled(loaded), FACE)
+    return standard_of(case, assembled(case), RatedDuty(case.oil_temperature, APPLICATION, FACE, "spray"))
 
 
 def test_stiffness_and_load_factors(found: tuple[dict[str, Any], Any]):

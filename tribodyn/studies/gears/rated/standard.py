@@ -1,4 +1,4 @@
-"""Load capacity by the standards for a case: method B, with the face load factor of the contact analysis."""
+"""Load capacity of a pair of gears by the standards: method B, with a face load factor from elsewhere."""
 
 import math
 from typing import Any, NamedTuple
@@ -22,13 +22,24 @@ from tribodyn.standards.contact_path import (
 )
 from tribodyn.standards.load_factors import DynamicFactor, transverse_factor_b
 from tribodyn.standards.micropitting import Films, Flanks, Load, Oil
-from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.gears.by_standard import rated
-from tribodyn.studies.gears.margins import flanks_of, oil_of
+from tribodyn.studies.gears.case import OiledCase
+from tribodyn.studies.gears.rated.margins import Strength, flanks_of, oil_of
 
 #: Places along the path over which the flash temperature is looked at.
 _PLACES = 201
 ZERO_CELSIUS = 273.15
+
+
+class RatedDuty(NamedTuple):
+    """What the standards need to know beside the gears, the oil, speed and torque."""
+
+    oil_temperature: float  # of the oil that enters, K
+    #: application, face: K_A, times K_γ of one of several meshes in parallel; K_Hβ
+    application: float = 1.0
+    face: float = 1.0
+    lubrication: str = "dip"  # one of `micropitting.LUBRICATION_FACTORS`
+    adequate_tip_relief: bool = False
 
 
 class Standard(NamedTuple):
@@ -43,12 +54,12 @@ class Standard(NamedTuple):
     #: flash_bulk, flash_contact: θ_M and θ_Bmax of ISO/TS 6336-20, K
     flash_bulk: float
     flash_contact: float
-    integral: float  # θ_int of ISO/TS 6336-21, K
+    integral: float | None  # θ_int of ISO/TS 6336-21, K; None of a ring and its planet
 
 
-def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standard:
-    """Evaluate the standards for an involute drive; `face` is K_Hβ."""
-    drive, settings = case.drive, case.settings
+def standard_of(case: OiledCase, assembly: Assembly, duty: RatedDuty) -> Standard:
+    """Evaluate the standards for a pair of involutes with a tolerance class, whose pinion drives."""
+    assert case.quality is not None, "refused by the rules"
     path = path_of(assembly)
     width, torque = float(assembly.common_width), case.operating.gear_torque / path.ratio
     bodies = body_masses(
@@ -62,62 +73,64 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
         bodies,
         case.quality,
         (case.operating.pinion_speed, case.operating.gear_torque),
-        settings.application_factor,
+        duty.application,
     )
     dynamic, stiffness = by.dynamic, by.stiffness
-    load = by.line_load * dynamic.factor * face
+    load = by.line_load * dynamic.factor * duty.face
     transverse = transverse_factor_b(
         (path.contact_ratio, path.overlap_ratio), stiffness.mesh, by.base_pitch_deviation, load
     )
-    duty = Load(
+    loaded = Load(
         torque,
         case.operating.pinion_speed,
         width,
-        case.oil_temperature,
-        settings.application_factor,
+        duty.oil_temperature,
+        duty.application,
         dynamic.factor,
         transverse,
-        face,
-        settings.lubrication,
-        micropitting.tip_relief_factor(path.tip_contact_ratios, settings.adequate_tip_relief),
+        duty.face,
+        duty.lubrication,
+        micropitting.tip_relief_factor(path.tip_contact_ratios, duty.adequate_tip_relief),
     )
     flanks, oil = flanks_of(case), oil_of(case.lubricant)
-    films = micropitting.method_b(path, flanks, duty, oil)
-    bulk, contact = _flash(case, path, duty, flanks, oil)
-    integral = scuffing.integral_temperature(
-        path,
-        scuffing.ScuffingMesh(
-            load * transverse,
-            case.operating.pinion_speed * float(reference_radius(drive, "pinion")),
-            float(oil.viscosity(case.oil_temperature)),
-            case.oil_temperature,
-            case.mean_roughness,
-            flanks.reduced_modulus,
-            sum(flanks.thermal_contact) / 2.0,
-            float(normal_pressure_angle(drive)),
-            abs(float(drive.helix_angle)),
-            lubricant=oil.lubricant_factor,
-            lubrication=micropitting.LUBRICATION_FACTORS[settings.lubrication],
-            tip_relief=duty.tip_relief,
-        ),
-    )
-    return Standard(
-        path, films, dynamic, stiffness, transverse, loss_factor(path), bulk, contact, integral.integral
-    )
+    films = micropitting.method_b(path, flanks, loaded, oil)
+    bulk, contact = _flash(case, path, loaded, flanks, oil)
+    integral = _integral(case, path, loaded, load * transverse, flanks, oil) if path.ratio > 0.0 else None
+    return Standard(path, films, dynamic, stiffness, transverse, loss_factor(path), bulk, contact, integral)
 
 
-def _flash(
-    case: AssessmentCase, path: ContactPath, load: Load, flanks: Flanks, oil: Oil
-) -> tuple[float, float]:
+def _integral(
+    case: OiledCase, path: ContactPath, loaded: Load, line_load: float, flanks: Flanks, oil: Oil
+) -> float:
+    """Integral temperature of ISO/TS 6336-21 of two external gears, K; `line_load` with all factors, N/m."""
+    drive = case.drive
+    mesh = scuffing.ScuffingMesh(
+        line_load,
+        loaded.pinion_speed * float(reference_radius(drive, "pinion")),
+        float(oil.viscosity(loaded.oil_temperature)),
+        loaded.oil_temperature,
+        case.mean_roughness,
+        flanks.reduced_modulus,
+        sum(flanks.thermal_contact) / 2.0,
+        float(normal_pressure_angle(drive)),
+        abs(float(drive.helix_angle)),
+        lubricant=oil.lubricant_factor,
+        lubrication=micropitting.LUBRICATION_FACTORS[loaded.lubrication],
+        tip_relief=loaded.tip_relief,
+    )
+    return scuffing.integral_temperature(path, mesh).integral
+
+
+def _flash(case: OiledCase, path: ContactPath, load: Load, flanks: Flanks, oil: Oil) -> tuple[float, float]:
     """Bulk and maximum contact temperature of ISO/TS 6336-20, K."""
     distance = np.linspace(0.0, path.length, _PLACES)
     radius, speeds = equivalent_radius(path, distance), rolling_speeds(path, distance, load.pinion_speed)
     line_load = load.factor * load.pinion_torque / path.base_radius[0] / load.face_width
-    at_pitch = path.base_radius[0] * math.tan(path.pressure_angle)
+    pitch_point = float(point_distances(path)[POINTS.index("C")])
     friction = scuffing.flash_friction(
         load.factor * load.pinion_torque / float(reference_radius(case.drive, "pinion")) / load.face_width,
-        2.0 * load.pinion_speed * at_pitch,
-        float(equivalent_radius(path, point_distances(path)[POINTS.index("C")])),
+        float(sum(rolling_speeds(path, pitch_point, load.pinion_speed))),
+        float(equivalent_radius(path, pitch_point)),
         scuffing.lubricant_factor(oil.lubricant_factor, float(oil.viscosity(load.oil_temperature))),
         flanks.mean_roughness,
     )
@@ -144,7 +157,7 @@ def path_of(assembly: Assembly) -> ContactPath:
     )
 
 
-def iso_part(case: AssessmentCase, found: Standard) -> dict[str, Any]:
+def iso_part(case: OiledCase, found: Standard) -> dict[str, Any]:
     """What a program reads of it; temperatures in °C, everything else in SI units."""
     films, count = found.films, len(POINTS)
     power = case.operating.gear_torque / found.path.ratio * case.operating.pinion_speed
@@ -166,3 +179,23 @@ def by_point(values: Any, worst: Any) -> dict[str, float]:
     """Values at the `POINTS` by name, and the worst of them."""
     named = {name: float(value) for name, value in zip(POINTS, values, strict=True)}
     return {"worst": float(worst(named.values())), **named}
+
+
+def margins_by_standard(found: Standard, strength: Strength, oil_temperature: float) -> dict[str, float]:
+    """Temperatures in °C and safeties by the standards, of what the oil has load stages for."""
+    margins = {
+        "theta_M_flash": found.flash_bulk - ZERO_CELSIUS,
+        "theta_B": found.flash_contact - ZERO_CELSIUS,
+    }
+    if found.integral is not None:
+        margins["theta_int"] = found.integral - ZERO_CELSIUS
+    if strength.scuffing is not None and strength.scuffing_integral is not None:
+        margins["theta_S"] = strength.scuffing - ZERO_CELSIUS
+        margins["theta_intS"] = strength.scuffing_integral - ZERO_CELSIUS
+        margins["S_B"] = scuffing.flash_safety(strength.scuffing, found.flash_contact, oil_temperature)
+        if found.integral is not None:
+            margins["S_intS"] = scuffing.integral_safety(strength.scuffing_integral, found.integral)
+    if strength.specific_film is not None:
+        worst = float(np.min(found.films.specific_film))
+        margins |= {"lambda_GFP": strength.specific_film, "S_lambda": worst / strength.specific_film}
+    return margins

@@ -70,12 +70,11 @@ def strength_of(lubricant: LubricantData, oil_temperature: float, structure: flo
 def bulk_of(assembly: Assembly, quantities: Mapping[str, Any], oil: float, supply: str = "dip") -> float:
     """Bulk temperature of the teeth in motion, K: its own, else by its loss as in ISO/TR 15144-1.
 
-    `oil` is the temperature (K) of the oil that enters. The standard is of external gears; of a ring the
-    centre distance, which is small, makes the estimate a high one.
+    `oil` is the temperature (K) of the oil that enters.
     """
     if quantities.get("bulk_temperature") is not None:
         return float(quantities["bulk_temperature"])
-    centre = abs(float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius))
+    centre = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
     loss, width = float(quantities["power_friction_mean"]), float(assembly.common_width)
     factor = micropitting.LUBRICATION_FACTORS[supply]
     return oil + micropitting.bulk_rise(loss, 1.0, 1.0, centre, width, factor)

@@ -1,0 +1,116 @@
+"""Pieces of the first page of an assessment: verdict, tiles, tables of numbers, sentences, origin."""
+
+from collections.abc import Mapping, Sequence
+from html import escape
+from importlib import resources
+from typing import Any
+
+from tribodyn.post.page.assembled import document
+from tribodyn.post.page.page import summary_tables, verdict_list, warnings_of
+from tribodyn.post.style import inline
+from tribodyn.record.reader import Record
+from tribodyn.studies.gears.rated.limits import LIMITS, on_limits
+from tribodyn.studies.pages import overview
+from tribodyn.studies.protocol.part import TaskResult
+from tribodyn.studies.protocol.study import Study
+
+
+def header(record: Record, what: str) -> str:
+    """Title, kind and date of a record."""
+    created = str(record.attrs["created"]).partition("T")[0]
+    made = f"{what}, {created}, tribodyn {record.attrs['tribodyn_version']}"
+    return f"<header><h1>{escape(_title(record))}</h1><p>{escape(made)}</p></header>"
+
+
+def written(record: Record, body: Sequence[str]) -> str:
+    """The page of these pieces."""
+    style = resources.files(__package__ or "").joinpath("page.css").read_text(encoding="utf-8")
+    policy = "style-src 'unsafe-inline'; img-src data:"
+    return document(_title(record), style, "\n".join(body) + "\n", policy)
+
+
+def _title(record: Record) -> str:
+    return str(record.scenario.get("title", record.label))
+
+
+def verdict_of(record: Record, lines: Sequence[str]) -> str:
+    """Whether the limits hold, warnings, and other lines of a verdict."""
+    summary = record.summary
+    marked = [("good" if good else "bad", text) for good, text in on_limits(summary)]
+    paragraphs = [f'<p class="verdict {kind}">{escape(text)}</p>' for kind, text in marked]
+    warnings = warnings_of(record, named=False).replace('class="warning"', 'class="verdict bad"')
+    lines = [line for line in lines if line not in [text for _, text in marked]]
+    return "".join(paragraphs) + warnings + verdict_list(lines)
+
+
+def asked(rows: Mapping[str, str]) -> str:
+    """What was asked: a line of text each."""
+    cells = (f"<tr><td><b>{name}</b></td><td>{escape(text)}</td></tr>" for name, text in rows.items())
+    return f'<table class="asked">{"".join(cells)}</table>'
+
+
+def tiles(shown: Sequence[tuple[str, str]]) -> str:
+    """Values, written, and what they are."""
+    each = (
+        f'<div class="tile"><b>{escape(value)}</b><span>{escape(text)}</span></div>' for value, text in shown
+    )
+    return f'<div class="tiles">{"".join(each)}</div>'
+
+
+def numbers_table(
+    heading: str, columns: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "", marked: Any = ()
+) -> str:
+    """A section with a table of numbers, some rows of which are marked as bad."""
+
+    def cells(tag: str, row: Sequence[str]) -> str:
+        return "".join(f"<{tag}>{escape(text)}</{tag}>" for text in row)
+
+    lines = [f"<tr>{cells('th', columns)}</tr>"]
+    for number, row in enumerate(rows):
+        mark = ' class="bad"' if number in marked else ""
+        lines.append(f"<tr{mark}>{cells('td', row)}</tr>")
+    table = f'<table class="numbers{kind}">{"".join(lines)}</table>'
+    dashes = '<p class="quiet">–: not determined.</p>' if any("–" in row for row in rows) else ""
+    return f'<section><h2>{heading}</h2><div class="wide">{table}</div>{dashes}</section>'
+
+
+def limits_table(summary: Mapping[str, Any]) -> str:
+    """Every limit that was judged, the exceeded ones red."""
+    limits = summary.get("limits", {})
+    rows = []
+    for name, found in limits.items():
+        limit = LIMITS[name]
+        value, bound = (f"{limit.quantity.in_unit(found[key]):.3g}" for key in ("value", "limit"))
+        required = f"{'≥' if limit.least else '≤'} {bound}"
+        verdict = "holds" if found["kept"] else "exceeded"
+        rows.append((limit.label, value, required, limit.quantity.unit, verdict))
+    exceeded = [number for number, found in enumerate(limits.values()) if not found["kept"]]
+    return numbers_table("Limits", ("Limit", "value", "required", "", ""), rows, marked=exceeded)
+
+
+def listed(heading: str, sentences: Mapping[str, str]) -> str:
+    """Sentences under a heading."""
+    items = "".join(f"<li>{escape(str(text))}</li>" for text in sentences.values()) or "<li>Nothing.</li>"
+    return f'<section class="small"><h2>{heading}</h2><ul>{items}</ul></section>'
+
+
+def part_section(study: Study, title: str, done: Sequence[TaskResult]) -> str:
+    """Picture and summary of the first record of a part; of rows their extremes stand on the first page."""
+    for result in done:
+        if not result.summary:
+            continue
+        with Record(result.path) as record:
+            picture = f'<div class="pictures">{inline(overview(record), title)}</div>'
+            tables = summary_tables([record], [study.reported()])
+        return f"<section><h2>{escape(title)}</h2>{picture}{tables}</section>"
+    return ""
+
+
+def origin(record: Record) -> str:
+    """The scenario file and its digest."""
+    scenario = escape(str(record.attrs["scenario"]))
+    digest = escape(str(record.attrs["scenario_sha256"]))
+    return (
+        f'<section class="break"><h2>Scenario and origin</h2><p class="quiet">scenario sha256 {digest}</p>'
+        f"<details><summary>Scenario file</summary><pre>{scenario}</pre></details></section>"
+    )

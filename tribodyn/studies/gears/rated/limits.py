@@ -1,0 +1,99 @@
+"""Limits that a scenario sets, and whether what was found keeps them."""
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import Field
+
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities.quantity import Quantity
+from tribodyn.scenario import units
+from tribodyn.scenario.quantity import InUnit, Positive, Table
+
+Pressure = Annotated[float, InUnit(units.positive(units.PRESSURE), "1.5 GPa")]
+
+
+class OilLimits(Table):
+    """What must hold: red on the first page where it does not. One that is not given is not judged."""
+
+    scuffing_flash: Positive | None = Field(1.5, description="minimum safety S_B of ISO/TS 6336-20")
+    scuffing_integral: Positive | None = Field(1.5, description="minimum safety S_intS of ISO/TS 6336-21")
+    micropitting: Positive | None = Field(1.0, description="minimum safety S_lambda of ISO/TS 6336-22")
+    dynamic_factor: Positive | None = Field(None, description="maximum K_v of the simulation at the duty")
+    hertz_pressure: Pressure | None = Field(None, description="maximum, of the simulation")
+
+
+class StandardLimit(NamedTuple):
+    """A limit of the scenario; `least`: the quantity must be at least the limit, else at most."""
+
+    label: str
+    quantity: Quantity
+    least: bool = False
+
+
+#: Name of a limit -> what it is.
+LIMITS: dict[str, StandardLimit] = {
+    "scuffing_flash": StandardLimit("Scuffing S_B, flash temperature", QUANTITIES["S_B"], least=True),
+    "scuffing_integral": StandardLimit("Scuffing S_intS, integral temp.", QUANTITIES["S_intS"], least=True),
+    "micropitting": StandardLimit("Micropitting S_λ", QUANTITIES["S_lambda"], least=True),
+    "dynamic_factor": StandardLimit("Dynamic factor K_v", QUANTITIES["dynamic_factor"]),
+    "hertz_pressure": StandardLimit("Hertz pressure with K_v", QUANTITIES["hertz_pressure_max"]),
+    "root_tension": StandardLimit("Root tension", QUANTITIES["pinion_root_tension_max"]),
+    "loaded_error": StandardLimit(
+        "Loaded error, peak to peak", QUANTITIES["loaded_transmission_error_peak_to_peak"]
+    ),
+}
+
+
+def worst(*safeties: float | None) -> float:
+    """The smallest of those that are known; NaN where none is."""
+    known = [value for value in safeties if value is not None and math.isfinite(value)]
+    return min(known, default=math.nan)
+
+
+def judged(
+    limits: Mapping[str, float | None],
+    values: Mapping[str, float],
+    spread: Mapping[str, Mapping[str, float]] = MappingProxyType({}),
+) -> dict[str, dict[str, Any]]:
+    """Values beside the limits that are given, and whether they are kept.
+
+    What has no value, as a safety for which the oil lacks the load stage, is left out. Where it scatters over
+    samples of deviations (`spread`, by the names of the limits), its 95 % is compared too, as ``p95`` and
+    ``kept_p95``.
+    """
+    found: dict[str, dict[str, Any]] = {}
+    for name, limit in limits.items():
+        value = float(values.get(name, math.nan))
+        if limit is None or not math.isfinite(value):
+            continue
+        kept = value >= limit if LIMITS[name].least else value <= limit
+        found[name] = {"value": value, "limit": float(limit), "kept": bool(kept)}
+        upper = spread.get(name, {}).get("p95", math.nan)
+        if math.isfinite(upper):
+            found[name] |= {"p95": upper, "kept_p95": bool(upper <= limit)}
+    return found
+
+
+def on_limits(summary: Mapping[str, Any]) -> list[tuple[bool, str]]:
+    """Whether the limits hold: good or bad, and the sentence."""
+    limits = summary.get("limits", {})
+    exceeded = [LIMITS[name].label for name, found in limits.items() if not found["kept"]]
+    within = [
+        f"{LIMITS[name].label} ({LIMITS[name].quantity.in_unit(found['p95']):.3g} at 95 %)"
+        for name, found in limits.items()
+        if found["kept"] and not found.get("kept_p95", True)
+    ]
+    found = []
+    if exceeded:
+        found.append((False, f"Limits exceeded: {'; '.join(exceeded)}."))
+    elif limits and not within:
+        found.append((True, f"All {len(limits)} limits hold."))
+    if within:
+        accurate = "" if exceeded else f"All {len(limits)} limits hold with accurate teeth. "
+        found.append(
+            (False, f"{accurate}Exceeded within the scatter of the deviations: {'; '.join(within)}.")
+        )
+    return found
