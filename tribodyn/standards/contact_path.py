@@ -32,6 +32,11 @@ class ContactPath(NamedTuple):
         return self.teeth[1] / self.teeth[0]
 
     @property
+    def sense(self) -> float:
+        """−1 where the pinion is internal, else 1: its torque has the sign of its radius, not its speed."""
+        return -1.0 if self.teeth[0] < 0.0 else 1.0
+
+    @property
     def centre_distance(self) -> float:
         """Distance a of the axes, m."""
         return sum(self.base_radius) / float(np.cos(self.pressure_angle))
@@ -112,7 +117,7 @@ def rolling_speeds(path: ContactPath, distance: Any, pinion_speed: float) -> tup
     Pinion speed in rad/s, positive in the pinion's own sense of rotation.
     """
     first, second = curvature_radii(path, distance)
-    speed = pinion_speed * float(np.sign(path.teeth[0]))
+    speed = pinion_speed * path.sense
     return speed * first, speed / path.ratio * second
 
 

@@ -47,7 +47,7 @@ class Flanks(NamedTuple):
 class Load(NamedTuple):
     """Load and speed of a pair."""
 
-    pinion_torque: float  # T_1, N m
+    pinion_torque: float  # T_1, N m; negative of a ring that drives
     pinion_speed: float  # rad/s
     face_width: float  # b, m
     oil_temperature: float  # θ_oil, K
@@ -160,7 +160,7 @@ def method_b(path: ContactPath, flanks: Flanks, load: Load, oil: Oil) -> Films:
     radius = equivalent_radius(path, distance)
     in_base_plane = load.pinion_torque / path.base_radius[0]
     friction = pair_friction(path, flanks, load, oil)
-    power = load.pinion_torque * load.pinion_speed
+    power = load.pinion_torque * load.pinion_speed * path.sense
     supply = LUBRICATION_FACTORS[load.lubrication] / load.tip_relief
     bulk = load.oil_temperature + bulk_rise(
         power, friction, loss_factor(path), path.centre_distance, load.face_width, supply

@@ -19,6 +19,7 @@ STUDIES: Registry[Study] = Registry(
         "backlash-oscillator": "tribodyn.studies.backlash_oscillator:STUDY",
         "design": "tribodyn.studies.design:STUDY",
         "assessment": "tribodyn.studies.assessment:STUDY",
+        "train-assessment": "tribodyn.studies.train_assessment:STUDY",
     },
     "tribodyn.studies",
     Study,

@@ -11,12 +11,13 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
 from tribodyn.scenario.tables.drive_data import with_axes_held
-from tribodyn.studies import DEFAULT, STUDIES, study_of
+from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.design.candidates.sources import BASE, NAME, Source, sources_of
 from tribodyn.studies.design.case import DesignCase, RobustTable, SearchOptions, flat
 from tribodyn.studies.design.methods import METHODS
 from tribodyn.studies.design.parts import parts_of_design
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
+from tribodyn.studies.protocol.load import schema_inside
 
 KIND = "design"
 
@@ -119,18 +120,8 @@ def table_for(data: Mapping[str, Any]) -> type[Table]:
     given = design.get("part") if isinstance(design, Mapping) else None
     parts = given if isinstance(given, Mapping) else {}
     names = [name for name in parts if NAME.fullmatch(name) and not hasattr(Table, name)]
-    named = tuple((name, _schema_of(parts[name])) for name in names)
-    return _around(_schema_of(data.get("scenario")), named)
-
-
-def _schema_of(scenario: Any) -> type[Table] | None:
-    """Schema of a scenario; None where it is not opened yet, or of no kind that can be searched through."""
-    if not isinstance(scenario, Mapping) or "like" in scenario:
-        return None
-    kind = scenario.get("kind", DEFAULT)
-    if not isinstance(kind, str) or kind not in STUDIES or kind == KIND:
-        return None
-    return study_of(scenario).table(scenario)
+    named = tuple((name, schema_inside(parts[name], KIND)) for name in names)
+    return _around(schema_inside(data.get("scenario"), KIND), named)
 
 
 @lru_cache(maxsize=16)

@@ -80,7 +80,7 @@ def rated(
     pitch, after_running_in = base_pitch_deviation(assembly, quality)
     dynamic = dynamic_factor(
         DynamicMesh(
-            float(drive.pinion.teeth),
+            abs(float(drive.pinion.teeth)),
             speed,
             reduced_mass(inertias, base, float(assembly.common_width)),
             stiffness.single_pair,

@@ -17,11 +17,11 @@ from tribodyn.errors import InputError, InputErrors, unknown_name
 from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.own_keys import example_of
-from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
+from tribodyn.scenario.resolve import LIKE, Resolved, resolve, unresolved_keys
 from tribodyn.scenario.scope import outside
 from tribodyn.scenario.sources import file_name, find_scenario
 from tribodyn.scenario.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
-from tribodyn.studies import STUDIES, study_of
+from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.protocol.study import CaseHead, Study
 
 #: Column of the comments.
@@ -110,6 +110,16 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
 def table_of(data: Mapping[str, Any]) -> Any:
     """Return the schema of a scenario's data."""
     return study_of(data).table(data)
+
+
+def schema_inside(scenario: Any, around: str) -> Any:
+    """Schema of a scenario within one of a kind; None where it is not opened yet, or of that or no kind."""
+    if not isinstance(scenario, Mapping) or LIKE in scenario:
+        return None
+    kind = scenario.get("kind", DEFAULT)
+    if not isinstance(kind, str) or kind not in STUDIES or kind == around:
+        return None
+    return study_of(scenario).table(scenario)
 
 
 def loaded_from(resolved: Resolved, path: Path) -> Loaded:

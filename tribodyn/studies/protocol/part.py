@@ -93,3 +93,21 @@ class Contribution(NamedTuple):
     tasks: Callable[[Request], Sequence[Task]]  # request -> its tasks
     #: (Request, results of its tasks by name) -> Findings
     answer: Callable[[Request, Mapping[str, TaskResult]], Findings]
+
+
+class MeshAtDuty(NamedTuple):
+    """A mesh of a train as a pair of gears."""
+
+    name: str  # in the summaries of runs
+    pair: Any  # its case: gears, oil, speed of the driver, torque of the driven gear
+    alike: str = ""  # what it shares with the meshes of a set's other planets; "": none
+    stage: str = ""  # planetary stage that it belongs to; "": none
+
+
+class WholeDrive(NamedTuple):
+    """What an assessment needs of a study whose cases have several meshes."""
+
+    meshes: Callable[[Any], Sequence[MeshAtDuty]]  # of a case
+    #: (case, scenario as a file has it, factor) -> the scenario at that factor of its speed, torques the same
+    at_speed: Callable[[Any, Mapping[str, Any], float], dict[str, Any]]
+    speed: Callable[[Any], float]  # of the input of a case, rad/s

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.reader import Record
     from tribodyn.scenario.quantity import Table
-    from tribodyn.studies.protocol.part import Contribution
+    from tribodyn.studies.protocol.part import Contribution, WholeDrive
     from tribodyn.studies.protocol.verb import Verb
     from tribodyn.studies.sweeping.batch import Batch
 
@@ -74,6 +74,8 @@ class Study:
     batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional; case or scenario)
     assess        ``ROLE``, the part that it plays in an assessment of a drive (optional), see `protocol.part`
+    whole         ``WHOLE``, its meshes as pairs of gears (optional): it can be assessed mesh by mesh, see
+                  `protocol.part`
     derivatives   ``DIFFERENTIABLE``, what makes quantities of a case a function of its numbers (optional:
                   that of a pair of gears), called as `derivatives.differentiable.Differentiable`
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
@@ -257,6 +259,10 @@ class Study:
     def role(self) -> "Contribution | None":
         """The part that it plays in an assessment of a drive; None: it plays none."""
         return self._part("assess", "ROLE", optional=True)
+
+    def whole(self) -> "WholeDrive | None":
+        """Its meshes as pairs of gears at their duty; None: it is not assessed mesh by mesh."""
+        return self._part("whole", "WHOLE", optional=True)
 
     def differentiable(self, case: Any, of: Sequence[str], wrt: Sequence[str]) -> Any:
         """Quantities of a case as a function of its numbers: a `Differentiable`, or what serves as one."""

@@ -39,6 +39,7 @@ LIMITS: dict[str, StandardLimit] = {
     "scuffing_integral": StandardLimit("Scuffing S_intS, integral temp.", QUANTITIES["S_intS"], least=True),
     "micropitting": StandardLimit("Micropitting S_λ", QUANTITIES["S_lambda"], least=True),
     "dynamic_factor": StandardLimit("Dynamic factor K_v", QUANTITIES["dynamic_factor"]),
+    "mesh_load_factor": StandardLimit("Mesh load factor K_γ", QUANTITIES["mesh_load_factor"]),
     "hertz_pressure": StandardLimit("Hertz pressure with K_v", QUANTITIES["hertz_pressure_max"]),
     "root_tension": StandardLimit("Root tension", QUANTITIES["pinion_root_tension_max"]),
     "loaded_error": StandardLimit(

@@ -160,7 +160,7 @@ def path_of(assembly: Assembly) -> ContactPath:
 def iso_part(case: OiledCase, found: Standard) -> dict[str, Any]:
     """What a program reads of it; temperatures in °C, everything else in SI units."""
     films, count = found.films, len(POINTS)
-    power = case.operating.gear_torque / found.path.ratio * case.operating.pinion_speed
+    power = case.operating.gear_torque / found.path.ratio * case.operating.pinion_speed * found.path.sense
     return {
         "theta_M": by_point(np.full(count, films.bulk_temperature - ZERO_CELSIUS), max),
         "mu_m": by_point(np.full(count, films.friction_coefficient), max),

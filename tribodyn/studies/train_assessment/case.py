@@ -1,0 +1,71 @@
+"""A case of an assessment of a train: the train, what the standards need to know, and what is recorded."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from tribodyn.numerics.parameter import Variable
+from tribodyn.record.schema import Layout
+from tribodyn.scenario.quantity import Positive, Text
+from tribodyn.studies.gears.rated.settings import RatingTable
+from tribodyn.studies.protocol import cost
+from tribodyn.studies.protocol.load import Loaded
+from tribodyn.studies.protocol.study import CaseHead
+
+SPEED = Variable(("input_speed",), "rad/s", "speed of the input, increasing; that of the duty is one of them")
+
+_ALONG = ("input_speed",)
+SAMPLES: dict[str, Variable] = {
+    "dynamic_factor": Variable(_ALONG, "1", "largest dynamic factor of all meshes"),
+    "mesh_load_factor": Variable(_ALONG, "1", "largest mesh load factor K_gamma of all planetary stages"),
+    "contact_loss_fraction": Variable(_ALONG, "1", "largest share of the time without contact of all meshes"),
+    "efficiency": Variable(_ALONG, "1", "mean power out over mean power in"),
+    "power_friction_mean": Variable(_ALONG, "W", "mean power of tooth friction in all meshes"),
+    "hertz_pressure_max": Variable(_ALONG, "Pa", "largest Hertz pressure of all meshes"),
+    "film_parameter_min": Variable(_ALONG, "1", "smallest film over roughness of all meshes"),
+    "S_B": Variable(_ALONG, "1", "smallest safety against scuffing of all meshes, simulated"),
+    "S_lambda": Variable(_ALONG, "1", "smallest safety against micropitting of all meshes, simulated"),
+}
+
+LAYOUT = Layout(SPEED, SAMPLES)
+
+
+class TrainRatingTable(RatingTable):
+    """What is asked beyond the duty, and what the standards need to know of every mesh."""
+
+    face_load_factor: Positive = Field(
+        1.0, description="K_H beta of every mesh: the face is taken as aligned"
+    )
+    mesh_load_factor: Positive | None = Field(
+        None, description="K_gamma of the planetary stages; default: each one's own, of the simulation"
+    )
+    speed_range: tuple[Positive, Positive] = Field(
+        (0.5, 1.25), description="first and last speed of further runs, over the duty's; torques stay"
+    )
+    speeds: Annotated[int, Field(strict=True, ge=0, le=200)] = Field(
+        4, description="runs over that range, besides the duty's"
+    )
+    friction_laws: tuple[Text, ...] = Field(
+        (), max_length=10, description="further friction laws, a run each: for the spread of the losses"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrainAssessmentCase(CaseHead):
+    """One assessment, complete."""
+
+    subject: Loaded  # the train's scenario
+    settings: TrainRatingTable
+    limits: Mapping[str, Any]  # name of a limit -> its value, SI units
+
+
+def estimate(case: TrainAssessmentCase) -> cost.Estimate:
+    """What a run of a case takes: that of the train, as often as it runs."""
+    settings = case.settings
+    runs = 1 + settings.speeds + len(settings.friction_laws)
+    one = case.subject.study.estimate(case.subject.case)
+    drivers = (cost.Driver("assessment.speeds", settings.speeds, 4),)
+    whole = one._replace(record=runs * one.record, seconds=runs * one.seconds)
+    return whole._replace(drivers=(*whole.drivers, *drivers))

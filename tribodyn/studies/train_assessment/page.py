@@ -1,0 +1,120 @@
+"""The report of an assessment of a train: a first page for whoever asks, the details on those behind it."""
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from tribodyn.post.page.page import table
+from tribodyn.post.style import inline
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.gears.rated import first_page
+from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
+from tribodyn.studies.pages import loaded_again, overview
+from tribodyn.studies.protocol import tasks
+from tribodyn.studies.train_assessment.case import TrainAssessmentCase
+from tribodyn.studies.train_assessment.report import groups_of, mesh_rows, stage_rows, verdict
+from tribodyn.studies.train_assessment.run import DUTY, tasks_of
+
+_RPM = 30.0 / math.pi
+
+
+def page(record: Record) -> str:
+    """Write the page of a record; where its runs lie beside it, that of the duty is on it."""
+    summary = record.summary
+    case: TrainAssessmentCase = loaded_again(record).case
+    done = tasks.kept(tasks_of(case), tasks.folder_of(Path(record.path)))
+    study = case.subject.study
+    picture = inline(overview(record), "factors, efficiency, losses, safeties")
+    body = [
+        first_page.header(record, "Assessment of a train"),
+        first_page.verdict_of(record, verdict(record)),
+        _asked(case, summary),
+        _tiles(summary),
+        '<div class="columns">',
+        f"<div>{limits_table(summary)}{_stages(summary)}</div>",
+        f"<div>{listed('Assumed', summary.get('assumed', {}))}"
+        f"{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
+        "</div>",
+        f'<div class="pictures"><p>{picture}</p></div>',
+        '<div class="break"></div>',
+        _meshes(summary, "simulated", "Each mesh, simulated; of several planets the worst"),
+        _meshes(summary, "iso", "Each mesh by the standards; of several planets the worst"),
+        first_page.part_section(study, "Motion at the duty", [done[DUTY]] if done else []),
+        "<section><h2>Gears and oil</h2>"
+        + "".join(table(*sheet) for sheet in study.check(case.subject.case, allow_large=True).tables)
+        + "</section>",
+        first_page.origin(record),
+    ]
+    return first_page.written(record, body)
+
+
+def _asked(case: TrainAssessmentCase, summary: Mapping[str, Any]) -> str:
+    study, train = case.subject.study, case.subject.case
+    whole = study.whole()
+    assert whole is not None, "refused by the rules"
+    meshes, gears = {mesh.name: mesh.pair for mesh in whole.meshes(train)}, []
+    for group, names in groups_of(summary[MESHES]).items():
+        drive = meshes[names[0]].drive
+        teeth = "/".join(f"{float(gear.teeth):.0f}" for gear in (drive.pinion, drive.gear))
+        helix = f", β {math.degrees(drive.helix_angle):.4g}°" if drive.helix_angle else ""
+        times = f", {len(names)} times" if len(names) > 1 else ""
+        gears.append(f"{group} {teeth}, module {drive.module * 1e3:.4g} mm{helix}{times}")
+    pair = next(iter(meshes.values()))
+    sheet, oil = pair.lubricant.sheet, f"at {float(pair.lubricant.temperature) - 273.15:.4g} °C"
+    if sheet is not None:
+        oil = f"{sheet.type}, {sheet.viscosity_40 * 1e6:.4g}/{sheet.viscosity_100 * 1e6:.4g} mm²/s, {oil}"
+    power = QUANTITIES["power_in_mean"]
+    duty = (
+        f"{power.written(summary['power_in_mean'])} {power.unit} put in "
+        f"at {summary['input_speed'] * _RPM:.5g} rpm, ratio {summary['train_ratio']:.5g}"
+    )
+    return first_page.asked(
+        {"Gears": "; ".join(gears), "Oil": f"{oil}, {case.settings.lubrication}", "Duty": duty}
+    )
+
+
+def _tiles(summary: Mapping[str, Any]) -> str:
+    lost = summary.get("contact_loss_input_speed_from")
+    highest = ""
+    if "dynamic_factor_max" in summary:
+        at = summary["dynamic_factor_max_input_speed"] * _RPM
+        highest = f"; up to {summary['dynamic_factor_max']:.2f} at {at:.4g} rpm"
+    spread = ""
+    if "efficiency_lowest" in summary:
+        ends = (f"{100.0 * summary[f'efficiency_{end}']:.2f}" for end in ("lowest", "highest"))
+        spread = f"; {' to '.join(ends)} % by other laws"
+    shown = [
+        (f"{100.0 * summary['efficiency']:.2f} %", f"efficiency{spread}"),
+        (f"{summary['power_friction_mean'] * 1e-3:.4g} kW", "lost to tooth friction"),
+        (f"{summary['dynamic_factor']:.2f}", f"largest dynamic factor{highest}"),
+    ]
+    if "mesh_load_factor" in summary:
+        shown.append((f"{summary['mesh_load_factor']:.3f}", "K_γ, load of the planet with most"))
+    for name, text in (
+        ("S_B", "scuffing, flash temperature"),
+        ("S_intS", "scuffing, integral temperature"),
+        ("S_lambda", "micropitting"),
+    ):
+        if name in summary:
+            where = summary.get("worst_of", {}).get(name, "")
+            shown.append((f"{summary[name]:.2f}", f"{QUANTITIES[name].symbol}, {text}, in {where}"))
+    if "hertz_pressure_max" in summary:
+        shown.append((f"{summary['hertz_pressure_max'] * 1e-9:.2f} GPa", "maximum Hertz pressure in motion"))
+    shown.append(
+        ("none", "loss of contact at the speeds run")
+        if lost is None
+        else (f"{lost * _RPM:.4g} rpm", "contact is lost from this input speed")
+    )
+    return first_page.tiles(shown)
+
+
+def _stages(summary: Mapping[str, Any]) -> str:
+    columns, rows = stage_rows(summary)
+    return numbers_table("Each planetary stage", columns, rows) if rows else ""
+
+
+def _meshes(summary: Mapping[str, Any], part: str, heading: str) -> str:
+    columns, rows = mesh_rows(summary, part)
+    return numbers_table(heading, columns, rows) if rows else ""

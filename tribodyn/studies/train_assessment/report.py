@@ -1,0 +1,137 @@
+"""Reported quantities of an assessment of a train, and how far to trust them."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from tribodyn.post.verdict import numbers, with_unit
+from tribodyn.quantities.catalogue import QUANTITIES, quantities
+from tribodyn.quantities.quantity import Quantity, Reported
+from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.gears.rated.limits import on_limits
+from tribodyn.studies.protocol.recording import TextTable
+
+REPORTED: Reported = {
+    "Train": quantities("train_ratio", "input_speed", "power_in_mean", "power_friction_mean", "efficiency"),
+    "Other friction laws": quantities("efficiency_lowest", "efficiency_highest"),
+    "Vibration": quantities(
+        *("dynamic_factor", "dynamic_factor_max", "dynamic_factor_max_input_speed"),
+        *("contact_loss_input_speed_from", "normal_load_max"),
+    ),
+    "Planets": quantities("mesh_load_factor", "mesh_load_factor_max", "planet_load_factor_max"),
+    "Film": quantities("film_min", "film_parameter_min", "hertz_pressure_max", "contact_temperature_max"),
+    "Margins": quantities("S_B", "S_intS", "S_lambda"),
+    "Solver": quantities("wall_time"),
+}
+SWEPT = quantities(
+    *("efficiency", "power_friction_mean", "dynamic_factor", "dynamic_factor_max"),
+    *("hertz_pressure_max", "film_parameter_min", "S_B", "S_lambda"),
+)
+PANELS = ("dynamic_factor", "efficiency")
+#: Part of a mesh's summary -> its quantities in the table of meshes.
+OF_A_MESH: dict[str, tuple[Quantity, ...]] = {
+    "simulated": quantities(
+        *("power_in_mean", "power_friction_mean", "efficiency", "dynamic_factor", "hertz_pressure_max"),
+        *("film_min", "film_parameter_min", "contact_temperature_max", "S_B", "S_lambda"),
+    ),
+    "iso": quantities("K_v", "K_Halpha", "H_v", "lambda_GF", "theta_B", "S_B", "S_intS", "S_lambda"),
+}
+OF_A_STAGE = quantities(
+    *("mesh_load_factor", "planet_load_factor_max", "power_in_mean", "power_friction_mean", "efficiency")
+)
+
+
+def groups_of(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, list[str]]:
+    """Meshes by a name for each table column: those of a set's planets with one member together."""
+    found: dict[str, list[str]] = {}
+    for name, mesh in meshes.items():
+        found.setdefault(str(mesh.get("alike") or name), []).append(name)
+    return found
+
+
+def worst_in(quantity: Quantity, part: str, names: list[str], meshes: Mapping[str, Mapping[str, Any]]) -> str:
+    """A quantity of a group of meshes, written: the largest, of film, efficiency and safety the smallest."""
+    values = [meshes[name].get(part, {}).get(quantity.name) for name in names]
+    known = [value["worst"] if isinstance(value, Mapping) else value for value in values if value is not None]
+    if not known:
+        return "–"
+    least = quantity.name.startswith(("S_", "film", "lambda", "efficiency"))
+    return quantity.written(float(min(known) if least else max(known)))
+
+
+def mesh_rows(summary: Mapping[str, Any], part: str) -> tuple[list[str], list[list[str]]]:
+    """Columns and rows of the table of meshes."""
+    meshes = summary.get(MESHES, {})
+    groups = groups_of(meshes)
+    rows = [
+        [
+            quantity.title,
+            *(worst_in(quantity, part, names, meshes) for names in groups.values()),
+            _unit(quantity),
+        ]
+        for quantity in OF_A_MESH[part]
+    ]
+    return ["", *groups, ""], [row for row in rows if set(row[1:-1]) != {"–"}]
+
+
+def _unit(quantity: Quantity) -> str:
+    return quantity.unit.replace("degC", "°C")
+
+
+def stage_rows(summary: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
+    """Columns and rows of the table of planetary stages."""
+    stages = summary.get("stages", {})
+    rows = [
+        [quantity.title, *(quantity.written(own[quantity.name]) for own in stages.values()), quantity.unit]
+        for quantity in OF_A_STAGE
+    ]
+    return ["", *stages, ""], rows if stages else []
+
+
+def tables(record: Record) -> list[TextTable]:
+    """Every mesh simulated and by the standards, and every planetary stage."""
+    found = []
+    for title, (columns, rows) in (
+        ("Each planetary stage", stage_rows(record.summary)),
+        ("Each mesh, simulated; of several planets the worst", mesh_rows(record.summary, "simulated")),
+        ("Each mesh by the standards; of several planets the worst", mesh_rows(record.summary, "iso")),
+    ):
+        if rows:
+            found.append(TextTable(title, tuple(columns), rows))
+    return found
+
+
+def verdict(record: Record) -> list[str]:
+    """Say whether the limits hold, how the planets share the load, what vibrates and what is lost."""
+    return [*(sentence for _, sentence in on_limits(record.summary)), *_shown(record.summary)]
+
+
+def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
+    found = numbers(summary)
+    if "dynamic_factor" in found:
+        text = f"Vibration raises the tooth forces to at most {found['dynamic_factor']:.2f} times their mean"
+        if (highest := found.get("dynamic_factor_max", 0.0)) > found["dynamic_factor"]:
+            at = with_unit("dynamic_factor_max_input_speed", found["dynamic_factor_max_input_speed"])
+            text += f", to {highest:.2f} times at {at} of the input"
+        lost = found.get("contact_loss_input_speed_from")
+        apart = (
+            "the teeth stay in contact at every speed that was run"
+            if lost is None
+            else f"teeth separate from {with_unit('contact_loss_input_speed_from', lost)} of the input"
+        )
+        yield f"{text}; {apart}."
+    if (share := found.get("mesh_load_factor")) is not None:
+        yield f"The planet with most carries {share:.3f} times its share (K_γ)."
+    least = summary.get("worst_of", {})
+    names = [name for name in ("S_B", "S_intS", "S_lambda") if name in found and name in least]
+    if names:
+        parts = [f"{QUANTITIES[name].symbol} {found[name]:.2f} in {least[name]}" for name in names]
+        yield f"Smallest safeties: {', '.join(parts)}."
+    if "efficiency" in found:
+        lost = with_unit("power_friction_mean", found["power_friction_mean"])
+        yield f"The teeth lose {lost}; the train is {100.0 * found['efficiency']:.2f} % efficient."
+
+
+def sentences(record: Record) -> list[str]:
+    """Say what is assumed and what is extrapolated."""
+    summary = record.summary
+    return [str(text) for name in ("assumed", "extrapolated") for text in summary.get(name, {}).values()]

@@ -1,0 +1,286 @@
+"""From a case of an assessment of a train to its record: its runs, then the standards mesh by mesh."""
+
+import math
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from tribodyn.errors import SimulationError
+from tribodyn.post.report import EXCEEDED
+from tribodyn.record.reader import MESHES, Record
+from tribodyn.record.trust import REASONS, TRUST
+from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.rated.limits import judged, worst
+from tribodyn.studies.gears.rated.margins import strength_of
+from tribodyn.studies.gears.rated.standard import RatedDuty, iso_part, margins_by_standard, standard_of
+from tribodyn.studies.protocol import tasks
+from tribodyn.studies.protocol.part import MeshAtDuty, Task, TaskResult, WholeDrive
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
+from tribodyn.studies.train_assessment.case import LAYOUT, SAMPLES, TrainAssessmentCase
+
+DUTY, STAGES = "duty", "stages"
+#: Share of the time without contact that counts.
+_LOST = 1e-6
+#: Of the run at the duty, of the train.
+_OF_TRAIN = (
+    *("train_ratio", "power_in_mean", "power_friction_mean", "power_damping_mean", "efficiency"),
+    *("dynamic_factor", "mesh_load_factor", "planet_load_factor_max", "normal_load_max"),
+    *("contact_loss_fraction", "hertz_pressure_max", "film_min", "film_parameter_min"),
+    *("flash_temperature_max", "contact_temperature_max", "bulk_temperature", "worst_mesh"),
+)
+#: Of the run at the duty, of each mesh.
+_OF_MESH = (
+    *("dynamic_factor", "power_in_mean", "power_friction_mean", "efficiency", "friction_coefficient_mean"),
+    *("hertz_pressure_max", "film_min", "film_parameter_min", "contact_temperature_max", "bulk_temperature"),
+    *("contact_loss_fraction", "S_B", "S_lambda"),
+)
+
+
+def check(case: TrainAssessmentCase) -> CheckResult:
+    """Check the train and what is asked of it; say what train it is."""
+    checked = case.subject.study.check(case.subject.case, allow_large=True)
+    every = tasks_of(case)
+    tasks.require_cases(every)
+    return checked._replace(data={**checked.data, "tasks": [task.name for _, task in every]})
+
+
+def run(
+    case: TrainAssessmentCase,
+    output: str | Path | None = None,
+    *,
+    force: bool = False,
+    progress: Progress | None = None,
+) -> RunResult:
+    """Run a case and write its record; see `study.Study.run`.
+
+    The runs lie in a folder beside the record and are done again only if their scenarios or the code changed.
+    """
+    path = target(case, output, force)
+    try:
+        along, summary = assessed(case, tasks.folder_of(path), progress, force)
+    except SimulationError as error:
+        with writer(case, path, LAYOUT, 0, force=force) as record:
+            return RunResult(record.fail(str(error), {}), "failed", str(error), {})
+    except KeyboardInterrupt as error:
+        error.__notes__ = [f"the runs done so far: {tasks.folder_of(path)}, the same call goes on"]
+        raise
+    with writer(case, path, LAYOUT, len(along["input_speed"]), force=force) as record:
+        record.write(0, along)
+        return RunResult(record.finish(summary), "complete", "", summary)
+
+
+def quantities_of(case: TrainAssessmentCase) -> dict[str, Any]:
+    """Quantities of a case without a record; nothing is kept of its runs."""
+    with TemporaryDirectory(prefix="tribodyn-") as folder:
+        return assessed(case, Path(folder))[1]
+
+
+def tasks_of(case: TrainAssessmentCase) -> list[tuple[Study, Task]]:
+    """The train's run at the duty, those at other speeds, and those with other friction laws."""
+    subject, settings = case.subject, case.settings
+    scenario = tomllib.loads(subject.case.toml)
+    found = [Task(DUTY, "motion at the duty", scenario)]
+    for factor in factors_of(case):
+        about = f"motion at {factor:.4g} of the speed"
+        other = _whole(case).at_speed(subject.case, scenario, factor)
+        found.append(Task(f"speed-{factor:.4g}", about, other, needed=False))
+    for law in settings.friction_laws:
+        about, other = f"motion with friction by {law}", {**scenario, "friction": {"law": law}}
+        found.append(Task(f"friction-{law}", about, other, needed=False))
+    return [(subject.study, task) for task in found]
+
+
+def factors_of(case: TrainAssessmentCase) -> list[float]:
+    """Speeds of the further runs over that of the duty."""
+    if not case.settings.speeds:
+        return []
+    found = np.linspace(*case.settings.speed_range, case.settings.speeds)
+    return [float(f"{factor:.6g}") for factor in found if abs(factor - 1.0) > 1e-6]
+
+
+def _whole(case: TrainAssessmentCase) -> WholeDrive:
+    whole = case.subject.study.whole()
+    assert whole is not None, "refused by the rules"
+    return whole
+
+
+def assessed(
+    case: TrainAssessmentCase, folder: Path, progress: Progress | None = None, force: bool = False
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Run the tasks into a folder and put them together: values over the speed, and the summary.
+
+    Raises InputError or SimulationError if the run at the duty fails; see also `tasks.results`.
+    """
+    begun = perf_counter()
+    every = tasks_of(case)
+    done = tasks.results(every, folder, progress, force=force)
+    own = done[DUTY].summary
+    along = _over_speed(case, done)
+    meshes = {mesh.name: _of_mesh(case, mesh, own) for mesh in _whole(case).meshes(case.subject.case)}
+    summary: dict[str, Any] = {
+        "input_speed": _whole(case).speed(case.subject.case),
+        **{name: own[name] for name in _OF_TRAIN if own.get(name) is not None},
+        **_extremes(along),
+        **_losses(case, done),
+        **_worst_margins(meshes),
+        STAGES: own.get(STAGES, {}),
+        MESHES: meshes,
+        "limits": judged(case.limits, _values(own, meshes)),
+        "assumed": _numbered(list(_assumed(case, meshes))),
+        "extrapolated": _numbered(_extrapolated(every, done)),
+        **{name: own[name] for name in (TRUST, REASONS) if own.get(name)},
+        "wall_time": perf_counter() - begun,
+    }
+    return along, {name: value for name, value in summary.items() if value not in ({}, [])}
+
+
+def _over_speed(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[str, np.ndarray]:
+    """The recorded quantities over the speed of the runs that were done."""
+    speed = _whole(case).speed(case.subject.case)
+    runs = {factor: done[f"speed-{factor:.4g}"].summary for factor in factors_of(case)} | {
+        1.0: done[DUTY].summary
+    }
+    factors = sorted(factor for factor, summary in runs.items() if summary)
+    found = {"input_speed": speed * np.array(factors)}
+    for name in SAMPLES:
+        values = [runs[factor].get(name) for factor in factors]
+        found[name] = np.array([math.nan if value is None else float(value) for value in values])
+    return found
+
+
+def _extremes(along: Mapping[str, np.ndarray]) -> dict[str, Any]:
+    """Largest factors over the speed, and where contact is lost."""
+    speed, found = along["input_speed"], dict[str, Any]()
+    if np.any(np.isfinite(along["dynamic_factor"])):
+        place = int(np.nanargmax(along["dynamic_factor"]))
+        found["dynamic_factor_max"] = float(along["dynamic_factor"][place])
+        found["dynamic_factor_max_input_speed"] = float(speed[place])
+    if np.any(np.isfinite(along["mesh_load_factor"])):
+        found["mesh_load_factor_max"] = float(np.nanmax(along["mesh_load_factor"]))
+    lost = np.nan_to_num(along["contact_loss_fraction"]) > _LOST
+    if np.any(lost):
+        found["contact_loss_input_speed_from"] = float(speed[lost][0])
+    return found
+
+
+def _losses(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[str, Any]:
+    """Losses by the train's own friction law and by the others that were asked for."""
+    own = done[DUTY].summary
+    first = str(next(iter(own[MESHES].values())).get("friction_law", "own"))
+    runs = {first: own} | {law: done[f"friction-{law}"].summary for law in case.settings.friction_laws}
+    runs = {law: summary for law, summary in runs.items() if summary}
+    if len(runs) < 2:
+        return {}
+    efficiencies = [float(summary["efficiency"]) for summary in runs.values()]
+    return {
+        "loss_by_law": {law: float(summary["power_friction_mean"]) for law, summary in runs.items()},
+        "efficiency_lowest": min(efficiencies),
+        "efficiency_highest": max(efficiencies),
+    }
+
+
+def _of_mesh(case: TrainAssessmentCase, mesh: MeshAtDuty, own: Mapping[str, Any]) -> dict[str, Any]:
+    """A mesh by the standards, where it has involutes of a tolerance class, beside its motion."""
+    settings, of_run = case.settings, own[MESHES][mesh.name]
+    share = settings.mesh_load_factor
+    if share is None or not mesh.stage:
+        share = float(own.get(STAGES, {}).get(mesh.stage, {}).get("mesh_load_factor", 1.0))
+    found: dict[str, Any] = {
+        "driver": of_run["driver"],
+        "driven": of_run["driven"],
+        **({"alike": mesh.alike} if mesh.alike else {}),
+        "simulated": {name: of_run[name] for name in _OF_MESH if of_run.get(name) is not None},
+        "load_factors": {
+            "K_A": settings.application_factor,
+            "K_gamma": share,
+            "K_Hbeta": settings.face_load_factor,
+        },
+    }
+    pair, assembly = mesh.pair, assembled(mesh.pair)
+    if pair.quality is None or not assembly.family.involute or not pair.operating.gear_torque > 0.0:
+        return found
+    oil = float(pair.lubricant.temperature)
+    application = settings.application_factor * share
+    duty = RatedDuty(
+        oil, application, settings.face_load_factor, settings.lubrication, settings.adequate_tip_relief
+    )
+    standard = standard_of(pair, assembly, duty)
+    strength = strength_of(pair.lubricant, oil, settings.structure_factor)
+    found["load_factors"] |= {"K_v": standard.dynamic.factor, "K_Halpha": standard.transverse}
+    return found | {"iso": iso_part(pair, standard) | margins_by_standard(standard, strength, oil)}
+
+
+def _margin(mesh: Mapping[str, Any], name: str) -> float:
+    """A safety of a mesh: the worse of the standard's and the simulation's; NaN: neither is known."""
+    return worst(*(mesh.get(part, {}).get(name) for part in ("iso", "simulated")))
+
+
+def _worst_margins(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Smallest safeties of all meshes, and which mesh has them."""
+    found: dict[str, Any] = {}
+    for name in ("S_B", "S_intS", "S_lambda"):
+        known = {mesh: _margin(each, name) for mesh, each in meshes.items()}
+        known = {mesh: value for mesh, value in known.items() if math.isfinite(value)}
+        if known:
+            place = min(known, key=lambda mesh: known[mesh])
+            found[name] = known[place]
+            found.setdefault("worst_of", {})[name] = place
+    return found
+
+
+def _values(own: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:
+    """What the limits are compared with."""
+    margins = _worst_margins(meshes)
+    names = {"scuffing_flash": "S_B", "scuffing_integral": "S_intS", "micropitting": "S_lambda"}
+    found = {limit: margins.get(name, math.nan) for limit, name in names.items()}
+    of_run = {"hertz_pressure": "hertz_pressure_max"}
+    for limit in ("dynamic_factor", "hertz_pressure", "mesh_load_factor"):
+        value = own.get(of_run.get(limit, limit))
+        found[limit] = math.nan if value is None else float(value)
+    return found
+
+
+def _numbered(sentences: Sequence[str]) -> dict[str, str]:
+    return {f"{number:02d}": sentence for number, sentence in enumerate(sentences, 1)}
+
+
+def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
+    settings = case.settings
+    given = settings.mesh_load_factor
+    share = f"K_γ = {given:g}" if given is not None else "K_γ of each planetary stage by the simulation"
+    yield (
+        f"K_A = {settings.application_factor:g}; {share}; K_Hβ = {settings.face_load_factor:g} in every mesh."
+    )
+    yield "Accurate teeth in the simulation but for modifications and pin errors of the scenario."
+    rated = [name for name, mesh in meshes.items() if "iso" in mesh]
+    if len(rated) < len(meshes):
+        yield (
+            "Meshes without a tolerance class or of other teeth than involutes have the simulation's margins "
+            "alone."
+        )
+    if rated:
+        yield (
+            "Standards: each mesh as a pair of its own, deviations by ISO 1328-1, K_v and K_Hα by "
+            "method B, flanks without credited tip relief, case-hardened running-in, new oil; no integral "
+            "temperature of a ring."
+        )
+    if any("S_B" not in mesh.get("simulated", {}) for mesh in meshes.values()):
+        yield "Without an FZG load stage of the oil there is no safety against scuffing."
+
+
+def _extrapolated(every: Sequence[tuple[Study, Task]], done: Mapping[str, TaskResult]) -> list[str]:
+    """Where laws are used outside their range at the duty, and what could not be computed."""
+    found = []
+    for study, task in every:
+        result = done[task.name]
+        found += result.failures
+        if task.name == DUTY:
+            with Record(result.path) as record:
+                found += [line for line in study.sentences(record) if line.startswith(EXCEEDED)]
+    return list(dict.fromkeys(found))

@@ -1,0 +1,117 @@
+"""The tables of a scenario of ``kind = "train-assessment"``."""
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, create_model
+
+from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.scenario.fields import ScenarioHead, head_of
+from tribodyn.scenario.quantity import Positive, Table, scenario_file, written
+from tribodyn.scenario.resolve import resolve_table
+from tribodyn.studies import study_of
+from tribodyn.studies.gears.rated.limits import OilLimits
+from tribodyn.studies.protocol.load import Loaded, loaded_from, schema_inside, table_of
+from tribodyn.studies.train_assessment.case import TrainAssessmentCase, TrainRatingTable
+from tribodyn.tribology.friction import FRICTION_LAWS
+
+KIND = "train-assessment"
+
+
+class TrainLimits(OilLimits):
+    """What must hold in every mesh: red on the first page where it does not. Judged where given."""
+
+    mesh_load_factor: Positive | None = Field(
+        None, description="maximum K_gamma of the simulation at the duty"
+    )
+
+
+class TrainAssessmentScenario(ScenarioHead):
+    """A scenario file of an assessment of a train."""
+
+    kind: Literal["train-assessment"]
+    scenario: Annotated[dict[str, Any], scenario_file()] = Field(
+        description="the train to assess: the name of its scenario, or its tables"
+    )
+    assessment: TrainRatingTable = written({})
+    limits: TrainLimits = written({})
+
+
+Scenario = TrainAssessmentScenario
+
+
+def table_for(data: Mapping[str, Any]) -> type[Table]:
+    """Return the schema for data whose train, where it is opened, is of a known kind."""
+    return _around(schema_inside(data.get("scenario"), KIND))
+
+
+@lru_cache(maxsize=16)
+def _around(base: type[Table] | None) -> type[Table]:
+    if base is None:
+        return TrainAssessmentScenario
+    about = TrainAssessmentScenario.model_fields["scenario"].description
+    field: Any = (Annotated[base, scenario_file()], Field(description=about))
+    return create_model(
+        "TrainAssessmentScenario",
+        __base__=TrainAssessmentScenario,
+        __doc__=TrainAssessmentScenario.__doc__,
+        scenario=field,
+    )
+
+
+def case_of(scenario: Scenario, toml: str, sha256: str) -> TrainAssessmentCase:
+    """Return the case of a scenario that has passed schema and rules."""
+    return TrainAssessmentCase(
+        **head_of(scenario, toml, sha256),
+        subject=subject_of(tomllib.loads(toml)["scenario"]),
+        settings=scenario.assessment,
+        limits=scenario.limits.model_dump(),
+    )
+
+
+def subject_of(data: Mapping[str, Any]) -> Loaded:
+    """Load the train that stands in a scenario with everything written out."""
+    path = Path(f"{data.get('name') or 'train'}.toml")
+    return loaded_from(resolve_table(dict(data), path, {}, table_of), path)
+
+
+def broken_rules(scenario: Any) -> Iterator[InputError]:
+    """Go through the rules that the scenario breaks."""
+    inner, settings = scenario.scenario, scenario.assessment
+    yield from _of_subject(inner)
+    first, last = settings.speed_range
+    if not first < last:
+        rule = "the last speed must be above the first"
+        yield InputError("assessment.speed_range", f"[{first:g}, {last:g}]", rule, "write [0.5, 1.25]")
+    for name in settings.friction_laws:
+        if name not in FRICTION_LAWS:
+            yield unknown_name("assessment.friction_laws", name, FRICTION_LAWS, FRICTION_LAWS.what)
+        elif needed := [key.name for key in FRICTION_LAWS[name].keys if key.default is None]:
+            rule = f"has keys of its own ({', '.join(needed)})"
+            yield InputError("assessment.friction_laws", quoted(name), rule, "leave it out")
+
+
+def _of_subject(inner: Any) -> Iterator[InputError]:
+    opened = isinstance(inner, Table)
+    kind = inner.kind if opened else inner.get("kind")  # pyright: ignore[reportAttributeAccessIssue]
+    study = study_of({"kind": kind})
+    if not opened or study.whole() is None:
+        rule = "is no train: it has no meshes that could be assessed one by one"
+        remedy = 'name a scenario of a train; of a pair of gears write kind = "assessment"'
+        yield InputError("scenario.kind", quoted(kind), rule, remedy)
+        return
+    for error in study.broken_rules(inner):
+        yield InputError(f"scenario.{error.key}", error.value, error.rule, error.remedy, error.file)
+    train: Any = inner
+    if train.lubricant.viscosity_40 is None:
+        rule = "missing: temperatures and margins need the oil over temperature, by its data sheet"
+        remedy = "give type, viscosity_40, viscosity_100 and density_15"
+        yield InputError("scenario.lubricant.viscosity_40", rule=rule, remedy=remedy)
+    elif train.operating.oil_temperature is None:
+        rule = "missing: margins are those of an oil that enters at a temperature"
+        yield InputError(
+            "scenario.operating.oil_temperature", rule=rule, remedy='add oil_temperature = "60 degC"'
+        )
