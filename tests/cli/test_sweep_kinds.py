@@ -28,9 +28,10 @@ VARIED = {
     "backlash-oscillator": ("damping", ("0.05", "0.1")),
     "design": ("scenario.drive.module", ("3 mm", "3.1 mm")),
     "assessment": ("operating.oil_temperature", ("70 degC", "80 degC")),
+    "train-assessment": ("scenario.operating.oil_temperature", ("70 degC", "80 degC")),
 }
 #: Kinds whose cases take long.
-LONG = ("load-contact", "ehl", "design", "assessment")
+LONG = ("load-contact", "ehl", "design", "assessment", "train-assessment")
 KINDS = [pytest.param(kind, marks=pytest.mark.soak) if kind in LONG else kind for kind in VARIED]
 
 

@@ -41,6 +41,12 @@ SHORT: dict[str, dict[str, Any]] = {
         "assessment.samples": 2,
         "assessment.friction_laws": ["masjedi-khonsari", "niemann"],
     },
+    "train-assessment": {
+        "scenario.solver.cycles": 4,
+        "scenario.output.samples_per_cycle": 40,
+        "scenario.friction.law": "xu",
+        "assessment.speeds": 2,
+    },
 }
 
 

@@ -36,6 +36,10 @@ class ContactPath(NamedTuple):
         """−1 where the pinion is internal, else 1: its torque has the sign of its radius, not its speed."""
         return -1.0 if self.teeth[0] < 0.0 else 1.0
 
+    def pinion_torque(self, gear_torque: float) -> float:
+        """Torque on the pinion, N m, that balances one on the gear, positive against its own motion."""
+        return gear_torque / abs(self.ratio) * self.sense
+
     @property
     def centre_distance(self) -> float:
         """Distance a of the axes, m."""

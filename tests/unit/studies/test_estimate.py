@@ -112,6 +112,7 @@ LARGE = {
     "irefc": [("output.samples_per_cycle", 10**9)],
     "backlash-oscillator": [("frequency.from", 1e-29)],
     "assessment": [("assessment.speeds", 10**9)],
+    "train-assessment": [("scenario.output.samples_per_cycle", 10**9)],
     "design": [("scenario.output.positions_per_cycle", 10**9)],
 }
 #: Kinds that run others, again and again.

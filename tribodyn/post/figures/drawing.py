@@ -4,10 +4,12 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
 from tribodyn.post.figures.panel import View
+from tribodyn.post.style import new_figure
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 
@@ -55,6 +57,17 @@ def drawing(
         return draw(records, view)
 
     return Drawing(about, checked, fits)
+
+
+def single(draw: Callable[[Axes, Record], None]) -> Callable[[Sequence[Record], View], Figure]:
+    """A figure of one panel, of the first record."""
+
+    def figure(records: Sequence[Record], _view: View) -> Figure:
+        drawn = new_figure()
+        draw(drawn.subplots(), records[0])
+        return drawn
+
+    return figure
 
 
 def with_whole_markers(figure: Figure) -> Figure:

@@ -1,12 +1,12 @@
 """Pictures of an assessment: those of its record, and those of the first page of its report."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.drawing import Drawing, single
 from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
@@ -96,21 +96,10 @@ def along_path(records: Sequence[Record], _view: View) -> Figure:
     return figure
 
 
-def _panel(draw: Callable[[Axes, Record], None]) -> Callable[[Sequence[Record], View], Figure]:
-    """A figure of one panel, of the first record."""
-
-    def figure(records: Sequence[Record], _view: View) -> Figure:
-        drawn = new_figure(WIDTH, PANEL_HEIGHT)
-        draw(drawn.subplots(), records[0])
-        return drawn
-
-    return figure
-
-
 DRAWINGS = {
     "overview": Drawing("pressure, contact temperature and specific film along the path", along_path),
     "specific-film": Drawing(
-        "specific film along the path, simulated and by the standard", _panel(draw_film)
+        "specific film along the path, simulated and by the standard", single(draw_film)
     ),
-    "losses": Drawing("loss to tooth friction by every friction law", _panel(draw_losses)),
+    "losses": Drawing("loss to tooth friction by every friction law", single(draw_losses)),
 }

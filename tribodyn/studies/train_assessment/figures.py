@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.drawing import Drawing, single
 from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.record.reader import MESHES, Record
@@ -86,11 +86,16 @@ def _safeties(axes: Axes, record: Record) -> None:
     axes.axvline(1.0, color="#b3261e", linewidth=0.9, linestyle="--")
     axes.set_yticks(range(len(groups)), [literal(group) for group, _ in groups])
     axes.set_xscale("log")
+    axes.margins(0.08, 0.35 / len(groups))
     axes.set(title="Safeties, the worst mesh of a kind")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="best", fontsize=6)
 
 
 DRAWINGS = {
-    "overview": Drawing("factors and efficiency over the speed, losses and safeties by mesh", overview)
+    "overview": Drawing("factors and efficiency over the speed, losses and safeties by mesh", overview),
+    "losses": Drawing("loss to tooth friction of all meshes of a kind", single(_losses)),
+    "safeties": Drawing(
+        "safeties by the standards and the simulation, worst mesh of a kind", single(_safeties)
+    ),
 }

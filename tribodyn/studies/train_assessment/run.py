@@ -254,9 +254,8 @@ def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]])
     settings = case.settings
     given = settings.mesh_load_factor
     share = f"K_γ = {given:g}" if given is not None else "K_γ of each planetary stage by the simulation"
-    yield (
-        f"K_A = {settings.application_factor:g}; {share}; K_Hβ = {settings.face_load_factor:g} in every mesh."
-    )
+    share = f" {share};" if any("alike" in mesh for mesh in meshes.values()) else ""
+    yield f"K_A = {settings.application_factor:g};{share} K_Hβ = {settings.face_load_factor:g} in every mesh."
     yield "Accurate teeth in the simulation but for modifications and pin errors of the scenario."
     rated = [name for name, mesh in meshes.items() if "iso" in mesh]
     if len(rated) < len(meshes):

@@ -61,7 +61,7 @@ def standard_of(case: OiledCase, assembly: Assembly, duty: RatedDuty) -> Standar
     """Evaluate the standards for a pair of involutes with a tolerance class, whose pinion drives."""
     assert case.quality is not None, "refused by the rules"
     path = path_of(assembly)
-    width, torque = float(assembly.common_width), case.operating.gear_torque / path.ratio
+    width, torque = float(assembly.common_width), path.pinion_torque(case.operating.gear_torque)
     bodies = body_masses(
         assembly,
         [(body.mass, body.inertia) for body in case.masses],
@@ -160,7 +160,8 @@ def path_of(assembly: Assembly) -> ContactPath:
 def iso_part(case: OiledCase, found: Standard) -> dict[str, Any]:
     """What a program reads of it; temperatures in °C, everything else in SI units."""
     films, count = found.films, len(POINTS)
-    power = case.operating.gear_torque / found.path.ratio * case.operating.pinion_speed * found.path.sense
+    torque = found.path.pinion_torque(case.operating.gear_torque)
+    power = torque * case.operating.pinion_speed * found.path.sense
     return {
         "theta_M": by_point(np.full(count, films.bulk_temperature - ZERO_CELSIUS), max),
         "mu_m": by_point(np.full(count, films.friction_coefficient), max),
