@@ -148,6 +148,8 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         # by the sliding that friction is given, against which it acts at every moment: with the nominal one
         # power_friction, the work on the moving bodies, is another
         "sliding_loss": np.sum(friction * contacts.sliding, axis=1),
+        # what that would be with a friction coefficient of 1
+        "sliding_load": np.sum(load * np.abs(contacts.sliding), axis=1, where=touching),
         "mesh_power_friction": np.sum(friction * per_pair(contact.RELATIVE_VELOCITY), axis=1, where=inside),
     }
     if shares:

@@ -86,10 +86,11 @@ def _safeties(axes: Axes, record: Record) -> None:
     axes.axvline(1.0, color="#b3261e", linewidth=0.9, linestyle="--")
     axes.set_yticks(range(len(groups)), [literal(group) for group, _ in groups])
     axes.set_xscale("log")
-    axes.margins(0.08, 0.35 / len(groups))
+    axes.margins(0.08, 0.0)
+    axes.set_ylim(-0.5, 1.35 * len(groups))  # room for the legend
     axes.set(title="Safeties, the worst mesh of a kind")
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="best", fontsize=6)
+        axes.legend(loc="upper center", ncol=2, fontsize=6)
 
 
 DRAWINGS = {

@@ -58,16 +58,15 @@ def _asked(case: TrainAssessmentCase, summary: Mapping[str, Any]) -> str:
     for group, names in groups_of(summary[MESHES]).items():
         drive = meshes[names[0]].drive
         teeth = "/".join(f"{float(gear.teeth):.0f}" for gear in (drive.pinion, drive.gear))
-        helix = f", β {math.degrees(drive.helix_angle):.4g}°" if drive.helix_angle else ""
+        helix = f", β {abs(math.degrees(drive.helix_angle)):.4g}°" if drive.helix_angle else ""
         times = f", {len(names)} times" if len(names) > 1 else ""
         gears.append(f"{group} {teeth}, module {drive.module * 1e3:.4g} mm{helix}{times}")
     pair = next(iter(meshes.values()))
     sheet, oil = pair.lubricant.sheet, f"at {float(pair.lubricant.temperature) - 273.15:.4g} °C"
     if sheet is not None:
         oil = f"{sheet.type}, {sheet.viscosity_40 * 1e6:.4g}/{sheet.viscosity_100 * 1e6:.4g} mm²/s, {oil}"
-    power = QUANTITIES["power_in_mean"]
     duty = (
-        f"{power.written(summary['power_in_mean'])} {power.unit} put in "
+        f"{summary['power_in_mean'] * 1e-3:.5g} kW put in "
         f"at {summary['input_speed'] * _RPM:.5g} rpm, ratio {summary['train_ratio']:.5g}"
     )
     return first_page.asked(
@@ -112,9 +111,9 @@ def _tiles(summary: Mapping[str, Any]) -> str:
 
 def _stages(summary: Mapping[str, Any]) -> str:
     columns, rows = stage_rows(summary)
-    return numbers_table("Each planetary stage", columns, rows) if rows else ""
+    return numbers_table("Each planetary stage", columns, rows, " meshes") if rows else ""
 
 
 def _meshes(summary: Mapping[str, Any], part: str, heading: str) -> str:
     columns, rows = mesh_rows(summary, part)
-    return numbers_table(heading, columns, rows) if rows else ""
+    return numbers_table(heading, columns, rows, " meshes") if rows else ""

@@ -42,6 +42,13 @@ def test_the_summary_has_what_the_helix_adds(run):
     assert found["line_load_max"] >= np.max(run.data.line_load[-1])
 
 
+def test_the_mean_friction_coefficient_is_coulombs_whatever_the_slices_do():
+    """On both sides of the pitch line of one pair friction acts to either side; the loss is that of both."""
+    coulomb = {"friction.law": "coulomb", "friction.coefficient": 0.05}
+    found = td.run("helical-23-47", SHORT | coulomb).summary
+    assert found["friction_coefficient_mean"] == pytest.approx(0.05, rel=1e-5)
+
+
 def test_the_map_carries_the_load_of_its_lines_of_contact(record):
     """Along the lines of one position the map has the load of all pairs."""
     found, table = flank_map(record), record.mesh_cycle

@@ -66,7 +66,10 @@ def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
     work[WORK_OUT], work[WORK_FRICTION], work[WORK_SLIDING] = gear, 0.02 * torque, 0.025 * torque
     work[WORK_DAMPING] = 0.004 * torque
     work[WORK_IN] = gear + work[WORK_FRICTION]
+    friction = np.sign(sliding) * load * np.array([0.1, 0.04, 0.1, 0.04])
     return {
+        "sliding_load": np.sum(load * np.abs(sliding), axis=1),
+        "sliding_loss": np.sum(friction * sliding, axis=1),
         "transmission_error_rotational": 1e-5 + 4e-6 * np.cos(6.0 * np.pi * phase),
         "transmission_error_normal": error,
         "normal_load": load,
@@ -74,7 +77,7 @@ def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
         "tangent_stiffness": np.where(load > 0.0, 3e8 + 1e8 * np.cos(2.0 * np.pi * phase)[:, None], 0.0)
         * np.cos(angle) ** 2,
         "mesh_stiffness": np.where(load > 0.0, 3e8 + 1e8 * np.cos(2.0 * np.pi * phase)[:, None], 0.0),
-        "friction_force": np.sign(sliding) * load * np.array([0.1, 0.04, 0.1, 0.04]),
+        "friction_force": friction,
         "sliding_speed": sliding,
         "velocity": np.tile([0.0, 0.0, 0.0, 0.0, MEAN_SPEED, 40.0], (count, 1)),
         "closure_in_range": np.ones((count, 4)),
@@ -134,7 +137,7 @@ def test_time_without_contact_and_without_load():
     block["normal_load"][: SAMPLES // 2] = 0.0
     found = quantities_of(block, work)
     assert found["contact_loss_fraction"] == pytest.approx(0.5 / CYCLES, rel=1e-12)
-    block["normal_load"][:] = 0.0
+    block["normal_load"][:] = block["sliding_load"][:] = 0.0
     found = quantities_of(block, 0.0 * work)
     assert np.isnan(found["dynamic_factor"])
     assert np.isnan(found["friction_coefficient_mean"])

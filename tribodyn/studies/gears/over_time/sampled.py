@@ -27,7 +27,7 @@ class Sampled(NamedTuple):
 def sampled(samples: Evaluated, shares: bool = False) -> Sampled:
     """All datasets of states; `shares` as of `mesh_outputs`."""
     meshes = [mesh_outputs(m, samples, shares) for m in range(len(samples.model.meshes))]
-    loss = sum((mesh.pop("sliding_loss") for mesh in meshes), np.zeros(samples.size))
+    loss = sum((mesh["sliding_loss"] for mesh in meshes), np.zeros(samples.size))
     return Sampled(samples.cycles, train_outputs(samples, loss), meshes)
 
 

@@ -74,8 +74,7 @@ def mesh_quantities(
     error = window["transmission_error_rotational"]
     load = window["normal_load"]
     friction = np.abs(window["friction_force"])
-    sliding = np.abs(np.nan_to_num(window["sliding_speed"]))
-    slid, loaded = np.sum(friction * sliding), np.sum(load * sliding)
+    slid, loaded = np.sum(np.abs(window["sliding_loss"])), np.sum(window["sliding_load"])
     touching = load > 0.0
     found = amplitude_spectrum(error, samples)
     spectrum = Spectrum(found.orders / rate, found.amplitudes)
