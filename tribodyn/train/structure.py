@@ -108,9 +108,8 @@ class GearMesh(NamedTuple):
     #: next likewise
     driver_sense: Any = 1.0
     driven_sense: Any = 1.0
-    carrier_arm: Any = (
-        0.0  # what the rotation of its carrier moves the pitch point by along the tangent, m/rad
-    )
+    #: what the rotation of its carrier moves the pitch point by along the tangent, m/rad
+    carrier_arm: Any = 0.0
 
 
 class TrainLayout(NamedTuple):

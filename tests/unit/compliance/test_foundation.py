@@ -4,9 +4,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from tests.support.compile_fast import ONE_CALL
+from tests.support.plane_stress import shot
 from tribodyn.compliance.energy import loaded_tooth, polynomials_over_ring, tooth_compliance
 from tribodyn.compliance.foundation import (
     HARMONICS,
@@ -37,24 +37,8 @@ def converged(angle, half_angle, ratio):
 @pytest.mark.parametrize("order", [0, 1, 2, 7, 40])
 @pytest.mark.parametrize("bore", [0.2, 0.7])
 def test_receptance_solves_the_equations_of_plane_stress(order, bore):
-    # equilibrium and Hooke's law for (u, v, σ_r, τ) of one harmonic, integrated from the fixed bore to r = 1
-    def slope(r, y):
-        u, v, normal, shear = y
-        hoop_strain = (u + order * v) / r
-        hoop = hoop_strain + NU * normal
-        return [
-            (1 - NU**2) * normal - NU * hoop_strain,
-            2 * (1 + NU) * shear + (order * u + v) / r,
-            (hoop - normal - order * shear) / r,
-            (order * hoop - 2 * shear) / r,
-        ]
-
-    ends = np.array(
-        [
-            solve_ivp(slope, (bore, 1), start, method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
-            for start in ([0, 0, 1, 0], [0, 0, 0, 1])
-        ]
-    ).T
+    # from the fixed bore to r = 1
+    ends = shot(order, NU, bore, [[0, 0, 1, 0], [0, 0, 0, 1]])
     exact = ends[:2] @ np.linalg.inv(ends[2:])
     # the two shot solutions grow like bore^−order and lose digits of their difference
     np.testing.assert_allclose(

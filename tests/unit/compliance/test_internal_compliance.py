@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
+from tests.support.plane_stress import shot
 from tests.support.planet_sets import planet_set
 from tests.support.train_scenarios import case_of_table
 from tribodyn.compliance.energy import loaded_tooth, tooth_compliance
@@ -23,26 +23,9 @@ NU = 0.3
 @pytest.mark.parametrize("outside", [1.1, 1.6])
 def test_rim_solves_the_equations_of_plane_stress(outside, order, free):
     """From the outside, fixed or without traction, to r = 1, where traction acts on the material around."""
-
-    def slope(r, y):
-        u, v, normal, shear = y
-        hoop_strain = (u + order * v) / r
-        hoop = hoop_strain + NU * normal
-        return [
-            (1 - NU**2) * normal - NU * hoop_strain,
-            2 * (1 + NU) * shear + (order * u + v) / r,
-            (hoop - normal - order * shear) / r,
-            (order * hoop - 2 * shear) / r,
-        ]
-
     # orders 0 and 1 would move a free rim as a whole, and are held
     starts = np.eye(4)[:2] if free and order > 1 else np.eye(4)[2:]
-    ends = np.array(
-        [
-            solve_ivp(slope, (outside, 1), start, method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
-            for start in starts
-        ]
-    ).T
+    ends = shot(order, NU, outside, starts)
     exact = -ends[:2] @ np.linalg.inv(ends[2:])
     found = _ring_receptance(np.arange(21.0), outside, NU, free)[order]
     np.testing.assert_allclose(found, exact, rtol=1e-6, atol=1e-9 * np.abs(exact).max())
