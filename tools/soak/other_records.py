@@ -143,6 +143,18 @@ def assessment_faults(record: Record) -> Iterator[str]:
             yield f"margin {name} = {margin}"
 
 
+def train_assessment_faults(record: Record) -> Iterator[str]:
+    """Say what is wrong with the record of an assessment of a train."""
+    yield from any_faults(record)
+    summary = record.summary
+    yield from _negative(record, "dynamic_factor", "power_friction_mean", "S_B", "S_lambda", missing=True)
+    for name, mesh in summary["meshes"].items():
+        for part in ("iso", "simulated"):
+            margins = {key: value for key, value in mesh.get(part, {}).items() if key.startswith("S_")}
+            if not all(value >= 0.0 for value in margins.values()):
+                yield f"margins of {name}, {part}: {margins}"
+
+
 def search_faults(record: Record) -> Iterator[str]:
     """Say what is wrong with the record of a search: its best is none, or alone has other results."""
     yield from any_faults(record)
@@ -207,6 +219,7 @@ FAULTS = {
     "load-contact": load_contact_faults,
     "ehl": solved_contact_faults,
     "assessment": assessment_faults,
+    "train-assessment": train_assessment_faults,
     "design": search_faults,
     "irefc": rolling_faults,
 }

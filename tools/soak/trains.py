@@ -5,6 +5,7 @@ from typing import Any
 from tools.soak import duties
 from tools.soak.draw import Draw, quantity
 from tools.soak.drives import size_of
+from tools.soak.studies import OILS
 
 #: Keys of a drive that a stage has.
 OF_STAGE = ("family", "module", "pressure_angle", "shape", "centre_distance", "rack", "roughness")
@@ -46,4 +47,23 @@ def train(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
         "shaft": [shaft],
         "bearings": {"default": {**bearing, "damping_ratio": 0.05}},
         "operating": operating,
+    }
+
+
+def assessed(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
+    """Return the scenario of an assessment of such a train, with one further speed."""
+    subject = train(draw, drive)
+    subject |= {"quality": draw.whole(3, 10), "lubricant": draw.choice(OILS)}
+    subject["operating"]["oil_temperature"] = quantity(draw.between(20.0, 120.0), "degC")
+    return {
+        "title": "A random assessment of a train",
+        "kind": "train-assessment",
+        "scenario": subject,
+        "assessment": {
+            "application_factor": draw.between(1.0, 2.0),
+            "face_load_factor": draw.between(1.0, 2.0),
+            "lubrication": draw.choice(("dip", "spray", "submerged")),
+            "speed_range": [0.5, 1.5],
+            "speeds": draw.choice((0, 2)),
+        },
     }
