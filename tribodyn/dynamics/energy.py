@@ -7,7 +7,7 @@ from tribodyn.dynamics.frame import frame_energy
 from tribodyn.dynamics.loads import link_energy
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import locate, motion_of
-from tribodyn.numerics.elementary import law, maximum, skippable, sqrt, truncate
+from tribodyn.numerics.elementary import by_chain_rule, independent, law, maximum, skippable, sqrt, truncate
 from tribodyn.train.structure import shift_of, slip_of, speed_of
 
 
@@ -16,9 +16,11 @@ def strain_energy(phase, segment, m, y, model, work):
     """Strain energy of a mesh's contacts at a phase of its own, J; fills its `work` with elastic loads."""
     mesh = model.meshes[m]
     place = locate(phase, segment, mesh.table)
-    approach(place, motion_of(m, y, model), mesh, work)
+    motion = motion_of(m, y, model)
+    approach(place, independent(motion, work), mesh, work)
     elastic_loads(place, mesh, model, work)
-    return mesh_energy(mesh, model, work)
+    (energy,) = by_chain_rule((mesh_energy(mesh, model, work),), motion, work)
+    return energy
 
 
 @law

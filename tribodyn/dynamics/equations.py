@@ -27,7 +27,7 @@ from tribodyn.dynamics.frame import add_frame_forces, carried_along
 from tribodyn.dynamics.loads import link_forces, load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import motion_of, on_body, place_in_mesh
-from tribodyn.numerics.elementary import law
+from tribodyn.numerics.elementary import by_chain_rule, independent, law, plain
 from tribodyn.train.structure import (
     AXIAL,
     DAMPING,
@@ -55,7 +55,7 @@ def resultants(place, mesh, model, work):
 
     Forces and moments on the driver that go with `structure.MOVES` (N, N m); moments that resist the driver
     and drive the driven body (N m), powers of friction on the moving bodies, on bodies that only rotate, of
-    damping (W).
+    damping (W), and `parametric_torque`.
     """
     table = mesh.table
     along = 0.0
@@ -102,6 +102,7 @@ def resultants(place, mesh, model, work):
         friction,
         sliding,
         damping,
+        parametric_torque(place, mesh, model, work),
     )
 
 
@@ -110,8 +111,9 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
     """Fill `dy` with the derivative of the state by phase, per reference cycle, and `work` with the contacts.
 
     The phase, 0 … 1, lies inside `interval`, which says what pairs are in contact; `cycle` counts the
-    reference cycles before. `work` has one for every mesh. Returns the powers of drive, load, tooth friction
-    (≥ 0: lost), damping (lost) and parametric work, W, and the drive torque on the input, N m.
+    reference cycles before. `work` has one for every mesh. Compiled code carries no derivatives of works.
+    Returns the powers of drive, load, tooth friction (≥ 0: lost), damping (lost) and parametric work, W, and
+    the drive torque on the input, N m.
     """
     operation, bodies, options = model.operation, model.bodies, model.options
     layout = options.layout
@@ -130,7 +132,8 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         driver, driven = layout.driver[m], layout.driven[m]
         place = place_in_mesh(m, phase, interval, model)
         reversals = reversals_per_velocity(rolling_ratio(m, model), mesh, model)
-        contact_forces(place, motion_of(m, y, model), reversals, mesh, model, work[m])
+        motion = motion_of(m, y, model)
+        contact_forces(place, independent(motion, work[m]), reversals, mesh, model, work[m])
         (
             along,
             across,
@@ -142,7 +145,8 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
             friction,
             sliding,
             damping,
-        ) = resultants(place, mesh, model, work[m])
+            torque,
+        ) = by_chain_rule(resultants(place, mesh, model, work[m]), motion, work[m])
         x = mesh.along_x * along + mesh.across_x * across
         z = mesh.along_y * along + mesh.across_y * across
         if driver < layout.planar:
@@ -165,11 +169,10 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
         dy[b] = dy[b] + mesh.driven_sense * driving
         friction_power = friction_power + friction
         damping_power = damping_power + damping
-        torque = parametric_torque(place, mesh, model, work[m])
         parametric = parametric + rolling_ratio(m, model) * torque
         of_mesh = layout.mechanical + OF_MESHES + WORKS_OF_MESH * m
-        dy[of_mesh + FRICTION] = rate * friction
-        dy[of_mesh + WORK_SLIDING] = rate * sliding
+        dy[of_mesh + FRICTION] = plain(rate * friction)
+        dy[of_mesh + WORK_SLIDING] = plain(rate * sliding)
     damping_power = damping_power + link_forces(y, model, dy)
     if layout.frames > 0:
         add_frame_forces(y, model, dy)
@@ -229,8 +232,8 @@ def derivatives(phase, cycle, interval, y, model, work, dy):
                 dy[half + i] = rate / bodies.tilting[b] * dy[half + i]
                 dy[i] = rate * y[half + i]
     works = layout.mechanical
-    dy[works + IN] = rate * power_in
-    dy[works + OUT] = rate * power_out
-    dy[works + DAMPING] = rate * damping_power
-    dy[works + PARAMETRIC] = rate * parametric_power
+    dy[works + IN] = plain(rate * power_in)
+    dy[works + OUT] = plain(rate * power_out)
+    dy[works + DAMPING] = plain(rate * damping_power)
+    dy[works + PARAMETRIC] = plain(rate * parametric_power)
     return power_in, power_out, friction_power, damping_power, parametric_power, drive_torque

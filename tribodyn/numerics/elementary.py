@@ -185,6 +185,20 @@ def largest_slope(x: Any) -> Any:
     return 0.0
 
 
+def independent(numbers: Any, store: Any) -> Any:
+    """A named tuple of numbers as what functions are differentiated by whose values go to `store`.
+
+    Compiled code that carries derivatives in many directions carries there those by these few numbers alone;
+    `by_chain_rule` takes the results back. Everywhere else the numbers themselves.
+    """
+    return numbers
+
+
+def by_chain_rule(results: Any, numbers: Any, store: Any) -> Any:
+    """A tuple of results that were evaluated at `independent` numbers, as results of these."""
+    return results
+
+
 def truncate(x: Any) -> Any:
     """The integer part of x ≥ 0, as an index."""
     return int(x) if type(x) is float else namespace(x).asarray(x).astype(int)

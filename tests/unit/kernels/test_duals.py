@@ -1,15 +1,18 @@
 """Duals: derivatives of laws as compiled code carries them, against complex steps."""
 
+from typing import Any, NamedTuple
+
 import numpy as np
 import pytest
 
 from tribodyn.kernels.duals import functions  # noqa: F401  (its import gives the laws their derivatives)
-from tribodyn.kernels.duals.functions import LENGTH, VALUE, duals_of
-from tribodyn.kernels.duals.numbers import DIRECTIONS
+from tribodyn.kernels.duals.functions import duals_of, length_of
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics import elementary
 from tribodyn.numerics.elementary import law
 
+#: Directions of the duals, two blocks; and those of what is evaluated by few numbers of its own.
+DIRECTIONS, FEW = 16, 8
 #: Results of `evaluated`.
 ROWS = 17
 
@@ -57,20 +60,20 @@ def branched(x, z, out):
 @kernel
 def smooth_over_duals(x, out):
     """`evaluated` at two numbers."""
-    numbers = duals_of(x)
-    evaluated(numbers[0], numbers[1], duals_of(out))
+    numbers = duals_of(x, DIRECTIONS)
+    evaluated(numbers[0], numbers[1], duals_of(out, DIRECTIONS))
 
 
 @kernel
 def branched_over_duals(x, out):
     """`branched` at two numbers."""
-    numbers = duals_of(x)
-    branched(numbers[0], numbers[1], duals_of(out))
+    numbers = duals_of(x, DIRECTIONS)
+    branched(numbers[0], numbers[1], duals_of(out, DIRECTIONS))
 
 
 def dual(value, **slopes):
-    row = np.zeros(LENGTH)
-    row[VALUE] = value
+    row = np.zeros(length_of(DIRECTIONS))
+    row[DIRECTIONS] = value
     for name, slope in slopes.items():
         row[int(name.removeprefix("d"))] = slope
     return row
@@ -78,10 +81,10 @@ def dual(value, **slopes):
 
 def values_and_slopes(function, rows, x, z):
     """Values, and derivatives with respect to x and z, which are in directions far apart."""
-    out = np.full((rows, LENGTH), np.nan)
+    out = np.full((rows, length_of(DIRECTIONS)), np.nan)
     function(np.array([dual(x, d0=1.0), dual(z, d15=1.0)]), out)
     assert not np.any(out[:, 1 : DIRECTIONS - 1])
-    return out[:, VALUE], out[:, 0], out[:, DIRECTIONS - 1]
+    return out[:, DIRECTIONS], out[:, 0], out[:, DIRECTIONS - 1]
 
 
 @pytest.mark.parametrize(("x", "z"), [(0.3, 1.7), (1.9, 0.6), (1e-9, 3.0), (2.5, 2.5)])
@@ -128,7 +131,7 @@ def test_what_is_not_a_number_is_seen_in_the_largest_slope():
 @kernel
 def largest(x):
     """The largest slope of the one number of an array, read through a slice."""
-    return elementary.largest_slope(duals_of(x)[1:][0])
+    return elementary.largest_slope(duals_of(x, DIRECTIONS)[1:][0])
 
 
 def _largest(row):
@@ -147,16 +150,62 @@ def law_of(slope):
 @kernel
 def handed_over(function, x, out):
     """A function among the arguments, at two numbers."""
-    numbers = duals_of(x)
-    duals_of(out)[0] = function(numbers[0], numbers[1])
+    numbers = duals_of(x, DIRECTIONS)
+    duals_of(out, DIRECTIONS)[0] = function(numbers[0], numbers[1])
 
 
 def test_a_law_that_is_handed_over_is_differentiated():
     law = law_of(3.0)
     for x, z in ((0.2, 1.3), (-0.4, 0.7)):
-        out = np.zeros((1, LENGTH))
+        out = np.zeros((1, length_of(DIRECTIONS)))
         handed_over(law, np.array([dual(x, d0=1.0), dual(z, d1=1.0)]), out)
         fall = 0.06 * np.exp(-3.0 * abs(x)) / np.sqrt(z)
-        assert out[0, VALUE] == pytest.approx(law(x, z), rel=1e-14)
+        assert out[0, DIRECTIONS] == pytest.approx(law(x, z), rel=1e-14)
         assert out[0, 0] == pytest.approx(-3.0 * np.sign(x) * fall, rel=1e-13)
         assert out[0, 1] == pytest.approx(-0.5 * fall / z, rel=1e-13)
+
+
+class Two(NamedTuple):
+    """What `inner` depends on."""
+
+    first: Any
+    second: Any
+
+
+@law
+def inner(numbers, store):
+    """A function of two numbers that keeps a number in between."""
+    store[0] = numbers.first * elementary.exp(numbers.second)
+    return store[0] / numbers.second, 2.0, numbers.second
+
+
+@law
+def nested(x, z, store):
+    """The function of two functions of x and z."""
+    numbers = Two(x * z, x - 3.0 * z)
+    return elementary.by_chain_rule(inner(elementary.independent(numbers, store), store), numbers, store)
+
+
+@kernel
+def nested_over_duals(x, store, out):
+    """`nested` at two numbers, with the derivatives in between by its own numbers alone."""
+    numbers, into = duals_of(x, DIRECTIONS), duals_of(out, DIRECTIONS)
+    into[0], into[1], into[2] = nested(numbers[0], numbers[1], duals_of(store, FEW))
+
+
+@kernel
+def nested_throughout(x, store, out):
+    """The same with all derivatives throughout."""
+    numbers, into = duals_of(x, DIRECTIONS), duals_of(out, DIRECTIONS)
+    into[0], into[1], into[2] = nested(numbers[0], numbers[1], duals_of(store, DIRECTIONS))
+
+
+def test_derivatives_by_few_numbers_are_taken_to_many_by_the_chain_rule():
+    rng = np.random.default_rng(3)
+    x = rng.normal(size=(2, length_of(DIRECTIONS)))
+    x[:, DIRECTIONS] = 0.8, 0.3
+    found, expected = np.zeros((2, 3, length_of(DIRECTIONS)))
+    nested_over_duals(x, np.zeros((1, length_of(FEW))), found)
+    nested_throughout(x, np.zeros((1, length_of(DIRECTIONS))), expected)
+    np.testing.assert_allclose(found, expected, rtol=1e-13)
+    assert nested(0.8, 0.3, {}) == pytest.approx(found[:, DIRECTIONS], rel=1e-14)

@@ -5,78 +5,102 @@ An array is one of floats whose last axis holds a number's slopes, its value, an
 
 import math
 import operator
+from functools import cache
+from typing import Any, cast
 
+from numba import extending
 from numba.core import types
 
+from tribodyn.kernels.duals import chain_rule  # noqa: F401  (its import lets laws use it)
 from tribodyn.kernels.duals.numbers import (
-    DIRECTIONS,
+    BLOCK,
     DOUBLE,
-    DUAL,
     SLOPES,
+    DualType,
     chained,
+    dual_among,
     largest_slope_of,
     made,
     select,
     taken_apart,
     value_of,
 )
-from tribodyn.kernels.lanes.arrays import ALIGNMENT, Element, elements_of
+from tribodyn.kernels.lanes.arrays import ALIGNMENT, Element, as_elements
 from tribodyn.kernels.lanes.vectors import INT64
 from tribodyn.kernels.native.functions import larger, smaller
 from tribodyn.kernels.native.parts import part, part_for, part_instead
 from tribodyn.numerics import elementary
 
-#: Place of the value behind the slopes, and floats that a dual number takes: whole cache lines, so that none
-#: is read across two where the array begins on one.
-VALUE, LENGTH = DIRECTIONS, DIRECTIONS + 8
+
+def length_of(directions: int) -> int:
+    """Floats that a dual takes: whole cache lines, so that none is read across two from the start of one."""
+    return directions + BLOCK
 
 
-def _load(context, builder, pointer):
-    slope = builder.load(builder.bitcast(pointer, SLOPES.as_pointer()), align=ALIGNMENT)
-    return made(context, builder, builder.load(builder.gep(pointer, [INT64(VALUE)])), slope)
+@cache
+def _element(directions: int) -> Element:
+    """A dual in an array: its slopes, and its value behind them."""
+    kind, blocks = DualType(directions), range(directions // BLOCK)
+
+    def places(builder, pointer):
+        value = builder.gep(pointer, [INT64(directions)])
+        first = builder.bitcast(pointer, SLOPES.as_pointer())
+        return builder.bitcast(value, DOUBLE.as_pointer()), [builder.gep(first, [INT64(i)]) for i in blocks]
+
+    def load(context, builder, pointer):
+        value, slopes = places(builder, pointer)
+        loaded = [builder.load(place, align=ALIGNMENT) for place in slopes]
+        return made(context, builder, kind, builder.load(value, align=ALIGNMENT), loaded)
+
+    def store(context, builder, pointer, number):
+        value, slopes = taken_apart(context, builder, kind, number)
+        into, blocks_into = places(builder, pointer)
+        for slope, place in zip(slopes, blocks_into, strict=True):
+            builder.store(slope, place, align=ALIGNMENT)
+        builder.store(value, into, align=ALIGNMENT)
+
+    return Element(kind, length_of(directions), load, store)
 
 
-def _store(context, builder, pointer, number):
-    value, slope = taken_apart(context, builder, DUAL, number)
-    builder.store(slope, builder.bitcast(pointer, SLOPES.as_pointer()), align=ALIGNMENT)
-    last = builder.gep(pointer, [INT64(VALUE)])
-    builder.store(value, builder.bitcast(last, DOUBLE.as_pointer()), align=ALIGNMENT)
+@cast(Any, extending.intrinsic)(prefer_literal=True)
+def duals_of(typingctx, array, directions):
+    """An array of floats, contiguous and its last axis of `length_of`, as duals in so many directions."""
+    if not isinstance(directions, types.IntegerLiteral):
+        return None
+    duals, emit = as_elements(array, _element(directions.literal_value))
+    return duals(array, directions), emit
 
 
-#: An array of floats, contiguous and its last axis of `LENGTH`, as dual numbers.
-duals_of = elements_of(Element(DUAL, LENGTH, _load, _store))
-
-
-@part_for(elementary.sqrt, DUAL)
+@part_for(elementary.sqrt, DualType)
 def sqrt_dual(x):
     """Square root."""
     root = math.sqrt(value_of(x))
     return chained(x, root, 0.5 / root)
 
 
-@part_for(elementary.exp, DUAL)
+@part_for(elementary.exp, DualType)
 def exp_dual(x):
     """Exponential."""
     value = math.exp(value_of(x))
     return chained(x, value, value)
 
 
-@part_for(elementary.expm1, DUAL)
+@part_for(elementary.expm1, DualType)
 def expm1_dual(x):
     """exp(x) − 1."""
     value = elementary.expm1(value_of(x))
     return chained(x, value, 1.0 + value)
 
 
-@part_for(elementary.tan, DUAL)
+@part_for(elementary.tan, DualType)
 def tan_dual(x):
     """Tangent."""
     value = math.tan(value_of(x))
     return chained(x, value, 1.0 + value * value)
 
 
-@part_for(abs, DUAL)
-@part_for(elementary.absolute, DUAL)
+@part_for(abs, DualType)
+@part_for(elementary.absolute, DualType)
 def absolute_dual(x):
     """Absolute value; its derivative at 0 is taken as 0, the mean of both sides."""
     value = value_of(x)
@@ -96,18 +120,18 @@ def power_of_dual_exponent(x, exponent):
     return elementary.exp(exponent * elementary.log(x))
 
 
-part_for(elementary.log, DUAL)(lambda x: chained(x, math.log(value_of(x)), 1.0 / value_of(x)))
-part_for(elementary.log1p, DUAL)(
+part_for(elementary.log, DualType)(lambda x: chained(x, math.log(value_of(x)), 1.0 / value_of(x)))
+part_for(elementary.log1p, DualType)(
     lambda x: chained(x, elementary.log1p(value_of(x)), 1.0 / (1.0 + value_of(x)))
 )
-part_for(elementary.sin, DUAL)(lambda x: chained(x, math.sin(value_of(x)), math.cos(value_of(x))))
-part_for(elementary.cos, DUAL)(lambda x: chained(x, math.cos(value_of(x)), -math.sin(value_of(x))))
-part_for(elementary.truncate, DUAL)(lambda x: int(value_of(x)))
-part_for(elementary.plain, DUAL)(lambda x: value_of(x))
-part_for(elementary.largest_slope, DUAL)(lambda x: largest_slope_of(x))
+part_for(elementary.sin, DualType)(lambda x: chained(x, math.sin(value_of(x)), math.cos(value_of(x))))
+part_for(elementary.cos, DualType)(lambda x: chained(x, math.cos(value_of(x)), -math.sin(value_of(x))))
+part_for(elementary.truncate, DualType)(lambda x: int(value_of(x)))
+part_for(elementary.plain, DualType)(lambda x: value_of(x))
+part_for(elementary.largest_slope, DualType)(lambda x: largest_slope_of(x))
 
 
-@part_for(elementary.arctan2, DUAL)
+@part_for(elementary.arctan2, DualType)
 def arctan2_dual(y, x):
     """Angle of the point (x, y)."""
     b, a = elementary.plain(y), elementary.plain(x)
@@ -118,21 +142,21 @@ def arctan2_dual(y, x):
 
 @part_instead(operator.pow)
 def _pow(x, exponent):
-    if x is DUAL and isinstance(exponent, types.Float):
+    if isinstance(exponent, DualType):
+        return power_of_dual_exponent if dual_among([x, exponent]) else None
+    if isinstance(x, DualType) and isinstance(exponent, types.Float):
         return power_dual
-    if x is DUAL and isinstance(exponent, types.Integer):
+    if isinstance(x, DualType) and isinstance(exponent, types.Integer):
         return lambda x, exponent: power_dual(x, float(exponent))
-    if exponent is DUAL and (x is DUAL or isinstance(x, (types.Float, types.Integer))):
-        return power_of_dual_exponent
     return None
 
 
 @part_instead(elementary.where)
 def _where(condition, a, b):
-    if DUAL in (a, b) and isinstance(condition, types.Boolean):
+    if dual_among([a, b]) and isinstance(condition, types.Boolean):
         return lambda condition, a, b: select(condition, a, b)
     return None
 
 
-part_for(elementary.minimum, DUAL)(smaller)
-part_for(elementary.maximum, DUAL)(larger)
+part_for(elementary.minimum, DualType)(smaller)
+part_for(elementary.maximum, DualType)(larger)

@@ -54,23 +54,18 @@ def _shape(context, builder, array, value):
     return cgutils.create_struct_proxy(array)(context, builder, value).shape
 
 
-def elements_of(element: Element) -> Any:
-    """What takes a contiguous array of floats, its last axis an element, as one of elements, in a kernel."""
+def as_elements(array: Any, element: Element) -> Any:
+    """Type of a contiguous array of floats, its last axis an element, as one of elements; what emits it."""
+    elements = ElementArrayType(array.ndim - 1, element)
 
-    @intrinsic
-    def taken(typingctx, array):
-        elements = ElementArrayType(array.ndim - 1, element)
+    def emit(context, builder, signature, values):
+        source = context.make_array(array)(context, builder, values[0])
+        value = cgutils.create_struct_proxy(elements)(context, builder)
+        value.data = source.data
+        value.shape = cgutils.pack_array(builder, cgutils.unpack_tuple(builder, source.shape)[:-1])
+        return value._getvalue()
 
-        def emit(context, builder, signature, values):
-            source = context.make_array(array)(context, builder, values[0])
-            value = cgutils.create_struct_proxy(elements)(context, builder)
-            value.data = source.data
-            value.shape = cgutils.pack_array(builder, cgutils.unpack_tuple(builder, source.shape)[:-1])
-            return value._getvalue()
-
-        return elements(array), emit
-
-    return taken
+    return elements, emit
 
 
 def row_at(builder, pointer, offset):
@@ -88,8 +83,13 @@ def _store_row(context, builder, pointer, value):
 
 #: A row of lanes as an element.
 ROW = Element(LANES, WIDTH, _load_row, _store_row)
-#: An array of floats, its last axis the lanes, as rows of lanes.
-rows_of = elements_of(ROW)
+
+
+@intrinsic
+def rows_of(typingctx, array):
+    """An array of floats, its last axis the lanes, as rows of lanes."""
+    rows, emit = as_elements(array, ROW)
+    return rows(array), emit
 
 
 def subscripts(index: Any) -> list[Any]:

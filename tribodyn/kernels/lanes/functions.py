@@ -8,6 +8,7 @@ import operator
 
 from numba.core import types
 
+from tribodyn.kernels.lanes.arrays import ROW, ElementArrayType
 from tribodyn.kernels.lanes.tables import LaneTableType, rows_of_four
 from tribodyn.kernels.lanes.vectors import (
     LANES,
@@ -24,7 +25,7 @@ from tribodyn.kernels.lanes.vectors import (
     square_root,
     to_indices,
 )
-from tribodyn.kernels.native.functions import larger, smaller
+from tribodyn.kernels.native.functions import larger, smaller, without_derivatives
 from tribodyn.kernels.native.parts import part, part_for, part_instead
 from tribodyn.numerics import elementary
 
@@ -194,6 +195,7 @@ part_for(elementary.opposite, MASK)(lambda condition: ~condition)
 part_for(elementary.plain, LANES)(lambda x: x)
 part_for(elementary.minimum, LANES)(smaller)
 part_for(elementary.maximum, LANES)(larger)
+without_derivatives(lambda store: isinstance(store, ElementArrayType) and store.element is ROW)
 
 
 @part_instead(elementary.last_axis_of_four)

@@ -153,6 +153,22 @@ _instead(elementary.expm1, expm1, types.Number)
 _instead(elementary.last_at_or_below, last_at_or_below, types.Array)
 _instead(elementary.last_axis_of_four, last_axis_of_four, types.Array)
 
+
+def without_derivatives(holds):
+    """Compile what is of independent numbers to what was given, where arrays hold numbers alone."""
+
+    @part_instead(elementary.independent)
+    def _(numbers, store):
+        return (lambda numbers, store: numbers) if holds(store) else None
+
+    @part_instead(elementary.by_chain_rule)
+    def _(results, numbers, store):
+        return (lambda results, numbers, store: results) if holds(store) else None
+
+
+without_derivatives(lambda store: isinstance(store, types.Array))
+
+
 _registered: set[Any] = set()
 
 

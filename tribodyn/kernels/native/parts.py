@@ -117,12 +117,13 @@ def type_of_part(function: Callable[..., Any]) -> Any:
 
 
 def part_for(function: Callable[..., Any], kind: Any) -> Callable[..., Any]:
-    """Decorator of what to compile in place of `function` wherever one of the arguments is of a type."""
+    """Decorator of what to compile in place of `function` where an argument is of a type, or such a type."""
+    of_kind = (lambda one: isinstance(one, kind)) if isinstance(kind, type) else (lambda one: one == kind)
 
     def given(implementation):
         @part_instead(function)
         def _(*arguments):
-            return implementation if kind in arguments else None
+            return implementation if any(map(of_kind, arguments)) else None
 
         return implementation
 

@@ -102,21 +102,29 @@ def attempt(fresh, step, place, y, control, model, work, buffer):
             stage[i] = y[i]
     for s in range(0 if fresh else 1, STAGES + 1):
         if s > 0:
-            # nothing depends on the works before the new state
-            for i in range(layout.states if s == STAGES else layout.mechanical):
+            for i in range(layout.mechanical):
                 total = A[s, 0] * k[0, i]
                 for j in range(SECOND[s], s):
                     total = total + A[s, j] * k[j, i]
                 stage[i] = y[i] + step * total
         derivatives(place.phase + C[s] * step, place.cycle, place.interval, stage, model, work, k[s])
-    for i in range(layout.states):
-        fifth, third = 0.0 * y[i], 0.0 * y[i]
-        for j in range(STAGES):
+    for i in range(layout.mechanical):
+        fifth, third = E5[0] * k[0, i], E3[0] * k[0, i]
+        for j in range(SECOND[STAGES], STAGES):
             fifth = fifth + E5[j] * k[j, i]
             third = third + E3[j] * k[j, i]
         of_fifth = maximum(absolute(plain(fifth)), largest_slope(fifth))
         of_third = maximum(absolute(plain(third)), largest_slope(third))
         buffer[ERROR, i] = step * confidence(of_fifth, of_third) * fifth
+    for i in range(layout.mechanical, layout.states):  # works, on which nothing depends: numbers alone
+        total, fifth, third = 0.0, 0.0, 0.0
+        for j in range(STAGES):
+            rate = plain(k[j, i])
+            total += A[STAGES, j] * rate
+            fifth += E5[j] * rate
+            third += E3[j] * rate
+        stage[i] = plain(y[i]) + step * total
+        buffer[ERROR, i] = step * confidence(absolute(fifth), absolute(third)) * fifth
     return STAGES + 1 if fresh else STAGES
 
 

@@ -10,7 +10,6 @@ the whole right-hand side, where they are switched on.
 from typing import NamedTuple
 
 from tribodyn.dynamics.approach import Motion
-from tribodyn.dynamics.contact_energy import parametric_torque
 from tribodyn.dynamics.contact_forces import contact_forces, reversals_per_velocity
 from tribodyn.dynamics.equations import resultants
 from tribodyn.dynamics.frame import carried_along
@@ -18,7 +17,7 @@ from tribodyn.dynamics.loads import load_torque
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
 from tribodyn.dynamics.places import motion_of, on_body, place_in_mesh
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import absolute, law
+from tribodyn.numerics.elementary import absolute, by_chain_rule, independent, law
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.march.link_jacobian import SHARE, differentiate_links
 from tribodyn.solve.right_hand_side import rhs
@@ -116,10 +115,10 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
     driver, driven = layout.driver[m], layout.driven[m]
     ratio = rolling_ratio(m, model)
     at = place_in_mesh(m, place.phase, place.interval, model)
-    motion = motion_of(m, y, model)
+    of_bodies = motion_of(m, y, model)
+    motion = independent(of_bodies, contacts)
     reversals = reversals_per_velocity(ratio, mesh, model)
-    before = resultants(at, mesh, model, contacts)
-    torque = parametric_torque(at, mesh, model, contacts)
+    before = by_chain_rule(resultants(at, mesh, model, contacts), of_bodies, contacts)
     turn_1, turn_2 = turn_of(driver, layout), turn_of(driven, layout)
     of_mesh = works + OF_MESHES + WORKS_OF_MESH * m
     radius = absolute(mesh.driven_radius)  # a size; that of an internal gear is negative
@@ -131,22 +130,21 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
         if which == DRIVER_RATE and driver == 0:
             continue
         move = which % RATES
-        of_bodies = which < DRIVEN_RATE
-        if of_bodies and move > ACROSS and not in_space:
+        relative = which < DRIVEN_RATE
+        if relative and move > ACROSS and not in_space:
             continue
         by = length if which < RATES else velocity
-        if of_bodies and move > ALONG_Z:
+        if relative and move > ALONG_Z:
             by /= radius
         contact_forces(at, _moved(motion, which, by, mesh), reversals, mesh, model, contacts)
         count += 1
-        after = resultants(at, mesh, model, contacts)
+        after = by_chain_rule(resultants(at, mesh, model, contacts), of_bodies, contacts)
         along, across = (after[0] - before[0]) / by, (after[1] - before[1]) / by
         axial = (after[2] - before[2]) / by
         leaning_along, leaning_across = (after[3] - before[3]) / by, (after[4] - before[4]) / by
         resisting, driving = (after[5] - before[5]) / by, (after[6] - before[6]) / by
         friction, sliding = (after[7] - before[7]) / by, (after[8] - before[8]) / by
-        damping = (after[9] - before[9]) / by
-        parametric = ratio * (parametric_torque(at, mesh, model, contacts) - torque) / by
+        damping, parametric = (after[9] - before[9]) / by, ratio * (after[10] - before[10]) / by
         first = 0 if which < RATES else half
         # columns: x, y, z and tilts of the driver and of the driven body, their rotations
         for k in range(2 * IN_SPACE + 2):
@@ -166,7 +164,7 @@ def differentiate_mesh(m, place, y, scale, model, work, jacobian):
                     continue
             else:
                 body = driver if end == 0 else driven
-                if not of_bodies or body >= (layout.planar if direction < AXIAL else layout.spatial):
+                if not relative or body >= (layout.planar if direction < AXIAL else layout.spatial):
                     continue
                 j = first + place_in_space(body, direction, layout)
                 share = mesh.moves[end, move, direction]

@@ -14,7 +14,7 @@ then is left to the error control, which takes steps by the force.
 from tribodyn.dynamics import approach as contact
 from tribodyn.dynamics.contact_forces import reversals_per_velocity
 from tribodyn.dynamics.places import motion_of, place_in_mesh
-from tribodyn.numerics.elementary import absolute, anywhere, law, maximum, minimum, plain, where
+from tribodyn.numerics.elementary import absolute, anywhere, independent, law, maximum, minimum, plain, where
 from tribodyn.solve.integrator import Status
 from tribodyn.train.structure import driven_arm, driver_arm, rolling_ratio, shifted, turn_of, turned
 
@@ -206,7 +206,7 @@ def begin_turning(phase, interval, y, model, work):
         if contact.sliced(mesh):
             continue
         place = place_in_mesh(m, phase, interval, model)
-        contact.approach(place, motion_of(m, y, model), mesh, contacts)
+        contact.approach(place, independent(motion_of(m, y, model), contacts), mesh, contacts)
         per_velocity = reversals_in(m, model)
         for i in range(mesh.table.side.shape[0]):
             if contact.absent(i, contacts):

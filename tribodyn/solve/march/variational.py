@@ -19,10 +19,11 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.duals import functions  # noqa: F401  (its import gives the laws their derivatives)
-from tribodyn.kernels.duals.functions import LENGTH, VALUE, duals_of
-from tribodyn.kernels.duals.numbers import DIRECTIONS
+from tribodyn.kernels.duals.functions import duals_of, length_of
+from tribodyn.kernels.duals.numbers import BLOCK
 from tribodyn.kernels.native import PackedValue, kernel, packed
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.numerics.static import StaticInt
 from tribodyn.numerics.work import in_threads
 from tribodyn.solve.integrator import March, Status
 from tribodyn.solve.march import explicit_8
@@ -43,26 +44,40 @@ STIFF = rodas4.METHOD._replace(opened=ignore_segment, stepped=ignore_step)
 
 
 @kernel
-def explicit(march, control, model, y, out, work, buffer):
+def explicit(march, control, model, y, out, work, buffer, directions):
     """`explicit_8` with derivatives; see `marching.march_with`."""
-    return march_with(
-        EXPLICIT, march, control, model, duals_of(y), duals_of(out), duals_of(work), duals_of(buffer), out
-    )
+    states, contacts = directions.states, directions.contacts
+    state, samples, rows = duals_of(y, states), duals_of(out, states), duals_of(buffer, states)
+    return march_with(EXPLICIT, march, control, model, state, samples, duals_of(work, contacts), rows, out)
 
 
 @kernel
-def stiff(march, control, model, y, out, work, buffer):
+def stiff(march, control, model, y, out, work, buffer, directions):
     """`methods.rodas4` with derivatives; see `marching.march_with`."""
-    return march_with(
-        STIFF, march, control, model, duals_of(y), duals_of(out), duals_of(work), duals_of(buffer), out
-    )
+    states, contacts = directions.states, directions.contacts
+    state, samples, rows = duals_of(y, states), duals_of(out, states), duals_of(buffer, states)
+    return march_with(STIFF, march, control, model, state, samples, duals_of(work, contacts), rows, out)
 
 
 @kernel
-def engage_with_derivative(interval, y, model, work):
+def engage_with_derivative(interval, y, model, work, directions):
     """Take a state and its derivatives over the engagement that begins a mesh cycle."""
-    duals = duals_of(y)
-    engage(interval, True, duals, model, duals_of(work), duals)
+    state = duals_of(y, directions.states)
+    engage(interval, True, state, model, duals_of(work, directions.contacts), state)
+
+
+class Directions(NamedTuple):
+    """Directions that numbers carry derivatives in."""
+
+    states: StaticInt  # with respect to the start
+    contacts: StaticInt  # with respect to the `Motion` of their mesh, in the plane its first 8 numbers
+
+
+def directions_of(count: int, most: int, layout: TrainLayout) -> Directions:
+    """Those for so many directions at the start, in as few passes of at most so many as there can be."""
+    passes = max(1, -(-count // most))
+    width = max(1, -(-count // (passes * BLOCK)))
+    return Directions(StaticInt(BLOCK * width), StaticInt(BLOCK * (2 if layout.spatial else 1)))
 
 
 class DualMethod(NamedTuple):
@@ -71,6 +86,7 @@ class DualMethod(NamedTuple):
     integrate: Callable[..., Any]  # kernel
     buffer: Callable[[TrainLayout], Float[Array, "row state"]]  # (layout) -> its buffer over floats
     tolerance: float  # of the derivatives in a step, over the scale of the states
+    directions: int  # of a pass at most; where matrices take the time, more would only compile for longer
 
 
 #: What takes the place of a method, by the names of `methods`. With these tolerances multipliers of a mesh
@@ -78,9 +94,9 @@ class DualMethod(NamedTuple):
 #: included, and to a few 1e-8 by the stiff one (measured on drives of the tests' kind against DOP853 on the
 #: variational equations through JAX).
 METHODS = {
-    "dopri5": DualMethod(explicit, explicit_8.buffer, 1e-10),
-    "rodas4": DualMethod(stiff, rodas4.buffer, 1e-8),
-    "switching": DualMethod(stiff, rodas4.buffer, 1e-8),
+    "dopri5": DualMethod(explicit, explicit_8.buffer, 1e-10, 64),
+    "rodas4": DualMethod(stiff, rodas4.buffer, 1e-8, 16),
+    "switching": DualMethod(stiff, rodas4.buffer, 1e-8, 16),
 }
 
 
@@ -101,6 +117,7 @@ def march_with_derivative(
     *,
     cycles: int,
     rtol: float,
+    fine: bool = True,
     max_steps: int,
     methods: Sequence[str],
     workers: int,
@@ -108,9 +125,9 @@ def march_with_derivative(
     """March from the start of a mesh cycle, behind its engagement, with the derivatives in some directions.
 
     The error control takes a direction for a displacement of the state and measures its error likewise, so
-    that it should be of the size of the states' scales. More than `DIRECTIONS` are done in several passes.
-    `rtol` is of the motion; that of the derivatives is the method's. `methods` has a key of `METHODS` for
-    every row. All models have one layout.
+    that it should be of the size of the states' scales. More than the method's are done in several passes.
+    `rtol` is of the motion; that of the derivatives is the method's, or the same if not `fine`. `methods` has
+    a key of `METHODS` for every row. All models have one layout.
     """
     count = directions.shape[-1]
     atol, stops = tolerances_of_many(models, states, rtol), stops_of_many(models)
@@ -126,24 +143,28 @@ def march_with_derivative(
     )
 
     def integrate(row: int) -> None:
-        for first in range(0, max(count, 1), DIRECTIONS):
-            over(row, slice(first, min(first + DIRECTIONS, count)))
+        wide = directions_of(count, METHODS[methods[row]].directions, models[row].layout)
+        for first in range(0, max(count, 1), wide.states):
+            over(row, slice(first, min(first + wide.states, count)), wide)
             if result.status[row] != Status.DONE:
                 return
 
-    def over(row: int, part: slice) -> None:
+    def over(row: int, part: slice, wide: Directions) -> None:
         method, layout = METHODS[methods[row]], models[row].layout
-        y, work = _duals((size,)), _duals(work_array(models[row]).shape)
+        y, work = _duals((size,), wide.states), _duals(work_array(models[row]).shape, wide.contacts)
         width = part.stop - part.start
-        y[:, :width], y[:, VALUE] = directions[row][:, part], states[row]
+        y[:, :width], y[:, wide.states] = directions[row][:, part], states[row]
         scales = atol[row], atol[row] / rtol
-        control = Control(FIRST_STEP, MINIMUM_ERROR, *scales, stops[row], method.tolerance)
+        control = Control(FIRST_STEP, MINIMUM_ERROR, *scales, stops[row], method.tolerance if fine else rtol)
         model = numbers[row]
-        out, buffer = _duals((cycles * march.samples, size)), _duals(method.buffer(layout).shape)
-        status, reached, _, _, steps, _, _ = method.integrate(march, control, model, y, out, work, buffer)
+        out = _duals((cycles * march.samples, size), wide.states)
+        buffer = _duals(method.buffer(layout).shape, wide.states)
+        status, reached, _, _, steps, _, _ = method.integrate(
+            march, control, model, y, out, work, buffer, wide
+        )
         if status == Status.DONE:
-            engage_with_derivative(int(interval_at(cycles, models[row])), y, model, work)
-        result.state[row], result.slopes[row][:, part] = y[:, VALUE], y[:, :width]
+            engage_with_derivative(int(interval_at(cycles, models[row])), y, model, work, wide)
+        result.state[row], result.slopes[row][:, part] = y[:, wide.states], y[:, :width]
         result.status[row], result.reached[row] = status, reached
         result.steps[row] += steps
 
@@ -163,9 +184,9 @@ def _packed(models: Sequence[Model]) -> list[PackedValue]:
     return [packed(Model(*map(once, model.numbers), options=model.options)) for model in models]
 
 
-def _duals(shape: tuple[int, ...]) -> Float[Array, "*shape dual"]:
+def _duals(shape: tuple[int, ...], directions: int) -> Float[Array, "*shape dual"]:
     """Zeros for dual numbers of a shape, from the start of a cache line on."""
-    size = int(np.prod(shape)) * LENGTH
+    size = int(np.prod(shape)) * length_of(directions)
     room = np.zeros(size + CACHE_LINE)
     first = (-room.ctypes.data // room.itemsize) % CACHE_LINE
-    return room[first : first + size].reshape(*shape, LENGTH)
+    return room[first : first + size].reshape(*shape, length_of(directions))
