@@ -23,10 +23,14 @@ SWITCHING_ABOVE = {SLIDING_KINEMATIC: float("inf"), SLIDING_DYNAMIC: 100}
 REAL_STABILITY = 3.3
 #: Reference cycles of the common period that are looked at, evenly spread, where it has more.
 CYCLES = 8
-#: Phases in each segment at which the Jacobian is evaluated, and segments at most; evaluated at a time.
-PHASES, SEGMENTS, AT_A_TIME = 9, 96, 32
-#: Phases about the place where the friction of a pair reverses, and how far they reach, over its width.
-REVERSAL_PHASES, REVERSAL_REACH = 13, 1.5
+#: Phases in each reference cycle at which the Jacobian is evaluated, and at least in each of its intervals;
+#: intervals at most; phases evaluated at a time.
+PHASES, LEAST, SEGMENTS, AT_A_TIME = 18, 2, 96, 32
+#: Places about that where the friction of a pair reverses, over the width of reversal: that alone, and where
+#: the spectral radius is this many times its median.
+PITCH_POINT, REVERSAL, STEEP = np.zeros(1), np.linspace(-1.5, 1.5, 13), 2.0
+#: Digits of the phase in which places differ: equal meshes reverse together.
+DIGITS = 9
 #: Difference of a state over its scale.
 SHARE = 1e-4
 
@@ -41,36 +45,43 @@ class Choice(NamedTuple):
 def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
     """Steps per mesh cycle that an explicit method needs for stability.
 
-    The spectral radius of the mechanics' Jacobian (central differences) over the stability limit, integrated
-    over the phase; it is sampled finely where a pair's friction reverses, a short and possibly stiff stretch.
+    The spectral radius of the mechanics' Jacobian over the stability limit, integrated over the phase; it is
+    sampled finely about the pitch points, where friction reverses, if it is far above the usual there.
     """
-    cycles, phases, numbers = _places(model)
-    mechanical, states = model.layout.mechanical, model.layout.states
-    scale = state_scales(model, state)[:mechanical]
-    shift = np.zeros((mechanical, states))
-    shift[:, :mechanical] = SHARE * np.diag(scale)
-    parts = []
-    for first in range(0, len(phases), AT_A_TIME):
-        some = slice(first, first + AT_A_TIME)
-        shape = (len(phases[some]), mechanical, states)
-        up, down = (
-            accelerations(
-                np.broadcast_to(state + sign * shift, shape), phases[some, None], numbers[some, None], model
-            )
-            for sign in (1, -1)
-        )
-        jacobians = np.swapaxes((up - down)[..., :mechanical] / (2.0 * SHARE * scale[:, None]), 1, 2)
-        parts.append(np.max(np.abs(np.linalg.eigvals(jacobians)), axis=1))
-    radius = np.concatenate(parts)
-    width = np.diff(cycles)
-    whole = float(np.sum(0.5 * width * (radius[1:] + radius[:-1])))
+    cycles, radius = _spectral_radii(model, state, PITCH_POINT)
+    if np.max(radius) > STEEP * np.median(radius):
+        cycles, radius = _spectral_radii(model, state, REVERSAL)
+    whole = float(np.sum(0.5 * np.diff(cycles) * (radius[1:] + radius[:-1])))
     return whole / float(cycles[-1] - cycles[0]) / REAL_STABILITY
 
 
+def _spectral_radii(
+    model: Model, state: Float[Array, " state"], about: Float[Array, " place"]
+) -> tuple[Float[Array, " place"], Float[Array, " place"]]:
+    """Spectral radii of the Jacobian (forward differences) at `_places`, and the cycles before these."""
+    cycles, phases, numbers = _places(model, about)
+    mechanical = model.layout.mechanical
+    scale = state_scales(model, state)[:mechanical]
+    moved = np.tile(state, (1 + mechanical, 1))
+    moved[1:, :mechanical] += SHARE * np.diag(scale)
+    parts = []
+    for first in range(0, len(phases), AT_A_TIME):
+        some = slice(first, first + AT_A_TIME)
+        shape = (len(phases[some]), *moved.shape)
+        rates = accelerations(np.broadcast_to(moved, shape), phases[some, None], numbers[some, None], model)
+        change = (rates[:, 1:] - rates[:, :1])[..., :mechanical]
+        jacobians = np.swapaxes(change / (SHARE * scale[:, None]), 1, 2)
+        parts.append(np.max(np.abs(np.linalg.eigvals(jacobians)), axis=1))
+    return cycles, np.concatenate(parts)
+
+
 def _places(
-    model: Model,
+    model: Model, about: Float[Array, " place"]
 ) -> tuple[Float[Array, " place"], Float[Array, " place"], Int[Array, " place"]]:
-    """Places over the cycles looked at, put one behind the other: cycles, phases in them, and intervals."""
+    """Places over the cycles looked at, put one behind the other: cycles, phases in them, and intervals.
+
+    Among them those about the pitch points, in widths of reversal.
+    """
     schedule = model.schedule
     start, end = np.asarray(schedule.start), np.asarray(schedule.end)
     count = min(schedule.period, CYCLES)
@@ -84,13 +95,13 @@ def _places(
     passed, phases, found = [], [], []
     for number, interval in of_cycles:
         low, high = float(start[interval]), float(end[interval])
-        places = list(np.linspace(low, high, PHASES))
+        count = len(intervals(schedule, int(chosen[number])))
+        places = list(np.linspace(low, high, max(LEAST, PHASES // count)))
         for m, mesh in enumerate(model.meshes):
             segment = int(np.asarray(schedule.segment)[interval, m])
             own = np.asarray(mesh.table.boundary)[segment : segment + 2]
             distance = np.asarray(mesh.table.channel)[segment, :, :, _DISTANCE, 0]
-            own_nodes = np.linspace(float(own[0]), float(own[1]), distance.shape[0] + 1)[:-1]
-            nodes = np.array([place_of(m, phase, schedule, interval) for phase in own_nodes])
+            nodes = np.linspace(float(own[0]), float(own[1]), distance.shape[0] + 1)[:-1]
             slices = np.shape(mesh.table.face_position)[0]  # which reverse one after the other: of a pair one
             for slot in np.flatnonzero(np.asarray(mesh.table.in_contact)[segment])[::slices]:
                 before, after = sorted((0, -1), key=lambda i, slot=slot: distance[i, slot])
@@ -99,12 +110,12 @@ def _places(
                     pitch_point = np.interp(0.0, distance[order, slot], nodes[order])
                     slope = abs(distance[-1, slot] - distance[0, slot]) / (nodes[-1] - nodes[0])
                     width = float(model.operation.reversal_width) / slope
-                    about = np.linspace(-REVERSAL_REACH, REVERSAL_REACH, REVERSAL_PHASES)
-                    near = pitch_point + width * about
-                    places += list(near[(near > low) & (near < high)])
-        phases += sorted(places)
-        passed += [number] * len(places)
-        found += [interval] * len(places)
+                    near = [place_of(m, phase, schedule, interval) for phase in pitch_point + width * about]
+                    places += [phase for phase in near if low < phase < high]
+        distinct = np.unique(np.round(places, DIGITS))
+        phases += list(distinct)
+        passed += [number] * len(distinct)
+        found += [interval] * len(distinct)
     return np.array(passed) + np.array(phases), np.array(phases), np.array(found)
 
 

@@ -21,22 +21,22 @@ def test_places_lie_closely_where_friction_reverses(prepared):
     """The outermost of those about the pitch point at the stated share of the width of reversal."""
     model = prepared("crc-23-47", **{"friction.sliding": "kinematic"}).model
     state = static_equilibrium(model)
-    _, phases, segments = choice._places(model)
+    _, phases, segments = choice._places(model, choice.REVERSAL)
     turned = []
     for phase, segment in zip(phases, segments, strict=True):
         (work,) = works = contacts_of(model)
         derivatives(phase, 0.0, segment, state, model, works, {})
         turned.append(min(abs(work[TURNED, i]) for i in range(2) if (TURNED, i) in work))
-    close = np.sort(turned)[: choice.REVERSAL_PHASES]
+    close = np.sort(turned)[: len(choice.REVERSAL)]
     assert close[0] == pytest.approx(0.0, abs=0.02)
-    assert close[-1] == pytest.approx(choice.REVERSAL_REACH, rel=0.1)
+    assert close[-1] == pytest.approx(choice.REVERSAL[-1], rel=0.1)
 
 
 def test_steps_are_those_of_the_largest_eigenvalue_at_every_place(prepared):
     """Jacobians column by column, the radius integrated over the cycle by trapezoids."""
     model = prepared("crc-23-47", **{"friction.sliding": "kinematic", "mesh.points": 5}).model
     state = static_equilibrium(model)
-    _, phases, segments = choice._places(model)
+    _, phases, segments = choice._places(model, choice.REVERSAL)
     mechanical = model.layout.mechanical
     scale = state_scales(model, state)
     radii = []
