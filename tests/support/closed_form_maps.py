@@ -14,6 +14,7 @@ class ClosedForm:
         self.step = step
         self.parameters = np.array(parameters, dtype=float)
         self.scale = np.ones((len(self.parameters), size))
+        self.shooting_cost = 4.0 * (size + 2)
         self.marched = np.zeros(len(self.parameters), dtype=int)
 
     def march(self, states, cases, periods, fine):
@@ -28,7 +29,7 @@ class ClosedForm:
         lost = ~np.all(np.abs(states) < 1e6, axis=(1, 2))
         return Marched(states, ["it runs away" if away else "" for away in lost])
 
-    def tangent(self, states, cases, periods):
+    def tangent(self, states, cases, periods, fine=True):
         return by_differences(self.march, states, cases, periods, 1e-4 * self.scale)
 
 

@@ -27,8 +27,8 @@ class Affine(ClosedForm):
         super().__init__(lambda x, _: centre + (x - centre) @ matrix.T, [0.0], len(centre))
         self.matrix, self.scale = matrix, np.array([scale])
 
-    def tangent(self, states, cases, periods):
-        found = super().tangent(states, cases, periods)
+    def tangent(self, states, cases, periods, fine=True):
+        found = super().tangent(states, cases, periods, fine)
         jacobian = np.linalg.matrix_power(self.matrix, periods)
         return found._replace(jacobian=np.tile(jacobian, (len(states), 1, 1)))
 

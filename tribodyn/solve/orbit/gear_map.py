@@ -24,6 +24,10 @@ from tribodyn.solve.right_hand_side import engage_next
 from tribodyn.solve.tolerances import state_scales
 from tribodyn.train.structure import TrainLayout, displacements, velocities
 
+#: Relative tolerance of a march with coarse derivatives, and of these: a step of Newton's method with them
+#: leaves a thousandth of the residual or less (measured on pairs and planetary sets), at a third of the cost.
+COARSE = 1e-4
+
 
 class FreeStates(NamedTuple):
     """What models must have in common to be searched side by side."""
@@ -68,6 +72,8 @@ class GearMap:
         self.settings: dict[str, Any] = {"max_steps": max_steps, "workers": workers}
         self.solvers = [choose(solver, m, y).method for m, y in zip(models, starts, strict=True)]
         self.blur = 0.0 if self.exact else DIFFERENCE
+        # a coarse derivative takes the time of 5 periods, differences two derivatives; of both twice
+        self.shooting_cost = 10.0 if self.exact else 4.0 * (len(self.moving) + 2)
         self.scale = np.array([state_scales(m, y)[self.moving] for m, y in zip(models, starts, strict=True)])
 
     @property
@@ -95,7 +101,9 @@ class GearMap:
         after[[bool(reason) for reason in reasons]] = np.nan
         return Marched(after, reasons)
 
-    def tangent(self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int) -> Tangent:
+    def tangent(
+        self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int, fine: bool = True
+    ) -> Tangent:
         """See `motions.PeriodMap`; by the variational equations where `exact`, else by differences."""
         if not self.exact:
             return by_differences(self.march, states, cases, periods, self.scale)
@@ -109,7 +117,8 @@ class GearMap:
             self.full(states),
             directions,
             cycles=periods * self.cycles,
-            rtol=self.rtol[True],
+            rtol=self.rtol[True] if fine else COARSE,
+            fine=fine,
             # the derivatives may need more than the motion, for which the limit is
             max_steps=max(MAX_STEPS, self.settings["max_steps"]),
             methods=[self.solvers[case] for case in cases],

@@ -45,6 +45,8 @@ class PeriodMap(Protocol):
     #: Distance, over the scale, within which one derivative has another's multipliers: 0 where it is exact,
     #: the step of the difference quotient where it is not.
     blur: float
+    #: Periods that are marched rather than that one is sought by shooting from afar.
+    shooting_cost: float
 
     def march(
         self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int, fine: bool
@@ -52,8 +54,13 @@ class PeriodMap(Protocol):
         """States (R, N) over some periods; `fine` asks for the accuracy that a fixed point needs."""
         ...
 
-    def tangent(self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int) -> Tangent:
-        """Image after some periods, finely integrated, and its derivative."""
+    def tangent(
+        self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int, fine: bool = True
+    ) -> Tangent:
+        """Image after some periods and its derivative; `fine` asks for the accuracy of multipliers.
+
+        Otherwise they need be no better than a step of Newton's method asks for.
+        """
         ...
 
 

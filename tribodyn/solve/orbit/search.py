@@ -28,9 +28,8 @@ BLOCK, LOOK = 12, 25
 NOISE = 1e-2
 STUCK = 2
 #: Estimated distance from the steady state, over the scale, at which Newton's method takes over; it does so
-#: from afar too where marching on would take twice the maps of the derivatives that shooting should need.
+#: from afar too where marching on would take more than the `shooting_cost`.
 NEAR = 1e-3
-DERIVATIVES = 2
 #: Distance within which the result of shooting is that of marching, whatever the last periods did.
 THERE = 1e-5
 #: Share of the changes over fewer periods that the change over several has where these are sought from afar.
@@ -178,7 +177,6 @@ class OrbitSearch:
 
     def _candidate(self, case: int) -> int:
         """Period for which to try shooting; 0 for none."""
-        size = self.progress.current.shape[1]
         smaller: list[motions.Recurrence] = []
         for recurrence in self.progress.seen[case]:
             n, last, rate = recurrence.period, recurrence.change, recurrence.rate
@@ -199,7 +197,7 @@ class OrbitSearch:
                 continue
             maps_left = np.log(self.tolerance / last) / np.log(rate) if rate > 0.0 else 0.0
             near = last / (1.0 - rate**n) <= NEAR
-            if near or (distinct and maps_left > 2.0 * n * DERIVATIVES * (size + 2)):
+            if near or (distinct and maps_left > n * self.period_map.shooting_cost):
                 return n
         return 0
 

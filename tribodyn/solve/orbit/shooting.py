@@ -45,21 +45,25 @@ def shoot(
     only judged. Each row has its own damping: a step is halved until the residual falls. Rows fail on their
     own.
     """
-    rows = [_Row(state.copy(), case) for state, case in zip(states, map(int, cases), strict=True)]
-    scales = period_map.scale
+    scales, alike = period_map.scale, period_map.blur > 0.0  # difference quotients are all alike
+    rows = [_Row(state.copy(), case, alike) for state, case in zip(states, map(int, cases), strict=True)]
+    marched = period_map.march(states, cases, periods, True)
+    for row, end, reason in zip(rows, marched.states[:, -1], marched.reasons, strict=True):
+        row.arrive(row.x, end, scales[row.case])
+        row.reason = reason
     going = rows
     while going:
-        stale = [row for row in going if row.jacobian is None]
-        if stale:
-            tangent = period_map.tangent(
-                np.array([row.x for row in stale]), np.array([row.case for row in stale]), periods
-            )
-            for k, row in enumerate(stale):
-                row.take(tangent.image[k], tangent.jacobian[k], tangent.reasons[k], scales[row.case])
         for row in going:
             row.decide(tolerance, max_steps, scales[row.case], period_map.blur)
-        _search(period_map, [row for row in going if row.direction is not None], periods)
         going = [row for row in going if not row.done]
+        for fine in (False, True):
+            stale = [row for row in going if row.jacobian is None and row.fine == fine]
+            if stale:
+                at, of = np.array([row.x for row in stale]), np.array([row.case for row in stale])
+                tangent = period_map.tangent(at, of, periods, fine)
+                for k, row in enumerate(stale):
+                    row.take(tangent.image[k], tangent.jacobian[k], tangent.reasons[k], scales[row.case])
+        _search(period_map, [row for row in going if row.direction is not None], periods)
     return [row.shot() for row in rows]
 
 
@@ -73,9 +77,13 @@ def critical_direction(
 
 
 class _Row:
-    """One system on its way: state, image, residual, and the derivative with the place it was taken at."""
+    """One system on its way: state, image, residual, and the derivative with the place it was taken at.
 
-    def __init__(self, x: Float[Array, " state"], case: int):
+    Steps are taken with coarse derivatives until one does not lower the residual; multipliers are those of a
+    fine one at the solution.
+    """
+
+    def __init__(self, x: Float[Array, " state"], case: int, fine: bool):
         self.x, self.case = x, case
         self.residual = np.inf
         self.steps = 0
@@ -83,8 +91,15 @@ class _Row:
         self.done = False
         self.image = self.base = x
         self.jacobian: Float[Array, "state state"] | None = None
+        self.fine = fine  # whether that is a fine one, or is to be
         self.last_jacobian = np.full((len(x), len(x)), np.nan)
         self.direction: Float[Array, " state"] | None = None
+
+    def arrive(
+        self, x: Float[Array, " state"], image: Float[Array, " state"], scale: Float[Array, " state"]
+    ) -> None:
+        """Be at a state with its image."""
+        self.x, self.image, self.residual = x, image, _size(image - x, scale)
 
     def take(
         self,
@@ -93,28 +108,36 @@ class _Row:
         reason: str,
         scale: Float[Array, " state"],
     ) -> None:
-        """Take a derivative in, and the image that came with it."""
-        self.image, self.base, self.reason = image, self.x, reason
+        """Take a derivative in, and the image that came with a fine one."""
+        self.base, self.reason = self.x, reason
         self.jacobian = self.last_jacobian = jacobian
-        self.residual = _size(image - self.x, scale)
+        if self.fine:
+            self.arrive(self.x, image, scale)
 
     def decide(self, tolerance: float, max_steps: int, scale: Float[Array, " state"], blur: float) -> None:
         """Be done, ask for another derivative, or set out in a direction."""
         self.direction = None
-        if not self.reason and self.residual > tolerance:
-            assert self.jacobian is not None
-            direction = _newton_direction(self.image - self.x, self.jacobian, scale)
-            if direction is None:
-                self.reason = "the map's derivative has the multiplier 1: the steady state is not isolated"
-            elif self.steps >= max_steps:
-                self.reason = f"shooting ended after {max_steps} steps with the residual {self.residual:.1e}"
-            else:
-                self.direction = direction
+        if not self.reason and self.residual <= tolerance:
+            if not self.fine or _size(self.x - self.base, scale) > blur:
+                self.ask(fine=True)
                 return
-        if not self.reason and _size(self.x - self.base, scale) > blur:
-            self.jacobian = None
-            return
+        elif not self.reason and self.steps >= max_steps:
+            self.reason = f"shooting ended after {max_steps} steps with the residual {self.residual:.1e}"
+        elif not self.reason:
+            if self.jacobian is None:
+                return
+            self.direction = _newton_direction(self.image - self.x, self.jacobian, scale)
+            if self.direction is not None:
+                return
+            if not self.fine:
+                self.ask(fine=True)
+                return
+            self.reason = "the map's derivative has the multiplier 1: the steady state is not isolated"
         self.done = True
+
+    def ask(self, fine: bool) -> None:
+        """Want another derivative."""
+        self.jacobian, self.fine = None, fine
 
     def shot(self) -> Shot:
         multipliers = eigenvalues(self.last_jacobian)
@@ -132,21 +155,21 @@ def _search(period_map: PeriodMap, rows: list[_Row], periods: int) -> None:
         end = period_map.march(trial, cases, periods, True).states[:, -1]
         rest = []
         for row, x, image in zip(rows, trial, end, strict=True):
-            residual = _size(image - x, period_map.scale[row.case])
-            if residual >= (1.0 - DECREASE * share) * row.residual:
+            before, scale = row.residual, period_map.scale[row.case]
+            if _size(image - x, scale) >= (1.0 - DECREASE * share) * before:
                 rest.append(row)
                 continue
-            if residual > WELL_DOWN * row.residual:
-                row.jacobian = None
-            row.x, row.image, row.residual = x, image, residual
+            row.arrive(x, image, scale)
             row.steps += 1
+            if row.residual > WELL_DOWN * before:
+                row.jacobian = None
         rows = rest
         share *= 0.5
     for row in rows:
-        if row.base is row.x:
+        if row.base is row.x and row.fine:
             row.reason = f"no Newton step lowers the residual {row.residual:.1e}"
-            row.done = True
-        row.jacobian = None  # it was taken elsewhere: try with that of the place
+        # a coarse one, or taken elsewhere: try with that of the place
+        row.ask(fine=row.fine or row.base is row.x)
 
 
 def _size(off: Float[Array, " state"], scale: Float[Array, " state"]) -> float:

@@ -245,7 +245,7 @@ class OscillatorMap:
     the half backlash; it is its own scale.
     """
 
-    blur = 0.0
+    blur, shooting_cost = 0.0, 16.0
 
     def __init__(self, parameters: Float[Array, "case 5"]):
         self.parameters = np.ascontiguousarray(parameters, dtype=float)
@@ -258,7 +258,9 @@ class OscillatorMap:
         rows, reasons = self._run(states, cases, periods, False, False)
         return Marched(rows.strobes, reasons)
 
-    def tangent(self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int) -> Tangent:
+    def tangent(
+        self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int, fine: bool = True
+    ) -> Tangent:
         """See `motions.PeriodMap`; by the variational equation."""
         rows, reasons = self._run(states, cases, periods, True, False)
         return Tangent(rows.strobes[:, -1], rows.tangents, reasons)
