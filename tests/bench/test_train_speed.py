@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 import tomli_w
 
+from tests.support.planet_sets import planet_set
 from tests.support.timing import least
-from tests.support.train_scenarios import prepared_train, train_case
+from tests.support.train_scenarios import case_of_table, prepared_train, train_case
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
@@ -23,6 +24,7 @@ from tribodyn.kernels.native import kernel
 from tribodyn.scenario.sources import find_scenario
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.lanes.batch import lane_model, pack
+from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.right_hand_side import work_array
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
@@ -156,3 +158,36 @@ def test_a_reducer_runs_in_five_times_the_time_of_its_faster_pair(law, tmp_path,
     assert max(errors) < TARGET
     assert to_pair < 5.0
     assert to_peer > 10.0
+
+
+#: Speeds of the sun, rpm, and planets of a set; its steady states per mesh over the pair's, at most.
+SUN_SPEEDS, PLANETS, MOST_STEADY = np.linspace(600.0, 3000.0, 8), 3, 1.7
+
+
+def set_or_pair(speed: float, pair: bool) -> Model:
+    """A planetary set, or its sun and one planet on bearings, under the load that a mesh of the set has."""
+    table = planet_set(planets=PLANETS, operating={"input_speed": f"{speed!r} rpm"})
+    if pair:
+        teeth = {name: table["gear"][name]["teeth"] for name in ("sun", "planet", "ring")}
+        torque = 600.0 / (1.0 + teeth["ring"] / teeth["sun"]) / PLANETS * teeth["planet"] / teeth["sun"]
+        table["stage"] = [{"gears": ["sun", "planet"], "module": "3 mm", "pressure_angle": "20 deg"}]
+        table["operating"] |= {"output": "planet", "output_torque": f"{torque!r} N*m"}
+        del table["gear"]["ring"], table["body"]
+    return prepare(case_of_table(table)).model
+
+
+def test_steady_states_of_a_planetary_set_cost_what_its_meshes_cost(capsys):
+    """Of six meshes and six bodies, whose intervals and reversals of friction are those of two meshes."""
+    many, one = ([set_or_pair(speed, pair) for speed in SUN_SPEEDS.tolist()] for pair in (False, True))
+    found = [steady_states(models, workers=1) for models in (many, one)]  # compiles
+    assert all(steady.kind == "period-1" and steady.residual <= 1e-7 for part in found for steady in part)
+    meshes = len(many[0].meshes) / len(one[0].meshes)
+    calls = [lambda: steady_states(many, workers=1), lambda: steady_states(one, workers=1)]
+    times = least(calls, 3, MOST_STEADY * meshes)
+    per_mesh = times[0] / times[1] / meshes
+    with capsys.disabled():
+        print(
+            f"\n{len(many)} steady states of a set of {PLANETS} planets {times[0]:.2f} s, of a pair "
+            f"{times[1]:.3f} s: {per_mesh:.2f} times the number of meshes"
+        )
+    assert per_mesh < MOST_STEADY
