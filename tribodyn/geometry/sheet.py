@@ -112,13 +112,14 @@ def _internal_lines(assembly: Assembly, side: Side) -> dict[str, Quantity]:
     """The cutter of an internal gear, and the distances from the limits that external gears do not have."""
     body, tooth = body_of(assembly.drive, side), assembly.tooth(side)
     # the cutter's tip reaches the root circle: −(a_0 − r_f)
-    cutter = tooth.path.pinion_pitch_radius + tooth.path.gear_pitch_radius - tooth.root_radius
+    cutter = tooth.path.pinion_pitch_radius + 1 / tooth.tool_curvature - tooth.root_radius
+    base = {"base circle margin of the tip": _millimetres(base_circle_margin(assembly, side))}
     return {
         "teeth of the cutter": (float(body.cutter_teeth), ""),
         "profile shift of the cutter": (float(body.cutter_shift), ""),
         "tip diameter of the cutter": _millimetres(2 * cutter),
-        "base circle margin of the tip": _millimetres(base_circle_margin(assembly, side)),
-        "margin of the cutter's involute": _millimetres(cutter_margin(assembly, side)),
+        **(base if assembly.family.involute else {}),
+        "margin of the cutter's flank": _millimetres(cutter_margin(assembly, side)),
         "trochoidal clearance of the tips": _millimetres(trochoidal_gap(assembly, side)),
         "room for radial assembly": _millimetres(radial_assembly(assembly, side)),
     }

@@ -91,14 +91,16 @@ def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
     half_angle = (np.pi * drive.module / 4 + widening) / pitch_radius
     depth = drive.module * body.dedendum - shift
     rounding = drive.module * body.fillet_radius
-    if body.cutter_teeth is not None and family.cutter_path is not None:
-        rack, path = path, family.cutter_path(drive, side)
-        half_angle = _half_angle(rack, half_angle, path.pinion_pitch_radius)
-        depth = depth + path.pinion_pitch_radius - pitch_radius
-        pitch_radius, curvature = path.pinion_pitch_radius, 1 / path.gear_pitch_radius
+    if body.cutter_teeth is not None:
+        if family.cutter_path is not None:
+            rack, path = path, family.cutter_path(drive, side)
+            half_angle = _half_angle(rack, half_angle, path.pinion_pitch_radius)
+            depth = depth + path.pinion_pitch_radius - pitch_radius
+            pitch_radius = path.pinion_pitch_radius
+        curvature = body.teeth / (body.cutter_teeth * pitch_radius)
         if body.cutter_addendum is not None:
             outside = drive.module * (body.cutter_teeth / 2 + body.cutter_shift + body.cutter_addendum)
-            depth = outside - path.gear_pitch_radius
+            depth = outside - 1 / curvature
     flank_end = tangent_distance(path, depth, rounding, curvature)
     tangent_angle = path.pressure_angle(flank_end)
     corner = _corner_on_normal(tangent_angle, depth - rounding, curvature)

@@ -27,8 +27,8 @@ class Family(NamedTuple):
     pressure_angle : whether a drive gives its pressure angle; where not, it is 0 at the pitch point
     corner : whether α(r) has a corner at the pitch point; the mesh cycle then begins a segment there
     cutter_path : callable, optional
-        (drive, side) -> the path of contact of a body with its pinion-type cutter, seen from the body; where
-        there is none, no gear of the family can be internal.
+        (drive, side) -> the path of contact of a body with its pinion-type cutter, seen from the body, where
+        it is another than that with its rack; both rolling circles have their teeth's ratio.
     involute : whether flanks are involutes, for which the formulas of ISO 6336 and of loss factors hold
     about : what it is, in a line
     """

@@ -8,6 +8,12 @@ every r gives r²κ² + κ [2Ar + r²(1 − w)] + A² + Ar(1 − w) − r²w −
 
 regular at ξ = 0 (a = 1, a' = (w − 1)/3) and through α = 90°. In other words (p + ξ)(p − wξ) = a: the product
 of the two flank speeds goes with sin α. It is solved by Chebyshev collocation.
+
+The root 2p = √((1 + w)² ξ² + 4a) − (1 − w) ξ is real for every w while sin α > 0, and both flank speeds,
+p + ξ and p − wξ, are then positive: no flank is undercut. p is the rate of the height ξa over ξ. It stays
+positive but for an internal gear, w < 0, on the side of which the height ends where a = −w ξ²: the path turns
+back there, 0.85, 0.70, 0.61, 0.55, 0.50, 0.46, 0.41 times r_p sin² α_p from the pitch line for
+−w = 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, and the ring's teeth and their mate's must end before.
 """
 
 import math
@@ -16,9 +22,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, reference_radii, tip_radius
+from tribodyn.geometry.drive import Drive, Side, body_of, reference_radii, tip_radius
 from tribodyn.geometry.families import Family, unshifted
-from tribodyn.geometry.limits.sizes import refuse_shift
+from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import Path, PerContact, integrated_rotation, inverted_rotation
 from tribodyn.numerics.elementary import maximum, namespace, sin, sqrt, within
 from tribodyn.numerics.iteration import newton
@@ -134,11 +140,23 @@ def working_path(drive: Drive) -> Path:
     ratio = r_p / r_g
     xp = namespace(drive)
     # arrays: beyond what can be made there are square roots of negative numbers, NaN
-    below = maximum(xp.asarray(drive.module * drive.pinion.dedendum), tip_radius(drive, "gear") - r_g)
-    above = maximum(xp.asarray(drive.module * drive.gear.dedendum), tip_radius(drive, "pinion") - r_p)
+    below = maximum(xp.asarray(_flank_depth(drive, "pinion")), tip_radius(drive, "gear") - r_g)
+    above = maximum(xp.asarray(_flank_depth(drive, "gear")), tip_radius(drive, "pinion") - r_p)
     lower = _REACH_MARGIN * reach(ratio, -below * r_p / arm**2)
     upper = _REACH_MARGIN * reach(ratio, above * r_p / arm**2)
     return CRCPath(r_p, r_g, lower * arm, upper * arm, sine * solve(ratio, lower, upper))
+
+
+def _flank_depth(drive: Drive, side: Side) -> Any:
+    """Depth below the pitch line, m, that no point of the tool's flank exceeds.
+
+    On the side of an internal gear α falls from P: its flank ends above the rounding by no less than at P.
+    """
+    body = body_of(drive, side)
+    if body.cutter_teeth is None:
+        return drive.module * body.dedendum
+    depth = body.dedendum if body.cutter_addendum is None else body.cutter_addendum
+    return drive.module * (depth - body.fillet_radius * (1 - sin(drive.pressure_angle)))
 
 
 def check(drive: Drive) -> None:
@@ -156,6 +174,12 @@ def check(drive: Drive) -> None:
             "the path of constant relative curvature does not reach the depth of the teeth",
             "use a larger pressure angle, more teeth, or a smaller addendum and dedendum",
         )
+    require_reach(drive, path, float(path.lower), float(path.upper), _advice)
+
+
+def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
+    shown = f"{math.degrees(drive.pressure_angle):.4g}°"
+    return "pressure_angle", shown, "use a larger one, or a smaller addendum and dedendum"
 
 
 FAMILY = Family(

@@ -32,13 +32,14 @@ def check(drive: Drive) -> None:
     """Refuse profile shift, and generating circles that draw no usable flank.
 
     The circle that rolls inside a pitch circle draws a hypocycloid on the tooth's own side only while it is
-    smaller than that circle (at half of it the flank is a radial straight line).
+    smaller than that circle (at half of it the flank is a radial straight line). On the circle of an internal
+    gear, whose radius is negative, it rolls outside and may have any size.
     """
     refuse_shift(drive)
     inside: tuple[tuple[Side, str], ...] = (("pinion", "approach_circle"), ("gear", "recess_circle"))
     for side, name in inside:
         diameter, pitch = getattr(drive.shape, name), 2 * reference_radius(drive, side)
-        if not 0 < diameter < pitch:
+        if not (diameter > 0 and diameter / pitch < 1):
             raise InputError(
                 f"drive.shape.{name}",
                 f"{1e3 * diameter:.4g} mm",

@@ -1,6 +1,7 @@
 """The parabolic family: a path of contact of two parabolas with their common vertex at the pitch point.
 
 Recess x² = 2 p1 y with p1 = 2 k1 r_g, approach x² = −2 p2 y with p2 = 2 k2 r_p (Jia et al. 2022, (26)-(36)).
+The k that belongs to the negative radius of an internal gear is negative too.
 With tan α = |x|/(2p), sin α = |r|/(p + √(p² + r²)), and the pinion turns by φ = (x + x³/(6p²))/r_p, Jia's
 (10). At P α vanishes as on a cycloid's path; see `pitch_point`.
 """
@@ -78,7 +79,8 @@ def maximum_coefficient(drive: Drive, half: int) -> float:
     """Maximum k at which the mate's actual tip still meets sound flank: k1 for half = +1, k2 for −1.
 
     There contact ends, on the mate's tip circle, at the point of zero velocity of this body's flank, which
-    stands at the height y = r − p = r (1 − 2k) on its parabola; found by bisection.
+    stands at the height y = r − p = r (1 − 2k) on its parabola; found by bisection. The flank of an internal
+    gear has no such point on the side of y > 0: 0, for its k < 0.
     """
     side: Side = "gear" if half > 0 else "pinion"
     mate: Side = "pinion" if half > 0 else "gear"
@@ -87,11 +89,16 @@ def maximum_coefficient(drive: Drive, half: int) -> float:
 
     def sound(k: float) -> bool:
         p = 2 * k * r
-        y = -(p + mate_r) + math.sqrt((p + mate_r) ** 2 + tip**2 - mate_r**2)
+        middle, power = p + mate_r, tip**2 - mate_r**2
+        if middle**2 + power < 0:  # the tip circle does not reach the parabola
+            return False
+        y = power / (middle + math.copysign(math.sqrt(middle**2 + power), middle))
         # The contact's speed along the flank is zero where its distance from the body's axis (0, r) is
         # stationary along the path, x x' + (y − r) y' = 0. On x² = 2 p y, x x' = p y', hence p + y − r = 0.
         return p + y - r < 0
 
+    if r < 0:
+        return 0.0
     good, bad = 0.0, 0.5
     for _ in range(60):
         middle = (good + bad) / 2
@@ -104,8 +111,12 @@ def check(drive: Drive) -> None:
     refuse_shift(drive)
     for half, name in ((1, "k1"), (-1, "k2")):
         k, most = getattr(drive.shape, name), maximum_coefficient(drive, half)
-        if not 0 < k < most:
-            side = "gear" if half > 0 else "pinion"
+        side: Side = "gear" if half > 0 else "pinion"
+        internal = body_of(drive, side).teeth < 0
+        if internal and not k < 0:
+            rule = f"must be less than 0: the radius of the internal {side} is negative"
+            raise InputError(f"drive.shape.{name}", k, rule, f"use {-abs(k) or -0.1:g}")
+        if not internal and not 0 < k < most:
             raise InputError(
                 f"drive.shape.{name}",
                 k,

@@ -13,9 +13,10 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly, mate_of
 from tribodyn.geometry.drive import Side, body_of, tip_circle_radius
 from tribodyn.geometry.limits.sizes import millimetres
-from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import thickness_half_angle
-from tribodyn.numerics.elementary import arctan2, as_float, cos, sqrt
+from tribodyn.numerics.elementary import absolute, arctan2, as_float, cos, maximum, namespace, sin, smallest, sqrt
+
+_SAMPLES = 129
 
 
 def base_circle_margin(assembly: Assembly, side: Side) -> Any:
@@ -26,17 +27,28 @@ def base_circle_margin(assembly: Assembly, side: Side) -> Any:
 
 
 def cutter_margin(assembly: Assembly, side: Side) -> Any:
-    """Distance along the line of action from the cutter's base tangent point to where it cuts the tip.
+    """Minimum speed along the cutter's flank while it cuts the ring's, m per rad of the cutter.
 
-    A cutter with a short involute leaves the tip without a part of its flank.
+    r_0 sin α − r + r κ_0, κ_0 = r_0 cos α dα/dr: where it changes its sign the cutter's flank ends, and a
+    ring is left without a part of its own. Of an involute it is the distance along the line of action from
+    the cutter's base tangent point to where it cuts the tip.
     """
-    tooth = assembly.tooth(side)
-    return as_float(kinematics(tooth.path, tooth.tip_distance).gear_friction_arm)
+    tooth, module = assembly.tooth(side), assembly.drive.module
+    r = tooth.form_distance + (tooth.tip_distance - tooth.form_distance) * np.linspace(0.0, 1.0, _SAMPLES)
+    alpha = tooth.path.pressure_angle(r)
+    kappa = cos(alpha) * tooth.path.pressure_angle_slope(r) / tooth.tool_curvature
+    speed = sin(alpha) / tooth.tool_curvature - r + r * kappa
+    return as_float(smallest(away_from_pitch_point(speed, r, module)))
+
+
+def away_from_pitch_point(speed: Any, r: Any, module: Any) -> Any:
+    """Speeds along a flank, raised by up to a module within 0.01 modules of P, where a cycloid's are zero."""
+    return speed + module * maximum(1.0 - absolute(r) / (1e-2 * module), 0.0)
 
 
 def tip_in_base_circle(assembly: Assembly, ring: Side) -> str:
     """Say that the ring's tip lies within its base circle, or nothing."""
-    if base_circle_margin(assembly, ring) > 0:
+    if not assembly.family.involute or base_circle_margin(assembly, ring) > 0:
         return ""
     return "the tip lies within the base circle, where there is no involute"
 
@@ -52,12 +64,18 @@ def check_outside(assembly: Assembly, side: Side) -> None:
 
 
 def check_cutter(assembly: Assembly, side: Side) -> None:
-    """Refuse a cutter whose involute does not reach the tip that it has to cut."""
-    margin = cutter_margin(assembly, side)
+    """Refuse a cutter whose flank does not reach the tip that it has to cut, and one that cannot be shifted."""
+    margin, body = cutter_margin(assembly, side), body_of(assembly.drive, side)
+    if body.cutter_shift and not assembly.family.involute:
+        rule = "a cutter of this family cannot be profile-shifted: its path belongs to one centre distance"
+        raise InputError(f"drive.{side}.cutter_profile_shift", body.cutter_shift, rule, "use 0")
     if not margin > 0:
-        rule = f"the cutter's involute ends {millimetres(-margin)} before the tip of the internal tooth"
-        given = f"{body_of(assembly.drive, side).cutter_teeth:g}"
-        raise InputError(f"drive.{side}.cutter_teeth", given, rule, "use more, or a lower tip")
+        rule = "the cutter's flank ends before the tip of the internal tooth"
+        if assembly.family.involute:
+            rule = f"the cutter's involute ends {millimetres(-margin)} before the tip of the internal tooth"
+        raise InputError(
+            f"drive.{side}.cutter_teeth", f"{body.cutter_teeth:g}", rule, "use more, or a lower tip"
+        )
 
 
 def tips_collide(assembly: Assembly, ring: Side) -> str:
@@ -80,12 +98,13 @@ def trochoidal_gap(assembly: Assembly, ring: Side) -> Any:
     tip, ring_tip = tip_circle_radius(drive, mate), tip_circle_radius(drive, ring)
     distance = r_p + r_g
     cosine = (ring_tip**2 - distance**2 - tip**2) / (-2 * distance * tip)
+    xp = namespace(drive)
+    cross = xp.abs(cosine) < 1
     ring_cosine = (distance**2 + ring_tip**2 - tip**2) / (2 * distance * ring_tip)
-    if not abs(cosine) < 1:
-        return np.inf
-    turned = _arccos(cosine) + _rise(assembly, mate, r_p, tip)
-    gap = turned * r_p / r_g + _rise(assembly, ring, r_g, ring_tip) + _arccos(ring_cosine)
-    return as_float(ring_tip * gap)
+    turned = _arccos(xp.where(cross, cosine, 0.0)) + _rise(assembly, mate, r_p, tip)
+    gap = turned * r_p / r_g + _rise(assembly, ring, r_g, ring_tip)
+    gap = gap + _arccos(xp.where(cross, ring_cosine, 0.0))
+    return as_float(xp.where(cross, ring_tip * gap, np.inf))
 
 
 def radial_assembly(assembly: Assembly, ring: Side) -> Any:

@@ -12,7 +12,8 @@ from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clea
 from tribodyn.geometry.drive import SIDES, Drive, Side
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point
-from tribodyn.numerics.elementary import maximum, minimum, namespace, sense, smallest
+from tribodyn.geometry.limits.internal import away_from_pitch_point
+from tribodyn.numerics.elementary import minimum, namespace, sense, smallest
 from tribodyn.numerics.shapes import Array, Float
 
 _SAMPLES = 129
@@ -57,17 +58,13 @@ def beyond(unit: str, drive: Drive) -> float:
 
 def _of_body(assembly: Assembly, side: Side) -> dict[str, Any]:
     drive, tooth = assembly.drive, assembly.tooth(side)
-    xp = namespace(drive)
     start, end = assembly.limits
     r = start + (end - start) * np.linspace(0.0, 1.0, _SAMPLES)
     motion = kinematics(assembly.path, r)
     speed = motion.pinion_speed if side == "pinion" else motion.gear_speed
     speed = speed * sense(assembly.path.pinion_pitch_radius)  # in the pinion's own sense of turning
-    # at the pitch point of a cycloid the speed of a sound flank is zero
-    beside = xp.abs(r) / (1e-2 * drive.module)
-    sound = drive.module * maximum(1.0 - beside, 0.0)
     return {
-        "undercut": smooth_minimum(speed + sound, _BLENDED * drive.module),
+        "undercut": smooth_minimum(away_from_pitch_point(speed, r, drive.module), _BLENDED * drive.module),
         "interference": lowest_contact_radius(assembly, side) - tooth.form_radius,
         "tip_corner": minimum(tip_corner_gap(assembly, side), drive.module),
         "tip_thickness": 2 * flank_point(tooth, tooth.tip_distance)[1],

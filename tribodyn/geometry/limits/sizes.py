@@ -9,6 +9,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, internal_side, tip_radius
 from tribodyn.geometry.path import Path, kinematics, radius, seen_from
+from tribodyn.numerics.elementary import sense
 
 _SAMPLES = 2000
 
@@ -29,7 +30,8 @@ def require_reach(drive: Drive, path: Path, lower: float, upper: float, advice: 
     """Refuse a path that ends before the teeth do, or whose flanks are undercut where they work.
 
     Both bodies: their tip circle must cut the path, their rack's rounding must touch its flank on it, and
-    between the tips each flank must move the way it is convex to (u_p, u_g > 0), which is where it exists.
+    between the tips each flank must move the way it is convex to (u_p, u_g > 0, per turn in the sense of an
+    external pinion), which is where it exists.
     The working path is known from the signed distance `lower` < 0 to `upper` > 0, m.
     """
     active = {}
@@ -48,17 +50,21 @@ def require_reach(drive: Drive, path: Path, lower: float, upper: float, advice: 
         distance = approach * np.linspace(0.0, 1.0, _SAMPLES)
         sine = np.sin(view.pressure_angle(-distance))
         rounding = drive.module * body.fillet_radius
-        left = (distance - rounding) * sine - (drive.module * body.dedendum - rounding)
+        depth = body.dedendum if body.cutter_addendum is None else body.cutter_addendum
+        below = drive.module * depth - rounding
+        left = (distance - rounding) * sine - below
+        if body.cutter_teeth is not None:  # the same of a cutter, see `tooth.tangent_distance`
+            left += ((distance - rounding) ** 2 - below**2) / (drive.module * body.cutter_teeth)
         if not (left >= 0).any():
             height = millimetres(np.nanmax(distance * sine))
-            rule = f"the path ends {height} from the pitch line, before the flank of the {side}'s rack"
+            rule = f"the path ends {height} from the pitch line, before the flank of the {side}'s {'rack' if body.cutter_teeth is None else 'cutter'}"
             _refuse(drive, -half, advice, rule)
     inner = np.linspace(1e-6, 1.0, _SAMPLES)
     for half, end in ((-1, -active["gear"]), (1, active["pinion"])):
         motion = kinematics(path, end * inner)
         speeds: dict[Side, Any] = {"pinion": motion.pinion_speed, "gear": motion.gear_speed}
         for side, speed in speeds.items():
-            if not np.all(speed > 0):
+            if not np.all(speed * sense(path.pinion_pitch_radius) > 0):
                 _refuse(drive, half, advice, f"the working flank of the {side} would be undercut")
 
 

@@ -83,12 +83,6 @@ def broken_internal_rules(drive: DriveTable) -> Iterator[InputError]:
     if not ring.internal:
         return
     yield from broken_internal_sizes(side, ring.teeth, mate.teeth, _cutter_teeth(ring))
-    if drive.family in FAMILIES and FAMILIES[drive.family].cutter_path is None:
-        rule, remedy = (
-            f"internal gears of the family {drive.family} are not modelled",
-            'use family = "involute"',
-        )
-        yield InputError(f"drive.{side}.internal", "true", rule, remedy)
     if drive.helix_angle:
         rule, remedy = "helical internal gears are not modelled", "leave helix_angle out"
         yield InputError("drive.helix_angle", f"{drive.helix_angle:g} rad", rule, remedy)
