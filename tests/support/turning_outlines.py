@@ -19,11 +19,12 @@ TOLERANCE = 0.1e-6
 
 
 class Outline(NamedTuple):
-    """A tooth as half thickness angle over radius, rising from root to tip."""
+    """A tooth as half thickness angle over rising radius, from root to tip or, of a ring, from tip to root."""
 
     radius: np.ndarray
     half_angle: np.ndarray
     teeth: int
+    ring: bool
 
     def clearance(self, points: np.ndarray, tooth: float) -> np.ndarray:
         """Distance along the circle (m) of points (n, 2) from the nearest tooth; negative inside it.
@@ -34,14 +35,15 @@ class Outline(NamedTuple):
         pitch = 2 * pi / self.teeth
         beside = np.abs((angle - tooth + pitch / 2) % pitch - pitch / 2)
         gap = (beside - np.interp(radius, self.radius, self.half_angle)) * radius
-        return np.where(radius < self.radius[-1], gap, np.inf)
+        return np.where(radius > self.radius[0] if self.ring else radius < self.radius[-1], gap, np.inf)
 
 
 def outline_of(assembly: Assembly, side: Side) -> Outline:
     shape, teeth = tooth_outline(assembly.tooth(side), 2000, 800), body_of(assembly.drive, side).teeth
-    radius, angle = half_profile(shape, teeth)
-    flank = len(radius) - 3  # less the points of the tip circle
-    return Outline(np.asarray(radius)[3:flank], np.asarray(angle)[3:flank], round(float(teeth)))
+    both = np.array(half_profile(shape, teeth))[:, 3:-3]  # less the points of the tip circle
+    ring = float(teeth) < 0
+    radius, angle = -both[:, ::-1] if ring else both
+    return Outline(radius, angle, abs(round(float(teeth))), ring)
 
 
 def flanks(outline: Outline, tooth: float, centre: np.ndarray) -> np.ndarray:
@@ -71,7 +73,7 @@ def assert_touching(mesh: Turning, turns: Sequence[float]) -> None:
     radii = float(path.pinion_pitch_radius), float(path.gear_pitch_radius)
     z_1, z_2 = float(drive.pinion.teeth), float(drive.gear.teeth)
     across = np.array([np.cos(mesh.azimuth), np.sin(mesh.azimuth)])
-    along = mesh.sense * np.array([-across[1], across[0]])  # motion at the pitch point
+    along = mesh.sense * np.sign(radii[0]) * np.array([-across[1], across[0]])  # motion at the pitch point
     centre = (radii[0] + radii[1]) * across
     one, two = outline_of(mesh.assembly, "pinion"), outline_of(mesh.assembly, "gear")
     for turn in turns:
@@ -82,9 +84,9 @@ def assert_touching(mesh: Turning, turns: Sequence[float]) -> None:
         clearance = one.clearance(points, at_1)
         assert np.min(clearance) > -TOLERANCE, "teeth overlap"
         start, end = mesh.assembly.roll_limits
-        phase = (mesh.phase + z_1 * turn / (2 * pi)) % 1.0
+        phase = (mesh.phase + abs(z_1) * turn / (2 * pi)) % 1.0
         rolls = start + (phase + np.arange(4)) * 2 * pi / z_1
-        rolls = rolls[rolls < end]
+        rolls = rolls[(rolls - end) * z_1 < 0]  # angles of a driving ring fall
         assert rolls.size
         for r in np.asarray(path.signed_distance(rolls)):
             x, y = position(path, r)
@@ -100,12 +102,12 @@ def assert_teeth_touch(case: TrainCase) -> None:
     centres = np.array([body.centre for body in case.bodies])
     for number, (mesh, pair) in enumerate(zip(case.meshes, pairs, strict=True)):
         apart = centres[mesh.driven] - centres[mesh.driver]
-        assert np.hypot(*apart) == pytest.approx(pair.path.pinion_pitch_radius + pair.path.gear_pitch_radius)
-        assert np.cos(np.arctan2(*apart[::-1]) - mesh.azimuth) == pytest.approx(1.0)
-        driver = case.bodies[mesh.driver]
+        distance = float(pair.path.pinion_pitch_radius + pair.path.gear_pitch_radius)
+        across = np.array([np.cos(mesh.azimuth), np.sin(mesh.azimuth)])
+        np.testing.assert_allclose(apart, distance * across, atol=1e-9)
         teeth = put.teeth[mesh.gears[0]], put.teeth[mesh.gears[1]]
-        ratio = float(driver.ratio)
-        turning = Turning(pair, mesh.azimuth, driver.sense, teeth, put.meshes[number])
+        sense, ratio = case.toothed_shafts[mesh.gears[0]].sense, float(case.bodies[mesh.driver].ratio)
+        turning = Turning(pair, mesh.azimuth, sense, teeth, put.meshes[number])
         assert_touching(turning, [ratio * turn for turn in (0.0, 0.07, 1.9)])
         # after the common period every mesh is where it was
         assert mesh.rate * case.period == int(mesh.rate * case.period)

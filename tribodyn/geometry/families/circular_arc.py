@@ -39,7 +39,7 @@ class ArcPath(NamedTuple):
     recess_diameter: Any
 
     def _diameter(self, r: PerContact) -> PerContact:
-        """Diameter with the sign of r or φ, so that r over it is the sine of β."""
+        """Diameter with the sign of r or r_p φ, so that r over it is the sine of β."""
         return where(r < 0, -self.approach_diameter, self.recess_diameter)
 
     def pressure_angle(self, r: PerContact) -> PerContact:
@@ -65,8 +65,9 @@ class ArcPath(NamedTuple):
     def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ."""
         xp = namespace(self, rotation)
-        diameter = self._diameter(xp.asarray(rotation))
-        target = rotation * self.pinion_pitch_radius / diameter
+        rolled = xp.asarray(rotation * self.pinion_pitch_radius)
+        diameter = self._diameter(rolled)
+        target = rolled / diameter
         start = minimum(target * cos(self.angle), 0.98 * (np.pi / 2 - self.angle))
         return diameter * sin(newton(_step_to_rotation, start, _NEWTON_STEPS, self, target))
 

@@ -56,8 +56,9 @@ class ParabolaPath(NamedTuple):
     def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ: the root of Jia's cubic in x."""
         xp = namespace(self, rotation)
-        p = self._parameter(xp.asarray(rotation))
-        angle = xp.arcsinh(3 * self.pinion_pitch_radius * rotation / (2 * math.sqrt(2) * p)) / 3
+        rolled = xp.asarray(self.pinion_pitch_radius * rotation)
+        p = self._parameter(rolled)
+        angle = xp.arcsinh(3 * rolled / (2 * math.sqrt(2) * p)) / 3
         x = 2 * math.sqrt(2) * p * xp.sinh(angle)
         return x * sqrt(1 + (x / (2 * p)) ** 2)
 

@@ -18,7 +18,7 @@ from tribodyn.studies.gear_train.described.structure import (
     motion_of,
     structure,
 )
-from tribodyn.studies.gear_train.described.teeth import check_same_teeth, engagement
+from tribodyn.studies.gear_train.described.teeth import check_planet, check_same_teeth, engagement
 from tribodyn.studies.gear_train.planetary.described import coaxial, refuse_overlap
 from tribodyn.train.kinematics import TrainSpeeds
 from tribodyn.train.phases import ToothedShaft, nominal_phases
@@ -96,6 +96,10 @@ def drawn(train: Moving) -> Drawn:
     or gears have no room.
     """
     parts = train.parts
+    for own in parts.sets:
+        planet = next(number for number, gear in enumerate(parts.gears) if gear.body == own.planets[0])
+        seen_by = [(drive_of(train.drives[mesh]), side) for mesh, side in train.meshes_of(planet)]
+        check_planet(f"{own.key}.family", own.table.family, seen_by)
     assemblies = _assemblies(train)
     for number, gear in enumerate(parts.gears):
         seen: list[tuple[Assembly, Side]] = [

@@ -284,7 +284,8 @@ def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, dr
         return DriveTable.model_construct(family="involute", **common)
     own = {name: getattr(table, name) for name in ("family", "rack", "shape", "roughness", "helix_angle")}
     distance: Printed | None = table.centre_distance
-    if distance is None and isinstance(table, PlanetaryStage) and (pinion.internal or gear.internal):
+    at_ring = isinstance(table, PlanetaryStage) and (pinion.internal or gear.internal)
+    if distance is None and at_ring and family(table.family).involute:
         distance = _distance_of_set(scenario, parts, mesh)
     return DriveTable.model_construct(**common, **own, centre_distance=distance)
 

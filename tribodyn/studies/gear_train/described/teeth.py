@@ -7,15 +7,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
+from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, tip_radius
+from tribodyn.geometry.families import family
+from tribodyn.geometry.path import seen_from
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.train.phases import Engagement
 
 #: Difference of half thicknesses by which two shapes of one gear's teeth are the same, m.
 SAME_TOOTH = 1e-6
 _RADII = 9
+#: Signed distances in modules, and the difference in rad by which two paths of contact are the same.
+_OVER_MODULE, _SAME_ANGLE = np.linspace(-1.0, 1.0, 9), 1e-8
 
 
 def half_angles(assembly: Assembly) -> tuple[float, float]:
@@ -60,3 +64,26 @@ def check_same_teeth(key: str, name: str, seen: Sequence[tuple[Assembly, Side]])
             rule = f"its {teeth} teeth differ by {1e6 * apart:.3g} um between the stages that it belongs to"
             remedy = "give both stages the same family, module, pressure angle and shape"
             raise InputError(key, name, rule, remedy)
+
+
+def check_planet(key: str, name: str, meshes: Sequence[tuple[Drive, Side]]) -> None:
+    """Raise InputError where the meshes with sun and ring need planets of different teeth.
+
+    A planet's tooth has one path of contact with its rack, and with every gear of a family but the involute
+    the same. `meshes` are those of one planet, with what it is in them, `key` and `name` the family's.
+    """
+    teeth = family(name)
+    if teeth.involute:
+        return
+    with np.errstate(invalid="ignore"):
+        one, two = (
+            seen_from(teeth.working_path(drive), side).pressure_angle(drive.module * _OVER_MODULE)
+            for drive, side in meshes
+        )
+    if not np.all(np.abs(one - two) <= _SAME_ANGLE):
+        rule = (
+            "the mesh with the sun fixes the planets' teeth, and the ring needs others: "
+            "seen from the planet, their paths of contact differ"
+        )
+        remedy = "use involutes, or paths alike on both sides of P, such as cycloids of equal circles"
+        raise InputError(key, quoted(name), rule, remedy)
