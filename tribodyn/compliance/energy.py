@@ -189,8 +189,7 @@ def tooth_compliance(
     ring = root, loaded.body.bore_radius, root_angle, material.youngs_modulus
     if not is_jax(loaded.body.teeth) and loaded.body.teeth < 0:  # the polynomials are of bodies inside
         rim = rim_compliance(loaded, material.poisson_ratio)
-        foundation = np.einsum("...i,ij,...j->...", root_load, rim, root_load)
-        foundation = foundation / (material.youngs_modulus * body_length)
+        foundation = (root_load @ rim * root_load).sum(-1) / (material.youngs_modulus * body_length)
     elif body == "ring":
         foundation = ring_foundation(root_load, *ring, material.poisson_ratio, body_length)
     else:

@@ -226,9 +226,10 @@ def constraints(
         For pinion and gear each, m: ``undercut_…`` (speed of the contact along the flank per speed of the
         pinion, zero at a singular point), ``interference_…`` (flank left below the lowest contact),
         ``tip_corner_…`` (gap between fillet and the mate's tip), ``tip_thickness_…``, ``clearance_…`` (of the
-        tip from the mate's root), ``rack_tip_…`` (width left at the rack's tip); and
-        ``contact_ratio_above_1``. What does not exist, because the path ends before the teeth do, counts as a
-        module (or 1) beyond the limit.
+        tip from the mate's root), ``rack_tip_…`` (width left at the rack's tip);
+        ``contact_ratio_above_1``; of an internal gear ``trochoidal_clearance`` (trochoidal interference),
+        ``cutter_flank`` (speed along the flank of its cutter) and ``base_circle``, a module without one. What
+        does not exist, because the path ends before the teeth do, counts as a module (or 1) beyond the limit.
 
     Raises
     ------

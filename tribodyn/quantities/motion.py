@@ -115,6 +115,13 @@ _OF_A_GEAR = {
     "clearance": "From the tip circle to the mate's root circle",
     "rack_tip": "Half width left at the tip of the rack between its rounded corners",
 }
+_OF_A_RING = {
+    "trochoidal_clearance": "Arc between both tips' corners where they pass beyond the path of contact: negative with "
+    "trochoidal interference",
+    "cutter_flank": "Minimum speed along the cutter's flank while it cuts, per speed of the cutter: zero "
+    "where this flank ends",
+    "base_circle": "From the tip out to the base circle of an involute",
+}
 TRAIN = (
     Quantity("train_ratio", "Ratio of the train", digits=".5g").defined_as(
         "Speed of the input over that of the output."
@@ -133,5 +140,11 @@ LIMITS = (
         for side in ("pinion", "gear")
     ),
     Quantity("contact_ratio_above_1", "Contact ratio above 1").defined_as("Contact ratio less 1."),
+    *(
+        Quantity(name, f"{name.capitalize().replace('_', ' ')}, internal gear", "mm").defined_as(
+            f"{about}, of an internal gear; at most a module, and a module without one."
+        )
+        for name, about in _OF_A_RING.items()
+    ),
 )
 QUANTITIES = (*GEOMETRY, *MOTION, *TRAIN, *LIMITS)

@@ -11,10 +11,21 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly, mate_of
-from tribodyn.geometry.drive import Side, body_of, tip_circle_radius
+from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
 from tribodyn.geometry.limits.sizes import millimetres
 from tribodyn.geometry.tooth import thickness_half_angle
-from tribodyn.numerics.elementary import absolute, arctan2, as_float, cos, maximum, namespace, sin, smallest, sqrt
+from tribodyn.numerics.elementary import (
+    absolute,
+    arctan2,
+    as_float,
+    cos,
+    maximum,
+    minimum,
+    namespace,
+    sin,
+    smallest,
+    sqrt,
+)
 
 _SAMPLES = 129
 
@@ -44,6 +55,21 @@ def cutter_margin(assembly: Assembly, side: Side) -> Any:
 def away_from_pitch_point(speed: Any, r: Any, module: Any) -> Any:
     """Speeds along a flank, raised by up to a module within 0.01 modules of P, where a cycloid's are zero."""
     return speed + module * maximum(1.0 - absolute(r) / (1e-2 * module), 0.0)
+
+
+def internal_distances(assembly: Assembly) -> dict[str, Any]:
+    """The ring's own distances from its limits, each at most a module; a module of a pair without a ring."""
+    drive = assembly.drive
+    ring = next((side for side in SIDES if body_of(drive, side).cutter_teeth is not None), None)
+    module = drive.module
+    if ring is None:
+        return {"trochoidal_clearance": module, "cutter_flank": module, "base_circle": module}
+    base = base_circle_margin(assembly, ring) if assembly.family.involute else module
+    return {
+        "trochoidal_clearance": minimum(trochoidal_gap(assembly, ring), module),
+        "cutter_flank": minimum(cutter_margin(assembly, ring), module),
+        "base_circle": minimum(base, module),
+    }
 
 
 def tip_in_base_circle(assembly: Assembly, ring: Side) -> str:
