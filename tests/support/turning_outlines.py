@@ -19,7 +19,7 @@ TOLERANCE = 0.1e-6
 
 
 class Outline(NamedTuple):
-    """A tooth as half thickness angle over rising radius, from root to tip or, of a ring, from tip to root."""
+    """A tooth as half thickness angle over rising radius, from root to tip; of a ring from tip to root."""
 
     radius: np.ndarray
     half_angle: np.ndarray

@@ -18,8 +18,8 @@ from tribodyn.geometry.gauges import Gauge, Quantity, involute_of, thickness_lin
 from tribodyn.geometry.helix import base_helix_angle, hand_of, lead, overlap_ratio, pitch_slope
 from tribodyn.geometry.limits.internal import (
     base_circle_margin,
-    cutter_margin,
     radial_assembly,
+    tool_margin,
     trochoidal_gap,
 )
 from tribodyn.geometry.path import kinematics
@@ -119,7 +119,7 @@ def _internal_lines(assembly: Assembly, side: Side) -> dict[str, Quantity]:
         "profile shift of the cutter": (float(body.cutter_shift), ""),
         "tip diameter of the cutter": _millimetres(2 * cutter),
         **(base if assembly.family.involute else {}),
-        "margin of the cutter's flank": _millimetres(cutter_margin(assembly, side)),
+        "margin of the cutter's flank": _millimetres(tool_margin(assembly, side)),
         "trochoidal clearance of the tips": _millimetres(trochoidal_gap(assembly, side)),
         "room for radial assembly": _millimetres(radial_assembly(assembly, side)),
     }

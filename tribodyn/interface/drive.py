@@ -227,9 +227,10 @@ def constraints(
         pinion, zero at a singular point), ``interference_…`` (flank left below the lowest contact),
         ``tip_corner_…`` (gap between fillet and the mate's tip), ``tip_thickness_…``, ``clearance_…`` (of the
         tip from the mate's root), ``rack_tip_…`` (width left at the rack's tip);
-        ``contact_ratio_above_1``; of an internal gear ``trochoidal_clearance`` (trochoidal interference),
-        ``cutter_flank`` (speed along the flank of its cutter) and ``base_circle``, a module without one. What
-        does not exist, because the path ends before the teeth do, counts as a module (or 1) beyond the limit.
+        ``contact_ratio_above_1``; of pairs with an internal gear, and a module of others,
+        ``trochoidal_clearance`` (of the tips where they pass), ``tool_flank`` (speed along the tools' flanks)
+        and ``base_circle``. What does not exist, because the path ends before the teeth do, counts as a module
+        (or 1) beyond the limit.
 
     Raises
     ------

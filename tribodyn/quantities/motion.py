@@ -116,10 +116,10 @@ _OF_A_GEAR = {
     "rack_tip": "Half width left at the tip of the rack between its rounded corners",
 }
 _OF_A_RING = {
-    "trochoidal_clearance": "Arc between both tips' corners where they pass beyond the path of contact: negative with "
-    "trochoidal interference",
-    "cutter_flank": "Minimum speed along the cutter's flank while it cuts, per speed of the cutter: zero "
-    "where this flank ends",
+    "trochoidal_clearance": "Arc between both tips' corners where they pass beyond the path of contact: "
+    "negative with trochoidal interference",
+    "tool_flank": "Minimum speed along the tools' flanks while they cut, per speed of the cutter (of the "
+    "gear that a rack cuts): zero where such a flank ends",
     "base_circle": "From the tip out to the base circle of an involute",
 }
 TRAIN = (
@@ -142,7 +142,7 @@ LIMITS = (
     Quantity("contact_ratio_above_1", "Contact ratio above 1").defined_as("Contact ratio less 1."),
     *(
         Quantity(name, f"{name.capitalize().replace('_', ' ')}, internal gear", "mm").defined_as(
-            f"{about}, of an internal gear; at most a module, and a module without one."
+            f"{about}; of pairs with an internal gear, at most a module, and a module of others."
         )
         for name, about in _OF_A_RING.items()
     ),

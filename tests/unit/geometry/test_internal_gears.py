@@ -9,8 +9,8 @@ from typing import Any
 import jax
 import numpy as np
 import pytest
-from scipy.interpolate import CubicSpline
 
+from tests.support.ring_outlines import penetration
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
 from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
@@ -20,7 +20,7 @@ from tribodyn.geometry.families import family, involute
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.limits.internal import radial_assembly, trochoidal_gap
 from tribodyn.geometry.path import distance_at_radius, kinematics, radius
-from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point, thickness_half_angle
+from tribodyn.geometry.tooth import Tooth, fillet_point
 
 jax.config.update("jax_enable_x64", True)
 
@@ -166,58 +166,6 @@ def test_gradients_by_the_cutter_are_those_of_differences():
     assert np.array(found) == pytest.approx(np.array([by_shift, by_rounding]), rel=1e-7)
 
 
-def _half_outline(tooth: Tooth) -> np.ndarray:
-    """Radii (m, > 0) and half thickness angles (rad, > 0) of fillet and flank."""
-    x, y = np.concatenate(
-        [
-            np.array(fillet_point(tooth, np.linspace(np.pi / 2, float(tooth.form_angle), 4000))),
-            np.array(flank_point(tooth, np.linspace(tooth.form_distance, tooth.tip_distance, 4000))),
-        ],
-        axis=1,
-    )
-    return np.array([np.hypot(x, y), np.arctan2(y, np.abs(x))])
-
-
-def _penetration(pair: Assembly) -> float:
-    """How deep any point of the planet's outline lies in the ring's material while they turn, m.
-
-    At the point's radius about the ring's axis the ring's half thickness, by spline of its outline, is
-    compared with the angle of the point from the tooth's axis.
-    """
-    planet, ring = pair.pinion, pair.gear
-    teeth = pair.drive.pinion.teeth
-    pitch = 2 * math.pi / -pair.drive.gear.teeth
-    r_p, r_g = float(pair.path.pinion_pitch_radius), -float(pair.path.gear_pitch_radius)
-    size, angle = _half_outline(planet)
-    size, angle = np.append(size, size), np.append(angle, -angle)
-    at_pitch = float(thickness_half_angle(planet, r_p))
-    ring_size, ring_angle = _half_outline(ring)
-    order = np.argsort(ring_size)
-    half = CubicSpline(*_distinct(ring_size[order], ring_angle[order]))
-    ring_at_pitch = -float(thickness_half_angle(ring, -r_g))
-    deepest = -np.inf
-    for roll in np.linspace(-0.5, 0.5, 81) * 2 * math.pi / teeth:
-        for tooth in range(-9, 10):
-            # clockwise from the line of centres, towards the ring; the planet's tooth lies left of P
-            turned = roll - at_pitch + tooth * 2 * math.pi / teeth + angle
-            x, y = size * np.sin(turned), size * np.cos(turned) - r_p + r_g
-            at, where = np.hypot(x, y), np.arctan2(x, y)
-            # the ring's tooth to the right of P: its axis at the half thickness
-            from_axis = where - roll * r_p / r_g - ring_at_pitch
-            from_axis -= pitch * np.round(from_axis / pitch)
-            inside = (at > -ring.tip_radius) & (at < -ring.root_radius)
-            if inside.any():
-                depth = (half(at[inside]) - np.abs(from_axis[inside])) * at[inside]
-                deepest = max(deepest, float(depth.max()))
-            assert at.max() < -ring.root_radius
-    return deepest
-
-
-def _distinct(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    kept = np.append(True, np.diff(x) > 1e-9)
-    return x[kept], y[kept]
-
-
 @pytest.mark.parametrize("off", [0.0, 0.2e-3])
 @pytest.mark.parametrize("shift", [0.1171, -0.2])
 def test_planet_and_ring_roll_without_penetration(shift: float, off: float):
@@ -225,8 +173,8 @@ def test_planet_and_ring_roll_without_penetration(shift: float, off: float):
     ring = RING._replace(profile_shift=shift, cutter_teeth=30.0, tip_radius=None, addendum=0.9)
     pair = PAIR._replace(gear=ring, centre_distance=None)
     tight = float(involute.tight_centre_distance(pair))
-    deepest = _penetration(Assembly(family("involute"), pair._replace(centre_distance=tight + off)))
-    assert abs(deepest) < 1e-9
+    deepest = penetration(Assembly(family("involute"), pair._replace(centre_distance=tight + off)))
+    assert abs(deepest.max()) < 1e-9
 
 
 def test_section_and_polygon_of_a_ring_agree():
@@ -251,8 +199,8 @@ def test_tips_that_pass_run_into_each_other_where_the_distance_is_negative():
     """Outlines rolled, all teeth: for eight teeth more they pass, for six they do not."""
     kept, broken = (Assembly(family("involute"), _small(teeth)) for teeth in (44, 42))
     assert trochoidal_gap(kept, "gear") > 0 > trochoidal_gap(broken, "gear")
-    assert _penetration(kept) < 1e-9
-    assert _penetration(broken) > 0.2 * -trochoidal_gap(broken, "gear")
+    assert penetration(kept).max() < 1e-9
+    assert penetration(broken).max() > 0.2 * -trochoidal_gap(broken, "gear")
 
 
 @pytest.mark.parametrize(

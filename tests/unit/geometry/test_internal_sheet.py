@@ -94,7 +94,6 @@ def test_measured_thickness_gives_the_allowance_back(key: str, gaps: bool):
         ("pinion", {"internal": True}, "drive.pinion.internal", "make one of them external"),
         ("pinion", {"cutter_teeth": 20}, "drive.pinion.cutter_teeth", "add internal = true"),
         ("gear", {"bore_diameter": "1 m"}, "drive.gear.bore_diameter", "outer_diameter"),
-        ("drive", {"family": "s-gear"}, "drive.gear.internal", 'use family = "involute"'),
         ("drive", {"helix_angle": "10 deg"}, "drive.helix_angle", "helical internal gears"),
     ],
 )

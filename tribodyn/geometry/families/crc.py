@@ -11,9 +11,10 @@ of the two flank speeds goes with sin α. It is solved by Chebyshev collocation.
 
 The root 2p = √((1 + w)² ξ² + 4a) − (1 − w) ξ is real for every w while sin α > 0, and both flank speeds,
 p + ξ and p − wξ, are then positive: no flank is undercut. p is the rate of the height ξa over ξ. It stays
-positive but for an internal gear, w < 0, on the side of which the height ends where a = −w ξ²: the path turns
-back there, 0.85, 0.70, 0.61, 0.55, 0.50, 0.46, 0.41 times r_p sin² α_p from the pitch line for
-−w = 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, and the ring's teeth and their mate's must end before.
+positive but for an internal gear, w < 0, on the side of whose root the path turns back to the pitch line
+where a = −w ξ²: 0.85, 0.70, 0.61, 0.55, 0.50, 0.46, 0.41 times r_p sin² α_p from it for −w = 0.1, 0.2, 0.3, 0.4,
+0.5, 0.6, 0.8. No rack cuts the mate's tooth beyond, where it must end. For w = −1/2 the solution is
+a = 1 − ξ/2: the ring's flank is straight and the planet's an arc of the radius 2 r_p sin α_p = ρ_0.
 """
 
 import math
@@ -22,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, Side, body_of, reference_radii, tip_radius
+from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radii, reference_radius, tip_radius
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
 from tribodyn.geometry.path import Path, PerContact, integrated_rotation, inverted_rotation
@@ -140,23 +141,37 @@ def working_path(drive: Drive) -> Path:
     ratio = r_p / r_g
     xp = namespace(drive)
     # arrays: beyond what can be made there are square roots of negative numbers, NaN
-    below = maximum(xp.asarray(_flank_depth(drive, "pinion")), tip_radius(drive, "gear") - r_g)
-    above = maximum(xp.asarray(_flank_depth(drive, "gear")), tip_radius(drive, "pinion") - r_p)
-    lower = _REACH_MARGIN * reach(ratio, -below * r_p / arm**2)
-    upper = _REACH_MARGIN * reach(ratio, above * r_p / arm**2)
+    below = maximum(xp.asarray(drive.module * drive.pinion.dedendum), tip_radius(drive, "gear") - r_g)
+    above = maximum(xp.asarray(drive.module * drive.gear.dedendum), tip_radius(drive, "pinion") - r_p)
+    ends = -below * r_p / arm**2, above * r_p / arm**2
+    lower, upper = (
+        _REACH_MARGIN
+        * (reach(ratio, end) if body.cutter_teeth is None else _reach_in_ring(drive, side) / arm)
+        for side, body, end in zip(SIDES, (drive.pinion, drive.gear), ends, strict=True)
+    )
     return CRCPath(r_p, r_g, lower * arm, upper * arm, sine * solve(ratio, lower, upper))
 
 
-def _flank_depth(drive: Drive, side: Side) -> Any:
-    """Depth below the pitch line, m, that no point of the tool's flank exceeds.
+def _reach_in_ring(drive: Drive, ring: Side) -> Any:
+    """Signed distance (m) to which mate and cutter of an internal gear touch it on the side of its root.
 
-    On the side of an internal gear α falls from P: its flank ends above the rounding by no less than at P.
+    Where their tip circles R cut the path, r² + 2 r r_b sin α = R² − r_b², with sin α by the first two terms
+    of the series, a = 1 + (w − 1)/3 ξ, which are the path itself for w = −1/2.
     """
-    body = body_of(drive, side)
-    if body.cutter_teeth is None:
-        return drive.module * body.dedendum
-    depth = body.dedendum if body.cutter_addendum is None else body.cutter_addendum
-    return drive.module * (depth - body.fillet_radius * (1 - sin(drive.pressure_angle)))
+    way, mate = (1.0, drive.pinion) if ring == "gear" else (-1.0, drive.gear)
+    r_ring, cutter = reference_radius(drive, ring), body_of(drive, ring)
+    r_mate = drive.module * mate.teeth / 2
+    own = drive.module * cutter.cutter_teeth / 2
+    height = cutter.dedendum if cutter.cutter_addendum is None else cutter.cutter_addendum
+    found = []
+    for circle, tip in (
+        (r_mate, tip_radius(drive, "pinion" if ring == "gear" else "gear")),
+        (own, own + drive.module * height),
+    ):
+        arm, power = circle * sin(drive.pressure_angle), tip**2 - circle**2
+        bend = 1 - 2 * (1 - r_mate / r_ring) / 3 * circle / r_mate
+        found.append(power / (arm + sqrt(arm**2 + bend * power)))
+    return way * maximum(*found)
 
 
 def check(drive: Drive) -> None:

@@ -18,7 +18,13 @@ from tribodyn.geometry.assembly import (
 from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, internal_side, tip_circle_radius
 from tribodyn.geometry.families import Family
-from tribodyn.geometry.limits.internal import check_cutter, check_outside, tip_in_base_circle, tips_collide
+from tribodyn.geometry.limits.internal import (
+    check_cutter,
+    check_outside,
+    rack_without_flank,
+    tip_in_base_circle,
+    tips_collide,
+)
 from tribodyn.geometry.limits.sizes import advice, boundary, check_sizes, millimetres, replaced, require
 from tribodyn.geometry.rack_section import as_written, from_written
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
@@ -55,6 +61,9 @@ def check(family: Family, drive: Drive) -> Assembly:
             _check_interference(assembly, side)
         if (ring := internal_side(drive)) is not None:
             _refuse_internal_tip(assembly, ring, tips_collide)
+            if rule := rack_without_flank(assembly, ring):
+                mate = mate_of(ring)
+                _refuse_tip(assembly, mate, rule, lambda pair: not rack_without_flank(pair, ring))
     return assembly
 
 

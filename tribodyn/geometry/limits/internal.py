@@ -37,18 +37,20 @@ def base_circle_margin(assembly: Assembly, side: Side) -> Any:
     return as_float(base - tip_circle_radius(assembly.drive, side))
 
 
-def cutter_margin(assembly: Assembly, side: Side) -> Any:
-    """Minimum speed along the cutter's flank while it cuts the ring's, m per rad of the cutter.
+def tool_margin(assembly: Assembly, side: Side) -> Any:
+    """Minimum speed along the tool's flank while it cuts this body's, m per rad of the cutter.
 
-    r_0 sin α − r + r κ_0, κ_0 = r_0 cos α dα/dr: where it changes its sign the cutter's flank ends, and a
-    ring is left without a part of its own. Of an involute it is the distance along the line of action from
-    the cutter's base tangent point to where it cuts the tip.
+    r_0 sin α − r + r κ_0, κ_0 = r_0 cos α dα/dr; of a rack per rad of the body, r_p (sin α + r cos α dα/dr).
+    Where it changes its sign the tool's flank ends, and the body is left without a part of its own. Of an
+    involute's cutter it is the distance along the line of action from its base tangent point to where it cuts
+    the tip. Between two external gears a rack has a flank wherever both of them have.
     """
     tooth, module = assembly.tooth(side), assembly.drive.module
     r = tooth.form_distance + (tooth.tip_distance - tooth.form_distance) * np.linspace(0.0, 1.0, _SAMPLES)
     alpha = tooth.path.pressure_angle(r)
-    kappa = cos(alpha) * tooth.path.pressure_angle_slope(r) / tooth.tool_curvature
-    speed = sin(alpha) / tooth.tool_curvature - r + r * kappa
+    rise = sin(alpha) + r * cos(alpha) * tooth.path.pressure_angle_slope(r)
+    rack = tooth.tool_curvature is None
+    speed = tooth.path.pinion_pitch_radius * rise if rack else rise / tooth.tool_curvature - r
     return as_float(smallest(away_from_pitch_point(speed, r, module)))
 
 
@@ -63,11 +65,11 @@ def internal_distances(assembly: Assembly) -> dict[str, Any]:
     ring = next((side for side in SIDES if body_of(drive, side).cutter_teeth is not None), None)
     module = drive.module
     if ring is None:
-        return {"trochoidal_clearance": module, "cutter_flank": module, "base_circle": module}
+        return {"trochoidal_clearance": module, "tool_flank": module, "base_circle": module}
     base = base_circle_margin(assembly, ring) if assembly.family.involute else module
     return {
         "trochoidal_clearance": minimum(trochoidal_gap(assembly, ring), module),
-        "cutter_flank": minimum(cutter_margin(assembly, ring), module),
+        "tool_flank": minimum(minimum(*(tool_margin(assembly, side) for side in SIDES)), module),
         "base_circle": minimum(base, module),
     }
 
@@ -90,8 +92,8 @@ def check_outside(assembly: Assembly, side: Side) -> None:
 
 
 def check_cutter(assembly: Assembly, side: Side) -> None:
-    """Refuse a cutter whose flank does not reach the tip that it has to cut, and one that cannot be shifted."""
-    margin, body = cutter_margin(assembly, side), body_of(assembly.drive, side)
+    """Refuse a cutter whose flank does not reach the tip that it cuts, and one that cannot be shifted."""
+    margin, body = tool_margin(assembly, side), body_of(assembly.drive, side)
     if body.cutter_shift and not assembly.family.involute:
         rule = "a cutter of this family cannot be profile-shifted: its path belongs to one centre distance"
         raise InputError(f"drive.{side}.cutter_profile_shift", body.cutter_shift, rule, "use 0")
@@ -102,6 +104,13 @@ def check_cutter(assembly: Assembly, side: Side) -> None:
         raise InputError(
             f"drive.{side}.cutter_teeth", f"{body.cutter_teeth:g}", rule, "use more, or a lower tip"
         )
+
+
+def rack_without_flank(assembly: Assembly, ring: Side) -> str:
+    """Say that the rack of the ring's mate has no flank up to the mate's tip, or nothing."""
+    if tool_margin(assembly, mate_of(ring)) > 0:
+        return ""
+    return "the path of contact turns back to the pitch line, where no rack cuts the tooth"
 
 
 def tips_collide(assembly: Assembly, ring: Side) -> str:

@@ -10,9 +10,9 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance, tip_corner_gap
 from tribodyn.geometry.drive import SIDES, Drive, Side
+from tribodyn.geometry.limits.internal import away_from_pitch_point, internal_distances
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point
-from tribodyn.geometry.limits.internal import away_from_pitch_point, internal_distances
 from tribodyn.numerics.elementary import minimum, namespace, sense, smallest
 from tribodyn.numerics.shapes import Array, Float
 
@@ -24,7 +24,7 @@ _BLENDED = 1e-3
 _OF_BODY = ("undercut", "interference", "tip_corner", "tip_thickness", "clearance", "rack_tip")
 #: Name of every distance -> its SI unit; what each is stands in the catalogue of quantities.
 LIMITS = {f"{name}_{side}": "m" for name in _OF_BODY for side in SIDES}
-LIMITS |= {"contact_ratio_above_1": "1", "trochoidal_clearance": "m", "cutter_flank": "m", "base_circle": "m"}
+LIMITS |= {"contact_ratio_above_1": "1", "trochoidal_clearance": "m", "tool_flank": "m", "base_circle": "m"}
 
 
 def distances(assembly: Assembly) -> dict[str, Any]:

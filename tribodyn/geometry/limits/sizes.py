@@ -57,7 +57,8 @@ def require_reach(drive: Drive, path: Path, lower: float, upper: float, advice: 
             left += ((distance - rounding) ** 2 - below**2) / (drive.module * body.cutter_teeth)
         if not (left >= 0).any():
             height = millimetres(np.nanmax(distance * sine))
-            rule = f"the path ends {height} from the pitch line, before the flank of the {side}'s {'rack' if body.cutter_teeth is None else 'cutter'}"
+            tool = "rack" if body.cutter_teeth is None else "cutter"
+            rule = f"the path ends {height} from the pitch line, before the flank of the {side}'s {tool}"
             _refuse(drive, -half, advice, rule)
     inner = np.linspace(1e-6, 1.0, _SAMPLES)
     for half, end in ((-1, -active["gear"]), (1, active["pinion"])):

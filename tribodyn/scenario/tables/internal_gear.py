@@ -5,7 +5,6 @@ from typing import Any
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import GearBody, Side
-from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.limits.sizes import broken_internal_sizes
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
 

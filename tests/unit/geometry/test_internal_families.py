@@ -1,0 +1,232 @@
+"""Rings of the families of paths of contact beside the involute: outlines, motion, closed forms, limits."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.polynomial import Chebyshev
+
+from tests.support.ring_outlines import penetration
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families import family
+from tribodyn.geometry.families.circular_arc import ArcShape
+from tribodyn.geometry.families.cycloidal import CycloidShape
+from tribodyn.geometry.families.parabolic import ParabolaShape
+from tribodyn.geometry.families.points import PointsShape
+from tribodyn.geometry.families.s_gear import SGearShape
+from tribodyn.geometry.families.spline import SplineShape
+from tribodyn.geometry.limits.checks import check
+from tribodyn.geometry.limits.internal import radial_assembly, tool_margin, trochoidal_gap
+from tribodyn.geometry.path import kinematics, position
+from tribodyn.geometry.tooth import flank_point, polar, thickness_half_angle
+
+MODULE = 3e-3
+_R = MODULE * np.linspace(-4.0, 4.0, 9)
+_POINTS = np.stack([_R * np.cos(0.38 - 6.0 * _R), _R * np.sin(0.38 - 6.0 * _R)], axis=-1)
+ANGLES = np.radians([26.7, 25.2, 23.9, 22.8, 22.0, 21.5, 21.25])
+#: Shape, pressure angle at P, addendum of the ring, rounding of the planet's rack.
+SHAPES: dict[str, tuple[Any, float, float, float]] = {
+    "cycloidal": (CycloidShape(24e-3, 30e-3), 0.0, 0.9, 0.25),
+    "parabolic": (ParabolaShape(-0.12, 0.3), 0.0, 0.8, 0.25),
+    "crc": ((), math.radians(24.0), 0.8, 0.2),
+    "circular-arc": (ArcShape(60e-3, 70e-3), math.radians(18.0), 0.9, 0.25),
+    "s-gear": (SGearShape(1.6, 1.8), 0.0, 0.9, 0.25),
+    "points": (PointsShape(_POINTS), 0.38, 0.9, 0.25),
+    "spline": (SplineShape(ANGLES, None, 18e-3), 0.0, 0.9, 0.25),
+}
+
+
+def drive(name: str, teeth: tuple[int, int] = (24, -72), **ring: Any) -> Drive:
+    """A planet and its ring; a pair of external gears where both numbers of teeth are positive."""
+    shape, angle, addendum, rounding = SHAPES[name]
+    if name == "parabolic":  # one parabola, whatever the ring's radius
+        shape = shape._replace(k1=shape.k1 * -72 / teeth[1])
+    outside = 0.01 if teeth[1] > 0 else MODULE * (teeth[1] / 2 - 5)
+    planet = GearBody(float(teeth[0]), 0.0, 1.0, 1.25, rounding, 0.03, 0.01)
+    gear = GearBody(float(teeth[1]), 0.0, addendum, 1.25, 0.25, 0.03, outside)
+    cutter = {} if teeth[1] > 0 else {"cutter_teeth": 20.0}
+    return Drive(MODULE, angle, planet, gear._replace(**cutter | ring), shape)
+
+
+def ring_of(name: str, **changes: Any) -> Assembly:
+    return check(family(name), drive(name, **changes))
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_planet_and_ring_touch_at_every_roll_and_nowhere_overlap(name: str):
+    assert np.abs(penetration(ring_of(name))).max() < 1e-9
+
+
+def test_thicker_teeth_overlap_by_what_they_are_thicker():
+    pair = drive("cycloidal")
+    thicker = pair._replace(pinion=pair.pinion._replace(thickness_allowance=20e-9))
+    assert penetration(Assembly(family("cycloidal"), thicker)).max() == pytest.approx(20e-9, rel=0.05)
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_motion_along_the_flanks_is_that_of_the_outlines(name: str):
+    """Speeds and curvatures by derivatives of the points of the teeth, on either side of the pitch point."""
+    pair = ring_of(name)
+    path, along = pair.path, np.linspace(0.25, 0.95, 12)
+    for end in (pair.r_start, pair.r_end):
+        domain = sorted((0.15 * end, end))
+        r, nodes = along * end, np.cos(np.pi * (np.arange(40) + 0.5) / 40)
+        nodes = domain[0] + (domain[1] - domain[0]) * (nodes + 1) / 2
+        motion, curvatures = kinematics(path, r), []
+        per_angle = motion.pinion_normal_arm  # dr/dφ
+        for tooth, way, speed in ((pair.pinion, 1, motion.pinion_speed), (pair.gear, -1, motion.gear_speed)):
+            fits = [Chebyshev.fit(nodes, v, 30, domain=domain) for v in flank_point(tooth, way * nodes)]
+            (x1, y1), (x2, y2) = ([fit.deriv(order)(r) for fit in fits] for order in (1, 2))
+            np.testing.assert_allclose(np.hypot(x1, y1) * per_angle, speed, rtol=1e-6)
+            # the way from root to tip along a tooth above its axis: convex where it bends down
+            curvatures.append(-way * (x1 * y2 - y1 * x2) / np.hypot(x1, y1) ** 3)
+        np.testing.assert_allclose(curvatures[0], motion.pinion_curvature, rtol=1e-3, atol=1e-2)
+        np.testing.assert_allclose(curvatures[1], motion.gear_curvature, rtol=1e-3, atol=1e-2)
+        np.testing.assert_allclose(motion.sliding, r * (1 - 24 / 72), rtol=1e-9)
+        # 1/ρ = (1 + w) r_p sin α/(u_p u_g): positive wherever both flanks exist
+        product = motion.pinion_speed * motion.gear_speed
+        closed = (1 - 24 / 72) * 36e-3 * np.sin(motion.pressure_angle) / product
+        np.testing.assert_allclose(motion.relative_curvature, closed, rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_large_mates_of_either_kind_become_the_familys_rack(name: str):
+    """External and internal mates stand on either side of the rack, at distances that fall like 1/N."""
+
+    def numbers(teeth: int) -> np.ndarray:
+        pair = Assembly(family(name), drive(name, (24, teeth)))
+        at = kinematics(pair.path, np.array([-3e-3, 2e-3]))
+        return np.array([pair.contact_ratio, *pair.limits, *at.relative_curvature, *at.gear_speed])
+
+    outside, inside = ([numbers(sign * count) for count in (1000, 2000)] for sign in (1, -1))
+    distances = [one - two for one, two in zip(outside, inside, strict=True)]
+    means = [(one + two) / 2 for one, two in zip(outside, inside, strict=True)]
+    np.testing.assert_allclose(distances[0], 2 * distances[1], rtol=2e-2, atol=1e-9)
+    np.testing.assert_allclose(means[0], means[1], rtol=1e-3)
+
+
+def test_flanks_of_a_cycloidal_ring_are_drawn_by_the_generating_circles():
+    """Points of a circle that rolls inside (teeth's tips) and outside (roots) of the ring's pitch circle."""
+    tooth, pitch = ring_of("cycloidal").gear, 108e-3
+    middle = -float(thickness_half_angle(tooth, -pitch))
+    for small, way in ((12e-3, -1.0), (15e-3, 1.0)):  # of the approach inside, of the recess outside
+        centre = pitch + way * small
+        roll = np.linspace(0.02, 0.24, 30)
+        spun = roll * centre / small
+        x = centre * np.cos(roll) - way * small * np.cos(spun)
+        y = centre * np.sin(roll) - small * np.sin(spun)
+        radius = np.hypot(x, y)
+        kept = (radius > -tooth.tip_radius) & (radius < -tooth.form_radius)
+        assert kept.sum() > 5
+        half = -np.asarray(thickness_half_angle(tooth, -radius[kept]))
+        np.testing.assert_allclose(half - middle, way * np.arctan2(y, x)[kept], atol=1e-9)
+
+
+def test_curvatures_of_a_cycloidal_ring_are_veciana_s_with_a_negative_diameter():
+    """R = 2 sin a (d2 + d_g)(d1 − d_g)/(d1 + d2) in approach, (d1 + d_g)(d2 − d_g) in recess; d2 < 0."""
+    pair, d1, d2 = ring_of("cycloidal"), 72e-3, -216e-3
+    for end, circle in ((pair.r_start, 24e-3), (pair.r_end, 30e-3)):
+        way = -1 if end < 0 else 1
+        at = kinematics(pair.path, 0.6 * end)
+        sine = abs(0.6 * end) / circle
+        closed = 2 * sine * (d2 - way * circle) * (d1 + way * circle) / (d1 + d2)
+        assert 1 / at.relative_curvature == pytest.approx(closed, rel=1e-9)
+
+
+def test_half_the_planets_pitch_circle_draws_radial_flanks():
+    shape = CycloidShape(36e-3, 30e-3)
+    tooth = Assembly(family("cycloidal"), drive("cycloidal")._replace(shape=shape)).pinion
+    halves = thickness_half_angle(tooth, np.linspace(float(tooth.form_radius), 36e-3, 9))
+    np.testing.assert_allclose(halves, halves[-1], atol=1e-9)
+
+
+def test_constant_relative_curvature_in_a_ring_of_twice_the_teeth_is_an_arc_on_a_straight_line():
+    """w = −1/2: sin α = sin α_P − r/(2 r_p) solves the equation; the planet's flank is an arc of ρ_0."""
+    pair = check(family("crc"), drive("crc", (30, -60), addendum=0.7))
+    r = np.linspace(pair.r_start, pair.r_end, 15)
+    at, sine = kinematics(pair.path, r), math.sin(math.radians(24.0))
+    np.testing.assert_allclose(np.sin(at.pressure_angle), sine - r / 90e-3, atol=1e-12)
+    np.testing.assert_allclose(at.pinion_curvature, 1 / (90e-3 * sine), rtol=1e-8)
+    np.testing.assert_allclose(at.gear_curvature, 0.0, atol=1e-6)
+    x, y = flank_point(pair.gear, -r)
+    assert np.abs(np.polyval(np.polyfit(x, y, 1), x) - y).max() < 1e-11
+
+
+@pytest.mark.parametrize("teeth", [(24, -72), (30, -60), (20, -90)])
+def test_relative_curvature_is_constant_in_a_ring(teeth: tuple[int, int]):
+    pair = check(family("crc"), drive("crc", teeth, addendum=0.6))
+    at = kinematics(pair.path, np.linspace(pair.r_start, pair.r_end, 25))
+    ratio = teeth[0] / teeth[1]
+    radius = MODULE * teeth[0] / 2 * math.sin(math.radians(24.0)) / (1 + ratio)
+    np.testing.assert_allclose(1 / at.relative_curvature, radius, rtol=1e-9)
+
+
+def test_tips_pass_as_far_apart_as_turned_corners():
+    """The nearest that the corner of a planet's tip comes to a ring's beyond the path of contact."""
+    pair = ring_of("cycloidal")
+    tip, ring_tip, distance = 39e-3, 105.3e-3, 72e-3
+    own, other = (float(thickness_half_angle(pair.tooth(side), r)) for side, r in
+                  (("pinion", tip), ("gear", -ring_tip)))  # fmt: skip
+    at_pitch = (
+        float(thickness_half_angle(pair.pinion, 36e-3)),
+        -float(thickness_half_angle(pair.gear, -108e-3)),
+    )
+    # the corner that leads when its flank is at P stands at own − at_pitch from the line of centres
+    roll = np.linspace(0.0, 2.0, 400_001)
+    planet = roll - at_pitch[0] + own
+    x, y = tip * np.sin(planet), distance + tip * np.cos(planet)
+    crossing = np.argmin(np.abs(np.hypot(x, y) - ring_tip))
+    corner = roll[crossing] / 3 + at_pitch[1] + other  # of the ring, whose half thickness is negative
+    apart = ring_tip * (corner - np.arctan2(x[crossing], y[crossing]))
+    assert trochoidal_gap(pair, "gear") == pytest.approx(apart, abs=2e-6)
+    assert radial_assembly(pair, "gear") < trochoidal_gap(pair, "gear")
+
+
+def test_a_cutter_smaller_than_the_generating_circle_has_no_flank():
+    """The approach's circle rolls inside the cutter as it does inside the planet: d_0 > d_g1."""
+    for teeth, kept in ((9.0, True), (8.0, False)):  # 27 and 24 mm against 24.5
+        pair = drive("cycloidal", cutter_teeth=teeth)._replace(shape=CycloidShape(24.5e-3, 30e-3))
+        assert bool(tool_margin(Assembly(family("cycloidal"), pair), "gear") > 0) is kept
+
+
+def test_the_cutter_touches_the_ring_on_the_path_of_the_planet():
+    """A point of the ring's flank, turned to where the path has it, is a point of the path."""
+    pair = ring_of("spline")
+    tooth, r = pair.gear, np.linspace(pair.r_start, pair.r_end, 9)
+    distance, angle = polar(*position(tooth.path, -r), tooth.path.pinion_pitch_radius)
+    x, y = flank_point(tooth, -r)
+    np.testing.assert_allclose(np.hypot(x, y), -distance, rtol=1e-12)
+    turned = float(tooth.half_angle) + angle - tooth.path.rotation(-r)
+    np.testing.assert_allclose(np.arctan2(y, -x), -turned, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "key", "says"),
+    [
+        (
+            "crc",
+            {"angle": math.radians(11.0), "fillet_radius": 0.1},
+            "drive.pinion.addendum",
+            "no rack cuts the tooth",
+        ),
+        ("parabolic", {"shape": ParabolaShape(0.12, 0.3)}, "drive.shape.k1", "use -0.12"),
+        ("cycloidal", {"shape": CycloidShape(80e-3, 30e-3)}, "drive.shape.approach_circle", "pinion, whose"),
+        ("cycloidal", {"cutter_teeth": 8.0}, "drive.gear.cutter_teeth", "cutter's flank ends"),
+        ("cycloidal", {"cutter_shift": 0.1}, "drive.gear.cutter_profile_shift", "use 0"),
+        ("s-gear", {"addendum": 1.2}, "drive.gear.addendum", "use at most 1"),
+        ("spline", {"teeth": (24, -28)}, "drive.gear.addendum", "the tips run into each other"),
+    ],
+)
+def test_what_a_ring_cannot_follow_is_refused(name: str, changes: dict[str, Any], key: str, says: str):
+    of_pair = {key: value for key, value in changes.items() if key not in ("angle", "shape")}
+    pair = drive(name, **of_pair)
+    pair = pair._replace(
+        pressure_angle=changes.get("angle", pair.pressure_angle), shape=changes.get("shape", pair.shape)
+    )
+    with pytest.raises(InputError) as refused:
+        check(family(name), pair)
+    assert refused.value.key == key
+    assert says in str(refused.value)
