@@ -218,6 +218,7 @@ def rim_compliance(
         poisson_ratio,
         HARMONICS if pitches else SELF_HARMONICS,
         None if fitted else body.pins,
+        around=True,
     )
 
 

@@ -113,11 +113,13 @@ def ring_compliance(
     poisson_ratio: Float[Array, ""],
     harmonics: int = HARMONICS,
     pins: float | None = None,
+    around: bool | None = None,
 ) -> Float[Array, "3 3"]:
     """Compliance between the root loads of two teeth of one body.
 
     Exact for a ring in plane stress that is fixed at its bore, or around the teeth (a ratio below 1) at its
-    outside, on `pins` there (`rim`) or, with 0, free as `_ring_receptance` has it; each tooth loads its arc
+    outside, on `pins` there (`rim`) or, with 0, free as `_ring_receptance` has it (`around` says so where the
+    ratio is traced); each tooth loads its arc
     of the root circle with uniform (N, T) and linear (M) traction along its own axes; displacements are the
     work conjugates (means over the arc). Truncated after `harmonics` terms: the self term (angle 0) converges
     like (harmonics · root_half_angle)^−2 and needs about 40/root_half_angle of them, the term between two
@@ -136,7 +138,7 @@ def ring_compliance(
         receptance = pinned_receptance(order, 1.0 / radius_ratio, poisson_ratio, round(pins))
         receptance = receptance * (1.0 + poisson_ratio)
     else:
-        receptance = _ring_receptance(order, 1.0 / radius_ratio, poisson_ratio, pins == 0)
+        receptance = _ring_receptance(order, 1.0 / radius_ratio, poisson_ratio, pins == 0, around)
     loads = _root_loads(order, root_half_angle)
     weight = np.where(order == 0, 0.5, 1.0) * np.pi
     products = xp.einsum("jna,nab,inb->nji", loads, receptance, loads) * weight[:, None, None]
@@ -173,7 +175,11 @@ def _root_loads(order: Float[Array, " order"], angle: Float[Array, ""]) -> Float
 
 
 def _ring_receptance(
-    order: Float[Array, " order"], bore: Float[Array, ""], poisson_ratio: Float[Array, ""], free: bool = False
+    order: Float[Array, " order"],
+    bore: Float[Array, ""],
+    poisson_ratio: Float[Array, ""],
+    free: bool = False,
+    around: bool | None = None,
 ) -> Float[Array, "order 2 2"]:
     """Displacement amplitudes (n, 2, 2) at radius 1 per traction amplitude, for E = 1, ring fixed at `bore`.
 
@@ -202,7 +208,8 @@ def _ring_receptance(
     inward_bore = _columns(xp, near, (-ones, -ones))
     inward = _columns(xp, far, (-ones, -ones))
     inward_stress = _columns(xp, far_stress, (n + 1.0, n + 1.0))
-    around = not is_jax(bore) and float(bore) > 1.0
+    if around is None:
+        around = not is_jax(bore) and float(bore) > 1.0
     size = 1.0 / bore if around else bore
     slow, fast = size ** (n - 1.0), size ** (n + 1.0)
     inwards, outwards = (

@@ -272,6 +272,10 @@ def quantity_of(case: Any, name: str) -> Differentiated:
         rule = f"{name} cannot be differentiated with compliances by finite elements"
         remedy = 'use the energy method: overrides={"mesh.compliance": "energy"}'
         raise InputError("mesh.compliance", quoted(case.mesh.compliance), rule, remedy)
+    rims = [body.pins for body in (case.drive.pinion, case.drive.gear)]
+    if "mesh" in quantity.needs and case.mesh.compliance == "energy" and any(rims):
+        rule = f"{name} cannot be differentiated with a rim on pins"
+        raise InputError("drive.gear.rim", '"pins"', rule, 'use rim = "fixed" or "free"')
     if "mesh" in quantity.needs and case.drive.helix_angle and case.mesh.modifications != UNMODIFIED:
         rule = f"{name} of helical gears with modified or misaligned flanks cannot be differentiated"
         raise InputError("drive.helix_angle", None, rule, "use td.sweep, or leave the modifications out")

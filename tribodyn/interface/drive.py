@@ -229,8 +229,8 @@ def constraints(
         tip from the mate's root), ``rack_tip_…`` (width left at the rack's tip);
         ``contact_ratio_above_1``; of pairs with an internal gear, and a module of others,
         ``trochoidal_clearance`` (of the tips where they pass), ``tool_flank`` (speed along the tools' flanks)
-        and ``base_circle``. What does not exist, because the path ends before the teeth do, counts as a module
-        (or 1) beyond the limit.
+        and ``base_circle``. What does not exist, because the path ends before the teeth do, counts as a
+        module (or 1) beyond the limit.
 
     Raises
     ------
