@@ -159,15 +159,8 @@ def tangent_distance(path: Path, depth: Any, rounding: Any, curvature: Any = Non
     half = (sine - before * rounding) / 2
     root = sqrt(maximum(half**2 + before * (depth - rounding + rounding * sine), (1e-3 * half) ** 2))
     start = -(depth - rounding + rounding * sine) / (half + root)
-    return newton(
-        _step_to_tangency,
-        start,
-        _NEWTON_STEPS,
-        path,
-        depth,
-        rounding,
-        0.0 if curvature is None else curvature,
-    )
+    curvature = 0.0 if curvature is None else curvature
+    return newton(_step_to_tangency, start, _NEWTON_STEPS, path, depth, rounding, curvature)
 
 
 def _step_to_tangency(

@@ -9,12 +9,12 @@ every r gives r²κ² + κ [2Ar + r²(1 − w)] + A² + Ar(1 − w) − r²w −
 regular at ξ = 0 (a = 1, a' = (w − 1)/3) and through α = 90°. In other words (p + ξ)(p − wξ) = a: the product
 of the two flank speeds goes with sin α. It is solved by Chebyshev collocation.
 
-The root 2p = √((1 + w)² ξ² + 4a) − (1 − w) ξ is real for every w while sin α > 0, and both flank speeds, p
-+ ξ and p − wξ, are then positive: no flank is undercut. p is the rate of the height ξa over ξ. It stays
+The root 2p = √((1 + w)² ξ² + 4a) − (1 − w) ξ is real for every w while sin α > 0, and both flank speeds,
+p + ξ and p − wξ, are then positive: no flank is undercut. p is the rate of the height ξa over ξ. It stays
 positive but for an internal gear, w < 0, on the side of whose root the path turns back to the pitch line
 where a = −w ξ²: 0.85, 0.70, 0.61, 0.55, 0.50, 0.46, 0.41 times r_p sin² α_p from it for −w = 0.1, 0.2, 0.3,
-0.4, 0.5, 0.6, 0.8. No rack cuts the mate's tooth beyond, where it must end. For w = −1/2 the solution is a
-= 1 − ξ/2: the ring's flank is straight and the planet's an arc of the radius 2 r_p sin α_p = ρ_0.
+0.4, 0.5, 0.6, 0.8. No rack cuts the mate's tooth beyond, where it must end. For w = −1/2 the solution is
+a = 1 − ξ/2: the ring's flank is straight and the planet's an arc of the radius 2 r_p sin α_p = ρ_0.
 """
 
 import math

@@ -58,12 +58,10 @@ def check(family: Family, drive: Drive) -> Assembly:
             _check_clearance(assembly, side)
         _check_contact_ratio(assembly)
         for side in SIDES:
-            _check_interference(assembly, side)
+            _keep_tip(assembly, side, _interference, mate_of(side))
         if (ring := internal_side(drive)) is not None:
-            _refuse_internal_tip(assembly, ring, tips_collide)
-            if rule := rack_without_flank(assembly, ring):
-                mate = mate_of(ring)
-                _refuse_tip(assembly, mate, rule, lambda pair: not rack_without_flank(pair, ring))
+            _keep_tip(assembly, ring, tips_collide)
+            _keep_tip(assembly, ring, rack_without_flank, mate_of(ring))
     return assembly
 
 
@@ -189,7 +187,7 @@ def _check_tip(assembly: Assembly, side: Side) -> None:
         )
         raise InputError(*_tip_key(assembly, side), rule, "use a higher tooth")
     if body.teeth < 0:
-        _refuse_internal_tip(assembly, side, tip_in_base_circle)
+        _keep_tip(assembly, side, tip_in_base_circle)
         check_cutter(assembly, side)
     if thickness(assembly) > 0:
         _check_rounding(assembly, side)
@@ -246,9 +244,12 @@ def _refuse_tip(assembly: Assembly, side: Side, rule: str, holds: Callable[[Asse
     raise InputError(*_tip_key(assembly, side), rule, remedy)
 
 
-def _refuse_internal_tip(assembly: Assembly, ring: Side, broken: Callable[[Assembly, Side], str]) -> None:
-    if rule := broken(assembly, ring):
-        _refuse_tip(assembly, ring, rule, lambda pair: not broken(pair, ring))
+def _keep_tip(
+    assembly: Assembly, side: Side, broken: Callable[[Assembly, Side], str], tip: Side | None = None
+) -> None:
+    """Refuse a tip, that of `side` or another, with which a rule of `side` is broken."""
+    if rule := broken(assembly, side):
+        _refuse_tip(assembly, tip or side, rule, lambda pair: not broken(pair, side))
 
 
 def _check_clearance(assembly: Assembly, side: Side) -> None:
@@ -301,9 +302,3 @@ def _interference(assembly: Assembly, side: Side) -> str:
     if gap < -_OVERLAP_TOLERANCE * assembly.drive.module:
         return f"the corner of the tip cuts {millimetres(-gap)} into the fillet of the {side}"
     return ""
-
-
-def _check_interference(assembly: Assembly, side: Side) -> None:
-    rule = _interference(assembly, side)
-    if rule:
-        _refuse_tip(assembly, mate_of(side), rule, lambda pair: not _interference(pair, side))
