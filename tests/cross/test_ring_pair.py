@@ -18,14 +18,19 @@ from tribodyn.solve.transient import TransientSettings
 #: Both turn clockwise, and the ring's axis lies below the pitch point like the planet's.
 SENSES = np.array([-1, -1])
 CYCLES, SAMPLES = 4, 200
-RUNS = {"planet drives": {}, "ring drives": {"operating.gear_torque": "-600 kN*m"}}
+RUNS = {
+    "planet drives": ("ring-36-93", {}),
+    "ring drives": ("ring-36-93", {"operating.gear_torque": "-600 kN*m"}),
+    "cycloids": ("cycloidal-ring-24-72", {}),
+}
 
 
 @pytest.fixture(scope="module")
 def runs(prepared: Any):
     @lru_cache
     def run(name: str) -> Any:
-        pair = prepared("ring-36-93", **RUNS[name])
+        scenario, overrides = RUNS[name]
+        pair = prepared(scenario, **overrides)
         model = pair.model
         cycles, states = sampled(model, TransientSettings("dopri5", 1e-9, CYCLES, 10**6, SAMPLES))
         seen = evaluated(cycles, states, model)
@@ -64,7 +69,8 @@ def test_what_the_mesh_does_to_the_planet_it_takes_from_the_ring(runs: Any, name
 def test_the_ring_turns_with_the_planet_and_works_add_up(runs: Any, name: str):
     pair, _, train = runs(name)
     speed = train["speed"].mean(axis=0)
-    assert speed[1] == pytest.approx(speed[0] * 36 / 93, rel=3e-4)
+    ratio = float(pair.cycle.pinion_pitch_radius / -pair.cycle.gear_pitch_radius)
+    assert speed[1] == pytest.approx(speed[0] * ratio, rel=3e-4)
     gained = {
         key: values[-1] - values[0] for key, values in train.items() if "work" in key or "stored" in key
     }

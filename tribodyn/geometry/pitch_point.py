@@ -20,7 +20,7 @@ import math
 from typing import Any, NamedTuple
 
 from tribodyn.geometry.path import Path, sine_at_pitch_point
-from tribodyn.numerics.elementary import absolute, namespace, sqrt
+from tribodyn.numerics.elementary import absolute, namespace, sense, sqrt
 
 _BETA = math.gamma(0.25) * math.gamma(1.5) / math.gamma(1.75) / 2
 # A pressure angle at P below this (rad) is zero but for rounding.
@@ -44,12 +44,13 @@ def pitch_point(path: Path) -> PitchPoint:
     vanishes = sine < _ZERO_ANGLE
     # A regular path goes through the same formulas, with a harmless κ, and is discarded.
     curvatures, rates = [], []
-    harmless = 1 + absolute(ratio)
+    inwards = sense(r_p)  # speeds of an internal pinion are negative, and so is r_p
+    harmless = inwards * (1 + absolute(ratio))
     for kappa in (xp.where(vanishes, r_p * after, harmless), xp.where(vanishes, -r_p * before, -harmless)):
         sign = 1.0 if not curvatures else -1.0
         pinion, gear = sign * (1 + 2 * kappa), sign * (2 * kappa - ratio)
-        over_root = (1 + kappa) / sqrt(pinion) + (ratio - kappa) / sqrt(gear)
-        curvatures.append(over_root / sqrt(2 * absolute(r_p)))
+        over_root = (1 + kappa) / sqrt(2 * r_p * pinion) + (ratio - kappa) / sqrt(2 * r_p * gear)
+        curvatures.append(inwards * over_root)
         rates.append((pinion + gear) / 2 * ((1 + kappa) / pinion + (ratio - kappa) / gear))
     length = (2 * _BETA / math.pi * (curvatures[0] + curvatures[1])) ** -2
     return PitchPoint(xp.where(vanishes, length, 0.0), xp.where(vanishes, (rates[0] + rates[1]) / 2, 0.0))

@@ -1,12 +1,15 @@
 """The mesh of an internal pair: the same from either gear, a rack in the limit, its loss by integration."""
 
 import math
+from pathlib import Path
 from typing import Any
 
+import jax
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
+import tribodyn as td
 from tribodyn.compliance.iso6336 import pair_of, theoretical_stiffness
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Drive, GearBody
@@ -21,6 +24,8 @@ from tribodyn.studies.efficiency.places import places
 from tribodyn.studies.efficiency.run import prepare
 from tribodyn.studies.gears.drive_file import DriveModel, load_drive
 from tribodyn.studies.protocol.load import load_scenario
+
+jax.config.update("jax_enable_x64", True)
 
 CONSTANT = MeshData("constant", 0.05, stiffness=7.5e9, backlash=40e-6)
 #: Of the published pair: planet's base radius and its and the ring's tangent points from the pitch point, m.
@@ -80,6 +85,19 @@ def test_the_mesh_is_the_same_when_the_ring_drives(model: DriveModel, ring: Asse
             )
 
 
+@pytest.mark.parametrize("pins", [None, 0.0])
+def test_traced_rims_are_as_compliant_as_those_of_plain_numbers(model: DriveModel, pins: float | None):
+    def compliance(dedendum: Any) -> Any:
+        body = model.drive.gear._replace(dedendum=dedendum, pins=pins)
+        pair = Assembly(family("involute"), model.drive._replace(gear=body))
+        cycle = tabulate(pair, model.materials, MeshData("energy", 0.05), 2)
+        return cycle.compliance, cycle.coupling
+
+    traced = jax.jit(compliance)(1.25)
+    for one, other in zip(traced, compliance(1.25), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-20)
+
+
 def _mate(teeth: float) -> Drive:
     """A pinion of 24 teeth with a mate of so many, internal where they are negative."""
     pinion = GearBody(24.0, 0.3, 1.0, 1.25, 0.25, 0.03, 0.01)
@@ -136,6 +154,27 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Any:
     path = tmp_path_factory.mktemp("ring") / "losses.toml"
     path.write_text(LOSSES, encoding="utf-8")
     return prepare(load_scenario(path))
+
+
+CYCLOIDS = LOSSES.replace("ring-36-93", "cycloidal-ring-24-72").replace("20 rpm", "600 rpm")
+
+
+def test_one_pair_of_cycloids_loses_what_the_torque_ratio_says(tmp_path: Path):
+    """Veciana et al. with the ring's negative diameter, i = d2/d1 = −3, generating circles c = 1/3."""
+    path = tmp_path / "losses.toml"
+    path.write_text(CYCLOIDS.replace("600 kN*m", "600 N*m"), encoding="utf-8")
+    mu, i, c = 0.06, -3.0, 1.0 / 3.0
+
+    def ratio(psi: float) -> float:
+        way = math.copysign(1.0, psi)
+        a = abs(psi) / (2 * c)
+        gear = i * math.cos(a) + way * mu * (i - way * 2 * c) * math.sin(a)
+        return gear / (math.cos(a) + way * mu * (1 + way * 2 * c) * math.sin(a)) / i
+
+    half = math.pi / 24
+    mean = sum(quad(ratio, *ends, epsabs=1e-13)[0] for ends in ((-half, 0.0), (0.0, half))) / (2 * half)
+    found = td.run(path).summary["efficiency_torque_ratio"]
+    assert found == pytest.approx(mean, rel=1e-9)
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
