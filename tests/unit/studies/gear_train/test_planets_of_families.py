@@ -36,10 +36,11 @@ def stage(family: str, keys: dict[str, Any], **changes: Any) -> dict[str, Any]:
     return table
 
 
-@pytest.mark.parametrize(
-    ("held", "ends"),
-    [("ring", ("sun", "carrier")), ("sun", ("ring", "carrier")), ("carrier", ("sun", "ring"))],
-)
+#: What is held, input and output: planets or ring drive.
+ENDS = (("ring", ("sun", "carrier")), ("sun", ("ring", "carrier")), ("carrier", ("sun", "ring")))
+
+
+@pytest.mark.parametrize(("held", "ends"), ENDS)
 @pytest.mark.parametrize("family", SHARED)
 def test_teeth_of_sun_planets_and_ring_touch_where_they_are_said_to(family: str, held: str, ends: Any):
     assert_teeth_touch(prepare(case_of_table(stage(family, SHARED[family], held=held, ends=ends))).case)
