@@ -199,7 +199,7 @@ def test_what_a_ring_cannot_follow_is_refused(name: str, changes: dict[str, Any]
 
 
 def test_cycloids_vanish_at_the_pitch_point_alike_from_either_gear():
-    """Averaged radius, and entrainment per rad of the pinion: a ring turns the other way, and w times as far."""
+    """Averaged radius, and entrainment per rad of the pinion: a ring turns w times as far, and w < 0."""
     from_planet = pitch_point(ring_of("cycloidal").path)
     pair = drive("cycloidal")
     swapped = pair._replace(pinion=pair.gear, gear=pair.pinion, shape=CycloidShape(*pair.shape[::-1]))
