@@ -26,7 +26,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radii, reference_radius, tip_radius
 from tribodyn.geometry.families import Family, unshifted
 from tribodyn.geometry.limits.sizes import refuse_shift, require_reach
-from tribodyn.geometry.path import Path, PerContact, integrated_rotation, inverted_rotation
+from tribodyn.geometry.path import PerContact, integrated_rotation, inverted_rotation
 from tribodyn.numerics.elementary import maximum, namespace, sin, sqrt, within
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.remembered import remembered
@@ -133,7 +133,7 @@ def reach(ratio: Any, height: Any) -> Any:
 
 
 @remembered(16)
-def working_path(drive: Drive) -> Path:
+def working_path(drive: Drive) -> CRCPath:
     """Path of contact from the depth of the pinion's rack to the depth of the gear's."""
     r_p, r_g = reference_radii(drive)
     sine = sin(drive.pressure_angle)
@@ -179,9 +179,9 @@ def check(drive: Drive) -> None:
     refuse_shift(drive)
     with np.errstate(all="ignore"):
         path = working_path(drive)
-        inner = np.linspace(path.lower, path.upper, 201) / _REACH_MARGIN  # pyright: ignore
+        inner = np.linspace(path.lower, path.upper, 201) / _REACH_MARGIN
         sine = np.sin(path.pressure_angle(inner))
-        tail = np.abs(path.coefficients[-4:]).max()  # pyright: ignore
+        tail = np.abs(path.coefficients[-4:]).max()
     if not (np.all(np.isfinite(sine)) and sine.min() > 0 and tail < 1e-10):
         raise InputError(
             "drive.pressure_angle",

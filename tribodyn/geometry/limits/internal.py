@@ -62,7 +62,7 @@ def away_from_pitch_point(speed: Any, r: Any, module: Any) -> Any:
 def internal_distances(assembly: Assembly) -> dict[str, Any]:
     """The ring's own distances from its limits, each at most a module; a module of a pair without a ring."""
     drive = assembly.drive
-    ring = next((side for side in SIDES if body_of(drive, side).cutter_teeth is not None), None)
+    ring: Side | None = next((side for side in SIDES if body_of(drive, side).cutter_teeth is not None), None)
     module = drive.module
     if ring is None:
         return {"trochoidal_clearance": module, "tool_flank": module, "base_circle": module}

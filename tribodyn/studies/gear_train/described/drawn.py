@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, InputErrors
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, Side, tip_circle_radius
+from tribodyn.geometry.drive import SIDES, Drive, Side, tip_circle_radius
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.scenario.tables.drive_data import drive_of
@@ -98,8 +98,10 @@ def drawn(train: Moving) -> Drawn:
     parts = train.parts
     for own in parts.sets:
         planet = next(number for number, gear in enumerate(parts.gears) if gear.body == own.planets[0])
-        seen_by = [(drive_of(train.drives[mesh]), side) for mesh, side in train.meshes_of(planet)]
-        check_planet(f"{own.key}.family", own.table.family, seen_by)
+        met: list[tuple[Drive, Side]] = [
+            (drive_of(train.drives[mesh]), side) for mesh, side in train.meshes_of(planet)
+        ]
+        check_planet(f"{own.key}.family", own.table.family, met)
     assemblies = _assemblies(train)
     for number, gear in enumerate(parts.gears):
         seen: list[tuple[Assembly, Side]] = [
