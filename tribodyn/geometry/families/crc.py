@@ -170,7 +170,8 @@ def _reach_in_ring(drive: Drive, ring: Side) -> Any:
     ):
         arm, power = circle * sin(drive.pressure_angle), tip**2 - circle**2
         bend = 1 - 2 * (1 - r_mate / r_ring) / 3 * circle / r_mate
-        found.append(power / (arm + sqrt(arm**2 + bend * power)))
+        # where the series ends before the tip the path may still reach it
+        found.append(power / (arm + sqrt(maximum(arm**2 + bend * power, (0.1 * arm) ** 2))))
     return way * maximum(*found)
 
 

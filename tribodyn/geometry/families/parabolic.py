@@ -33,7 +33,7 @@ class ParabolaPath(NamedTuple):
 
     def _sine(self, r: PerContact) -> tuple[PerContact, PerContact]:
         """Sine of α, and √(p² + r²) with the sign of r."""
-        p = self._parameter(r)
+        p = namespace(self, r).asarray(self._parameter(r))  # of the wrong sign 0/0 at P is NaN
         root = where(r < 0, -1.0, 1.0) * sqrt(p**2 + r**2)
         return r / (p + root), root
 
