@@ -130,25 +130,19 @@ def test_relative_curvature_is_constant_in_a_ring(teeth: tuple[int, int]):
     np.testing.assert_allclose(1 / at.relative_curvature, radius, rtol=1e-9)
 
 
-def test_tips_pass_as_far_apart_as_turned_corners():
-    """The nearest that the corner of a planet's tip comes to a ring's beyond the path of contact."""
-    pair = ring_of("cycloidal")
-    tip, ring_tip, distance = 39e-3, 105.3e-3, 72e-3
-    own, other = (float(thickness_half_angle(pair.tooth(side), r)) for side, r in
-                  (("pinion", tip), ("gear", -ring_tip)))  # fmt: skip
-    at_pitch = (
-        float(thickness_half_angle(pair.pinion, 36e-3)),
-        -float(thickness_half_angle(pair.gear, -108e-3)),
+def test_tips_that_run_into_the_rings_flank_have_no_room():
+    """Before the corners pass: a large circle leaves the ring nearly radial flanks."""
+    pair = drive("cycloidal", (18, -42), addendum=0.6, cutter_teeth=22.0)
+    shape = CycloidShape(15.8e-3, 195e-3)
+    pair = pair._replace(pinion=pair.pinion._replace(addendum=0.55), shape=shape)
+    broken, kept = (
+        Assembly(family("cycloidal"), pair._replace(shape=shape._replace(recess_circle=circle)))
+        for circle in (195e-3, 30e-3)
     )
-    # the corner that leads when its flank is at P stands at own − at_pitch from the line of centres
-    roll = np.linspace(0.0, 2.0, 400_001)
-    planet = roll - at_pitch[0] + own
-    x, y = tip * np.sin(planet), distance + tip * np.cos(planet)
-    crossing = np.argmin(np.abs(np.hypot(x, y) - ring_tip))
-    corner = roll[crossing] / 3 + at_pitch[1] + other  # of the ring, whose half thickness is negative
-    apart = ring_tip * (corner - np.arctan2(x[crossing], y[crossing]))
-    assert trochoidal_gap(pair, "gear") == pytest.approx(apart, abs=2e-6)
-    assert radial_assembly(pair, "gear") < trochoidal_gap(pair, "gear")
+    assert trochoidal_gap(broken, "gear") < 0 < trochoidal_gap(kept, "gear")
+    assert penetration(broken).max() > 10e-6
+    assert penetration(kept).max() < 1e-9
+    assert radial_assembly(kept, "gear") > radial_assembly(broken, "gear")
 
 
 def test_a_cutter_smaller_than_the_generating_circle_has_no_flank():

@@ -13,7 +13,8 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly, mate_of
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
 from tribodyn.geometry.limits.sizes import millimetres
-from tribodyn.geometry.tooth import thickness_half_angle
+from tribodyn.geometry.path import distance_at_radius, position
+from tribodyn.geometry.tooth import polar, thickness_half_angle
 from tribodyn.numerics.elementary import (
     absolute,
     arctan2,
@@ -21,10 +22,10 @@ from tribodyn.numerics.elementary import (
     cos,
     maximum,
     minimum,
-    namespace,
     sin,
     smallest,
     sqrt,
+    where,
 )
 
 _SAMPLES = 129
@@ -122,24 +123,29 @@ def tips_collide(assembly: Assembly, ring: Side) -> str:
 
 
 def trochoidal_gap(assembly: Assembly, ring: Side) -> Any:
-    """Arc of the ring's tip circle between both tips' corners where its mate's leaves the ring's teeth.
+    """Room of the mate's tip corner beside the ring's flank, from the end of contact to the ring's tip.
 
-    The tip circles cross at angles δ_p and δ_g from the line of centres. The mate's corner is there at
-    φ = δ_p + ψ_p − ψ_pa from the pitch point, the ring's at φ r_p/r_g + ψ_g − ψ_ga. Infinite where they
-    do not cross.
+    The corner is at the angle θ from the line of centres while the mate has turned by φ = θ + ψ − ψ_a. Its
+    arc from the ring's flank at the same radius is zero where contact ends, and is taken over the square of its
+    way from there: where the tip circles cross, at cos θ = (a² + r_a² − r_a,ring²)/(2 a r_a), it is the arc
+    between both corners (trochoidal interference), the minimum of involutes. A tip that never leaves the
+    ring's teeth goes on to θ = π, where it is in another gap.
     """
-    path, drive, mate = assembly.path_of(mate_of(ring)), assembly.drive, mate_of(ring)
+    mate = mate_of(ring)
+    path, drive = assembly.path_of(mate), assembly.drive
     r_p, r_g = path.pinion_pitch_radius, path.gear_pitch_radius
-    tip, ring_tip = tip_circle_radius(drive, mate), tip_circle_radius(drive, ring)
-    distance = r_p + r_g
-    cosine = (ring_tip**2 - distance**2 - tip**2) / (-2 * distance * tip)
-    xp = namespace(drive)
-    cross = xp.abs(cosine) < 1
-    ring_cosine = (distance**2 + ring_tip**2 - tip**2) / (2 * distance * ring_tip)
-    turned = _arccos(xp.where(cross, cosine, 0.0)) + _rise(assembly, mate, r_p, tip)
-    gap = turned * r_p / r_g + _rise(assembly, ring, r_g, ring_tip)
-    gap = gap + _arccos(xp.where(cross, ring_cosine, 0.0))
-    return as_float(xp.where(cross, ring_tip * gap, np.inf))
+    tip, distance = tip_circle_radius(drive, mate), r_p + r_g
+    cosine = (distance**2 + tip**2 - tip_circle_radius(drive, ring) ** 2) / (2 * distance * tip)
+    cosine = where(cosine > -1.0, cosine, -1.0)
+    end = distance_at_radius(path, tip)
+    first = polar(*position(path, end), r_p)[1]
+    way = np.linspace(0.0, 1.0, _SAMPLES)[1:]
+    theta = first + (arctan2(sqrt(1.0 - cosine**2), cosine) - first) * way
+    turned = (theta - first + path.rotation(end)) * r_p / r_g
+    radius, angle = polar(-tip * sin(theta), r_p - tip * cos(theta), r_g)
+    tooth = assembly.tooth(ring)
+    apart = thickness_half_angle(tooth, r_g) + angle + turned - thickness_half_angle(tooth, radius)
+    return as_float(smallest(apart * radius / way**2))
 
 
 def radial_assembly(assembly: Assembly, ring: Side) -> Any:
@@ -164,13 +170,3 @@ def _room(assembly: Assembly, ring: Side, first: float) -> float:
     beyond = np.hypot(x, y) > -ring_tip  # in a gap of the ring when it is in place
     room = -ring_tip * np.sin(gap) - x
     return float(room[beyond].min()) if beyond.any() else np.inf
-
-
-def _rise(assembly: Assembly, side: Side, pitch_radius: Any, tip: Any) -> Any:
-    """ψ on the pitch circle less ψ at the tip, rad."""
-    tooth = assembly.tooth(side)
-    return thickness_half_angle(tooth, pitch_radius) - thickness_half_angle(tooth, tip)
-
-
-def _arccos(cosine: Any) -> Any:
-    return arctan2(sqrt(1.0 - cosine**2), cosine)
