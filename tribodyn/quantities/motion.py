@@ -116,8 +116,8 @@ _OF_A_GEAR = {
     "rack_tip": "Half width left at the tip of the rack between its rounded corners",
 }
 _OF_A_RING = {
-    "trochoidal_clearance": "Arc between both tips' corners where they pass beyond the path of contact: "
-    "negative with trochoidal interference",
+    "trochoidal_clearance": "Room of the mate's tip beside the ring's flank after contact has ended, over "
+    "the square of its share of the way to the ring's tip: negative with trochoidal interference",
     "tool_flank": "Minimum speed along the tools' flanks while they cut, per speed of the cutter (of the "
     "gear that a rack cuts): zero where such a flank ends",
     "base_circle": "From the tip out to the base circle of an involute",

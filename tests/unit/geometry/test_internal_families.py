@@ -145,6 +145,27 @@ def test_tips_that_run_into_the_rings_flank_have_no_room():
     assert radial_assembly(kept, "gear") > radial_assembly(broken, "gear")
 
 
+def test_random_rings_that_pass_the_checks_roll_without_overlap():
+    """Of cycloids and parabolas, whose flanks are the steepest."""
+    draw, passed = np.random.default_rng(7), 0
+    for number in range(40):
+        name = ("cycloidal", "parabolic")[number % 2]
+        planet = int(draw.integers(15, 50))
+        ring = planet + int(draw.integers(8, 90))
+        pair = drive(name, (planet, -ring), addendum=draw.uniform(0.4, 1.1), cutter_teeth=float(ring // 2))
+        shape: Any = CycloidShape(draw.uniform(9e-3, 50e-3), draw.uniform(15e-3, 280e-3))
+        if name == "parabolic":
+            shape = ParabolaShape(draw.uniform(-0.5, -0.03), draw.uniform(0.1, 0.4))
+        body = pair.pinion._replace(addendum=draw.uniform(0.4, 1.1))
+        try:
+            made = check(family(name), pair._replace(shape=shape, pinion=body))
+        except InputError:
+            continue
+        passed += 1
+        assert penetration(made).max() < 1e-9
+    assert passed > 4
+
+
 def test_a_cutter_smaller_than_the_generating_circle_has_no_flank():
     """The approach's circle rolls inside the cutter as it does inside the planet: d_0 > d_g1."""
     for teeth, kept in ((9.0, True), (8.0, False)):  # 27 and 24 mm against 24.5

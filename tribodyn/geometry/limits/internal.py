@@ -126,9 +126,9 @@ def trochoidal_gap(assembly: Assembly, ring: Side) -> Any:
     """Room of the mate's tip corner beside the ring's flank, from the end of contact to the ring's tip.
 
     The corner is at the angle θ from the line of centres while the mate has turned by φ = θ + ψ − ψ_a. Its
-    arc from the ring's flank at the same radius is zero where contact ends, and is taken over the square of its
-    way from there: where the tip circles cross, at cos θ = (a² + r_a² − r_a,ring²)/(2 a r_a), it is the arc
-    between both corners (trochoidal interference), the minimum of involutes. A tip that never leaves the
+    arc from the ring's flank at the same radius is zero where contact ends, and is taken over the square of
+    its way from there: where the tip circles cross, at cos θ = (a² + r_a² − r_a,ring²)/(2 a r_a), it is the
+    arc between both corners (trochoidal interference), the minimum of involutes. A tip that never leaves the
     ring's teeth goes on to θ = π, where it is in another gap.
     """
     mate = mate_of(ring)
