@@ -47,4 +47,5 @@ def _with_texts(table: Any, text: str) -> Any:
     return {
         key: text if key in TEXTS and isinstance(value, str) else _with_texts(value, text)
         for key, value in table.items()
-    }
+        if key != "operating"
+    } | {key: table[key] for key in ("operating",) if key in table}  # its source is a word of a choice
