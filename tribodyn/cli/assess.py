@@ -49,8 +49,8 @@ def assess(
 
     loaded = load(scenario, overrides(settings))
     if loaded.study.verb != "assess":
-        first = next(name for name, other in STUDIES.items() if other.verb == "assess")
-        remedy = f"tribodyn {loaded.study.verb} it, or begin with: tribodyn init NAME --kind {first}"
+        kinds = " or ".join(name for name, other in STUDIES.items() if other.verb == "assess")
+        remedy = f"tribodyn {loaded.study.verb} it, or begin with: tribodyn init NAME --kind {kinds}"
         raise InputError("kind", f'"{loaded.study.kind}"', "is run, not assessed", remedy)
     folder = output or Path(loaded.case.name)
     make_folder(folder)

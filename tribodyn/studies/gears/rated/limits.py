@@ -87,13 +87,14 @@ def on_limits(summary: Mapping[str, Any]) -> list[tuple[bool, str]]:
         for name, found in limits.items()
         if found["kept"] and not found.get("kept_p95", True)
     ]
+    every = f"All {len(limits)} limits hold" if len(limits) != 1 else "The one limit holds"
     found = []
     if exceeded:
         found.append((False, f"Limits exceeded: {'; '.join(exceeded)}."))
     elif limits and not within:
-        found.append((True, f"All {len(limits)} limits hold."))
+        found.append((True, f"{every}."))
     if within:
-        accurate = "" if exceeded else f"All {len(limits)} limits hold with accurate teeth. "
+        accurate = "" if exceeded else f"{every} with accurate teeth. "
         found.append(
             (False, f"{accurate}Exceeded within the scatter of the deviations: {'; '.join(within)}.")
         )
