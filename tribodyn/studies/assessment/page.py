@@ -20,6 +20,7 @@ from tribodyn.studies.assessment.report import verdict
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.gears.rated import first_page
 from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
+from tribodyn.studies.gears.rated.said import unit_of
 from tribodyn.studies.pages import loaded_again
 from tribodyn.studies.protocol import tasks
 
@@ -73,7 +74,7 @@ def page(record: Record) -> str:
 
 
 def _asked(case: AssessmentCase) -> str:
-    drive, sheet = as_written(family(case.family), case.drive), case.lubricant.sheet
+    drive = as_written(family(case.family), case.drive)
     centre = f", a {drive.centre_distance * 1e3:.6g} mm" if drive.centre_distance is not None else ""
     helix = f"β {math.degrees(drive.helix_angle):.6g}°, " if drive.helix_angle else ""
     ratio = float(drive.gear.teeth / drive.pinion.teeth)
@@ -88,9 +89,7 @@ def _asked(case: AssessmentCase) -> str:
         f"{speed * torque * 1e-3:.4g} kW at {speed * _RPM:.5g} rpm of the pinion, "
         f"{torque:.4g} N m on the pinion, {case.operating.gear_torque:.4g} N m on the gear"
     )
-    oil = f"at {case.oil_temperature - 273.15:.4g} °C, {case.settings.lubrication}"
-    if sheet is not None:
-        oil = f"{sheet.type}, {sheet.viscosity_40 * 1e6:.4g}/{sheet.viscosity_100 * 1e6:.4g} mm²/s, {oil}"
+    oil = first_page.oil_line(case.lubricant, case.oil_temperature, case.settings.lubrication)
     materials = " / ".join(dict.fromkeys(material.name for material in case.materials))
     return first_page.asked({"Gears": gears, "Material": materials, "Oil": oil, "Duty": duty})
 
@@ -126,7 +125,7 @@ def _by_standard(summary: Mapping[str, Any]) -> str:
         if quantity.name in of_iso or quantity.name in of_simulation
     ]
     rows = [
-        (quantity.title, *(_shown(part.get(quantity.name), quantity) for part in parts), _unit(quantity))
+        (quantity.title, *(_shown(part.get(quantity.name), quantity) for part in parts), unit_of(quantity))
         for quantity, *parts in compared
     ]
     return numbers_table("Standard and simulation", ("", "ISO 6336", "simulated", ""), rows)
@@ -153,17 +152,12 @@ def _shown(value: Any, quantity: Quantity) -> str:
     return "–" if value is None else quantity.written(float(value))
 
 
-def _unit(quantity: Quantity) -> str:
-    """Its unit; temperatures by the standards are kept in °C."""
-    return quantity.unit.replace("degC", "°C")
-
-
 def _points(summary: Mapping[str, Any]) -> str:
     names = (*POINTS, "worst")
     rows = []
     for quantity in quantities("lambda_GF", "h_Y", "theta_B"):
         for by, part in (("ISO", "iso"), ("simulated", "simulated")):
             if values := summary.get(part, {}).get(quantity.name):
-                label = f"{quantity._replace(unit=_unit(quantity)).titled}, {by}"
+                label = f"{quantity._replace(unit=unit_of(quantity)).titled}, {by}"
                 rows.append((label, *(_shown(values.get(name), quantity) for name in names)))
     return numbers_table("Along the path of contact", ("", *names), rows, " points")

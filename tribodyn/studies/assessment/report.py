@@ -8,6 +8,7 @@ from tribodyn.quantities.catalogue import quantities, scatter_of
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
 from tribodyn.studies.gears.rated.limits import on_limits
+from tribodyn.studies.gears.rated.said import sentences as sentences
 
 REPORTED: Reported = {
     "Geometry": quantities(
@@ -69,9 +70,3 @@ def shown(summary: Mapping[str, Any]) -> Iterator[str]:
     if {"efficiency", "efficiency_lowest", "efficiency_highest"} <= set(summary):
         ends = " to ".join(f"{100.0 * summary[f'efficiency_{end}']:.2f}" for end in ("lowest", "highest"))
         yield f"The mesh is {100.0 * summary['efficiency']:.2f} % efficient; by other friction laws {ends} %."
-
-
-def sentences(record: Record) -> list[str]:
-    """Say what is assumed and what is extrapolated."""
-    summary = record.summary
-    return [str(text) for name in ("assumed", "extrapolated") for text in summary.get(name, {}).values()]

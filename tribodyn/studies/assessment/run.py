@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.errors import SimulationError
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.post.report import EXCEEDED
@@ -24,10 +23,10 @@ from tribodyn.studies.assessment.parts import Part
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.margins import strength_of
+from tribodyn.studies.gears.rated.said import numbered
 from tribodyn.studies.gears.rated.standard import RatedDuty, iso_part, standard_of
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.part import TaskResult
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.oil import oil_values
@@ -57,20 +56,13 @@ def run(
 
     The parts lie in a folder beside the record and are run again only if their scenarios or the code changed.
     """
-    path = target(case, output, force)
-    try:
-        local, summary = assessed(case, tasks.folder_of(path), progress, force)
-    except SimulationError as error:
-        with writer(case, path, LAYOUT, 0, force=force) as record:
-            return RunResult(record.fail(str(error), {}), "failed", str(error), {})
-    except KeyboardInterrupt as error:
-        # what is left of the part in work is done again
-        error.__notes__ = [f"the parts done so far: {tasks.folder_of(path)}, the same call goes on"]
-        raise
     groups = {"geometry": geometry_arrays(assembled(case))}
-    with writer(case, path, LAYOUT, len(local.roll_angle), groups=groups, force=force) as record:
-        record.write(0, _arrays(local))
-        return RunResult(record.finish(summary), "complete", "", summary)
+
+    def along(folder: Path, progress: Progress | None, force: bool) -> tuple[dict[str, Any], dict[str, Any]]:
+        local, summary = assessed(case, folder, progress, force)
+        return _arrays(local), summary
+
+    return tasks.recorded(case, output, LAYOUT, along, force=force, progress=progress, groups=groups)
 
 
 def quantities_of(case: AssessmentCase) -> dict[str, Any]:
@@ -134,8 +126,8 @@ def assessed(
             found,
             spread,
         ),
-        "assumed": _numbered(assumed(case, by_standard is not None)),
-        "extrapolated": _numbered(extrapolated(taking_part, done)),
+        "assumed": numbered(assumed(case, by_standard is not None)),
+        "extrapolated": numbered(extrapolated(taking_part, done)),
         **_trust(done, {task.name for _, task in parts.tasks_of(taking_part) if task.needed}),
         "wall_time": perf_counter() - begun,
     }
@@ -192,10 +184,6 @@ def _trust(done: dict[str, TaskResult], needed: Collection[str]) -> dict[str, An
         if found:
             return {TRUST: verdict, REASONS: reasons}
     return {TRUST: INSIDE} if judged else {}
-
-
-def _numbered(sentences: list[str]) -> dict[str, str]:
-    return {f"{number:02d}": sentence for number, sentence in enumerate(sentences, 1)}
 
 
 #: Words by which a study says that a law is used outside its range.

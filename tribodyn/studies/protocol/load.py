@@ -17,7 +17,7 @@ from tribodyn.errors import InputError, InputErrors, unknown_name
 from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.own_keys import example_of
-from tribodyn.scenario.resolve import LIKE, Resolved, resolve, unresolved_keys
+from tribodyn.scenario.resolve import LIKE, Resolved, resolve, resolve_table, unresolved_keys
 from tribodyn.scenario.scope import outside
 from tribodyn.scenario.sources import file_name, find_scenario
 from tribodyn.scenario.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
@@ -110,6 +110,12 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
 def table_of(data: Mapping[str, Any]) -> Any:
     """Return the schema of a scenario's data."""
     return study_of(data).table(data)
+
+
+def load_data(data: Mapping[str, Any], name: str, overrides: Mapping[str, Any] | None = None) -> Loaded:
+    """Load a scenario's data as `load` does those of a file of that name; they are not changed."""
+    path, copy = Path(f"{name}.toml"), json.loads(json.dumps(data))
+    return loaded_from(resolve_table(copy, path, overrides or {}, table_of), path)
 
 
 def schema_inside(scenario: Any, around: str) -> Any:

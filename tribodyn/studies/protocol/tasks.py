@@ -7,7 +7,7 @@ that is not what was written is refused.
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import MappingProxyType
@@ -21,19 +21,17 @@ from tribodyn.numerics.output_files import write_output
 from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.work import announce
 from tribodyn.record.reader import Record
-from tribodyn.record.schema import COMPLETE
-from tribodyn.scenario.resolve import resolve_table
+from tribodyn.record.schema import COMPLETE, Layout
 from tribodyn.studies.protocol.evaluated import evaluated
-from tribodyn.studies.protocol.load import loaded_from, table_of
+from tribodyn.studies.protocol.load import load_data
 from tribodyn.studies.protocol.part import Task, TaskResult
-from tribodyn.studies.protocol.study import Progress, Study
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import CaseHead, Progress, RunResult, Study
 
 
 def case_of(task: Task, overrides: Mapping[str, Any] = MappingProxyType({})) -> Any:
     """The case of a task; raises InputError if it cannot be run."""
-    path = Path(f"{task.name}.toml")
-    data = json.loads(json.dumps(task.scenario))
-    return loaded_from(resolve_table(data, path, overrides, table_of), path).case
+    return load_data(task.scenario, task.name, overrides).case
 
 
 def require_cases(every: Sequence[tuple[Study, Task]]) -> None:
@@ -81,6 +79,37 @@ def results(
     if progress:
         progress(1.0)
     return done
+
+
+def recorded(
+    case: CaseHead,
+    output: str | Path | None,
+    layout: Layout,
+    concluded: Callable[[Path, Progress | None, bool], tuple[Mapping[str, Any], dict[str, Any]]],
+    *,
+    force: bool = False,
+    progress: Progress | None = None,
+    **more: Any,
+) -> RunResult:
+    """Write the record of a case that is concluded from tasks; see `study.Study.run`.
+
+    `concluded` runs them into a folder, as `results` does, and returns the datasets along the layout's axis
+    and the summary; `more` is for the `writer`. Tasks that were done before a call was stopped are kept.
+    """
+    path = target(case, output, force)
+    folder = folder_of(path)
+    try:
+        along, summary = concluded(folder, progress, force)
+    except SimulationError as error:
+        with writer(case, path, layout, 0, force=force) as record:
+            return RunResult(record.fail(str(error), {}), "failed", str(error), {})
+    except KeyboardInterrupt as error:
+        # what is left of the part in work is done again
+        error.__notes__ = [f"the parts done so far: {folder}, the same call goes on"]
+        raise
+    with writer(case, path, layout, len(along[layout.axis_name]), force=force, **more) as record:
+        record.write(0, along)
+        return RunResult(record.finish(summary), "complete", "", summary)
 
 
 def kept(every: Sequence[tuple[Study, Task]], folder: Path) -> dict[str, TaskResult] | None:

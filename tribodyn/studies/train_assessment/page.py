@@ -62,16 +62,12 @@ def _asked(case: TrainAssessmentCase, summary: Mapping[str, Any]) -> str:
         times = f", {len(names)} times" if len(names) > 1 else ""
         gears.append(f"{group} {teeth}, module {drive.module * 1e3:.4g} mm{helix}{times}")
     pair = next(iter(meshes.values()))
-    sheet, oil = pair.lubricant.sheet, f"at {float(pair.lubricant.temperature) - 273.15:.4g} °C"
-    if sheet is not None:
-        oil = f"{sheet.type}, {sheet.viscosity_40 * 1e6:.4g}/{sheet.viscosity_100 * 1e6:.4g} mm²/s, {oil}"
+    oil = first_page.oil_line(pair.lubricant, float(pair.lubricant.temperature), case.settings.lubrication)
     duty = (
         f"{summary['power_in_mean'] * 1e-3:.5g} kW put in "
         f"at {summary['input_speed'] * _RPM:.5g} rpm, ratio {summary['train_ratio']:.5g}"
     )
-    return first_page.asked(
-        {"Gears": "; ".join(gears), "Oil": f"{oil}, {case.settings.lubrication}", "Duty": duty}
-    )
+    return first_page.asked({"Gears": "; ".join(gears), "Oil": oil, "Duty": duty})
 
 
 def _tiles(summary: Mapping[str, Any]) -> str:

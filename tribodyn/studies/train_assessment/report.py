@@ -8,6 +8,8 @@ from tribodyn.quantities.catalogue import QUANTITIES, quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.gears.rated.limits import on_limits
+from tribodyn.studies.gears.rated.said import sentences as sentences
+from tribodyn.studies.gears.rated.said import unit_of
 from tribodyn.studies.protocol.recording import TextTable
 
 REPORTED: Reported = {
@@ -66,15 +68,11 @@ def mesh_rows(summary: Mapping[str, Any], part: str) -> tuple[list[str], list[li
         [
             quantity.title,
             *(worst_in(quantity, part, names, meshes) for names in groups.values()),
-            _unit(quantity),
+            unit_of(quantity),
         ]
         for quantity in OF_A_MESH[part]
     ]
     return ["", *groups, ""], [row for row in rows if set(row[1:-1]) != {"–"}]
-
-
-def _unit(quantity: Quantity) -> str:
-    return quantity.unit.replace("degC", "°C")
 
 
 def stage_rows(summary: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
@@ -129,9 +127,3 @@ def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
     if "efficiency" in found:
         lost = with_unit("power_friction_mean", found["power_friction_mean"])
         yield f"The teeth lose {lost}; the train is {100.0 * found['efficiency']:.2f} % efficient."
-
-
-def sentences(record: Record) -> list[str]:
-    """Say what is assumed and what is extrapolated."""
-    summary = record.summary
-    return [str(text) for name in ("assumed", "extrapolated") for text in summary.get(name, {}).values()]

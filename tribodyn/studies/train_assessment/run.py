@@ -3,6 +3,7 @@
 import math
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -10,17 +11,16 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.errors import SimulationError
 from tribodyn.post.report import EXCEEDED
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.limits import judged, worst
 from tribodyn.studies.gears.rated.margins import strength_of
+from tribodyn.studies.gears.rated.said import numbered
 from tribodyn.studies.gears.rated.standard import RatedDuty, iso_part, margins_by_standard, standard_of
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.part import MeshAtDuty, Task, TaskResult, WholeDrive
-from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
 from tribodyn.studies.train_assessment.case import LAYOUT, SAMPLES, TrainAssessmentCase
 
@@ -61,18 +61,7 @@ def run(
 
     The runs lie in a folder beside the record and are done again only if their scenarios or the code changed.
     """
-    path = target(case, output, force)
-    try:
-        along, summary = assessed(case, tasks.folder_of(path), progress, force)
-    except SimulationError as error:
-        with writer(case, path, LAYOUT, 0, force=force) as record:
-            return RunResult(record.fail(str(error), {}), "failed", str(error), {})
-    except KeyboardInterrupt as error:
-        error.__notes__ = [f"the runs done so far: {tasks.folder_of(path)}, the same call goes on"]
-        raise
-    with writer(case, path, LAYOUT, len(along["input_speed"]), force=force) as record:
-        record.write(0, along)
-        return RunResult(record.finish(summary), "complete", "", summary)
+    return tasks.recorded(case, output, LAYOUT, partial(assessed, case), force=force, progress=progress)
 
 
 def quantities_of(case: TrainAssessmentCase) -> dict[str, Any]:
@@ -132,8 +121,8 @@ def assessed(
         STAGES: own.get(STAGES, {}),
         MESHES: meshes,
         "limits": judged(case.limits, _values(own, meshes)),
-        "assumed": _numbered(list(_assumed(case, meshes))),
-        "extrapolated": _numbered(_extrapolated(every, done)),
+        "assumed": numbered(list(_assumed(case, meshes))),
+        "extrapolated": numbered(_extrapolated(every, done)),
         **{name: own[name] for name in (TRUST, REASONS) if own.get(name)},
         "wall_time": perf_counter() - begun,
     }
@@ -244,10 +233,6 @@ def _values(own: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> 
         value = own.get(of_run.get(limit, limit))
         found[limit] = math.nan if value is None else float(value)
     return found
-
-
-def _numbered(sentences: Sequence[str]) -> dict[str, str]:
-    return {f"{number:02d}": sentence for number, sentence in enumerate(sentences, 1)}
 
 
 def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:

@@ -3,7 +3,6 @@
 import tomllib
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, create_model
@@ -11,10 +10,9 @@ from pydantic import Field, create_model
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Positive, Table, scenario_file, written
-from tribodyn.scenario.resolve import resolve_table
 from tribodyn.studies import study_of
 from tribodyn.studies.gears.rated.limits import OilLimits
-from tribodyn.studies.protocol.load import Loaded, loaded_from, schema_inside, table_of
+from tribodyn.studies.protocol.load import load_data, schema_inside
 from tribodyn.studies.train_assessment.case import TrainAssessmentCase, TrainRatingTable
 from tribodyn.tribology.friction import FRICTION_LAWS
 
@@ -64,18 +62,13 @@ def _around(base: type[Table] | None) -> type[Table]:
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> TrainAssessmentCase:
     """Return the case of a scenario that has passed schema and rules."""
+    train = tomllib.loads(toml)["scenario"]
     return TrainAssessmentCase(
         **head_of(scenario, toml, sha256),
-        subject=subject_of(tomllib.loads(toml)["scenario"]),
+        subject=load_data(train, str(train.get("name") or "train")),
         settings=scenario.assessment,
         limits=scenario.limits.model_dump(),
     )
-
-
-def subject_of(data: Mapping[str, Any]) -> Loaded:
-    """Load the train that stands in a scenario with everything written out."""
-    path = Path(f"{data.get('name') or 'train'}.toml")
-    return loaded_from(resolve_table(dict(data), path, {}, table_of), path)
 
 
 def broken_rules(scenario: Any) -> Iterator[InputError]:

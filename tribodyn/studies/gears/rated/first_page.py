@@ -13,6 +13,7 @@ from tribodyn.studies.gears.rated.limits import LIMITS, on_limits
 from tribodyn.studies.pages import overview
 from tribodyn.studies.protocol.part import TaskResult
 from tribodyn.studies.protocol.study import Study
+from tribodyn.tribology.oil import LubricantData
 
 
 def header(record: Record, what: str) -> str:
@@ -47,6 +48,14 @@ def asked(rows: Mapping[str, str]) -> str:
     """What was asked: a line of text each."""
     cells = (f"<tr><td><b>{name}</b></td><td>{escape(text)}</td></tr>" for name, text in rows.items())
     return f'<table class="asked">{"".join(cells)}</table>'
+
+
+def oil_line(lubricant: LubricantData, temperature: float, lubrication: str) -> str:
+    """An oil and how it gets to the mesh, at a temperature in K."""
+    sheet, duty = lubricant.sheet, f"at {temperature - 273.15:.4g} °C, {lubrication}"
+    if sheet is None:
+        return duty
+    return f"{sheet.type}, {sheet.viscosity_40 * 1e6:.4g}/{sheet.viscosity_100 * 1e6:.4g} mm²/s, {duty}"
 
 
 def tiles(shown: Sequence[tuple[str, str]]) -> str:
