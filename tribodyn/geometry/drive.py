@@ -16,6 +16,13 @@ class MaterialData:
     thermal_conductivity: float  # K, W/(m K)
     specific_heat: float  # c_p, J/(kg K)
     hardness: float  # Vickers hardness as a pressure, Pa
+    #: heat treatment and grade of quality by ISO 6336-5; None: no strength is known
+    treatment: str | None = None
+    grade: str = "MQ"
+    #: σ_Hlim and σ_Flim, Pa, where they are not those of ISO 6336-5 for treatment, grade and hardness
+    contact_stress_limit: float | None = None
+    bending_stress_limit: float | None = None
+    yield_strength: float | None = None  # of the root, Pa; None: estimated from the hardness
 
 
 @dataclass(frozen=True)

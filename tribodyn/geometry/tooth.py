@@ -184,7 +184,7 @@ def _ended_by_undercut(tooth: Tooth) -> Tooth:
     overrun = xp.where(undercut, tooth.overrun, -0.1 * tooth.form_distance)
     lowest = tooth.form_distance + overrun
     # The fillet's point at the radius of the flank's first: R² falls by (1 − 0.4²) d².
-    rate, _ = _fillet_tangent(tooth, tooth.form_angle)
+    rate = fillet_tangent(tooth, tooth.form_angle).rate
     arm = tooth.path.pinion_pitch_radius * cos(tooth.form_angle)
     start = (lowest + 0.4 * overrun, tooth.form_angle - 0.42 * overrun**2 / (rate * arm))
 
@@ -203,7 +203,7 @@ def _step_to_crossing(
     xp = namespace(state, tooth)
     r, normal = state
     flank_rate, flank_angle = _flank_tangent(tooth, r)
-    fillet_rate, fillet_angle = _fillet_tangent(tooth, normal)
+    fillet_rate, fillet_angle, _ = fillet_tangent(tooth, normal)
     flank, fillet = flank_point(tooth, r), fillet_point(tooth, normal)
     gap_x, gap_y = flank[0] - fillet[0], flank[1] - fillet[1]
     crossing = sin(flank_angle - fillet_angle)
@@ -226,15 +226,23 @@ def _flank_tangent(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]
     )
 
 
-def _fillet_tangent(tooth: Tooth, normal_angle: PerContact) -> tuple[PerContact, PerContact]:
-    """Differentiate the fillet's point by the normal's angle along (cos λ, −sin λ), m per rad, and λ."""
+class FilletTangent(NamedTuple):
+    """Tangent (cos λ, −sin λ) of the fillet in the tooth's frame, where the rack's normal has an angle ν."""
+
+    rate: Any  # of the point by ν along the tangent, m per rad
+    angle: Any  # λ, rad
+    turning: Any  # dλ/dν; the radius of curvature is rate over turning
+
+
+def fillet_tangent(tooth: Tooth, normal_angle: PerContact) -> FilletTangent:
+    """Differentiate the fillet's point by the normal's angle."""
     pitch_radius = tooth.path.pinion_pitch_radius
     corner = _corner_on_normal(normal_angle, -tooth.corner_y, tooth.tool_curvature)
     r = -corner.distance - tooth.corner_radius
     rotation = (-corner.arc - tooth.corner_x) / pitch_radius
     turning = corner.distance / (pitch_radius * corner.slope)
     rate = r + (r + pitch_radius * sin(normal_angle)) * turning
-    return rate, normal_angle - tooth.half_angle + rotation
+    return FilletTangent(rate, normal_angle - tooth.half_angle + rotation, 1.0 + turning)
 
 
 def flank_point(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]:

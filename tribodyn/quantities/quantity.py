@@ -28,6 +28,7 @@ SHOWN: dict[str, tuple[str, float, float]] = {
     "°C": ("K", 1.0, -273.15),
     "°": ("rad", 180.0 / math.pi, 0.0),
     "rpm": ("rad/s", 30.0 / math.pi, 0.0),
+    "h": ("s", 1.0 / 3600.0, 0.0),
 }
 
 

@@ -9,6 +9,8 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Relief
 from tribodyn.scenario import quantity, units
 from tribodyn.scenario.fields import ErrorCurve
+from tribodyn.standards.metals import Grade as MetalGrade
+from tribodyn.standards.metals import Treatment
 from tribodyn.tribology.oil import OilType
 
 Amount = Annotated[float, quantity.InUnit(units.not_negative(units.RELIEF))]
@@ -94,6 +96,7 @@ Angle = Annotated[float, quantity.InUnit(units.positive(units.ANGLE_KIND))]
 Mass = Annotated[float, quantity.InUnit(units.positive(units.MASS))]
 Inertia = Annotated[float, quantity.InUnit(units.positive(units.INERTIA))]
 Pressure = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE))]
+Strength = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "1500 MPa")]
 FaceWidth = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "20 mm")]
 Radius = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "12 mm")]
 KinematicViscosity = Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY))]
@@ -125,6 +128,19 @@ class Material(Described):
     specific_heat: Annotated[float, quantity.InUnit(units.positive(units.SPECIFIC_HEAT))]
     hardness: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "7 GPa")] = Field(
         description="Vickers hardness as a pressure"
+    )
+    treatment: Treatment | None = Field(
+        None, description="heat treatment by ISO 6336-5; needed for safeties against pitting and bending"
+    )
+    grade: MetalGrade = Field("MQ", description="quality of the material by ISO 6336-5")
+    contact_stress_limit: Strength | None = Field(
+        None, description="σ_Hlim; default: by treatment, grade and hardness"
+    )
+    bending_stress_limit: Strength | None = Field(
+        None, description="σ_Flim; default: by treatment, grade and hardness"
+    )
+    yield_strength: Strength | None = Field(
+        None, description="of the root, of through-hardened steel; default: from the hardness"
     )
 
 

@@ -74,6 +74,8 @@ class AssessmentCase(OiledCase):
     quality: Quality  # deviations of the gears by ISO 1328-1
     settings: AssessmentTable
     limits: Mapping[str, Any]  # name of a limit -> its value, SI units
+    #: duties of the load spectrum: share of the time, pinion speed rad/s, gear torque N m; empty: none
+    spectrum: tuple[tuple[float, float, float], ...] = ()
 
     def with_laws(self) -> LubricatedCase:
         """The gears at their duty with the first friction law, and the film law that goes with it."""

@@ -16,10 +16,17 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards import micropitting, scuffing
 from tribodyn.standards.micropitting import Films
-from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
+from tribodyn.studies.gears.rated.capacity import Capacity, safeties
 from tribodyn.studies.gears.rated.limits import judged, worst
 from tribodyn.studies.gears.rated.margins import Strength, bulk_of, flanks_of, oil_of
-from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS, Standard, by_point, margins_by_standard
+from tribodyn.studies.gears.rated.standard import (
+    ZERO_CELSIUS,
+    Standard,
+    by_point,
+    factors_by_name,
+    margins_by_standard,
+)
 
 #: Half width of a Hertz contact over its radius from which it is none: at the pitch point of a cycloid.
 _WIDEST = 0.1
@@ -73,7 +80,7 @@ def local_of(
     speed = case.operating.pinion_speed * speed_share(*across)
     speeds = motion.pinion_speed * speed, motion.gear_speed * speed
     curvature = motion.relative_curvature * curvature_share(*across)
-    raised = pressure * np.sqrt(settings.application_factor * max(quantities["dynamic_factor"], 1.0))
+    raised = pressure * np.sqrt(load_factor(settings, quantities))
     # no Hertz contact where its half width √(8 w ρ/(π E_r)) is not small beside its radius, none without load
     flanks = flanks_of(case)
     line_load = load / float(assembly.common_width)
@@ -95,6 +102,17 @@ def local_of(
     )
     sliding = np.abs(speeds[0] - speeds[1])
     return LocalValues(roll, load, 1.0 / curvature, sliding, films, points)
+
+
+def load_factor(settings: AssessmentTable, quantities: Mapping[str, Any]) -> float:
+    """Factor by which the loads of slow rotation grow: K_A K_γ K_v, and K_Hβ where it is given.
+
+    K_v is the simulation's where none is given; the pressures of slow rotation are maxima over the face and
+    contain the simulation's K_Hβ, which a given one replaces.
+    """
+    dynamic = settings.dynamic_factor or max(quantities["dynamic_factor"], 1.0)
+    face = (settings.face_load_factor or quantities["face_load_factor"]) / quantities["face_load_factor"]
+    return settings.application_factor * (settings.mesh_load_factor or 1.0) * dynamic * face
 
 
 #: Quantity of the simulation -> its name by the standards.
@@ -153,6 +171,7 @@ _SCATTERED = {"dynamic_factor": "dynamic_factor", "loaded_error": "loaded_transm
 def margins_and_limits(
     case: AssessmentCase,
     found: Standard | None,
+    capacity: Capacity | None,
     strength: Strength,
     local: LocalValues,
     quantities: Mapping[str, Any],
@@ -165,28 +184,39 @@ def margins_and_limits(
     its 95 % is compared too, as ``p95`` and ``kept_p95``.
     """
     by_standard = margins_by_standard(found, strength, case.oil_temperature) if found else {}
-    own = _by_simulation(case, strength, local)
+    rated = safeties(capacity)
+    simulated = _by_simulation(case, strength, local)
     values = {
-        "scuffing_flash": worst(by_standard.get("S_B"), own.get("S_B")),
+        "scuffing_flash": worst(by_standard.get("S_B"), simulated.get("S_B")),
         "scuffing_integral": by_standard.get("S_intS", math.nan),
-        "micropitting": worst(by_standard.get("S_lambda"), own.get("S_lambda")),
+        "micropitting": worst(by_standard.get("S_lambda"), simulated.get("S_lambda")),
+        "pitting": rated.get("S_H", math.nan),
+        "bending": rated.get("S_F", math.nan),
+        "life": rated.get("life", math.nan),
         "dynamic_factor": quantities["dynamic_factor"],
         "hertz_pressure": float(np.nanmax(local.films.pressure)),
         "root_tension": max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"]),
         "loaded_error": quantities["loaded_transmission_error_peak_to_peak"],
     }
     of_limits = {limit: spread[name] for limit, name in _SCATTERED.items() if name in spread}
-    factors = {"K_A": case.settings.application_factor, "K_Hbeta": quantities["face_load_factor"]}
+    factors: dict[str, Any] = {"K_A": case.settings.application_factor}
+    factors["K_Hbeta"] = case.settings.face_load_factor or quantities["face_load_factor"]
     if found:
-        factors |= {
-            "K_v": found.dynamic.factor,
-            "K_Halpha": found.transverse,
-            "N": found.dynamic.resonance_ratio,
-            "resonance_speed": found.dynamic.resonance_speed,
-            "range": found.dynamic.range,
-            "c_gamma_beta": found.stiffness.mesh_face,
+        own = found.factors
+        computed = {
+            "K_v": own.dynamic.factor,
+            "K_Hbeta": quantities["face_load_factor"],
+            "K_Halpha": own.transverse_b,
         }
-    margins = {"simulated": own} | ({"iso": by_standard} if by_standard else {})
+        factors |= {
+            **factors_by_name(own),
+            "computed": computed,
+            "N": own.dynamic.resonance_ratio,
+            "resonance_speed": own.dynamic.resonance_speed,
+            "range": own.dynamic.range,
+            "c_gamma_beta": own.stiffness.mesh_face,
+        }
+    margins = {"simulated": simulated} | ({"iso": by_standard | rated} if by_standard else {})
     return {"margins": margins, "load_factors": factors, "limits": judged(case.limits, values, of_limits)}
 
 

@@ -22,9 +22,10 @@ from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_a
 from tribodyn.studies.assessment.parts import Part
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins, metal_remarks
 from tribodyn.studies.gears.rated.margins import strength_of
-from tribodyn.studies.gears.rated.said import numbered
-from tribodyn.studies.gears.rated.standard import RatedDuty, iso_part, standard_of
+from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
+from tribodyn.studies.gears.rated.standard import iso_part, rated_duty, standard_of
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.part import TaskResult
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
@@ -33,6 +34,8 @@ from tribodyn.tribology.oil import oil_values
 
 #: What is no number, or has the unit of what is compared; what ends the name of a scatter.
 WITHOUT_UNIT, SPREAD_OF = ("limits", "samples"), "_spread"
+#: Keys of a table that has values of one quantity.
+_PARTS = {"worst", "median", "pinion"}
 
 
 def check(case: AssessmentCase) -> CheckResult:
@@ -92,17 +95,13 @@ def assessed(
         along |= answer.along
         spread |= {name: _scatter(values) for name, values in answer.spread.items()}
     local = local_of(case, assembly, along, found)
-    by_standard = None
+    by_standard = capacity = None
     if assembly.family.involute:
         settings = case.settings
-        duty = RatedDuty(
-            case.oil_temperature,
-            settings.application_factor,
-            found["face_load_factor"],
-            settings.lubrication,
-            settings.adequate_tip_relief,
-        )
+        duty = rated_duty(settings, case.oil_temperature, face=found["face_load_factor"])
         by_standard = standard_of(case, assembly, duty)
+        bins = life_bins(case, assembly, by_standard.factors, case.spectrum)
+        capacity = capacity_of(case, assembly, by_standard.factors, bins, settings)
     simulated = simulated_part(case, assembly, local, found, spread)
     summary: dict[str, Any] = {
         "duty": {
@@ -113,14 +112,17 @@ def assessed(
         **found,
         "contact_temperature_max": float(local.films.bulk_temperature + np.nanmax(local.films.flash_rise)),
         "specific_film_min": simulated["lambda_GF"]["worst"],
-        **({"transverse_load_factor_method_b": by_standard.transverse} if by_standard else {}),
-        "iso": iso_part(case, by_standard) if by_standard else {},
+        **({"transverse_load_factor_method_b": by_standard.factors.transverse_b} if by_standard else {}),
+        **({"life": capacity.life} if capacity else {}),
+        "iso": (iso_part(case, by_standard) if by_standard else {})
+        | (capacity.by_name() if capacity else {}),
         "simulated": simulated,
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
         **{f"{name}_spread": [values[part] for part in SPREAD] for name, values in spread.items()},
         **margins_and_limits(
             case,
             by_standard,
+            capacity,
             strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor),
             local,
             found,
@@ -146,7 +148,7 @@ def units_of(summary: Mapping[str, Any]) -> dict[str, str]:
         if name in WITHOUT_UNIT:
             continue
         if quantity is None and isinstance(value, Mapping):
-            found |= units_of(value) if not {"worst", "median"} & set(value) else {name: "1"}
+            found |= units_of(value) if not _PARTS & set(value) else {name: "1"}
         elif not isinstance(value, str | bool):
             found[name] = quantity.si if quantity else "1"
     return dict(sorted(found.items()))
@@ -212,10 +214,10 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     if missing := [name for name in ("scuffing", "micropitting") if not getattr(stages, name)]:
         names = " and ".join(missing)
         sentences.append(f"The oil has no FZG load stage of {names}: no margin can be given.")
-    sentences.append(
-        f"K_A = {settings.application_factor:g}; damping of the mesh {settings.damping_ratio:g}; K_Hβ by the "
-        "contact analysis."
-    )
+    sentences.append(f"{factors_said(settings)} Damping of the mesh {settings.damping_ratio:g}.")
+    if by_standard:
+        sentences += metal_remarks(case)
+        sentences.append(life_said(settings, len(case.spectrum)))
     scatter = ""
     if settings.samples:
         scatter = f"; its scatter is over {settings.samples} samples of deviations within the tolerances"

@@ -11,13 +11,16 @@ from tribodyn.scenario import units
 from tribodyn.scenario.fields import Temperature
 from tribodyn.scenario.quantity import InUnit, Table, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings
-from tribodyn.scenario.tables.duty import OperatingTable, broken_driving_rules
+from tribodyn.scenario.tables.duty import OperatingTable, broken_driving_rules, duty_of, spectrum_of
 from tribodyn.scenario.tables.losses import LossesTable, TemperatureTable
+from tribodyn.scenario.tables.drive_data import materials_of
 from tribodyn.scenario.tables.lubricant import lubricant_of
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.quality import tolerances_of
 from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
+from tribodyn.studies.gears.rated.capacity import required
 from tribodyn.studies.gears.rated.limits import OilLimits, Pressure
+from tribodyn.studies.gears.rated.settings import broken_strength_rules
 from tribodyn.studies.gears.scenario import FaceSlices, GearScenario, Oil, broken_gear_rules, gear_fields
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO
@@ -74,7 +77,11 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
         lubricant=lubricant_of(scenario.lubricant, oil_temperature),
         oil_temperature=oil_temperature,
         settings=scenario.assessment,
-        limits=scenario.limits.model_dump(),
+        limits=scenario.limits.model_dump() | required(scenario.assessment),
+        spectrum=tuple(
+            (share, *duty_of(duty.operating, scenario.drive.pinion.teeth, scenario.drive.gear.teeth))
+            for share, duty in spectrum_of(scenario)
+        ),
     )
 
 
@@ -100,6 +107,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         "the standards' formulas are those of a driving pinion",
         ", or call the driving gear the pinion",
     )
+    yield from broken_strength_rules("assessment", scenario.assessment, materials_of(drive))
     yield from _broken_settings(scenario)
 
 

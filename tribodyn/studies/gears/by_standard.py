@@ -63,18 +63,19 @@ def rated(
     quality: Quality,
     duty: tuple[float, float],
     application_factor: float = 1.0,
+    blank: float | None = None,
 ) -> Rated:
     """Rate an involute drive whose pinion drives; no tip relief is credited.
 
     `bodies` are (mass kg, inertia kg m²) of pinion and gear alone, `duty` is (pinion speed rad/s, gear torque
-    N m), `application_factor` K_A.
+    N m), `application_factor` K_A K_γ, `blank` C_R, 1 of solid discs.
     """
     drive, path = assembly.drive, assembly.path
     speed, torque = duty
     cosine = math.cos(float(path.pressure_angle(0.0)))
     base = float(path.pinion_pitch_radius) * cosine, float(path.gear_pitch_radius) * cosine
     pair = pair_of(assembly, materials, torque / abs(base[1]))
-    pair = pair._replace(line_load=pair.line_load * application_factor)
+    pair = pair._replace(line_load=pair.line_load * application_factor, blank=blank or pair.blank)
     stiffness = reference_stiffness(pair)
     inertias = float(bodies[0][1]), float(bodies[1][1])
     pitch, after_running_in = base_pitch_deviation(assembly, quality)

@@ -9,7 +9,7 @@ from pydantic import Field
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
 from tribodyn.scenario.quantity import Positive, Text
-from tribodyn.studies.gears.rated.settings import RatingTable
+from tribodyn.studies.gears.rated.settings import AtLeastOne, RatingTable
 from tribodyn.studies.protocol import cost
 from tribodyn.studies.protocol.load import Loaded
 from tribodyn.studies.protocol.study import CaseHead
@@ -35,10 +35,10 @@ LAYOUT = Layout(SPEED, SAMPLES)
 class TrainRatingTable(RatingTable):
     """What is asked beyond the duty, and what the standards need to know of every mesh."""
 
-    face_load_factor: Positive = Field(
-        1.0, description="K_H beta of every mesh: the face is taken as aligned"
+    face_load_factor: AtLeastOne = Field(  # pyright: ignore[reportIncompatibleVariableOverride]
+        1.0, description="K_Hβ of every mesh: the face is taken as aligned"
     )
-    mesh_load_factor: Positive | None = Field(
+    mesh_load_factor: AtLeastOne | None = Field(
         None, description="K_gamma of the planetary stages; default: each one's own, of the simulation"
     )
     speed_range: tuple[Positive, Positive] = Field(

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
+from tribodyn.studies.gears.rated.settings import RatingTable
 
 
 def numbered(sentences: Sequence[str]) -> dict[str, str]:
@@ -20,3 +21,32 @@ def sentences(record: Record) -> list[str]:
 def unit_of(quantity: Quantity) -> str:
     """Its unit; temperatures by the standards are kept in °C."""
     return quantity.unit.replace("degC", "°C")
+
+
+def factors_said(settings: RatingTable) -> str:
+    """Which load factors are given, and where the others are from."""
+    given = {
+        "K_γ": settings.mesh_load_factor,
+        "K_v": settings.dynamic_factor,
+        "K_Hβ": settings.face_load_factor,
+        "K_Hα": settings.transverse_load_factor,
+        "C_R": settings.gear_blank_factor,
+    }
+    written = [f"K_A = {settings.application_factor:g}"]
+    written += [f"{name} = {value:g} (given)" for name, value in given.items() if value is not None]
+    open_face = "" if settings.face_load_factor else "; K_Hβ by the contact analysis"
+    return f"{', '.join(written)}{open_face}."
+
+
+def life_said(settings: RatingTable, duties: int) -> str:
+    """What the required life is, and which loads it has."""
+    hours = settings.required_life / 3600.0
+    rz = "6 Ra" if settings.peak_roughness is None else f"{settings.peak_roughness * 1e6:g} µm"
+    loads = "the duty all the time"
+    if duties:
+        loads = f"{duties} duties of the load spectrum with K_A = 1, by Miner's sum (ISO 6336-6)"
+    return (
+        f"Required life {hours:.6g} h, S_Hmin {settings.required_safety_pitting:g}, S_Fmin "
+        f"{settings.required_safety_bending:g}; {loads}. Rz of the flanks {rz}, of the roots "
+        f"{settings.root_roughness * 1e6:g} µm."
+    )

@@ -25,6 +25,7 @@ from tribodyn.standards.micropitting import Films, Flanks, Load, Oil
 from tribodyn.studies.gears.by_standard import rated
 from tribodyn.studies.gears.case import OiledCase
 from tribodyn.studies.gears.rated.margins import Strength, flanks_of, oil_of
+from tribodyn.studies.gears.rated.settings import RatingTable
 
 #: Places along the path over which the flash temperature is looked at.
 _PLACES = 201
@@ -35,11 +36,58 @@ class RatedDuty(NamedTuple):
     """What the standards need to know beside the gears, the oil, speed and torque."""
 
     oil_temperature: float  # of the oil that enters, K
-    #: application, face: K_A, times K_γ of one of several meshes in parallel; K_Hβ
+    #: application, mesh, face: K_A; K_γ of one of several meshes in parallel; K_Hβ
     application: float = 1.0
+    mesh: float = 1.0
     face: float = 1.0
+    #: dynamic, transverse, blank: K_v, K_Hα and C_R where they are given; None: by method B, solid discs
+    dynamic: float | None = None
+    transverse: float | None = None
+    blank: float | None = None
     lubrication: str = "dip"  # one of `micropitting.LUBRICATION_FACTORS`
     adequate_tip_relief: bool = False
+
+
+def rated_duty(settings: RatingTable, oil_temperature: float, *, face: float, mesh: float = 1.0) -> RatedDuty:
+    """What settings say of the duty; `face` and `mesh` are K_Hβ and K_γ where these do not give them."""
+    given_face, given_mesh = settings.face_load_factor, settings.mesh_load_factor
+    return RatedDuty(
+        oil_temperature,
+        settings.application_factor,
+        mesh if given_mesh is None else given_mesh,
+        face if given_face is None else given_face,
+        settings.dynamic_factor,
+        settings.transverse_load_factor,
+        settings.gear_blank_factor,
+        settings.lubrication,
+        settings.adequate_tip_relief,
+    )
+
+
+class LoadFactors(NamedTuple):
+    """Load factors of ISO 6336-1 that a rating counts with, and what method B gives."""
+
+    duty: RatedDuty
+    dynamic: DynamicFactor  # by method B
+    stiffness: ReferenceStiffness  # c', c_γα, c_γβ, Pa
+    transverse_b: float  # K_Hα by method B
+    line_load: float  # F_t K_A K_γ/b at the reference circle, N/m
+
+    @property
+    def dynamic_factor(self) -> float:
+        """K_v: given, or by method B."""
+        return self.dynamic.factor if self.duty.dynamic is None else self.duty.dynamic
+
+    @property
+    def transverse(self) -> float:
+        """K_Hα: given, or by method B."""
+        return self.transverse_b if self.duty.transverse is None else self.duty.transverse
+
+    @property
+    def flank(self) -> float:
+        """K_A K_γ K_v K_Hβ K_Hα."""
+        duty = self.duty
+        return duty.application * duty.mesh * self.dynamic_factor * duty.face * self.transverse
 
 
 class Standard(NamedTuple):
@@ -47,9 +95,7 @@ class Standard(NamedTuple):
 
     path: ContactPath
     films: Films  # of method B at the `POINTS`
-    dynamic: DynamicFactor
-    stiffness: ReferenceStiffness  # c', c_γα, c_γβ, Pa
-    transverse: float  # K_Hα by method B
+    factors: LoadFactors
     losses: float  # H_v
     #: flash_bulk, flash_contact: θ_M and θ_Bmax of ISO/TS 6336-20, K
     flash_bulk: float
@@ -57,11 +103,15 @@ class Standard(NamedTuple):
     integral: float | None  # θ_int of ISO/TS 6336-21, K; None of a ring and its planet
 
 
-def standard_of(case: OiledCase, assembly: Assembly, duty: RatedDuty) -> Standard:
-    """Evaluate the standards for a pair of involutes with a tolerance class, whose pinion drives."""
+def load_factors(
+    case: OiledCase, assembly: Assembly, duty: RatedDuty, operating: tuple[float, float] | None = None
+) -> LoadFactors:
+    """Load factors of a pair of involutes with a tolerance class, whose pinion drives.
+
+    `operating` are (pinion speed rad/s, gear torque N m) of another duty than the case's.
+    """
     assert case.quality is not None, "refused by the rules"
     path = path_of(assembly)
-    width, torque = float(assembly.common_width), path.pinion_torque(case.operating.gear_torque)
     bodies = body_masses(
         assembly,
         [(body.mass, body.inertia) for body in case.masses],
@@ -72,22 +122,31 @@ def standard_of(case: OiledCase, assembly: Assembly, duty: RatedDuty) -> Standar
         case.materials,
         bodies,
         case.quality,
-        (case.operating.pinion_speed, case.operating.gear_torque),
-        duty.application,
+        operating or (case.operating.pinion_speed, case.operating.gear_torque),
+        duty.application * duty.mesh,
+        duty.blank,
     )
-    dynamic, stiffness = by.dynamic, by.stiffness
-    load = by.line_load * dynamic.factor * duty.face
+    dynamic = by.dynamic.factor if duty.dynamic is None else duty.dynamic
     transverse = transverse_factor_b(
-        (path.contact_ratio, path.overlap_ratio), stiffness.mesh, by.base_pitch_deviation, load
+        (path.contact_ratio, path.overlap_ratio),
+        by.stiffness.mesh,
+        by.base_pitch_deviation,
+        by.line_load * dynamic * duty.face,
     )
+    return LoadFactors(duty, by.dynamic, by.stiffness, transverse, by.line_load)
+
+
+def standard_of(case: OiledCase, assembly: Assembly, duty: RatedDuty) -> Standard:
+    """Evaluate the standards for a pair of involutes with a tolerance class, whose pinion drives."""
+    path, factors = path_of(assembly), load_factors(case, assembly, duty)
     loaded = Load(
-        torque,
+        path.pinion_torque(case.operating.gear_torque),
         case.operating.pinion_speed,
-        width,
+        float(assembly.common_width),
         duty.oil_temperature,
-        duty.application,
-        dynamic.factor,
-        transverse,
+        duty.application * duty.mesh,
+        factors.dynamic_factor,
+        factors.transverse,
         duty.face,
         duty.lubrication,
         micropitting.tip_relief_factor(path.tip_contact_ratios, duty.adequate_tip_relief),
@@ -95,8 +154,9 @@ def standard_of(case: OiledCase, assembly: Assembly, duty: RatedDuty) -> Standar
     flanks, oil = flanks_of(case), oil_of(case.lubricant)
     films = micropitting.method_b(path, flanks, loaded, oil)
     bulk, contact = _flash(case, path, loaded, flanks, oil)
-    integral = _integral(case, path, loaded, load * transverse, flanks, oil) if path.ratio > 0.0 else None
-    return Standard(path, films, dynamic, stiffness, transverse, loss_factor(path), bulk, contact, integral)
+    raised = factors.line_load * factors.dynamic_factor * duty.face * factors.transverse
+    integral = _integral(case, path, loaded, raised, flanks, oil) if path.ratio > 0.0 else None
+    return Standard(path, films, factors, loss_factor(path), bulk, contact, integral)
 
 
 def _integral(
@@ -167,12 +227,24 @@ def iso_part(case: OiledCase, found: Standard) -> dict[str, Any]:
         "mu_m": by_point(np.full(count, films.friction_coefficient), max),
         "h_Y": by_point(films.film_thickness, min),
         "lambda_GF": by_point(films.specific_film, min),
-        "c_prime": found.stiffness.single_pair,
-        "c_gamma_alpha": found.stiffness.mesh,
-        "K_v": found.dynamic.factor,
-        "K_Halpha": found.transverse,
+        "c_prime": found.factors.stiffness.single_pair,
+        "c_gamma_alpha": found.factors.stiffness.mesh,
+        **factors_by_name(found.factors),
         "H_v": found.losses,
         "loss": power * films.friction_coefficient * found.losses,
+    }
+
+
+def factors_by_name(factors: LoadFactors) -> dict[str, float]:
+    """Load factors that a rating counts with, by their names."""
+    duty = factors.duty
+    return {
+        "K_A": duty.application,
+        "K_gamma": duty.mesh,
+        "K_v": factors.dynamic_factor,
+        "K_Hbeta": duty.face,
+        "K_Halpha": factors.transverse,
+        "C_R": factors.stiffness.blank,
     }
 
 

@@ -1,0 +1,212 @@
+"""Tooth bending strength of involute gears: ISO 6336-3, method B, as functions of numbers.
+
+Formulas are those of the edition of 2006, from memory of the standard; section 12's worked example of a
+published design report confirms them (`tests/validation/test_rating.py`). The edition of 2019 has a factor
+f_ε ≤ 1 in Y_F and pinion-type cutters: the critical section here is that of the tooth as it is cut, by rack or
+cutter (`geometry.root_section`), without f_ε.
+"""
+
+import math
+from typing import NamedTuple
+
+from tribodyn.standards.fatigue import Curve
+from tribodyn.standards.metals import SURFACE_HARDENED, Metal, bending_factors, slip_layer
+
+#: Y_ST: the test gears' stress correction factor.
+STRESS_CORRECTION_TEST = 2.0
+#: Notch parameter q_sT of the test gears, and the thickness 1/χ_P of the formula, m.
+_TEST_NOTCH, _GRADIENT = 2.5, 5e-3
+
+
+class RootSection(NamedTuple):
+    """The critical section of the virtual spur tooth, where 30° (internal: 60°) tangents touch the fillet."""
+
+    arm: float  # h_Fe, bending moment arm of the load at the outer point of single pair contact, m
+    thickness: float  # s_Fn, root chord, m
+    notch_radius: float  # ρ_F, m
+    load_angle: float  # α_Fen, between the load and the perpendicular of the tooth's axis, rad
+
+
+class BendingGear(NamedTuple):
+    """What the root stress of one gear depends on."""
+
+    section: RootSection
+    normal_module: float  # m_n, m
+    normal_pressure_angle: float  # rad
+    helix_angle: float  # β, rad, ≥ 0
+    overlap_ratio: float  # ε_β
+    virtual_contact_ratio: float  # ε_αn
+    face_width: float  # b, m
+    tooth_height: float  # h, m
+    rim: float  # thickness s_R of the rim under the teeth, m
+    internal: bool
+    quality: float  # grade by ISO 1328-1
+    roughness: float  # Rz of the root, m
+    reversed: bool = False  # both flanks carry in every turn: an idler, a planet
+
+
+class Stress(NamedTuple):
+    """Nominal root stress and its factors."""
+
+    form: float  # Y_F
+    correction: float  # Y_S
+    helix: float  # Y_β
+    rim: float  # Y_B
+    deep: float  # Y_DT
+    notch: float  # q_s
+    nominal: float  # σ_F0, Pa
+
+
+class Relative(NamedTuple):
+    """Factors of the permissible stress, at the reference number of cycles and (static) below."""
+
+    notch: float  # Y_δrelT
+    surface: float  # Y_RrelT
+    size: float  # Y_X
+    alternating: float  # Y_M, mean stress influence
+    static_notch: float  # Y_δrelT for static load
+
+    @property
+    def reference(self) -> float:
+        """Product at the reference number of cycles."""
+        return self.notch * self.surface * self.size * self.alternating
+
+
+def form_factor(gear: BendingGear) -> float:
+    """Y_F = 6 h_Fe/m_n cos α_Fen/((s_Fn/m_n)² cos α_n): (9)."""
+    section, module = gear.section, gear.normal_module
+    lever = 6.0 * section.arm / module * math.cos(section.load_angle)
+    return lever / ((section.thickness / module) ** 2 * math.cos(gear.normal_pressure_angle))
+
+
+def stress_correction(section: RootSection) -> tuple[float, float]:
+    """Y_S = (1.2 + 0.13 L) q_s^(1/(1.21 + 2.3/L)) and q_s = s_Fn/(2 ρ_F), L = s_Fn/h_Fe: (34) to (36).
+
+    Valid for 1 ≤ q_s < 8.
+    """
+    length = section.thickness / section.arm
+    notch = section.thickness / (2.0 * section.notch_radius)
+    return (1.2 + 0.13 * length) * notch ** (1.0 / (1.21 + 2.3 / length)), notch
+
+
+def nominal_stress(gear: BendingGear, tangential_load: float) -> Stress:
+    """σ_F0 = F_t/(b m_n) Y_F Y_S Y_β Y_B Y_DT, Pa: (3); F_t at the reference circle, N."""
+    form = form_factor(gear)
+    correction, notch = stress_correction(gear.section)
+    overlap, helix = min(gear.overlap_ratio, 1.0), min(math.degrees(gear.helix_angle), 30.0)
+    helical = 1.0 - overlap * helix / 120.0
+    rim, deep = rim_factor(gear), deep_tooth_factor(gear.virtual_contact_ratio, gear.quality)
+    load = tangential_load / (gear.face_width * gear.normal_module)
+    return Stress(
+        form, correction, helical, rim, deep, notch, load * form * correction * helical * rim * deep
+    )
+
+
+def rim_factor(gear: BendingGear) -> float:
+    """Y_B: 1 of thick rims, 1.6 ln(2.242 h_t/s_R) external, 1.15 ln(8.324 m_n/s_R) internal: (40) to (43).
+
+    Below half a tooth height (1.75 m_n internal) the formula is extrapolated.
+    """
+    if gear.internal:
+        return max(1.15 * math.log(8.324 * gear.normal_module / max(gear.rim, 1e-9)), 1.0)
+    return max(1.6 * math.log(2.242 * gear.tooth_height / max(gear.rim, 1e-9)), 1.0)
+
+
+def deep_tooth_factor(virtual_contact_ratio: float, quality: float) -> float:
+    """Y_DT: 1 up to ε_αn = 2.05 and from grade 5 on, falling to 0.7 at 2.5: (44) to (46)."""
+    if quality > 4.0 or virtual_contact_ratio <= 2.05:
+        return 1.0
+    return max(2.366 - 0.666 * virtual_contact_ratio, 0.7)
+
+
+def face_factor(face_load: float, face_width: float, tooth_height: float) -> float:
+    """K_Fβ = K_Hβ^N, N = (b/h)²/(1 + b/h + (b/h)²) with b/h ≥ 3: ISO 6336-1, (69), (70)."""
+    slender = max(face_width / tooth_height, 3.0)
+    return face_load ** (slender**2 / (1.0 + slender + slender**2))
+
+
+def root_stress(found: Stress, load_factor: float) -> float:
+    """σ_F, Pa: σ_F0 K with K = K_A K_γ K_v K_Fβ K_Fα, K_Fα = K_Hα: (2)."""
+    return found.nominal * load_factor
+
+
+def relative_factors(gear: BendingGear, found: Stress, metal: Metal) -> Relative:
+    """Y_δrelT (58), Y_RrelT (62) to (70), Y_X (71) to (75) and Y_M (annex B) of a material."""
+    layer = slip_layer(metal)
+    own, test = (
+        1.0 + math.sqrt(layer * (1.0 + 2.0 * notch) / _GRADIENT) for notch in (found.notch, _TEST_NOTCH)
+    )
+    return Relative(
+        own / test,
+        _surface(metal, gear.roughness),
+        _size(metal, 1e3 * gear.normal_module),
+        _alternating(metal, found.correction) if gear.reversed else 1.0,
+        _static_notch(metal, found.correction),
+    )
+
+
+#: Rz below which a surface counts as smooth, µm.
+_SMOOTH = 1.0
+
+
+def _surface(metal: Metal, roughness: float) -> float:
+    rz = max(1e6 * roughness, _SMOOTH)
+    smooth = 1e6 * roughness < _SMOOTH
+    if metal.treatment in ("grey-iron", "nitrided", "nitrided-through-hardened", "nitrocarburized"):
+        return 1.025 if smooth else 4.299 - 3.259 * (rz + 1.0) ** (1.0 / 200.0)
+    if metal.treatment == "normalized":
+        return 1.07 if smooth else 5.306 - 4.203 * (rz + 1.0) ** 0.01
+    return 1.12 if smooth else 1.674 - 0.529 * (rz + 1.0) ** 0.1
+
+
+def _size(metal: Metal, module: float) -> float:
+    """Y_X over the normal module in mm."""
+    if metal.treatment == "grey-iron":
+        return 1.075 - 0.015 * min(max(module, 5.0), 25.0)
+    if metal.treatment in SURFACE_HARDENED:
+        return 1.05 - 0.01 * min(max(module, 5.0), 25.0)
+    return 1.03 - 0.006 * min(max(module, 5.0), 30.0)
+
+
+def _static_notch(metal: Metal, correction: float) -> float:
+    if metal.treatment in ("case-hardened", "induction-hardened"):
+        return 0.44 * correction + 0.12
+    if metal.treatment in SURFACE_HARDENED:
+        return 0.20 * correction + 0.60
+    if metal.treatment == "grey-iron":
+        return 1.0
+    softer = 0.82 * (300e6 / metal.yield_strength) ** 0.25
+    return (1.0 + softer * (correction - 1.0)) / (1.0 + softer)
+
+
+#: Stress ratio R of idlers and planets by annex B, load of equal size on both flanks.
+_STRESS_RATIO = -1.2
+
+
+def _alternating(metal: Metal, correction: float) -> float:
+    """Y_M = 1/(1 − R (1 − M)/(1 + M)): how much less a root stands that is bent both ways: annex B."""
+    of_metal = {
+        "case-hardened": 0.8 - 0.15 * correction,
+        "induction-hardened": 0.7,
+        "nitrided": 0.3,
+        "nitrided-through-hardened": 0.3,
+        "nitrocarburized": 0.3,
+        "through-hardened": 0.3,
+        "through-hardened-carbon": 0.4,
+        "normalized": 0.4,
+        "ductile-iron": 0.4,
+        "grey-iron": 0.4,
+    }[metal.treatment]
+    return 1.0 / (1.0 - _STRESS_RATIO * (1.0 - of_metal) / (1.0 + of_metal))
+
+
+def permissible(metal: Metal, factors: Relative) -> Curve:
+    """σ_FG over load cycles, Pa: σ_Flim Y_ST Y_NT Y_δrelT Y_RrelT Y_X from the reference number of cycles on.
+
+    At and below the static number of cycles Y_δrelT is the static one, Y_RrelT = Y_X = 1; between straight
+    lines: (4), (6), (7).
+    """
+    life = bending_factors(metal.treatment)
+    limit = [STRESS_CORRECTION_TEST * metal.bending_limit] * len(life.stress)
+    static = factors.static_notch * factors.alternating
+    return life.times(limit).times([static, *[factors.reference] * (len(limit) - 1)])

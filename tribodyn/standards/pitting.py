@@ -1,0 +1,191 @@
+"""Surface durability (pitting) of involute gears: ISO 6336-2, method B, as functions of numbers.
+
+Formulas are those of the edition of 2006, from memory of the standard; section 12's worked example of a
+published design report confirms them (`tests/validation/test_rating.py`). The edition of 2019 has Z_B = Z_D
+above 1 for helical gears without profile modification (its factor f_ZCa): not taken here.
+"""
+
+import math
+from typing import NamedTuple
+
+from tribodyn.standards.contact_path import ContactPath
+from tribodyn.standards.fatigue import Curve
+from tribodyn.standards.metals import SURFACE_HARDENED, VICKERS, Metal, contact_factors
+
+#: σ_Hlim between which C_ZL and C_ZR change, N/mm².
+_SOFT, _HARD = 850.0, 1200.0
+#: Brinell hardness between which softer gears harden at work, and that of the formula's end.
+_SOFTEST, _HARDEST = 130.0, 470.0
+
+
+class PittingMesh(NamedTuple):
+    """What the contact stress and its factors depend on; pairs are (pinion, gear)."""
+
+    path: ContactPath
+    #: transverse reference radii r, m, and normal pressure and helix angle at the reference circle, rad
+    reference_radius: tuple[float, float]
+    normal_pressure_angle: float
+    helix_angle: float
+    face_width: float  # b, m
+    pinion_torque: float  # N m
+    pinion_speed: float  # rad/s
+    effective_modulus: float  # 2/E_r = Σ(1 − ν²)/E inverted: E_r, Pa
+    viscosity_40: float  # ν40 of the oil, m²/s
+    #: mean peak-to-valley roughness of the flanks Rz1, Rz2, m
+    roughness: tuple[float, float]
+
+
+class Geometry(NamedTuple):
+    """Factors of the contact stress that do not depend on the load."""
+
+    zone: float  # Z_H
+    elasticity: float  # Z_E, √Pa
+    contact_ratio: float  # Z_ε
+    helix: float  # Z_β
+    single_pair: tuple[float, float]  # Z_B, Z_D
+    nominal: float  # σ_H0, Pa
+
+
+class Influences(NamedTuple):
+    """Factors of the permissible stress at the reference number of cycles, and work hardening; a gear each."""
+
+    lubricant: tuple[float, float]  # Z_L
+    speed: tuple[float, float]  # Z_v
+    roughness: tuple[float, float]  # Z_R
+    hardening: tuple[float, float]  # Z_W
+    size: float = 1.0  # Z_X
+
+    def of(self, gear: int) -> float:
+        """Product of the factors of pinion (0) or gear (1)."""
+        return (
+            self.lubricant[gear] * self.speed[gear] * self.roughness[gear] * self.hardening[gear] * self.size
+        )
+
+
+def tangential_load(mesh: PittingMesh) -> float:
+    """F_t at the reference circle, N."""
+    return mesh.pinion_torque / abs(mesh.reference_radius[0])
+
+
+def geometry(mesh: PittingMesh) -> Geometry:
+    """Factors and nominal contact stress σ_H0 = Z_H Z_E Z_ε Z_β √(F_t/(d_1 b) (u + 1)/u): (4) to (6).
+
+    Z_H (14), Z_E (24), Z_ε (28) to (30), Z_β = 1/√cos β (31); of an internal gear u < 0.
+    """
+    path, ratio = mesh.path, mesh.path.ratio
+    transverse = math.atan(math.tan(mesh.normal_pressure_angle) / math.cos(mesh.helix_angle))
+    zone = math.sqrt(
+        2.0 * math.cos(path.base_helix_angle) / (math.cos(transverse) ** 2 * math.tan(path.pressure_angle))
+    )
+    elasticity = math.sqrt(mesh.effective_modulus / (2.0 * math.pi))
+    shared = contact_ratio_factor(path.contact_ratio, path.overlap_ratio)
+    helix = 1.0 / math.sqrt(math.cos(mesh.helix_angle))
+    diameter = 2.0 * mesh.reference_radius[0]
+    pressed = tangential_load(mesh) / (abs(diameter) * mesh.face_width)
+    curved = (ratio + 1.0) / ratio
+    nominal = zone * elasticity * shared * helix * math.sqrt(pressed * curved)
+    return Geometry(zone, elasticity, shared, helix, single_pair_factors(path), nominal)
+
+
+def contact_ratio_factor(transverse: float, overlap: float) -> float:
+    """Z_ε: √((4 − ε_α)/3) of spur gears, √(1/ε_α) from ε_β = 1 on, between by ε_β: (28) to (30)."""
+    part = min(overlap, 1.0)
+    return math.sqrt((4.0 - transverse) / 3.0 * (1.0 - part) + part / transverse)
+
+
+def single_pair_factors(path: ContactPath) -> tuple[float, float]:
+    """Z_B and Z_D: stress at the inner points B and D of single pair contact over that at the pitch point.
+
+    Quotients M_1 and M_2 (15), (16) of spur gears, at least 1; they fall to 1 with the overlap ratio. Z_D of a
+    pair with an internal gear is 1.
+    """
+    tangent = math.tan(path.pressure_angle)
+    whole = 2.0 * math.pi
+    roots = [
+        math.sqrt((tip / base) ** 2 - 1.0)
+        for tip, base in zip(path.tip_radius, path.base_radius, strict=True)
+    ]
+    pitches = [whole / z for z in path.teeth]
+    # of internal gears √ stands for a length with the sign of the radius: over r_b it is positive
+    beyond = path.contact_ratio - 1.0
+    found = []
+    for own, other in ((0, 1), (1, 0)):
+        inner = (roots[own] - pitches[own]) * (roots[other] - beyond * pitches[other])
+        found.append(tangent / math.sqrt(inner) if inner > 0.0 else 1.0)
+    part = min(path.overlap_ratio, 1.0)
+    factors = [max(m - part * (m - 1.0), 1.0) for m in found]
+    return factors[0], factors[1] if path.ratio > 0.0 else 1.0
+
+
+def contact_stress(found: Geometry, load_factor: float) -> tuple[float, float]:
+    """σ_H of pinion and gear, Pa: Z_B, Z_D σ_H0 √K with K = K_A K_γ K_v K_Hβ K_Hα: (2), (3)."""
+    raised = found.nominal * math.sqrt(load_factor)
+    return found.single_pair[0] * raised, found.single_pair[1] * raised
+
+
+def influences(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> Influences:
+    """Z_L (34), Z_v (37), Z_R (39) and Z_W (42) to (46)."""
+    speed = mesh.pinion_speed * abs(mesh.reference_radius[0])
+    lubricant, velocity, rough = [], [], []
+    equivalent = _reference_roughness(mesh, sum(mesh.roughness) / 2.0)
+    for metal in metals:
+        limit = 1e-6 * metal.contact_limit
+        share = min(max((limit - _SOFT) / (_HARD - _SOFT), 0.0), 1.0)
+        c_l = 0.83 + 0.08 * share
+        lubricant.append(c_l + 4.0 * (1.0 - c_l) / (1.2 + 134.0 / (1e6 * mesh.viscosity_40)) ** 2)
+        c_v = c_l + 0.02
+        velocity.append(c_v + 2.0 * (1.0 - c_v) / math.sqrt(0.8 + 32.0 / max(speed, 1e-9)))
+        c_r = 0.32 - 0.0002 * min(max(limit, _SOFT), _HARD)
+        rough.append((3.0 / (1e6 * equivalent)) ** c_r)
+    return Influences(_two(lubricant), _two(velocity), _two(rough), work_hardening(mesh, metals))
+
+
+def _two(values: list[float]) -> tuple[float, float]:
+    return values[0], values[1]
+
+
+def _reduced_radius(mesh: PittingMesh) -> float:
+    """ρ_red at the pitch point, m: ρ = r_b tan α_wt of either gear."""
+    first, second = (base * math.tan(mesh.path.pressure_angle) for base in mesh.path.base_radius)
+    return first * second / (first + second)
+
+
+def _reference_roughness(mesh: PittingMesh, roughness: float) -> float:
+    """Rz10 = Rz (10 mm/ρ_red)^(1/3), m: that of gears with ρ_red = 10 mm, (38)."""
+    return roughness * (0.01 / _reduced_radius(mesh)) ** (1.0 / 3.0)
+
+
+def work_hardening(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> tuple[float, float]:
+    """Z_W: the softer gear hardens at work against a surface-hardened or a harder through-hardened mate."""
+    harder = 0 if metals[0].hardness >= metals[1].hardness else 1
+    softer = 1 - harder
+    factors = [1.0, 1.0]
+    if metals[softer].treatment not in SURFACE_HARDENED:
+        brinell = metals[softer].hardness / VICKERS
+        if metals[harder].treatment in SURFACE_HARDENED:
+            rough = _hardened_roughness(mesh, harder)
+            held = min(max(brinell, _SOFTEST), _HARDEST)
+            factors[softer] = (1.2 - (held - _SOFTEST) / 1700.0) * (3.0 / rough) ** 0.15
+        elif softer == 1:
+            ratio = min(metals[harder].hardness / metals[softer].hardness, 1.7)
+            slope = 0.00898 * ratio - 0.00829 if ratio >= 1.2 else 0.0
+            factors[softer] = 1.0 + slope * (min(abs(mesh.path.ratio), 20.0) - 1.0)
+    return factors[0], factors[1]
+
+
+def _hardened_roughness(mesh: PittingMesh, harder: int) -> float:
+    """Equivalent roughness Rz_H of the harder flank against the softer, µm, held within 3 and 16: (43)."""
+    own, other = mesh.roughness[harder], mesh.roughness[1 - harder]
+    speed = mesh.pinion_speed * abs(mesh.reference_radius[0])
+    found = 1e6 * own * (0.01 / _reduced_radius(mesh)) ** 0.33 * (own / other) ** 0.66
+    return min(max(found / (1e6 * mesh.viscosity_40 * speed / 1500.0) ** 0.33, 3.0), 16.0)
+
+
+def permissible(metal: Metal, influence: float) -> Curve:
+    """σ_HG over load cycles, Pa: σ_Hlim Z_NT Z_L Z_v Z_R Z_W Z_X from the reference number of cycles on.
+
+    At and below the static number of cycles the influences count as 1; between both straight lines: (32), (33).
+    """
+    factors = contact_factors(metal.treatment)
+    limit = [metal.contact_limit] * len(factors.stress)
+    return factors.times(limit).times([1.0, *[influence] * (len(limit) - 1)])
