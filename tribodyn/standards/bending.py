@@ -1,15 +1,15 @@
 """Tooth bending strength of involute gears: ISO 6336-3, method B, as functions of numbers.
 
 Formulas are those of the edition of 2006, from memory of the standard; section 12's worked example of a
-published design report confirms them (`tests/validation/test_rating.py`). The edition of 2019 has a factor
-f_ε ≤ 1 in Y_F and pinion-type cutters: the critical section here is that of the tooth as it is cut, by rack or
-cutter (`geometry.root_section`), without f_ε.
+published design report confirms them (`tests/validation/test_rating.py`). The critical section is that of the
+tooth as it is cut, by rack or pinion-type cutter (`geometry.root_section`). The edition of 2019 has a factor
+f_ε ≤ 1 in Y_F: not taken here.
 """
 
 import math
 from typing import NamedTuple
 
-from tribodyn.standards.fatigue import Curve
+from tribodyn.standards.fatigue import StressCurve
 from tribodyn.standards.metals import SURFACE_HARDENED, Metal, bending_factors, slip_layer
 
 #: Y_ST: the test gears' stress correction factor.
@@ -200,7 +200,7 @@ def _alternating(metal: Metal, correction: float) -> float:
     return 1.0 / (1.0 - _STRESS_RATIO * (1.0 - of_metal) / (1.0 + of_metal))
 
 
-def permissible(metal: Metal, factors: Relative) -> Curve:
+def permissible(metal: Metal, factors: Relative) -> StressCurve:
     """σ_FG over load cycles, Pa: σ_Flim Y_ST Y_NT Y_δrelT Y_RrelT Y_X from the reference number of cycles on.
 
     At and below the static number of cycles Y_δrelT is the static one, Y_RrelT = Y_X = 1; between straight

@@ -7,7 +7,7 @@ damage, and a life under them alone has no end.
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple, cast
 
 from scipy.optimize import brentq
 
@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 _SAFETIES = (1e-4, 1e4)
 
 
-class Curve(NamedTuple):
+class StressCurve(NamedTuple):
     """Permissible stress, Pa, or its factor, over load cycles; cycles increase, stresses fall."""
 
     cycles: tuple[float, ...]
@@ -48,9 +48,9 @@ class Curve(NamedTuple):
     def _segments(self) -> list[tuple[float, float, float, float]]:
         return list(zip(self.cycles[:-1], self.cycles[1:], self.stress[:-1], self.stress[1:], strict=True))
 
-    def times(self, factors: Sequence[float]) -> "Curve":
+    def times(self, factors: Sequence[float]) -> "StressCurve":
         """The curve with every stress times its factor."""
-        return Curve(self.cycles, tuple(s * f for s, f in zip(self.stress, factors, strict=True)))
+        return StressCurve(self.cycles, tuple(s * f for s, f in zip(self.stress, factors, strict=True)))
 
 
 class Bin(NamedTuple):
@@ -60,7 +60,7 @@ class Bin(NamedTuple):
     cycles: float
 
 
-def damage(bins: Sequence[Bin], curve: Curve, safety: float = 1.0) -> float:
+def damage(bins: Sequence[Bin], curve: StressCurve, safety: float = 1.0) -> float:
     """Miner's sum Σ n/N of stresses times a safety: 1 where life ends; infinite above the static limit."""
     total = 0.0
     for stress, cycles in bins:
@@ -70,7 +70,7 @@ def damage(bins: Sequence[Bin], curve: Curve, safety: float = 1.0) -> float:
     return total
 
 
-def safety(bins: Sequence[Bin], curve: Curve) -> float:
+def safety(bins: Sequence[Bin], curve: StressCurve) -> float:
     """Factor S by which all stresses may grow until Miner's sum is 1: ISO 6336-6, 4.
 
     Of a single bin permissible stress over stress. Infinite without stress.
@@ -87,10 +87,10 @@ def safety(bins: Sequence[Bin], curve: Curve) -> float:
         return min(found, 1e30) - 1.0
 
     low, high = (math.log(bound * curve.stress[-1] / highest) for bound in _SAFETIES)
-    return math.exp(brentq(excess, low, high, xtol=1e-10))
+    return math.exp(float(cast(Any, brentq(excess, low, high, xtol=1e-10))))
 
 
-def life_share(bins: Sequence[Bin], curve: Curve, required: float) -> float:
+def life_share(bins: Sequence[Bin], curve: StressCurve, required: float) -> float:
     """How many times the bins' cycles are endured at a required safety; infinite where nothing is damaged."""
     found = damage(bins, curve, required)
     return 1.0 / found if found > 0.0 else math.inf

@@ -8,7 +8,7 @@ confirms what it uses of case-hardened steel (`tests/validation/test_rating.py`)
 from types import MappingProxyType
 from typing import Literal, NamedTuple, get_args
 
-from tribodyn.standards.fatigue import Curve
+from tribodyn.standards.fatigue import StressCurve
 
 Treatment = Literal[
     "normalized",
@@ -146,24 +146,24 @@ def hardness_range(treatment: Treatment, grade: Grade) -> tuple[float, float]:
     return CONTACT[treatment][grade].hardness
 
 
-def contact_factors(treatment: Treatment) -> Curve:
+def contact_factors(treatment: Treatment) -> StressCurve:
     """Life factor Z_NT over load cycles, no pitting permitted: ISO 6336-2, table 2."""
     if treatment in ("grey-iron", *_NITRIDED):
-        return Curve((1e5, 2e6, 1e10), (1.3, 1.0, 0.85))
+        return StressCurve((1e5, 2e6, 1e10), (1.3, 1.0, 0.85))
     if treatment == "nitrocarburized":
-        return Curve((1e5, 2e6, 1e10), (1.1, 1.0, 0.85))
-    return Curve((1e5, 5e7, 1e10), (1.6, 1.0, 0.85))
+        return StressCurve((1e5, 2e6, 1e10), (1.1, 1.0, 0.85))
+    return StressCurve((1e5, 5e7, 1e10), (1.6, 1.0, 0.85))
 
 
-def bending_factors(treatment: Treatment) -> Curve:
+def bending_factors(treatment: Treatment) -> StressCurve:
     """Life factor Y_NT over load cycles: ISO 6336-3, table 1."""
     if treatment in ("case-hardened", "induction-hardened"):
-        return Curve((1e3, 3e6, 1e10), (2.5, 1.0, 0.85))
+        return StressCurve((1e3, 3e6, 1e10), (2.5, 1.0, 0.85))
     if treatment in ("grey-iron", *_NITRIDED):
-        return Curve((1e3, 3e6, 1e10), (1.6, 1.0, 0.85))
+        return StressCurve((1e3, 3e6, 1e10), (1.6, 1.0, 0.85))
     if treatment == "nitrocarburized":
-        return Curve((1e3, 3e6, 1e10), (1.1, 1.0, 0.85))
-    return Curve((1e4, 3e6, 1e10), (2.5, 1.0, 0.85))
+        return StressCurve((1e3, 3e6, 1e10), (1.1, 1.0, 0.85))
+    return StressCurve((1e4, 3e6, 1e10), (2.5, 1.0, 0.85))
 
 
 #: Yield strength over Vickers hardness of quenched and tempered steel: σ_B = 3.2 HV N/mm² (ISO 18265), and

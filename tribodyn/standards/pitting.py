@@ -9,7 +9,7 @@ import math
 from typing import NamedTuple
 
 from tribodyn.standards.contact_path import ContactPath
-from tribodyn.standards.fatigue import Curve
+from tribodyn.standards.fatigue import StressCurve
 from tribodyn.standards.metals import SURFACE_HARDENED, VICKERS, Metal, contact_factors
 
 #: σ_Hlim between which C_ZL and C_ZR change, N/mm².
@@ -47,7 +47,7 @@ class Geometry(NamedTuple):
 
 
 class Influences(NamedTuple):
-    """Factors of the permissible stress at the reference number of cycles, and work hardening; a gear each."""
+    """Factors of the permissible stress at the reference number of cycles, of pinion and gear."""
 
     lubricant: tuple[float, float]  # Z_L
     speed: tuple[float, float]  # Z_v
@@ -96,8 +96,8 @@ def contact_ratio_factor(transverse: float, overlap: float) -> float:
 def single_pair_factors(path: ContactPath) -> tuple[float, float]:
     """Z_B and Z_D: stress at the inner points B and D of single pair contact over that at the pitch point.
 
-    Quotients M_1 and M_2 (15), (16) of spur gears, at least 1; they fall to 1 with the overlap ratio. Z_D of a
-    pair with an internal gear is 1.
+    Quotients M_1 and M_2 (15), (16) of spur gears, at least 1; they fall to 1 with the overlap ratio. Z_D of
+    a pair with an internal gear is 1.
     """
     tangent = math.tan(path.pressure_angle)
     whole = 2.0 * math.pi
@@ -181,10 +181,10 @@ def _hardened_roughness(mesh: PittingMesh, harder: int) -> float:
     return min(max(found / (1e6 * mesh.viscosity_40 * speed / 1500.0) ** 0.33, 3.0), 16.0)
 
 
-def permissible(metal: Metal, influence: float) -> Curve:
+def permissible(metal: Metal, influence: float) -> StressCurve:
     """σ_HG over load cycles, Pa: σ_Hlim Z_NT Z_L Z_v Z_R Z_W Z_X from the reference number of cycles on.
 
-    At and below the static number of cycles the influences count as 1; between both straight lines: (32), (33).
+    At and below the static number of cycles the influences count as 1; between straight lines: (32), (33).
     """
     factors = contact_factors(metal.treatment)
     limit = [metal.contact_limit] * len(factors.stress)

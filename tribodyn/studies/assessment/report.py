@@ -28,6 +28,7 @@ REPORTED: Reported = {
         scatter_of("dynamic_factor"),
         *quantities("dynamic_factor_max", "dynamic_factor_max_speed", "contact_loss_speed_from"),
     ),
+    "Load capacity": quantities("S_H", "S_F", "life"),
     "Film and losses": quantities(
         *("specific_film_min", "contact_temperature_max", "power_friction_mean"),
         *("efficiency", "efficiency_lowest", "efficiency_highest"),
@@ -39,6 +40,7 @@ SWEPT = quantities(
     *("efficiency", "power_friction_mean", "dynamic_factor", "dynamic_factor_max"),
     *("hertz_pressure_max", "specific_film_min", "contact_temperature_max"),
     *("loaded_transmission_error_peak_to_peak", "pinion_root_tension_max", "gear_root_tension_max"),
+    *("S_H", "S_F", "life"),
 )
 
 PANELS = ("hertz_pressure", "contact_temperature", "specific_film")

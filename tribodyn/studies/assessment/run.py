@@ -22,10 +22,11 @@ from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_a
 from tribodyn.studies.assessment.parts import Part
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins, metal_remarks
+from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins, safeties
 from tribodyn.studies.gears.rated.margins import strength_of
 from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
 from tribodyn.studies.gears.rated.standard import iso_part, rated_duty, standard_of
+from tribodyn.studies.gears.rated.strength import metal_remarks
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.part import TaskResult
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
@@ -113,7 +114,7 @@ def assessed(
         "contact_temperature_max": float(local.films.bulk_temperature + np.nanmax(local.films.flash_rise)),
         "specific_film_min": simulated["lambda_GF"]["worst"],
         **({"transverse_load_factor_method_b": by_standard.factors.transverse_b} if by_standard else {}),
-        **({"life": capacity.life} if capacity else {}),
+        **safeties(capacity),
         "iso": (iso_part(case, by_standard) if by_standard else {})
         | (capacity.by_name() if capacity else {}),
         "simulated": simulated,

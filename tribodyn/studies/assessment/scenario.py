@@ -11,9 +11,9 @@ from tribodyn.scenario import units
 from tribodyn.scenario.fields import Temperature
 from tribodyn.scenario.quantity import InUnit, Table, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings
+from tribodyn.scenario.tables.drive_data import materials_of
 from tribodyn.scenario.tables.duty import OperatingTable, broken_driving_rules, duty_of, spectrum_of
 from tribodyn.scenario.tables.losses import LossesTable, TemperatureTable
-from tribodyn.scenario.tables.drive_data import materials_of
 from tribodyn.scenario.tables.lubricant import lubricant_of
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.quality import tolerances_of
@@ -72,16 +72,15 @@ Scenario = AssessmentScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
     """Return the case of a scenario that has passed schema and rules."""
     oil_temperature = scenario.operating.oil_temperature
+    teeth = scenario.drive.pinion.teeth, scenario.drive.gear.teeth
+    duties = [(share, duty_of(duty.operating, *teeth)) for share, duty in spectrum_of(scenario)]
     return AssessmentCase(
         **gear_fields(scenario, toml, sha256),
         lubricant=lubricant_of(scenario.lubricant, oil_temperature),
         oil_temperature=oil_temperature,
         settings=scenario.assessment,
         limits=scenario.limits.model_dump() | required(scenario.assessment),
-        spectrum=tuple(
-            (share, *duty_of(duty.operating, scenario.drive.pinion.teeth, scenario.drive.gear.teeth))
-            for share, duty in spectrum_of(scenario)
-        ),
+        spectrum=tuple((share, duty.pinion_speed, duty.gear_torque) for share, duty in duties),
     )
 
 

@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
-from tribodyn.studies.gear_train.case import TrainCase
+from tribodyn.geometry.drive import SIDES
+from tribodyn.studies.gear_train.case import TrainCase, TrainMesh
 from tribodyn.studies.gear_train.described.alike import alike_of
 from tribodyn.studies.gear_train.planetary.results import meshes_of_member
-from tribodyn.studies.protocol.part import MeshAtDuty, WholeDrive
+from tribodyn.studies.protocol.part import MeshAtDuty, Meshing, WholeDrive
 from tribodyn.train.planetary import RING, SUN
 
 
@@ -19,9 +20,21 @@ def meshes(case: TrainCase) -> list[MeshAtDuty]:
         for m in meshes_of_member(case, own, member)
     }
     return [
-        MeshAtDuty(mesh.name, mesh.pair, alike, stages.get(m, ""))
+        MeshAtDuty(mesh.name, mesh.pair, alike, stages.get(m, ""), _meshing(case, mesh))
         for m, (mesh, alike) in enumerate(zip(case.meshes, alike_of(case), strict=True))
     ]
+
+
+def _meshing(case: TrainCase, mesh: TrainMesh) -> tuple[Meshing, Meshing]:
+    """How the gears of a mesh are loaded in all of their meshes.
+
+    Teeth that drive are loaded on one flank, those that are driven on the other.
+    """
+    found = []
+    for number, own in zip(mesh.gears, SIDES, strict=True):
+        roles = [side for _, side in case.gears[number].meshes]
+        found.append(Meshing(roles.count(own), len(set(roles)) > 1))
+    return found[0], found[1]
 
 
 def at_speed(case: TrainCase, scenario: Mapping[str, Any], factor: float) -> dict[str, Any]:

@@ -95,6 +95,13 @@ class Contribution(NamedTuple):
     answer: Callable[[Request, Mapping[str, TaskResult]], Findings]
 
 
+class Meshing(NamedTuple):
+    """How a gear's teeth are loaded."""
+
+    per_turn: int = 1  # how often a flank is loaded in a turn
+    reversed: bool = False  # whether both flanks are: of an idler, a planet
+
+
 class MeshAtDuty(NamedTuple):
     """A mesh of a train as a pair of gears."""
 
@@ -102,6 +109,7 @@ class MeshAtDuty(NamedTuple):
     pair: Any  # its case: gears, oil, speed of the driver, torque of the driven gear
     alike: str = ""  # what it shares with the meshes of a set's other planets; "": none
     stage: str = ""  # planetary stage that it belongs to; "": none
+    meshing: tuple[Meshing, Meshing] = (Meshing(), Meshing())  # of driver and driven gear
 
 
 class WholeDrive(NamedTuple):

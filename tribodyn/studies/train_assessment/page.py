@@ -88,6 +88,8 @@ def _tiles(summary: Mapping[str, Any]) -> str:
     if "mesh_load_factor" in summary:
         shown.append((f"{summary['mesh_load_factor']:.3f}", "K_γ, load of the planet with most"))
     for name, text in (
+        ("S_H", "pitting"),
+        ("S_F", "tooth bending"),
         ("S_B", "scuffing, flash temperature"),
         ("S_intS", "scuffing, integral temperature"),
         ("S_lambda", "micropitting"),

@@ -1,6 +1,6 @@
 """Reported quantities of an assessment of a train, and how far to trust them."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from tribodyn.post.verdict import numbers, with_unit
@@ -21,12 +21,12 @@ REPORTED: Reported = {
     ),
     "Planets": quantities("mesh_load_factor", "mesh_load_factor_max", "planet_load_factor_max"),
     "Film": quantities("film_min", "film_parameter_min", "hertz_pressure_max", "contact_temperature_max"),
-    "Margins": quantities("S_B", "S_intS", "S_lambda"),
+    "Margins": quantities("S_H", "S_F", "life", "S_B", "S_intS", "S_lambda"),
     "Solver": quantities("wall_time"),
 }
 SWEPT = quantities(
     *("efficiency", "power_friction_mean", "dynamic_factor", "dynamic_factor_max"),
-    *("hertz_pressure_max", "film_parameter_min", "S_B", "S_lambda"),
+    *("hertz_pressure_max", "film_parameter_min", "S_H", "S_F", "life", "S_B", "S_lambda"),
 )
 PANELS = ("dynamic_factor", "efficiency")
 #: Part of a mesh's summary -> its quantities in the table of meshes.
@@ -35,7 +35,10 @@ OF_A_MESH: dict[str, tuple[Quantity, ...]] = {
         *("power_in_mean", "power_friction_mean", "efficiency", "dynamic_factor", "hertz_pressure_max"),
         *("film_min", "film_parameter_min", "contact_temperature_max", "S_B", "S_lambda"),
     ),
-    "iso": quantities("K_v", "K_Halpha", "H_v", "lambda_GF", "theta_B", "S_B", "S_intS", "S_lambda"),
+    "iso": quantities(
+        *("K_v", "K_Halpha", "K_gamma", "sigma_H", "S_H", "sigma_F", "S_F", "life"),
+        *("H_v", "lambda_GF", "theta_B", "S_B", "S_intS", "S_lambda"),
+    ),
 }
 OF_A_STAGE = quantities(
     *("mesh_load_factor", "planet_load_factor_max", "power_in_mean", "power_friction_mean", "efficiency")
@@ -53,11 +56,17 @@ def groups_of(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, list[str]]:
 def worst_in(quantity: Quantity, part: str, names: list[str], meshes: Mapping[str, Mapping[str, Any]]) -> str:
     """A quantity of a group of meshes, written: the largest, of film, efficiency and safety the smallest."""
     values = [meshes[name].get(part, {}).get(quantity.name) for name in names]
-    known = [value["worst"] if isinstance(value, Mapping) else value for value in values if value is not None]
-    if not known:
-        return "–"
-    least = quantity.name.startswith(("S_", "film", "lambda", "efficiency"))
-    return quantity.written(float(min(known) if least else max(known)))
+    few = quantity.name.startswith(("S_", "film", "lambda", "efficiency", "life"))
+    extreme = min if few else max
+    known = [_of_table(value, extreme) for value in values if value is not None]
+    return quantity.written(float(extreme(known))) if known else "–"
+
+
+def _of_table(value: Any, extreme: Callable[[Any], float]) -> float:
+    """A number; of a table by points the worst, of one by gears the extreme."""
+    if not isinstance(value, Mapping):
+        return float(value)
+    return float(value["worst"] if "worst" in value else extreme(value.values()))
 
 
 def mesh_rows(summary: Mapping[str, Any], part: str) -> tuple[list[str], list[list[str]]]:
@@ -120,7 +129,7 @@ def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
     if (share := found.get("mesh_load_factor")) is not None:
         yield f"The planet with most carries {share:.3f} times its share (K_γ)."
     least = summary.get("worst_of", {})
-    names = [name for name in ("S_B", "S_intS", "S_lambda") if name in found and name in least]
+    names = [name for name in ("S_H", "S_F", "S_B", "S_intS", "S_lambda") if name in found and name in least]
     if names:
         parts = [f"{QUANTITIES[name].symbol} {found[name]:.2f} in {least[name]}" for name in names]
         yield f"Smallest safeties: {', '.join(parts)}."

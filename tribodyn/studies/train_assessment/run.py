@@ -15,10 +15,18 @@ from tribodyn.post.report import EXCEEDED
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
 from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.limits import judged, worst
+from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
+from tribodyn.studies.gears.rated.limits import judged, least, worst
 from tribodyn.studies.gears.rated.margins import strength_of
-from tribodyn.studies.gears.rated.said import numbered
-from tribodyn.studies.gears.rated.standard import RatedDuty, iso_part, margins_by_standard, standard_of
+from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
+from tribodyn.studies.gears.rated.standard import (
+    factors_by_name,
+    iso_part,
+    margins_by_standard,
+    rated_duty,
+    standard_of,
+)
+from tribodyn.studies.gears.rated.strength import metal_remarks
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.part import MeshAtDuty, Task, TaskResult, WholeDrive
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
@@ -195,25 +203,25 @@ def _of_mesh(case: TrainAssessmentCase, mesh: MeshAtDuty, own: Mapping[str, Any]
     if pair.quality is None or not assembly.family.involute or not pair.operating.gear_torque > 0.0:
         return found
     oil = float(pair.lubricant.temperature)
-    application = settings.application_factor * share
-    duty = RatedDuty(
-        oil, application, settings.face_load_factor, settings.lubrication, settings.adequate_tip_relief
-    )
+    duty = rated_duty(settings, oil, face=1.0, mesh=share)._replace(mesh=share)
     standard = standard_of(pair, assembly, duty)
     strength = strength_of(pair.lubricant, oil, settings.structure_factor)
-    found["load_factors"] |= {"K_v": standard.dynamic.factor, "K_Halpha": standard.transverse}
-    return found | {"iso": iso_part(pair, standard) | margins_by_standard(standard, strength, oil)}
+    found["load_factors"] |= factors_by_name(standard.factors)
+    bins = life_bins(pair, assembly, standard.factors)
+    capacity = capacity_of(pair, assembly, standard.factors, bins, settings, mesh.meshing)
+    by_standard = iso_part(pair, standard) | margins_by_standard(standard, strength, oil)
+    return found | {"iso": by_standard | ({"life": capacity.life, **capacity.by_name()} if capacity else {})}
 
 
 def _margin(mesh: Mapping[str, Any], name: str) -> float:
     """A safety of a mesh: the worse of the standard's and the simulation's; NaN: neither is known."""
-    return worst(*(mesh.get(part, {}).get(name) for part in ("iso", "simulated")))
+    return worst(*(least(mesh.get(part, {}).get(name)) for part in ("iso", "simulated")))
 
 
 def _worst_margins(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """Smallest safeties of all meshes, and which mesh has them."""
     found: dict[str, Any] = {}
-    for name in ("S_B", "S_intS", "S_lambda"):
+    for name in ("S_H", "S_F", "life", "S_B", "S_intS", "S_lambda"):
         known = {mesh: _margin(each, name) for mesh, each in meshes.items()}
         known = {mesh: value for mesh, value in known.items() if math.isfinite(value)}
         if known:
@@ -226,7 +234,10 @@ def _worst_margins(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
 def _values(own: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:
     """What the limits are compared with."""
     margins = _worst_margins(meshes)
-    names = {"scuffing_flash": "S_B", "scuffing_integral": "S_intS", "micropitting": "S_lambda"}
+    names = {
+        **{"pitting": "S_H", "bending": "S_F", "life": "life"},
+        **{"scuffing_flash": "S_B", "scuffing_integral": "S_intS", "micropitting": "S_lambda"},
+    }
     found = {limit: margins.get(name, math.nan) for limit, name in names.items()}
     of_run = {"hertz_pressure": "hertz_pressure_max"}
     for limit in ("dynamic_factor", "hertz_pressure", "mesh_load_factor"):
@@ -237,10 +248,9 @@ def _values(own: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> 
 
 def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
     settings = case.settings
-    given = settings.mesh_load_factor
-    share = f"K_γ = {given:g}" if given is not None else "K_γ of each planetary stage by the simulation"
-    share = f" {share};" if any("alike" in mesh for mesh in meshes.values()) else ""
-    yield f"K_A = {settings.application_factor:g};{share} K_Hβ = {settings.face_load_factor:g} in every mesh."
+    yield f"In every mesh {factors_said(settings)}"
+    if settings.mesh_load_factor is None and any("alike" in mesh for mesh in meshes.values()):
+        yield "K_γ of each planetary stage is that of the simulation."
     yield "Accurate teeth in the simulation but for modifications and pin errors of the scenario."
     rated = [name for name, mesh in meshes.items() if "iso" in mesh]
     if len(rated) < len(meshes):
@@ -254,6 +264,11 @@ def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]])
             "method B, flanks without credited tip relief, case-hardened running-in, new oil; no integral "
             "temperature of a ring."
         )
+    if rated:
+        pairs = [mesh.pair for mesh in _whole(case).meshes(case.subject.case)]
+        materials = {remark for pair in pairs for remark in metal_remarks(pair)}
+        yield from sorted(materials)
+        yield life_said(settings, 0)
     if any("S_B" not in mesh.get("simulated", {}) for mesh in meshes.values()):
         yield "Without an FZG load stage of the oil there is no safety against scuffing."
 

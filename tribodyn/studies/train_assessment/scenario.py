@@ -11,6 +11,7 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Positive, Table, scenario_file, written
 from tribodyn.studies import study_of
+from tribodyn.studies.gears.rated.capacity import required
 from tribodyn.studies.gears.rated.limits import OilLimits
 from tribodyn.studies.protocol.load import load_data, schema_inside
 from tribodyn.studies.train_assessment.case import TrainAssessmentCase, TrainRatingTable
@@ -67,7 +68,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> TrainAssessmentCase:
         **head_of(scenario, toml, sha256),
         subject=load_data(train, str(train.get("name") or "train")),
         settings=scenario.assessment,
-        limits=scenario.limits.model_dump(),
+        limits=scenario.limits.model_dump() | required(scenario.assessment),
     )
 
 

@@ -2,28 +2,21 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, MaterialData, Side, body_of, reference_radius, tip_circle_radius
+from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius, tip_circle_radius
 from tribodyn.geometry.helix import normal_module, normal_pressure_angle
 from tribodyn.geometry.root_section import critical_section
 from tribodyn.standards import bending, pitting
-from tribodyn.standards.fatigue import Bin, Curve, damage, life_share, safety
-from tribodyn.standards.metals import (
-    BENDING,
-    CONTACT,
-    Grade,
-    Metal,
-    Treatment,
-    hardness_range,
-    stress_number,
-    yield_from_hardness,
-)
+from tribodyn.standards.fatigue import Bin, StressCurve, damage, life_share, safety
+from tribodyn.standards.metals import Metal
 from tribodyn.studies.gears.case import OiledCase
 from tribodyn.studies.gears.rated.margins import flanks_of
 from tribodyn.studies.gears.rated.settings import PEAKS_OVER_MEAN, RatingTable
 from tribodyn.studies.gears.rated.standard import LoadFactors, load_factors, path_of
+from tribodyn.studies.gears.rated.strength import metals_of
+from tribodyn.studies.protocol.part import Meshing
 
 #: Where lines of permissible stress end, load cycles.
 LAST_CYCLES = 1e10
@@ -38,19 +31,12 @@ class LoadBin(NamedTuple):
     factors: LoadFactors
 
 
-class Meshing(NamedTuple):
-    """How often a gear's flank is loaded in a turn, and whether both flanks are."""
-
-    per_turn: int = 1
-    reversed: bool = False
-
-
 class Failure(NamedTuple):
     """One way to fail of one gear, and what the required life asks."""
 
     stress: float  # at the duty, Pa
     bins: tuple[Bin, ...]  # of the required life
-    curve: Curve  # permissible stress σ_G over load cycles
+    curve: StressCurve  # permissible stress σ_G over load cycles
     cycles: float  # N_L of the required life
     safety: float  # S, over all bins
     damage: float  # Miner's sum at the required safety
@@ -78,54 +64,11 @@ class Capacity(NamedTuple):
         return min(each.life for gear in self.gears for each in (gear.pitting, gear.bending))
 
     def by_name(self) -> dict[str, Any]:
-        """Everything by the names of the standard; what either gear has of its own by ``pinion``, ``gear``."""
+        """Everything by the standard's names; what either gear has of its own by ``pinion``, ``gear``."""
         found: dict[str, Any] = dict(self.common)
         for name in self.gears[0].factors:
             found[name] = {side: gear.factors[name] for side, gear in zip(SIDES, self.gears, strict=True)}
         return found
-
-
-def metal_of(material: MaterialData) -> Metal | None:
-    """Strength of a material: given, or by ISO 6336-5; None where its heat treatment is not said."""
-    if material.treatment is None:
-        return None
-    treatment, grade = cast(Treatment, material.treatment), cast(Grade, material.grade)
-    contact, root = material.contact_stress_limit, material.bending_stress_limit
-    if contact is None:
-        contact = stress_number(CONTACT[treatment][grade], material.hardness)
-    if root is None:
-        root = stress_number(BENDING[treatment][grade], material.hardness)
-    strength = material.yield_strength or yield_from_hardness(material.hardness)
-    return Metal(treatment, contact, root, material.hardness, strength)
-
-
-def metals_of(case: OiledCase) -> tuple[Metal, Metal] | None:
-    """Strength of both gears' materials; None where one's is not known."""
-    pinion, gear = (metal_of(material) for material in case.materials)
-    return None if pinion is None or gear is None else (pinion, gear)
-
-
-def metal_remarks(case: OiledCase) -> list[str]:
-    """What is taken for the strength of the materials, and where hardness is outside the standard's range."""
-    found = []
-    for material in dict.fromkeys(case.materials):
-        if material.treatment is None:
-            found.append(f"{material.name} has no heat treatment: no safety against pitting and bending.")
-            continue
-        metal = cast(Metal, metal_of(material))
-        origin = "given" if material.contact_stress_limit and material.bending_stress_limit else "ISO 6336-5"
-        text = (
-            f"{material.name}, {material.treatment} {material.grade}: σ_Hlim {metal.contact_limit * 1e-6:.0f}"
-        )
-        found.append(f"{text} and σ_Flim {metal.bending_limit * 1e-6:.0f} N/mm² ({origin}).")
-        low, high = hardness_range(metal.treatment, cast(Grade, material.grade))
-        hardness = material.hardness / 9.80665e6
-        if origin != "given" and not 0.98 * low <= hardness <= 1.02 * high:
-            found.append(
-                f"{material.name}: {hardness:.0f} HV are outside the {low:g} to {high:g} of ISO 6336-5; its "
-                "stress numbers are those of the end of the range."
-            )
-    return found
 
 
 def capacity_of(
@@ -296,7 +239,7 @@ def _root(
     )
 
 
-def _failure(stress: float, bins: Sequence[Bin], curve: Curve, required: float, life: float) -> Failure:
+def _failure(stress: float, bins: Sequence[Bin], curve: StressCurve, required: float, life: float) -> Failure:
     cycles = sum(one.cycles for one in bins)
     share = life_share(bins, curve, required)
     unlimited = math.isinf(share)

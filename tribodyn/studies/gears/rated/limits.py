@@ -57,6 +57,11 @@ def worst(*safeties: float | None) -> float:
     return min(known, default=math.nan)
 
 
+def least(value: Any) -> float | None:
+    """A number, or the smallest of those that a table has of one quantity."""
+    return min(value.values()) if isinstance(value, Mapping) else value
+
+
 def judged(
     limits: Mapping[str, float | None],
     values: Mapping[str, float],
