@@ -16,7 +16,7 @@ from tribodyn.validation.rows import Otherwise, Row, counted, of_part, per_cent
 
 VALIDATION = DOCS / "validation.md"
 #: Pages of the papers that do not stand on the page of validation.
-PAGES = {"efremenkov-2024": DOCS / "rolling-elements.md"}
+PAGES = {"efremenkov-2024": DOCS / "rolling-elements.md", "helical-report-2017": DOCS / "standards.md"}
 #: A bar that ends no cell.
 BAR = "\\|"
 #: Pages with the counts of all papers.

@@ -52,6 +52,11 @@ PAPERS = {
         "paper's sin(beta); beside it Hertz pressures and the actual tips",
         "tribodyn.validation.jia_figures",
     ),
+    "helical-report-2017": Paper(
+        "tribodyn.validation.helical_report",
+        "Design report of a helical stage (KISSsoft 2017): ISO 6336 and ISO/TS 6336-22 factor by factor",
+        "with the load factors as printed",
+    ),
 }
 
 
