@@ -71,4 +71,3 @@ def _values(changes: Mapping[str, Any]) -> dict[str, float]:
         else:  # along the path: at A, where the film is thinnest
             found[name] = float(value["A"])
     return found
-
