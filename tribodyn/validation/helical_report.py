@@ -1,4 +1,4 @@
-"""A published design report of a helical stage (KISSsoft, 2017), factor by factor: ISO 6336 and ISO/TS 6336-22.
+"""A published design report of a helical stage (KISSsoft 2017), factor by factor: ISO 6336 and its parts.
 
 The report prints its load factors, which follow from a tolerance class that it does not print: they are given
 here as they stand there.

@@ -60,23 +60,24 @@ def test_a_gear_cut_by_a_rack_has_the_section_of_the_standards_closed_form(drive
 
 
 def test_another_program_finds_the_same_chords_and_notches():
-    """The first example of an open program of DIN 3990-11: z 19/104, m 4 mm, x 0.5/0.15, ρ_fP 0.25."""
+    """The first example of an open program of DIN 3990-11: z 19/104, m 4 mm, x 0.5/0.15, ρ_fP 0.25.
+
+    Its iteration of ϑ ends 2e-4 degrees before the solution.
+    """
     pair = td.drive(
         {
             "family": "involute",
-            **{
-                "module": "4 mm",
-                "pressure_angle": "20 deg",
-                "material": "16MnCr5",
-                "mean_roughness": "0.8 um",
-            },
+            "module": "4 mm",
+            "pressure_angle": "20 deg",
+            "material": "16MnCr5",
+            "mean_roughness": "0.8 um",
             "pinion": {"teeth": 19, "profile_shift": 0.5, "face_width": "48.64 mm", "fillet_radius": 0.25},
             "gear": {"teeth": 104, "profile_shift": 0.15, "face_width": "48.64 mm", "fillet_radius": 0.25},
         }
     )
     found = [critical_section(pair._assembly, side) for side in SIDES]
-    assert [1e3 * each.thickness for each in found] == pytest.approx([8.748743356, 9.239504611], rel=1e-8)
-    assert [1e3 * each.notch_radius for each in found] == pytest.approx([1.316147758, 1.325999193], rel=1e-8)
+    assert [1e3 * each.thickness for each in found] == pytest.approx([8.748743356, 9.239504611], rel=1e-4)
+    assert [1e3 * each.notch_radius for each in found] == pytest.approx([1.316147758, 1.325999193], rel=1e-4)
 
 
 def test_the_section_of_a_ring_is_where_its_outline_leans_by_60_degrees():
