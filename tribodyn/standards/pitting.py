@@ -80,9 +80,8 @@ def geometry(mesh: PittingMesh) -> Geometry:
     elasticity = math.sqrt(mesh.effective_modulus / (2.0 * math.pi))
     shared = contact_ratio_factor(path.contact_ratio, path.overlap_ratio)
     helix = 1.0 / math.sqrt(math.cos(mesh.helix_angle))
-    diameter = 2.0 * mesh.reference_radius[0]
-    pressed = tangential_load(mesh) / (abs(diameter) * mesh.face_width)
-    curved = (ratio + 1.0) / ratio
+    pressed = tangential_load(mesh) / (2.0 * mesh.reference_radius[0] * mesh.face_width)
+    curved = (ratio + 1.0) / ratio  # of the sign of the diameter, both < 0 of an internal pinion
     nominal = zone * elasticity * shared * helix * math.sqrt(pressed * curved)
     return Geometry(zone, elasticity, shared, helix, single_pair_factors(path), nominal)
 
@@ -96,8 +95,8 @@ def contact_ratio_factor(transverse: float, overlap: float) -> float:
 def single_pair_factors(path: ContactPath) -> tuple[float, float]:
     """Z_B and Z_D: stress at the inner points B and D of single pair contact over that at the pitch point.
 
-    Quotients M_1 and M_2 (15), (16) of spur gears, at least 1; they fall to 1 with the overlap ratio. Z_D of
-    a pair with an internal gear is 1.
+    Quotients M_1 and M_2 (15), (16) of spur gears, at least 1; they fall to 1 with the overlap ratio. An
+    internal gear has 1.
     """
     tangent = math.tan(path.pressure_angle)
     whole = 2.0 * math.pi
@@ -106,15 +105,14 @@ def single_pair_factors(path: ContactPath) -> tuple[float, float]:
         for tip, base in zip(path.tip_radius, path.base_radius, strict=True)
     ]
     pitches = [whole / z for z in path.teeth]
-    # of internal gears √ stands for a length with the sign of the radius: over r_b it is positive
     beyond = path.contact_ratio - 1.0
     found = []
     for own, other in ((0, 1), (1, 0)):
         inner = (roots[own] - pitches[own]) * (roots[other] - beyond * pitches[other])
         found.append(tangent / math.sqrt(inner) if inner > 0.0 else 1.0)
     part = min(path.overlap_ratio, 1.0)
-    factors = [max(m - part * (m - 1.0), 1.0) for m in found]
-    return factors[0], factors[1] if path.ratio > 0.0 else 1.0
+    own = [max(m - part * (m - 1.0), 1.0) if z > 0 else 1.0 for m, z in zip(found, path.teeth, strict=True)]
+    return own[0], own[1]
 
 
 def contact_stress(found: Geometry, load_factor: float) -> tuple[float, float]:

@@ -111,7 +111,8 @@ def load_factor(settings: AssessmentTable, quantities: Mapping[str, Any]) -> flo
     contain the simulation's K_Hβ, which a given one replaces.
     """
     dynamic = settings.dynamic_factor or max(quantities["dynamic_factor"], 1.0)
-    face = (settings.face_load_factor or quantities["face_load_factor"]) / quantities["face_load_factor"]
+    given = settings.face_load_factor
+    face = 1.0 if given is None else given / quantities["face_load_factor"]
     return settings.application_factor * (settings.mesh_load_factor or 1.0) * dynamic * face
 
 

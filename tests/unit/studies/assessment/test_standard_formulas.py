@@ -86,7 +86,9 @@ APPLICATION, FACE, SPRAYED = 1.25, 1.3, 1.2
 
 @pytest.fixture(scope="module")
 def harder(case: Any) -> Standard:
-    return standard_of(case, assembled(case), RatedDuty(case.oil_temperature, APPLICATION, FACE, "spray"))
+    return standard_of(
+        case, assembled(case), RatedDuty(case.oil_temperature, APPLICATION, face=FACE, lubrication="spray")
+    )
 
 
 def test_stiffness_and_load_factors(found: tuple[dict[str, Any], Any]):
@@ -97,9 +99,9 @@ def test_stiffness_and_load_factors(found: tuple[dict[str, Any], Any]):
     line = TORQUE * 1e3 / (MODULE * TEETH[0] / 2.0) / WIDTH
     pitch, form = deviations()
     # N ≤ N_S, ε_γ ≤ 2, no relief credited: B_k = 1
-    assert standard.dynamic.range == "subcritical"
+    assert standard.factors.dynamic.range == "subcritical"
     slope = 0.32 * single * pitch / line + 0.34 * single * form / line + 0.23
-    assert iso["K_v"] == pytest.approx(1.0 + standard.dynamic.resonance_ratio * slope, rel=1e-9)
+    assert iso["K_v"] == pytest.approx(1.0 + standard.factors.dynamic.resonance_ratio * slope, rel=1e-9)
     transverse = RATIO / 2.0 * (0.9 + 0.4 * mesh * pitch / (line * iso["K_v"]))
     assert iso["K_Halpha"] == pytest.approx(min(max(transverse, 1.0), 3.0 / (4.0 - RATIO)), rel=1e-9)
 
@@ -180,16 +182,18 @@ def test_load_factors_under_more_load(harder: Standard):
     single, mesh = (value * APPLICATION**0.25 for value in stiffness())
     pitch, _ = deviations()
     assert line < 100.0
-    assert harder.stiffness.single_pair == pytest.approx(single * 1e9, rel=1e-9)
-    assert harder.stiffness.mesh == pytest.approx(mesh * 1e9, rel=1e-9)
-    assert harder.stiffness.mesh_face == pytest.approx(0.85 * mesh * 1e9, rel=1e-9)
-    transverse = RATIO / 2.0 * (0.9 + 0.4 * mesh * pitch / (line * harder.dynamic.factor * FACE))
-    assert harder.transverse == pytest.approx(min(max(transverse, 1.0), 3.0 / (4.0 - RATIO)), rel=1e-9)
+    assert harder.factors.stiffness.single_pair == pytest.approx(single * 1e9, rel=1e-9)
+    assert harder.factors.stiffness.mesh == pytest.approx(mesh * 1e9, rel=1e-9)
+    assert harder.factors.stiffness.mesh_face == pytest.approx(0.85 * mesh * 1e9, rel=1e-9)
+    transverse = RATIO / 2.0 * (0.9 + 0.4 * mesh * pitch / (line * harder.factors.dynamic.factor * FACE))
+    assert harder.factors.transverse == pytest.approx(
+        min(max(transverse, 1.0), 3.0 / (4.0 - RATIO)), rel=1e-9
+    )
 
 
 def test_flash_temperature_place_by_place(harder: Standard):
     """ISO/TR 13989-1, (3) and (22) to (28), at 201 places of the path; w of the base circle for the rise."""
-    factor = APPLICATION * harder.dynamic.factor * harder.transverse * FACE
+    factor = APPLICATION * harder.factors.dynamic.factor * harder.factors.transverse * FACE
     reference = factor * TORQUE * 1e3 / (MODULE * TEETH[0] / 2.0) / WIDTH
     line = factor * TORQUE * 1e3 / BASE[0] / WIDTH
     at_pitch = [base * math.tan(WORKING) for base in BASE]
@@ -219,7 +223,7 @@ def test_flash_temperature_place_by_place(harder: Standard):
 
 def test_integral_temperature_is_of_drawing_and_data_sheet(harder: Standard):
     """What ISO/TR 13989-2 asks for, in SI; the line load is that of the reference circle."""
-    factor = APPLICATION * harder.dynamic.factor * harder.transverse * FACE
+    factor = APPLICATION * harder.factors.dynamic.factor * harder.factors.transverse * FACE
     radius = MODULE * TEETH[0] / 2.0 * 1e-3
     mesh = scuffing.ScuffingMesh(
         line_load=factor * TORQUE / radius / (WIDTH * 1e-3),

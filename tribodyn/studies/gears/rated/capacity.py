@@ -123,7 +123,7 @@ def capacity_of(
         ratio = 1.0 if number == 0 else 1.0 / abs(path.ratio)
         flank_bins, root_bins = [], []
         for load in bins:
-            cycles = settings.required_life * load.share * load.pinion_speed / (2.0 * math.pi)
+            cycles = settings.life * load.share * load.pinion_speed / (2.0 * math.pi)
             cycles *= ratio * turns.per_turn
             share = load.gear_torque / own[1]
             flank = pitting.contact_stress(shape, load.factors.flank * share)[number]
@@ -136,15 +136,15 @@ def capacity_of(
             pitting.contact_stress(shape, at_duty.flank)[number],
             flank_bins,
             flank_curve,
-            settings.required_safety_pitting,
-            settings.required_life,
+            settings.safety_pitting,
+            settings.life,
         )
         bent = _failure(
             bending.root_stress(nominal, _root_factor(at_duty, face)),
             root_bins,
             root_curve,
-            settings.required_safety_bending,
-            settings.required_life,
+            settings.safety_bending,
+            settings.life,
         )
         factors = _flank_names(metal, influence, number, flank, settings)
         factors |= _root_names(metal, root, nominal, relative, bent, settings)
@@ -202,9 +202,9 @@ def safeties(capacity: Capacity | None) -> dict[str, float]:
 def required(settings: RatingTable) -> dict[str, float]:
     """What the settings require, by the names of the limits."""
     return {
-        "pitting": settings.required_safety_pitting,
-        "bending": settings.required_safety_bending,
-        "life": settings.required_life,
+        "pitting": settings.safety_pitting,
+        "bending": settings.safety_bending,
+        "life": settings.life,
     }
 
 
@@ -270,7 +270,7 @@ def _flank_names(
         "Z_NT": pitting.contact_factors(metal.treatment).at(flank.cycles),
         "sigma_H": flank.stress,
         "sigma_HG": allowed,
-        "sigma_HP": allowed / settings.required_safety_pitting,
+        "sigma_HP": allowed / settings.safety_pitting,
         "S_H": flank.safety,
         "damage_pitting": flank.damage,
         "life_pitting": flank.life,
@@ -304,7 +304,7 @@ def _root_names(
         "sigma_F0": nominal.nominal,
         "sigma_F": bent.stress,
         "sigma_FG": allowed,
-        "sigma_FP": allowed / settings.required_safety_bending,
+        "sigma_FP": allowed / settings.safety_bending,
         "S_F": bent.safety,
         "damage_bending": bent.damage,
         "life_bending": bent.life,

@@ -40,13 +40,13 @@ def factors_said(settings: RatingTable) -> str:
 
 def life_said(settings: RatingTable, duties: int) -> str:
     """What the required life is, and which loads it has."""
-    hours = settings.required_life / 3600.0
+    hours = settings.life / 3600.0
     rz = "6 Ra" if settings.peak_roughness is None else f"{settings.peak_roughness * 1e6:g} µm"
     loads = "the duty all the time"
     if duties:
         loads = f"{duties} duties of the load spectrum with K_A = 1, by Miner's sum (ISO 6336-6)"
     return (
-        f"Required life {hours:.6g} h, S_Hmin {settings.required_safety_pitting:g}, S_Fmin "
-        f"{settings.required_safety_bending:g}; {loads}. Rz of the flanks {rz}, of the roots "
+        f"Required life {hours:.6g} h, S_Hmin {settings.safety_pitting:g}, S_Fmin "
+        f"{settings.safety_bending:g}; {loads}. Rz of the flanks {rz}, of the roots "
         f"{settings.root_roughness * 1e6:g} µm."
     )

@@ -15,6 +15,8 @@ Hours = Annotated[float, InUnit(units.positive(units.TIME), "20000 h")]
 Roughness = Annotated[float, InUnit(units.positive(units.LENGTH), "4.8 um")]
 #: Mean peak-to-valley roughness over Ra where the former is not given: ISO 6336-2.
 PEAKS_OVER_MEAN = 6.0
+#: What is required where nothing is said, usual in industrial gearing: life, s; S_Hmin and S_Fmin.
+_LIFE, _SAFETY_PITTING, _SAFETY_BENDING = 20000.0 * 3600.0, 1.0, 1.4
 
 
 class RatingTable(Table):
@@ -43,18 +45,37 @@ class RatingTable(Table):
     gear_blank_factor: Positive | None = Field(
         None, description="C_R of gears with rim and web, for the standard's stiffness; default: 1, solid"
     )
-    required_life: Hours = written("20000 h", description="in operation, of pinion and gear")
-    required_safety_pitting: Positive = Field(1.0, description="S_Hmin; a safety below is red")
-    required_safety_bending: Positive = Field(1.4, description="S_Fmin; a safety below is red")
+    required_life: Hours | None = Field(None, description="in operation; default: 20000 h")
+    required_safety_pitting: Positive | None = Field(
+        None, description="S_Hmin; a safety below is red; default: 1"
+    )
+    required_safety_bending: Positive | None = Field(
+        None, description="S_Fmin; a safety below is red; default: 1.4"
+    )
     peak_roughness: Roughness | None = Field(None, description="Rz of the flanks; default: 6 Ra")
     root_roughness: Roughness = written("20 um", description="Rz of the root fillets")
+
+    @property
+    def life(self) -> float:
+        """The required life, s."""
+        return _LIFE if self.required_life is None else self.required_life
+
+    @property
+    def safety_pitting(self) -> float:
+        """The required S_Hmin."""
+        return _SAFETY_PITTING if self.required_safety_pitting is None else self.required_safety_pitting
+
+    @property
+    def safety_bending(self) -> float:
+        """The required S_Fmin."""
+        return _SAFETY_BENDING if self.required_safety_bending is None else self.required_safety_bending
 
 
 def broken_strength_rules(
     table: str, settings: RatingTable, materials: Sequence[MaterialData]
 ) -> Iterator[InputError]:
     """Refuse what asks for safeties or a life of materials without strength."""
-    names = [name for name in _OF_STRENGTH if name in settings.model_fields_set]
+    names = [name for name in _OF_STRENGTH if getattr(settings, name) is not None]
     lacking = [material.name for material in materials if material.treatment is None]
     if names and lacking:
         rule = f"needs the strength of the material, which {quoted(lacking[0])} has not"
@@ -62,4 +83,5 @@ def broken_strength_rules(
         yield InputError(f"{table}.{names[0]}", rule=rule, remedy=remedy)
 
 
+#: Keys that make no sense without the strength of the materials.
 _OF_STRENGTH = ("required_life", "required_safety_pitting", "required_safety_bending")
