@@ -126,10 +126,10 @@ def test_idlers_and_gears_with_two_pinions_stand_less(plain):
 def test_internal_external_spur_and_helical_pairs_have_every_factor(drive: str):
     changes = {"drive": {"like": drive, "material": "42CrMo4", "quality": 6}}
     if drive.startswith("ring"):
-        train = load_scenario("wind-turbine-gearbox")
-        mesh = next(each for each in whole.meshes(train) if each.pair.drive.pinion.teeth < 0)
-        case, assembly = mesh.pair, assembled(mesh.pair)
-        settings = case_of().settings
+        train = load_scenario("wind-turbine-gearbox-assessment")
+        meshes = whole.meshes(train.subject.case)
+        case = next(each.pair for each in meshes if each.pair.drive.pinion.teeth < 0)
+        assembly, settings = assembled(case), train.settings
     else:
         case = case_of({**changes, "operating.power": "20 kW"})
         assembly, settings = assembled(case), case.settings
