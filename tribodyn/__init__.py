@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from tribodyn.derivatives.differentiable import Differentiable
     from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.families import Family
+    from tribodyn.interface.check import check
     from tribodyn.interface.drive import GearPair, constraints, drive
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
     from tribodyn.interface.line_contact import line_contact
@@ -65,6 +66,7 @@ __all__ = [
     "Study",
     "Sweep",
     "__version__",
+    "check",
     "constraints",
     "design",
     "differentiable",
@@ -95,6 +97,7 @@ _PLACES = {
     "SimulationError": "tribodyn.errors",
     "Study": "tribodyn.studies.protocol.study",
     "Sweep": "tribodyn.interface.sweep",
+    "check": "tribodyn.interface.check",
     "constraints": "tribodyn.interface.drive",
     "differentiable": "tribodyn.interface.gradient",
     "drive": "tribodyn.interface.drive",

@@ -119,9 +119,9 @@ def deep_tooth_factor(virtual_contact_ratio: float, quality: float) -> float:
     return max(2.366 - 0.666 * virtual_contact_ratio, 0.7)
 
 
-def face_factor(face_load: float, face_width: float, tooth_height: float) -> float:
+def face_factor(face_load: float, slenderness: float) -> float:
     """K_Fβ = K_Hβ^N, N = (b/h)²/(1 + b/h + (b/h)²) with b/h ≥ 3: ISO 6336-1, (69), (70)."""
-    slender = max(face_width / tooth_height, 3.0)
+    slender = max(slenderness, 3.0)
     return face_load ** (slender**2 / (1.0 + slender + slender**2))
 
 

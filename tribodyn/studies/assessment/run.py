@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.post.report import EXCEEDED
@@ -22,13 +23,15 @@ from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_a
 from tribodyn.studies.assessment.parts import Part
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins, safeties
+from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins, safeties
 from tribodyn.studies.gears.rated.margins import strength_of
 from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
-from tribodyn.studies.gears.rated.standard import iso_part, rated_duty, standard_of
+from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
+from tribodyn.studies.gears.rated.standard import Standard, iso_part, rated_duty, standard_of
 from tribodyn.studies.gears.rated.strength import metal_remarks
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.part import TaskResult
+from tribodyn.studies.protocol.recording import TextTable
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.oil import oil_values
@@ -45,8 +48,24 @@ def check(case: AssessmentCase) -> CheckResult:
     request = parts.request_of(case)
     every = parts.tasks_of(parts.parts(request))
     tasks.require_cases(every)
-    found = CheckResult({"geometry": sheet, "tasks": [task.name for _, task in every]}, sheet_tables(sheet))
-    return with_oil(found, case.lubricant)
+    data: dict[str, Any] = {"geometry": sheet, "tasks": [task.name for _, task in every]}
+    found = with_oil(CheckResult(data, sheet_tables(sheet)), case.lubricant)
+    if not assembled(case).family.involute:
+        return found
+    iso = _by_standard(case, assembled(case), face=1.0)[0]
+    face = "given" if case.settings.face_load_factor else "1, until the contact is analysed"
+    table = TextTable(f"ISO 6336, K_Hβ {face}", COLUMNS, rating_rows(iso))
+    return found._replace(data={**found.data, "iso": iso}, tables=(*found.tables, table))
+
+
+def _by_standard(
+    case: AssessmentCase, assembly: Assembly, face: float
+) -> tuple[dict[str, Any], Standard, Capacity | None]:
+    """The standards by name and as they are, with a K_Hβ where none is given."""
+    standard = standard_of(case, assembly, rated_duty(case.settings, case.oil_temperature, face=face))
+    bins = life_bins(case, assembly, standard.factors, case.spectrum)
+    capacity = capacity_of(case, assembly, standard.factors, bins, case.settings)
+    return iso_part(case, standard) | (capacity.by_name() if capacity else {}), standard, capacity
 
 
 def run(
@@ -96,13 +115,9 @@ def assessed(
         along |= answer.along
         spread |= {name: _scatter(values) for name, values in answer.spread.items()}
     local = local_of(case, assembly, along, found)
-    by_standard = capacity = None
+    iso, by_standard, capacity = {}, None, None
     if assembly.family.involute:
-        settings = case.settings
-        duty = rated_duty(settings, case.oil_temperature, face=found["face_load_factor"])
-        by_standard = standard_of(case, assembly, duty)
-        bins = life_bins(case, assembly, by_standard.factors, case.spectrum)
-        capacity = capacity_of(case, assembly, by_standard.factors, bins, settings)
+        iso, by_standard, capacity = _by_standard(case, assembly, found["face_load_factor"])
     simulated = simulated_part(case, assembly, local, found, spread)
     summary: dict[str, Any] = {
         "duty": {
@@ -115,8 +130,7 @@ def assessed(
         "specific_film_min": simulated["lambda_GF"]["worst"],
         **({"transverse_load_factor_method_b": by_standard.factors.transverse_b} if by_standard else {}),
         **safeties(capacity),
-        "iso": (iso_part(case, by_standard) if by_standard else {})
-        | (capacity.by_name() if capacity else {}),
+        "iso": iso,
         "simulated": simulated,
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
         **{f"{name}_spread": [values[part] for part in SPREAD] for name, values in spread.items()},

@@ -13,6 +13,7 @@ from tribodyn.standards.fatigue import Bin, StressCurve, damage, life_share, saf
 from tribodyn.standards.metals import Metal
 from tribodyn.studies.gears.case import OiledCase
 from tribodyn.studies.gears.rated.margins import flanks_of
+from tribodyn.studies.gears.rated.named import common_names, flank_names, root_names
 from tribodyn.studies.gears.rated.settings import PEAKS_OVER_MEAN, RatingTable
 from tribodyn.studies.gears.rated.standard import LoadFactors, load_factors, path_of
 from tribodyn.studies.gears.rated.strength import metals_of
@@ -86,84 +87,84 @@ def capacity_of(
     metals = metals_of(case)
     if metals is None:
         return None
-    sheet = case.lubricant.sheet
-    assert sheet is not None, "refused by the rules"
-    rz = settings.peak_roughness or PEAKS_OVER_MEAN * case.mean_roughness
-    drive, path = assembly.drive, path_of(assembly)
-    own = case.operating.pinion_speed, case.operating.gear_torque
-
-    def mesh_at(speed: float, torque: float) -> pitting.PittingMesh:
-        return pitting.PittingMesh(
-            path,
-            (float(reference_radius(drive, "pinion")), float(reference_radius(drive, "gear"))),
-            float(normal_pressure_angle(drive)),
-            abs(float(drive.helix_angle)),
-            float(assembly.common_width),
-            path.pinion_torque(torque) * path.sense,
-            speed,
-            flanks_of(case).reduced_modulus,
-            float(sheet.viscosity_40),
-            (rz, rz),
-        )
-
-    mesh = mesh_at(*own)
-    shape = pitting.geometry(mesh)
-    influence = pitting.influences(mesh, metals)
-    roots = tuple(
-        _root(case, assembly, side, settings, turns) for side, turns in zip(SIDES, meshing, strict=True)
-    )
-    height = max(root.tooth_height for root in roots)
-    slender = min(root.face_width for root in roots) / height
-    face = bending.face_factor(at_duty.duty.face, slender, 1.0)
-    tangential = pitting.tangential_load(mesh)
+    mesh = _mesh(case, assembly, settings)
+    shape, influence = pitting.geometry(mesh), pitting.influences(mesh, metals)
+    roots = [_root(case, assembly, side, settings, turns) for side, turns in zip(SIDES, meshing, strict=True)]
+    slender = min(root.face_width for root in roots) / max(root.tooth_height for root in roots)
+    face, tangential = bending.face_factor(at_duty.duty.face, slender), pitting.tangential_load(mesh)
     gears = []
     for number, (metal, root, turns) in enumerate(zip(metals, roots, meshing, strict=True)):
+        turned = turns.per_turn / (abs(mesh.path.ratio) if number else 1.0)
+        cycles = [settings.life * load.share * load.pinion_speed * turned / (2.0 * math.pi) for load in bins]
+        shares = [load.gear_torque / case.operating.gear_torque for load in bins]
+
+        def flank(factors: LoadFactors, share: float = 1.0, number: int = number) -> float:
+            return pitting.contact_stress(shape, factors.flank * share)[number]
+
         nominal = bending.nominal_stress(root, tangential)
+
+        def bent(factors: LoadFactors, share: float = 1.0, nominal: bending.Stress = nominal) -> float:
+            return bending.root_stress(nominal, factors.flank / factors.duty.face * face * share)
+
         relative = bending.relative_factors(root, nominal, metal)
-        ratio = 1.0 if number == 0 else 1.0 / abs(path.ratio)
-        flank_bins, root_bins = [], []
-        for load in bins:
-            cycles = settings.life * load.share * load.pinion_speed / (2.0 * math.pi)
-            cycles *= ratio * turns.per_turn
-            share = load.gear_torque / own[1]
-            flank = pitting.contact_stress(shape, load.factors.flank * share)[number]
-            flank_bins.append(Bin(flank, cycles))
-            stress = bending.root_stress(nominal, _root_factor(load.factors, face) * share)
-            root_bins.append(Bin(stress, cycles))
-        flank_curve = pitting.permissible(metal, influence.of(number))
-        root_curve = bending.permissible(metal, relative)
-        flank = _failure(
-            pitting.contact_stress(shape, at_duty.flank)[number],
-            flank_bins,
-            flank_curve,
-            settings.safety_pitting,
-            settings.life,
-        )
-        bent = _failure(
-            bending.root_stress(nominal, _root_factor(at_duty, face)),
-            root_bins,
-            root_curve,
-            settings.safety_bending,
-            settings.life,
-        )
-        factors = _flank_names(metal, influence, number, flank, settings)
-        factors |= _root_names(metal, root, nominal, relative, bent, settings)
-        gears.append(GearCapacity(flank, bent, factors))
-    common = {
-        "F_t": tangential,
-        "Z_H": shape.zone,
-        "Z_E": shape.elasticity,
-        "Z_epsilon": shape.contact_ratio,
-        "Z_beta": shape.helix,
-        "Z_B": shape.single_pair[0],
-        "Z_D": shape.single_pair[1],
-        "Z_X": influence.size,
-        "sigma_H0": shape.nominal,
-        "K_Fbeta": face,
-        "K_Falpha": at_duty.transverse,
-        "Y_ST": bending.STRESS_CORRECTION_TEST,
-    }
+        curves = pitting.permissible(metal, influence.of(number)), bending.permissible(metal, relative)
+        needed = settings.safety_pitting, settings.safety_bending
+        found = [
+            _failure(
+                stress(at_duty),
+                [
+                    Bin(stress(load.factors, share), n)
+                    for load, share, n in zip(bins, shares, cycles, strict=True)
+                ],
+                curve,
+                required,
+                settings.life,
+            )
+            for stress, curve, required in zip((flank, bent), curves, needed, strict=True)
+        ]
+        factors = flank_names(metal, influence, number) | root_names(metal, root, nominal, relative)
+        gears.append(GearCapacity(found[0], found[1], factors | _failures_by_name(metal, found, needed)))
+    common = common_names(mesh, shape, influence) | {"K_Fbeta": face, "K_Falpha": at_duty.transverse}
     return Capacity((gears[0], gears[1]), common)
+
+
+def _mesh(case: OiledCase, assembly: Assembly, settings: RatingTable) -> pitting.PittingMesh:
+    sheet, drive, path = case.lubricant.sheet, assembly.drive, path_of(assembly)
+    assert sheet is not None, "refused by the rules"
+    rz = settings.peak_roughness or PEAKS_OVER_MEAN * case.mean_roughness
+    return pitting.PittingMesh(
+        path,
+        (float(reference_radius(drive, "pinion")), float(reference_radius(drive, "gear"))),
+        float(normal_pressure_angle(drive)),
+        abs(float(drive.helix_angle)),
+        float(assembly.common_width),
+        path.pinion_torque(case.operating.gear_torque) * path.sense,
+        case.operating.pinion_speed,
+        flanks_of(case).reduced_modulus,
+        float(sheet.viscosity_40),
+        (rz, rz),
+    )
+
+
+def _failures_by_name(
+    metal: Metal, failures: Sequence[Failure], required: tuple[float, float]
+) -> dict[str, float]:
+    """Cycles, stresses, safeties and lives of pitting and bending by their names."""
+    found = {"N_L": failures[0].cycles}
+    lives = pitting.contact_factors(metal.treatment), bending.bending_factors(metal.treatment)
+    names = ("Z_NT", "H", "pitting"), ("Y_NT", "F", "bending")
+    for failure, life, safe, (of_life, letter, name) in zip(failures, lives, required, names, strict=True):
+        allowed = failure.curve.at(failure.cycles)
+        found |= {
+            of_life: life.at(failure.cycles),
+            f"sigma_{letter}": failure.stress,
+            f"sigma_{letter}G": allowed,
+            f"sigma_{letter}P": allowed / safe,
+            f"S_{letter}": failure.safety,
+            f"damage_{name}": failure.damage,
+            f"life_{name}": failure.life,
+        }
+    return found
 
 
 def life_bins(
@@ -208,11 +209,6 @@ def required(settings: RatingTable) -> dict[str, float]:
     }
 
 
-def _root_factor(factors: LoadFactors, face: float) -> float:
-    """K_A K_γ K_v K_Fβ K_Fα."""
-    return factors.flank / factors.duty.face * face
-
-
 def _root(
     case: OiledCase, assembly: Assembly, side: Side, settings: RatingTable, turns: Meshing
 ) -> bending.BendingGear:
@@ -254,58 +250,3 @@ def _failure(stress: float, bins: Sequence[Bin], curve: StressCurve, required: f
         found,
         unlimited,
     )
-
-
-def _flank_names(
-    metal: Metal, influence: pitting.Influences, gear: int, flank: Failure, settings: RatingTable
-) -> dict[str, float]:
-    allowed = flank.curve.at(flank.cycles)
-    return {
-        "N_L": flank.cycles,
-        "sigma_Hlim": metal.contact_limit,
-        "Z_L": influence.lubricant[gear],
-        "Z_v": influence.speed[gear],
-        "Z_R": influence.roughness[gear],
-        "Z_W": influence.hardening[gear],
-        "Z_NT": pitting.contact_factors(metal.treatment).at(flank.cycles),
-        "sigma_H": flank.stress,
-        "sigma_HG": allowed,
-        "sigma_HP": allowed / settings.safety_pitting,
-        "S_H": flank.safety,
-        "damage_pitting": flank.damage,
-        "life_pitting": flank.life,
-    }
-
-
-def _root_names(
-    metal: Metal,
-    root: bending.BendingGear,
-    nominal: bending.Stress,
-    relative: bending.Relative,
-    bent: Failure,
-    settings: RatingTable,
-) -> dict[str, float]:
-    allowed = bent.curve.at(bent.cycles)
-    return {
-        "sigma_Flim": metal.bending_limit,
-        "h_F": root.section.arm,
-        "s_Fn": root.section.thickness,
-        "rho_F": root.section.notch_radius,
-        "Y_F": nominal.form,
-        "Y_S": nominal.correction,
-        "Y_beta": nominal.helix,
-        "Y_B": nominal.rim,
-        "Y_DT": nominal.deep,
-        "Y_delta_relT": relative.notch,
-        "Y_R_relT": relative.surface,
-        "Y_X": relative.size,
-        "Y_M": relative.alternating,
-        "Y_NT": bending.bending_factors(metal.treatment).at(bent.cycles),
-        "sigma_F0": nominal.nominal,
-        "sigma_F": bent.stress,
-        "sigma_FG": allowed,
-        "sigma_FP": allowed / settings.safety_bending,
-        "S_F": bent.safety,
-        "damage_bending": bent.damage,
-        "life_bending": bent.life,
-    }
