@@ -8,8 +8,11 @@ with normal clearance.
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from tribodyn.numerics.curve import Table
 from tribodyn.numerics.elementary import cos, exp, log
+from tribodyn.numerics.shapes import Array, Float
 
 
 @dataclass(frozen=True)
@@ -24,6 +27,14 @@ class BearingData:
     #: stiffness against tilts about x and y, N m/rad; None: that of two bearings at the `span`
     stiffness_tilt: float | None = None
     span: float | None = None  # distance of the bearings, m; None: twice the face width
+    #: five by five, of x, y, z and tilts about x and y, N/m, N, N m/rad; in place of all other stiffness, and
+    #: the damping ratio then that of every motion of the gear alone on it
+    matrix: tuple[tuple[float, ...], ...] | None = None
+
+    @classmethod
+    def of_matrix(cls, matrix: tuple[tuple[float, ...], ...], damping_ratio: float) -> "BearingData":
+        """The bearing that a matrix is."""
+        return cls(matrix[0][0], matrix[1][1], damping_ratio, damping_ratio, matrix=matrix)
 
 
 @dataclass(frozen=True)
@@ -62,6 +73,24 @@ def in_space(bearing: BearingData, width: float) -> tuple[tuple[float, ...], tup
     tilts = (y * arm, x * arm) if given is None else (given, given)
     ratio = min(bearing.damping_ratio_x, bearing.damping_ratio_y)
     return (x, y, axial, *tilts), (bearing.damping_ratio_x, bearing.damping_ratio_y, ratio, ratio, ratio)
+
+
+def matrices_in_space(
+    bearing: BearingData, width: float, mass: float, tilting: float
+) -> tuple[Float[Array, "5 5"], Float[Array, "5 5"]]:
+    """Stiffness and damping of a bearing in x, y, z and tilts about x and y, of a gear of that mass (kg).
+
+    `width` of its face, m; `tilting` its inertia about x and y, kg m². A matrix K is damped by C =
+    2 ζ M^½ (M^−½ K M^−½)^½ M^½: by the ratio ζ in every motion of the gear alone.
+    """
+    inertia = np.repeat([mass, tilting], [3, 2])
+    if bearing.matrix is None:
+        stiffness, ratios = (np.array(values) for values in in_space(bearing, width))
+        return np.diag(stiffness), np.diag(2.0 * ratios * np.sqrt(stiffness * inertia))
+    matrix, root = np.array(bearing.matrix), np.sqrt(inertia)
+    squares, modes = np.linalg.eigh(matrix / np.outer(root, root))
+    rate = modes * np.sqrt(np.maximum(squares, 0.0)) @ modes.T
+    return matrix, 2.0 * bearing.damping_ratio_x * rate * np.outer(root, root)
 
 
 BearingType = Literal[

@@ -1,7 +1,7 @@
 """Shafts and bearings (`models/bearings/`): their tables, rules, and what the dynamics read of them."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Annotated, cast
 
 from pydantic import Field
@@ -10,7 +10,8 @@ from tribodyn.dynamics.data import ROLLERS, BearingData, BearingType, RollingBea
 from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, written
-from tribodyn.scenario.tables.model_files import Described
+from tribodyn.scenario.tables.model_files import OWN_VALUES, Described
+from tribodyn.scenario.tables.support_matrix import MatrixUnits, Rows, broken_matrix, matrix_of
 
 Stiffness = Annotated[float, InUnit(units.positive(units.STIFFNESS))]
 #: Contact angle from which a bearing carries no radial load to speak of.
@@ -48,6 +49,8 @@ class Bearing(Table):
     span: Annotated[float, InUnit(units.positive(units.LENGTH), "100 mm")] | None = Field(
         None, description="distance of the bearings of helical gears; default: twice the face width"
     )
+    matrix: Rows = None
+    matrix_units: MatrixUnits = None
     damping_ratio: NotNegative | None = Field(None, description="of both axes")
     damping_ratio_x: NotNegative | None = None
     damping_ratio_y: NotNegative | None = None
@@ -56,13 +59,13 @@ class Bearing(Table):
 class Bearings(Described):
     """Shafts and bearings of both gears (`models/bearings/`)."""
 
-    pinion: Bearing
-    gear: Bearing
+    pinion: Bearing | None = Field(None, description="needed where its shaft is not drawn")
+    gear: Bearing | None = Field(None, description="needed where its shaft is not drawn")
 
-
-def bearings_of(bearings: Bearings) -> tuple[BearingData, BearingData]:
-    """Return stiffness and damping of both gears' bearings."""
-    return bearing_of(bearings.pinion), bearing_of(bearings.gear)
+    @property
+    def written_out(self) -> bool:
+        """Whether these are a scenario's own numbers, not those of a class or a file."""
+        return self.title == OWN_VALUES
 
 
 def bearing_of(bearing: Bearing) -> BearingData:
@@ -70,6 +73,9 @@ def bearing_of(bearing: Bearing) -> BearingData:
     ratio_x = bearing.damping_ratio if bearing.damping_ratio_x is None else bearing.damping_ratio_x
     ratio_y = bearing.damping_ratio if bearing.damping_ratio_y is None else bearing.damping_ratio_y
     stiffness_x, stiffness_y = bearing.stiffness_x, bearing.stiffness_y
+    if bearing.matrix is not None:
+        ratio = cast(float, bearing.damping_ratio)
+        return BearingData.of_matrix(matrix_of(bearing.matrix, bearing.matrix_units), ratio)
     if bearing.rolling is not None:
         numbers = bearing.rolling.model_dump()
         sizes = {name: numbers[name] or 0.0 for name in ("diameter", "length")}
@@ -85,14 +91,24 @@ def bearing_of(bearing: Bearing) -> BearingData:
     )
 
 
-def broken_bearing_rules(bearings: Bearings) -> Iterator[InputError]:
-    """Go through what is missing in the bearings of both gears, or given twice."""
+def broken_bearing_rules(bearings: Bearings, drawn: Collection[str] = ()) -> Iterator[InputError]:
+    """Go through what is missing in the bearings of both gears, or given twice; of `drawn` sides nothing is."""
     for side in ("pinion", "gear"):
-        yield from broken_bearing(f"bearings.{side}", getattr(bearings, side))
+        if (bearing := getattr(bearings, side)) is not None:
+            yield from broken_bearing(f"bearings.{side}", bearing)
+        elif side not in drawn:
+            remedy = (
+                f"add [bearings.{side}] with stiffness_x, stiffness_y and damping_ratio, or [shaft.{side}]"
+            )
+            yield InputError(f"bearings.{side}", rule="missing", remedy=remedy)
 
 
 def broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
     """Go through what is missing in the bearing at a key, or given twice."""
+    if bearing.matrix is not None:
+        yield from _broken_with_matrix(key, bearing)
+        yield from broken_matrix(f"{key}.matrix", bearing.matrix, bearing.matrix_units)
+        return
     for name in ("stiffness_x", "stiffness_y"):
         given = getattr(bearing, name)
         if bearing.rolling is None and given is None:
@@ -114,6 +130,21 @@ def broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
     elif bearing.damping_ratio is None and any(ratio is None for ratio in each):
         remedy = "add damping_ratio = 0.05, for both axes"
         yield InputError(f"{key}.damping_ratio", rule="missing", remedy=remedy)
+
+
+def _broken_with_matrix(key: str, bearing: Bearing) -> Iterator[InputError]:
+    """What a matrix says already, and the damping that it lacks."""
+    for name in type(bearing).model_fields:
+        if name.startswith(("matrix", "damping_ratio")) or getattr(bearing, name) is None:
+            continue
+        rule = "contradicts matrix, which has all of the stiffness"
+        yield InputError(f"{key}.{name}", None, rule, "give the one or the other")
+    for name in ("damping_ratio_x", "damping_ratio_y"):
+        if getattr(bearing, name) is not None:
+            rule = "has no meaning with a matrix, whose motions are not along the axes"
+            yield InputError(f"{key}.{name}", None, rule, "write damping_ratio = 0.05, of all of them")
+    if bearing.damping_ratio is None:
+        yield InputError(f"{key}.damping_ratio", rule="missing", remedy="add damping_ratio = 0.05")
 
 
 def _broken_rolling(key: str, rolling: Rolling) -> Iterator[InputError]:

@@ -47,6 +47,7 @@ class Face(NamedTuple):
     misalignment: MisalignmentTable
     slices: int | None
     slice_coupling: bool
+    on_shafts: bool = False  # whether drawn shafts or matrices let the gears tilt
 
 
 def broken_modification_rules(drive: DriveTable) -> Iterator[InputError]:
@@ -64,7 +65,8 @@ def broken_modification_rules(drive: DriveTable) -> Iterator[InputError]:
 
 def broken_slice_rules(face: Face) -> Iterator[InputError]:
     """Go through the rules of a run that knows modifications: slices enough for what varies."""
-    varies = bool(face.drive.helix_angle) or vary_along_lead(modifications_of(face.drive, face.misalignment))
+    varies = bool(face.drive.helix_angle) or face.on_shafts
+    varies = varies or vary_along_lead(modifications_of(face.drive, face.misalignment))
     if face.slices is not None and (broken := too_few_slices(face.slices, varies)):
         yield broken
 

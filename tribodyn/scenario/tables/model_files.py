@@ -110,10 +110,14 @@ Grade = Annotated[int, Field(strict=True, ge=1, le=11)]
 Roughness = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "0.5 um")]
 
 
+#: Title of a model that a scenario writes out.
+OWN_VALUES = "own values"
+
+
 class Described(quantity.Table):
     """What every model begins with; a table in a scenario may leave it out."""
 
-    title: quantity.Text = Field("own values", description="what it is, in a line")
+    title: quantity.Text = Field(OWN_VALUES, description="what it is, in a line")
     source: quantity.Text = Field("not stated", description="where the numbers come from")
     assumptions: quantity.Text = Field("", description="what the source does not give and was chosen here")
 

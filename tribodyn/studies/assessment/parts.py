@@ -29,7 +29,7 @@ def request_of(case: AssessmentCase) -> Request:
     data, settings = tomllib.loads(case.toml), case.settings
     first, last = settings.speed_range
     speeds = np.linspace(first, last, settings.speeds) * case.operating.pinion_speed
-    names = ("drive", "lubricant", "bearings", "mesh", "losses")
+    names = ("drive", "lubricant", "bearings", "shaft", "mesh", "losses")
     tables = {name: data[name] for name in names if name in data}
     tables |= {
         "oil_temperature": data["operating"]["oil_temperature"],

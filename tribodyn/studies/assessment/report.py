@@ -19,6 +19,7 @@ REPORTED: Reported = {
         scatter_of("loaded_transmission_error_peak_to_peak"),
         *quantities("face_load_factor"),
         scatter_of("face_load_factor"),
+        *quantities("shaft_misalignment", "given_misalignment"),
         *quantities("transverse_load_factor", "transverse_load_factor_method_b"),
         scatter_of("transverse_load_factor"),
         *quantities("pinion_root_tension_max", "gear_root_tension_max"),

@@ -23,6 +23,7 @@ from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_a
 from tribodyn.studies.assessment.parts import Part
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins, safeties
 from tribodyn.studies.gears.rated.margins import strength_of
 from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
@@ -132,6 +133,7 @@ def assessed(
         **safeties(capacity),
         "iso": iso,
         "simulated": simulated,
+        **bearing_part(case, case.lubricant),
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
         **{f"{name}_spread": [values[part] for part in SPREAD] for name, values in spread.items()},
         **margins_and_limits(
@@ -233,6 +235,7 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     if by_standard:
         sentences += metal_remarks(case)
         sentences.append(life_said(settings, len(case.spectrum)))
+    sentences += bearing_remarks(case, case.lubricant)
     scatter = ""
     if settings.samples:
         scatter = f"; its scatter is over {settings.samples} samples of deviations within the tolerances"

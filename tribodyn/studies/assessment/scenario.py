@@ -21,7 +21,14 @@ from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
 from tribodyn.studies.gears.rated.capacity import required
 from tribodyn.studies.gears.rated.limits import OilLimits, Pressure
 from tribodyn.studies.gears.rated.settings import broken_strength_rules
-from tribodyn.studies.gears.scenario import FaceSlices, GearScenario, Oil, broken_gear_rules, gear_fields
+from tribodyn.studies.gears.scenario import (
+    FaceSlices,
+    GearScenario,
+    Oil,
+    ShaftKeys,
+    broken_gear_rules,
+    gear_fields,
+)
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO
 
@@ -56,6 +63,7 @@ class AssessmentScenario(GearScenario):
     kind: Literal["assessment"]
     lubricant: Oil
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
+    shaft: ShaftKeys = None
     operating: AssessmentOperating
     mesh: AssessmentMesh = written({})
     temperature: TemperatureTable | None = Field(

@@ -29,6 +29,7 @@ def tasks(request: Request) -> tuple[Task, ...]:
         "lubricant": tables["lubricant"],
         "operating": request.operating(),
         "mesh": {"compliance": "fem", **tables.get("mesh", {})},
+        **request.supports(),
         **{name: tables[name] for name in ("temperature", "losses") if name in tables},
     }
     film = {name: tables[name] for name in ("film",) if name in tables}

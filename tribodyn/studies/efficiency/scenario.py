@@ -22,11 +22,14 @@ from tribodyn.studies.gears.scenario import (
     FoundationCoupling,
     GearScenario,
     LossKeys,
+    MatrixKeys,
     Oil,
     SampleNumber,
+    ShaftKeys,
     SliceCoupling,
     TemperatureKeys,
     broken_gear_rules,
+    broken_matrix_keys,
     broken_stiffness_rules,
     gear_fields,
     oil_fields,
@@ -104,6 +107,8 @@ class EfficiencyScenario(GearScenario):
     kind: Literal["efficiency"]
     lubricant: Oil
     operating: OiledOperatingTable
+    bearings: MatrixKeys = None
+    shaft: ShaftKeys = None
     mesh: EfficiencyMesh = written({})
     temperature: TemperatureKeys = None
     losses: LossKeys = None
@@ -133,6 +138,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     yield from driving_internal(scenario.drive)
     yield from broken_gear_rules(scenario, every_duty=True, internal=True)
+    yield from broken_matrix_keys(scenario.bearings)
     yield from broken_stiffness_rules(scenario.mesh, ("constant",))
     drive, operating = scenario.drive, scenario.operating
     broken = broken_duty_rules(operating)

@@ -33,7 +33,7 @@ def tasks(request: Request) -> tuple[Task, ...]:
         "operating": request.operating(),
         "mesh": {"compliance": "fem", "damping_ratio": tables["damping_ratio"], **tables.get("mesh", {})},
         "friction": {"law": request.laws[0]},
-        **{name: tables[name] for name in ("film",) if name in tables},
+        **{name: tables[name] for name in ("shaft", "film") if name in tables},
     }
     speeds = [f"{speed!r} rad/s" for speed in request.speeds]
     found = [Task(_TASK, "steady states over the speed", scenario, "operating.pinion_speed", speeds)]

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.studies.gear_pair.case import Case, drivers_of, marching_of
 from tribodyn.studies.gear_pair.outputs import MESH
-from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
+from tribodyn.studies.gear_pair.prepare import PreparedPair, moves_in_space, prepare
 from tribodyn.studies.gear_pair.report import SWEPT
 from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.batch import MotionBatch
@@ -33,14 +33,14 @@ STATE_NAMES = (
     *("work_in", "work_out", "work_damping", "work_parametric", "work_friction", "work_sliding"),
 )
 _OF_MOTOR = ("turn_m", "spin_m")
-#: Modes that helical pairs have besides; their states along and about the axes, and the rates.
+#: Modes that pairs have besides which move in space; their states along and about the axes, and the rates.
 MODES_IN_SPACE = 6
 _IN_SPACE, _RATES_IN_SPACE = (
     tuple(f"{name}_{body}" for body in "pg" for name in names)
     for names in (("z", "tilt_x", "tilt_y"), ("vz", "spin_x", "spin_y"))
 )
 _RATES, _WORKS = STATE_NAMES.index("vx_p"), STATE_NAMES.index("work_in")
-#: And of sweeps in which there is a helical pair.
+#: And of sweeps in which a pair moves in space.
 STATE_NAMES_IN_SPACE = (
     *(*STATE_NAMES[:_RATES], *_IN_SPACE),
     *(*STATE_NAMES[_RATES:_WORKS], *_RATES_IN_SPACE),
@@ -62,10 +62,10 @@ class GearPairs(SweptKind):
     most_states = len(STATE_NAMES_IN_SPACE)
 
     def form(self, cases: Sequence[Case]) -> Form:
-        """A mode more where a shaft gives way; more modes and states where a pair is helical."""
+        """A mode more where a shaft gives way; more of both where a pair moves in space."""
         shaft = any(case.operating.shaft_stiffness is not None for case in cases)
         modes = MODES_WITH_SHAFT if shaft else MODES
-        if any(case.drive.helix_angle for case in cases):
+        if any(moves_in_space(case, 2 if case.drive.helix_angle else 1) for case in cases):
             return Form(modes + MODES_IN_SPACE, STATE_NAMES_IN_SPACE)
         return Form(modes, STATE_NAMES)
 

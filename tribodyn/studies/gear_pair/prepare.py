@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tribodyn.dynamics import parameters
-from tribodyn.dynamics.data import BearingData, in_space
+from tribodyn.dynamics.data import BearingData, matrices_in_space
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, tilting_inertia, varying_load
 from tribodyn.studies.gears.prepare import PreparedGears, at_tooth_temperature
@@ -48,7 +48,7 @@ def _model(
 ) -> parameters.Model:
     """The train of two bodies on bearings, and a third, of the drive, where a shaft gives way."""
     operating, cycle = case.operating, made.cycle
-    helical = cycle.slices > 1
+    spatial = moves_in_space(case, cycle.slices)
     tilting = np.array([tilting_inertia(*masses[side], _width(case, side)) for side in (PINION, GEAR)])
     shaft = operating.source == "torque" and operating.shaft_stiffness is not None
     (mass_1, inertia_1), (mass_2, inertia_2) = masses
@@ -66,7 +66,7 @@ def _model(
         ratio=np.array([1.0, ratio, *(1.0 for _ in motor)]),
         load=np.array([0.0, operating.gear_torque, *(0.0 for _ in motor)]),
         load_damping=np.array([0.0, operating.load_damping, *(0.0 for _ in motor)]),
-        tilting=tilting if helical else np.zeros(0),
+        tilting=tilting if spatial else np.zeros(0),
     )
     links = [_bearing(bearing, mass) for bearing, mass in zip(case.bearings, (mass_1, mass_2), strict=True)]
     ends = [(PINION, GROUND), (GEAR, GROUND)]
@@ -80,7 +80,7 @@ def _model(
         ends,
         MOTOR if shaft else PINION,
         GEAR,
-        spatial=2 if helical else 0,
+        spatial=2 if spatial else 0,
     )
     drive = parameters.DRIVE_TORQUE if operating.source == "torque" else parameters.DRIVE_SPEED
     return parameters.Model(
@@ -93,20 +93,24 @@ def _model(
     )
 
 
+def moves_in_space(case: Case, slices: int) -> bool:
+    """Whether the gears move along their axes and tilt: helical ones, and all on a matrix, which couples."""
+    return slices > 1 or any(bearing.matrix is not None for bearing in case.bearings)
+
+
 def _width(case: Case, side: int) -> float:
     return float((case.drive.pinion, case.drive.gear)[side].face_width)
 
 
 def _in_space(case: Case, bodies: Bodies, ends: list[tuple[int, int]]) -> dict[str, np.ndarray]:
-    """Matrices of the bearings of helical gears; of a shaft, which only turns, nothing."""
+    """Matrices of the bearings of gears that move in space; of a shaft, which only turns, nothing."""
     if not len(bodies.tilting):
         return {}
     found = {name: np.zeros((len(ends), IN_SPACE, IN_SPACE)) for name in ("stiffness", "damping")}
     for side, bearing in enumerate(case.bearings):
-        stiffness, ratios = (np.array(values) for values in in_space(bearing, _width(case, side)))
-        inertia = np.repeat([bodies.mass[side], bodies.tilting[side]], [3, 2])
-        found["stiffness"][side] = np.diag(stiffness)
-        found["damping"][side] = np.diag(2.0 * ratios * np.sqrt(stiffness * inertia))
+        found["stiffness"][side], found["damping"][side] = matrices_in_space(
+            bearing, _width(case, side), bodies.mass[side], bodies.tilting[side]
+        )
     return {f"{name}_in_space": values for name, values in found.items()}
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError, unknown_name
-from tribodyn.scenario.tables.bearings import broken_bearing_rules
 from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.tables.internal_gear import driving_internal
@@ -17,7 +16,6 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
     yield from driving_internal(scenario.drive)
     yield from broken_gear_rules(scenario, internal=True)
-    yield from broken_bearing_rules(scenario.bearings)
     yield from broken_source_rules(scenario.operating, "pinion_torque")
     yield from broken_mesh_rules(scenario.mesh)
     yield from _load(scenario)

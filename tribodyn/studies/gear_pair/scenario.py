@@ -12,7 +12,7 @@ from pydantic import Field
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.scenario import fields
 from tribodyn.scenario.quantity import csv_file, model_file, written
-from tribodyn.scenario.tables.bearings import Bearings, bearings_of
+from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gear_pair.case import Case
@@ -32,10 +32,12 @@ from tribodyn.studies.gears.scenario import (
     GearScenario,
     LossKeys,
     Oil,
+    ShaftKeys,
     TemperatureKeys,
     gear_fields,
     oil_fields,
 )
+from tribodyn.studies.gears.supports import bearings_of
 
 
 class Operating(OiledOperatingTable):
@@ -81,6 +83,7 @@ class GearPairScenario(GearScenario):
     kind: Literal["gear-pair"] = "gear-pair"
     lubricant: Oil
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
+    shaft: ShaftKeys = None
     operating: Operating
     mesh: Mesh
     temperature: TemperatureKeys = None
@@ -100,7 +103,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
     case = Case(
         **gear_fields(scenario, toml, sha256) | own,
         **oil_fields(scenario),
-        bearings=bearings_of(scenario.bearings),
+        bearings=bearings_of(scenario),
         solver=SolverData(**scenario.solver.model_dump()),
         output=OutputData(**scenario.output.model_dump()),
     )

@@ -105,6 +105,9 @@ def _of_all_gears(scenario: Scenario) -> Iterator[InputError]:
 def _bearings(scenario: Scenario) -> Iterator[InputError]:
     for name, bearing in scenario.bearings.by_name.items():
         yield from broken_bearing(f"bearings.{name}", bearing)
+        if bearing.matrix is not None:
+            remedy = "give stiffness_x, stiffness_y and damping_ratio"
+            yield InputError(f"bearings.{name}.matrix", None, "is taken of gear pairs alone", remedy)
 
 
 def _link_laws(scenario: Scenario) -> Iterator[InputError]:

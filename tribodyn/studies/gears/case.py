@@ -16,6 +16,7 @@ from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.over_time.recorded import DOF_SCALE, PAIR, SLICE, samples_of
 from tribodyn.studies.protocol.recording import CaseHead
+from tribodyn.studies.gears.supports import GearSupports
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.losses import LossData
@@ -70,6 +71,8 @@ class GearCase(CaseHead):
     operating: OperatingData
     mesh: MeshData
     quality: Quality | None  # deviations of the gears by ISO 1328-1; None: the drive has no tolerance class
+    #: what holds the gears, where shafts are drawn or matrices given
+    supports: GearSupports = field(default_factory=GearSupports)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -119,6 +119,7 @@ def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
         table=mesh.table.in_si() if mesh.table else None,
         error_harmonics=tuple((cosine.order, cosine.amplitude, cosine.phase) for cosine in error.harmonics),
         backlash=backlash_of(scenario.drive, mesh.backlash),
+        tilting=True,
         **own,
     )
 

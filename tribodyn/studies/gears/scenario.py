@@ -8,9 +8,11 @@ from pydantic import BeforeValidator, Field
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
+from tribodyn.geometry.drive import SIDES
 from tribodyn.mesh.table import MeshData
 from tribodyn.scenario.fields import Slices, head_of
 from tribodyn.scenario.quantity import Switch, model_file
+from tribodyn.scenario.tables.bearings import Bearings, broken_bearing_rules
 from tribodyn.scenario.tables.drive_data import masses_of, teeth_of
 from tribodyn.scenario.tables.drive_rules import (
     Face,
@@ -43,11 +45,18 @@ from tribodyn.scenario.tables.quality import (
     with_sample,
 )
 from tribodyn.studies.gears.by_standard import quality_of
+from tribodyn.studies.gears.supports import displaced, has_supports, supports_of
+from tribodyn.scenario.tables.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
 from tribodyn.tribology.law import FrictionData
 
 Oil = Annotated[Lubricant, model_file("lubricants")]
 TemperatureKeys = Annotated[TemperatureTable | None, Field(description="bulk temperature of the teeth")]
 LossKeys = Annotated[LossesTable | None, Field(description="load-independent losses")]
+ShaftKeys = Annotated[DrawnShafts | None, Field(description="shafts as drawn, on their bearings")]
+#: Of studies of the teeth alone, which read matrices of it.
+MatrixKeys = Annotated[
+    Bearings | None, model_file("bearings"), Field(description="matrices of shafts and bearings")
+]
 FilmKeys = Annotated[FilmTable | None, Field(description="which law gives the film")]
 FaceSlices = Annotated[
     Slices | None,
@@ -86,6 +95,7 @@ def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:
         "masses": masses_of(drive),
         "operating": OperatingData("speed", *duty),
         "mesh": mesh_of(scenario),
+        "supports": supports_of(scenario),
         "quality": quality_of([grade_of(drive, gear) for gear in gears], tolerances_of(drive)),
     }
 
@@ -104,15 +114,22 @@ def oil_fields(scenario: Any) -> dict[str, Any]:
     }
 
 
-def mesh_of(scenario: Any, *, every_tooth: bool = False, error: Any = None, **own: Any) -> MeshData:
+def mesh_of(
+    scenario: Any, *, every_tooth: bool = False, tilting: bool = False, error: Any = None, **own: Any
+) -> MeshData:
     """Return what a scenario says of its mesh, by finite elements where it names no compliance.
 
-    Its table [mesh] may lack any key. `every_tooth` is for studies that know teeth that differ; to `error`, a
-    pair's transmission error over roll angle (rad, m), a sample of deviations adds; `own` are fields of
-    `MeshData` that are not plain keys of the table.
+    Its table [mesh] may lack any key. `every_tooth` is for studies that know teeth that differ, `tilting` for
+    those whose helical gears tilt on their bearings by themselves; to `error`, a pair's transmission error
+    over roll angle (rad, m), a sample of deviations adds; `own` are fields of `MeshData` that are not plain
+    keys of the table. Drawn shafts add their misalignment to that of the scenario.
     """
     drive, mesh = scenario.drive, scenario.mesh
     modifications = modifications_of(drive, getattr(mesh, "misalignment", _ALIGNED))
+    internal = drive.pinion.internal or drive.gear.internal  # even along the face
+    if not internal and (getattr(mesh, "compliance", "fem") == "fem" or drive.helix_angle):
+        own_tilts = tilting and bool(drive.helix_angle)
+        modifications = displaced(modifications, supports_of(scenario), own_tilts=own_tilts)
     sample, slices = getattr(mesh, "deviation_sample", None), getattr(mesh, "slices", None)
     if getattr(mesh, "compliance", "fem") == "fem":
         modifications = with_sample(drive, modifications, sample, every_tooth=every_tooth, slices=slices)
@@ -158,6 +175,23 @@ def _broken_internal_face(scenario: Any) -> Iterator[InputError]:
         yield InputError("mesh.slices", given, rule, remedy)
 
 
+def _broken_supports(scenario: Any) -> Iterator[InputError]:
+    """Go through the broken rules of shafts and bearings, where the kind has such tables."""
+    shafts, bearings = getattr(scenario, "shaft", None), getattr(scenario, "bearings", None)
+    if isinstance(bearings, Bearings):
+        yield from broken_bearing_rules(bearings, drawn_sides(shafts))
+    if isinstance(shafts, DrawnShafts):
+        yield from broken_shaft_rules(shafts, bearings)
+
+
+def broken_matrix_keys(bearings: Bearings | None) -> Iterator[InputError]:
+    """Refuse bearings of which a study of the teeth alone reads nothing."""
+    if bearings is not None and not any(getattr(getattr(bearings, side), "matrix", None) for side in SIDES):
+        rule = "has no effect: of bearings the teeth alone know the tilts, by a matrix"
+        remedy = "leave it out, or give [bearings.pinion] a matrix"
+        yield InputError("bearings", None, rule, remedy)
+
+
 def broken_gear_rules(
     scenario: Any, *, every_duty: bool = False, oil: bool = True, internal: bool = False
 ) -> Iterator[InputError]:
@@ -182,9 +216,10 @@ def broken_gear_rules(
             yield from broken_lubricant_rules(lubricant, scenario.operating.oil_temperature)
         yield from broken_temperature_rules(getattr(scenario, "temperature", None), lubricant)
     yield from broken_loss_rules(getattr(scenario, "losses", None))
+    yield from _broken_supports(scenario)
     misalignment = getattr(mesh, "misalignment", _ALIGNED)
     coupling = getattr(mesh, "slice_coupling", True)
-    face = Face(drive, misalignment, getattr(mesh, "slices", None), coupling)
+    face = Face(drive, misalignment, getattr(mesh, "slices", None), coupling, has_supports(scenario))
     if (compliance := getattr(mesh, "compliance", None)) is None:
         yield from broken_slice_rules(face)
     else:

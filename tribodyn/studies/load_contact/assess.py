@@ -19,6 +19,7 @@ _QUANTITIES = (
     *("loaded_transmission_error_mean", "loaded_transmission_error_peak_to_peak"),
     *("least_peak_to_peak", "least_peak_to_peak_torque"),
     *("face_load_factor", "line_load_max", "hertz_pressure_max"),
+    *("shaft_misalignment", "given_misalignment"),
     *("pinion_root_tension_max", "gear_root_tension_max"),
 )
 _SCATTERED = ("face_load_factor", "loaded_transmission_error_peak_to_peak")
@@ -39,6 +40,7 @@ def tasks(request: Request) -> tuple[Task, ...]:
         "drive": request.tables["drive"],
         "operating": operating,
         "mesh": dict(request.tables.get("mesh", {})),
+        **request.supports(),
     }
     found = [Task(_TASK, "loaded error, pressures, root stresses", scenario)]
     at_duty = scenario | {"operating": {"gear_torque": operating["gear_torque"]}}

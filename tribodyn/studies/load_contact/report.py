@@ -18,6 +18,7 @@ REPORTED: Reported = {
         *("least_peak_to_peak", "least_peak_to_peak_torque"),
         *("mesh_stiffness_mean", "mesh_stiffness_peak_to_peak"),
         *("line_load_max", "face_load_factor", "face_load_factor_pitch_point"),
+        *("shaft_misalignment", "given_misalignment"),
         *("pinion_root_tension_max", "gear_root_tension_max"),
         *("pinion_root_compression_max", "gear_root_compression_max"),
     ),

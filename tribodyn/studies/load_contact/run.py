@@ -24,6 +24,7 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.gears.check import sheet_and_stiffness
+from tribodyn.studies.gears.rated.bearings import bearing_part, opening_part
 from tribodyn.studies.load_contact.case import BODIES, LAYOUT, OILED, LoadContactCase
 from tribodyn.studies.load_contact.film import film_over_face
 from tribodyn.studies.load_contact.prepare import PreparedTeeth, contact_of, flanks_of, prepare
@@ -180,6 +181,8 @@ def loaded_quantities(study: PreparedTeeth, loaded: LoadedContact) -> dict[str, 
         "torque_residual": float(np.max(np.abs(torque_residual(study, loaded)))),
         "gear_torque": study.case.operating.gear_torque,
         "slices": study.case.mesh.slices,
+        **opening_part(study.case, study.flexible.width),
+        **bearing_part(study.case),
     }
 
 

@@ -17,10 +17,13 @@ from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FilmKeys,
     GearScenario,
+    MatrixKeys,
     Oil,
     SampleNumber,
+    ShaftKeys,
     SliceCoupling,
     broken_gear_rules,
+    broken_matrix_keys,
     gear_fields,
     mesh_of,
     oil_fields,
@@ -61,6 +64,8 @@ class LoadContactScenario(GearScenario):
     kind: Literal["load-contact"]
     lubricant: Oil | None = Field(None, description="for the film over the face; default: none is computed")
     operating: LoadContactOperating
+    bearings: MatrixKeys = None
+    shaft: ShaftKeys = None
     mesh: LoadContactMesh = written({})
     film: FilmKeys = None
     output: LoadContactOutput = written({})
@@ -90,6 +95,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     yield from broken_gear_rules(scenario)
+    yield from broken_matrix_keys(scenario.bearings)
     drive, operating, oiled = scenario.drive, scenario.operating, scenario.lubricant is not None
     yield from broken_driving_rules(operating, (drive.pinion.teeth, drive.gear.teeth), speed_needed=oiled)
     if not oiled:

@@ -16,8 +16,8 @@ class Request(NamedTuple):
     """What an assessment asks of the studies."""
 
     title: str
-    #: tables ``drive``, ``lubricant``, ``bearings``, ``mesh``, ``temperature`` and ``losses`` as a scenario
-    #: has them, the last only where given; ``film`` that goes with the first friction law, where it is not
+    #: tables ``drive``, ``lubricant``, ``bearings``, ``shaft``, ``mesh``, ``temperature`` and ``losses`` as a
+    #: scenario has them, ``shaft`` and ``losses`` only where given; ``film`` that goes with the first friction law, where it is not
     #: the law's own; ``oil_temperature``, a quantity as text; ``damping_ratio``
     tables: Mapping[str, Any]
     #: pinion_speed, gear_torque: rad/s and N m
@@ -37,6 +37,14 @@ class Request(NamedTuple):
             "gear_torque": f"{self.gear_torque!r} N*m",
             "oil_temperature": self.tables["oil_temperature"],
         }
+
+    def supports(self) -> dict[str, Any]:
+        """Tables by which shafts tilt the gears, where there are any, for studies of the teeth alone."""
+        found = {"shaft": self.tables["shaft"]} if "shaft" in self.tables else {}
+        bearings = self.tables.get("bearings", {})
+        if any("matrix" in side for side in bearings.values() if isinstance(side, Mapping)):
+            found["bearings"] = bearings
+        return found
 
 
 class Task(NamedTuple):

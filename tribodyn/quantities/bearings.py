@@ -1,0 +1,37 @@
+"""Quantities of shafts and their bearings under the mean load of the mesh."""
+
+from tribodyn.quantities.quantity import Quantity
+
+#: Of each bearing of a drawn shaft.
+BEARINGS = (
+    Quantity("radial_load", "Radial load", "N", ".4g", symbol="F_r").defined_as(
+        "Across the axis, on the bearing, under the mean load of the mesh."
+    ),
+    Quantity("axial_load", "Axial load", "N", ".4g", symbol="F_a").defined_as(
+        "Along the axis, on the bearing; of tapered roller bearings with what the other one pushes."
+    ),
+    Quantity("tilting_moment", "Tilting moment", "N m", ".3g").defined_as(
+        "By which the tilted shaft loads the bearing besides."
+    ),
+    Quantity("equivalent_load", "Equivalent dynamic load", "N", ".4g", symbol="P").defined_as(
+        "P = X F_r + Y F_a of ISO 281."
+    ),
+    Quantity("life_hours", "Basic rating life", "h", ".4g", symbol="L_10h").defined_as(
+        "That 90 % of such bearings reach at the duty's speed: (C/P)^p 10⁶ revolutions, ISO 281."
+    ),
+    Quantity("power_bearing", "Loss", "W", ".3g").defined_as(
+        "By Palmgren's friction moments: of the oil bath, and of the load."
+    ),
+)
+TILTS = (
+    Quantity(
+        "shaft_misalignment", "Misalignment by shafts and bearings", "µm", ".3g", symbol="f_sh"
+    ).defined_as(
+        "By how much shafts and bearings open the flanks from one end of the common face to the other, within "
+        "the plane of action, under the mean load of the mesh; positive where the end at larger z opens."
+    ),
+    Quantity("given_misalignment", "Misalignment of the scenario", "µm", ".3g").defined_as(
+        "The same by mesh.misalignment, which adds to it."
+    ),
+)
+QUANTITIES = (*BEARINGS, *TILTS)

@@ -1,0 +1,123 @@
+"""Bearings of drawn shafts: their loads, rating lives and losses, and the tilts of the gears."""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from tribodyn.geometry.drive import SIDES
+from tribodyn.quantities.bearings import BEARINGS
+from tribodyn.standards.rolling_bearings import (
+    STATIC_FACTOR,
+    basic_life,
+    equivalent_load,
+    life_hours,
+    load_moment,
+)
+from tribodyn.studies.gears.case import GearCase
+from tribodyn.studies.gears.rated.first_page import numbers_table
+from tribodyn.studies.gears.supports import BearingUnderLoad
+from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
+from tribodyn.tribology.oil import LubricantData
+
+
+class RatedBearing(NamedTuple):
+    """A rolling bearing with its numbers by the names of the catalogue, and what is to be said of it."""
+
+    name: str  # pinion-1 is the first one of the pinion's shaft
+    numbers: dict[str, float]
+    remarks: tuple[str, ...]
+
+
+def rated_bearings(case: GearCase, oil: LubricantData | None = None) -> Iterator[RatedBearing]:
+    """Go through the bearings of a case's drawn shafts, under the mean load of the mesh.
+
+    Lives need a speed and C; losses the oil besides, and C_0 of balls. What is missing is left out and said.
+    """
+    ratio = abs(float(case.drive.pinion.teeth / case.drive.gear.teeth))
+    for side, held in zip(SIDES, case.supports[:2], strict=True):
+        speed = case.operating.pinion_speed * (1.0 if side == "pinion" else ratio)
+        for number, bearing in enumerate(held.bearings if held is not None else (), start=1):
+            yield _rated(f"{side}-{number}", bearing, speed, oil)
+
+
+def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantData | None) -> RatedBearing:
+    table, force = bearing.table, bearing.force
+    radial, axial = math.hypot(force[0], force[1]), abs(force[2])
+    numbers = {"radial_load": radial, "axial_load": axial, "tilting_moment": math.hypot(force[3], force[4])}
+    if table.type is None:  # springs and matrices have no life
+        return RatedBearing(name, numbers, ())
+    remarks = []
+    angle, factor = table.contact_angle or 0.0, table.static_factor or STATIC_FACTOR
+    equivalent = equivalent_load(
+        table.type,
+        radial,
+        axial,
+        static_rating=table.static_rating,
+        static_factor=factor,
+        contact_angle=angle,
+    )
+    numbers["equivalent_load"] = equivalent.load
+    if table.dynamic_rating is None:
+        remarks.append(f"Bearing {name}: no life without dynamic_rating, C of its catalogue.")
+    elif speed > 0.0 and equivalent.load > 0.0:
+        life = basic_life(table.type, table.dynamic_rating, equivalent.load)
+        numbers["life_hours"] = life_hours(life, speed)
+    balls = table.type == "deep-groove-ball"
+    if balls and table.static_rating is None:
+        remarks.append(
+            f"Bearing {name}: without static_rating, C_0 of its catalogue, no loss, and P with the largest Y."
+        )
+    if oil is not None and speed > 0.0 and table.pitch_diameter:
+        moment = load_moment(
+            table.type,
+            radial,
+            axial,
+            table.pitch_diameter,
+            static_rating=table.static_rating,
+            contact_angle=angle,
+        )
+        if moment is not None:
+            drag = BearingDragData(table.pitch_diameter, DRAG_FACTORS[table.type], 1)
+            idle = palmgren(drag, speed, float(oil.inlet_viscosity), float(oil.density))
+            numbers["power_bearing"] = idle.power + moment * speed
+    return RatedBearing(name, numbers, tuple(remarks))
+
+
+def bearing_part(case: GearCase, oil: LubricantData | None = None) -> dict[str, Any]:
+    """What a summary has of drawn shafts: ``bearings``, by their names; nothing where none is drawn."""
+    found = {bearing.name: bearing.numbers for bearing in rated_bearings(case, oil)}
+    return {"bearings": found} if found else {}
+
+
+def bearing_remarks(case: GearCase, oil: LubricantData | None = None) -> list[str]:
+    """What is missing of the bearings' data, and what their numbers leave out."""
+    rated = list(rated_bearings(case, oil))
+    remarks = [remark for bearing in rated for remark in bearing.remarks]
+    if any("equivalent_load" in bearing.numbers for bearing in rated):
+        remarks.append(
+            "Bearings: under the mean load of the mesh, without application and dynamic factor; basic rating "
+            "life without the influence of oil, cleanness and misalignment; losses are not in the efficiency."
+        )
+    return remarks
+
+
+def opening_part(case: GearCase, width: float) -> dict[str, float]:
+    """Misalignment over the common face (m), of drawn shafts and matrices, and of the scenario besides."""
+    if case.supports.pinion is None and case.supports.gear is None:
+        return {}
+    by_shafts = case.supports.misalignment.in_plane
+    whole = case.mesh.modifications.misalignment.in_plane
+    return {"shaft_misalignment": by_shafts * width, "given_misalignment": (whole - by_shafts) * width}
+
+
+def bearings_table(summary: Mapping[str, Any]) -> str:
+    """The bearings of a summary as a section of a page; "" where there are none."""
+    found = summary.get("bearings", {})
+    if not found:
+        return ""
+    shown = [one for one in BEARINGS if any(one.name in numbers for numbers in found.values())]
+    rows = [
+        (name, *(one.written(numbers[one.name]) if one.name in numbers else "–" for one in shown))
+        for name, numbers in found.items()
+    ]
+    return numbers_table("Bearings", ("", *(one.titled for one in shown)), rows)

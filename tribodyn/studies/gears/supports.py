@@ -1,0 +1,222 @@
+"""Shafts as drawn, and matrices, under the mean load of the mesh: stiffness, tilts, loads of the bearings.
+
+The load is that of the pitch point: F_t = T/r, F_r = F_t tan α_t, F_a = F_t tan β, all of it in the middle of
+the face, whose load a misalignment shifts; that it does is left out, which overestimates the tilts.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.data import BearingData
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.families import family
+from tribodyn.geometry.flanks.modification import Misalignment, Modifications
+from tribodyn.geometry.helix import pitch_slope
+from tribodyn.numerics.remembered import remembered
+from tribodyn.scenario.tables.bearings import Bearings, bearing_of
+from tribodyn.scenario.tables.drive_data import drive_of
+from tribodyn.scenario.tables.duty import duty_of
+from tribodyn.scenario.tables.model_files import DriveTable
+from tribodyn.scenario.tables.shafts import SPRINGS, BearingOfShaft, DrawnShaft, DrawnShafts, drawn_sides
+from tribodyn.scenario.tables.support_matrix import matrix_of
+from tribodyn.train.links.beam import ShaftMetal, ShaftSection
+from tribodyn.train.links.rolling_bearing import BallRow, RollerRow
+from tribodyn.train.links.shaft import Matrix, NotHeld, Support, SupportedShaft, under_load
+
+#: Forces along x, y, z (N) and moments about x and y (N m), or displacements (m, rad).
+Five = tuple[float, ...]
+
+
+class BearingUnderLoad(NamedTuple):
+    """A bearing of a drawn shaft: where it is, what its table says, and what the shaft does to it."""
+
+    position: float  # m
+    table: BearingOfShaft
+    force: Five
+
+
+class GearSupport(NamedTuple):
+    """What holds a gear, under the mean load of its mesh."""
+
+    data: BearingData  # with the matrix about this load
+    displacement: Five  # of the gear under it
+    rest: Five  # of that what the matrix alone does not give, since bearings stiffen
+    bearings: tuple[BearingUnderLoad, ...] = ()
+
+
+class GearSupports(NamedTuple):
+    """Those of pinion and gear; None: springs in the directions of the axes, which tilt no gear here."""
+
+    pinion: GearSupport | None = None
+    gear: GearSupport | None = None
+    misalignment: Misalignment = Misalignment()  # by the tilts of both
+    pressure_angle: float = 0.0  # of the transverse section at the pitch point, rad
+
+
+def supports_of(scenario: Any) -> GearSupports:
+    """What holds the gears of a scenario that breaks no rule: drawn shafts, and matrices of its bearings.
+
+    Raises InputError where a shaft is not held under the load of its gear.
+    """
+    if not has_supports(scenario):
+        return GearSupports()
+    shafts, bearings = getattr(scenario, "shaft", None), getattr(scenario, "bearings", None)
+    matrices = {side: _with_matrix(bearings, side) for side in SIDES}
+    drawn = {side: getattr(shafts, side) if isinstance(shafts, DrawnShafts) else None for side in SIDES}
+    drive: DriveTable = scenario.drive
+    geometry = drive_of(drive)
+    assembly = assemble(family(drive.family), geometry)
+    torque = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
+    loads = mean_loads(assembly, torque)
+    found: dict[str, GearSupport | None] = dict.fromkeys(SIDES)
+    for side, load in zip(SIDES, loads, strict=True):
+        if (shaft := drawn[side]) is not None:
+            found[side] = _drawn(f"shaft.{side}", shaft, load)
+        elif (matrix := matrices[side]) is not None:
+            found[side] = _on_matrix(f"bearings.{side}.matrix", matrix, load)
+    angle = float(assembly.path.pressure_angle(0.0))
+    stand = misalignment_of([_of(one, "displacement") for one in found.values()], angle)
+    return GearSupports(found["pinion"], found["gear"], stand, angle)
+
+
+def has_supports(scenario: Any) -> bool:
+    """Whether a scenario draws a shaft or gives a matrix."""
+    shafts, bearings = getattr(scenario, "shaft", None), getattr(scenario, "bearings", None)
+    drawn = drawn_sides(shafts) if isinstance(shafts, DrawnShafts) else ()
+    return bool(drawn) or any(_with_matrix(bearings, side) for side in SIDES)
+
+
+def bearings_of(scenario: Any) -> tuple[BearingData, BearingData]:
+    """Stiffness and damping of what holds both gears of a scenario that breaks no rule."""
+    held = supports_of(scenario)
+    pinion, gear = (
+        bearing_of(getattr(scenario.bearings, side)) if own is None else own.data
+        for side, own in zip(SIDES, held[:2], strict=True)
+    )
+    return pinion, gear
+
+
+def mean_loads(assembly: Assembly, gear_torque: float) -> tuple[Five, Five]:
+    """Load of the mesh on pinion and gear: forces along x, y, z and moments about x and y of their centres.
+
+    A negative torque on the gear loads the back flanks. The pinion turns clockwise, seen from +z; its flanks
+    move along +x at the pitch point, and y is from its centre to the gear's.
+    """
+    radii = float(assembly.path.pinion_pitch_radius), float(assembly.path.gear_pitch_radius)
+    tangential = abs(gear_torque / radii[1])
+    radial = tangential * float(np.tan(assembly.path.pressure_angle(0.0)))
+    axial = tangential * float(pitch_slope(assembly))  # of a right-hand pinion towards −z
+    sense = 1.0 if gear_torque >= 0.0 else -1.0
+    on_pinion = np.array([-sense * tangential, -radial, -sense * axial])
+    found = []
+    for force, arm in ((on_pinion, radii[0]), (-on_pinion, -radii[1])):
+        found.append((*map(float, force), arm * float(force[2]), 0.0))
+    return found[0], found[1]
+
+
+def misalignment_of(displacements: Any, pressure_angle: float) -> Misalignment:
+    """How displaced gears stand, see `Misalignment`; of pinion and gear, in the directions of `Five`."""
+    (_, _, _, pinion_x, pinion_y), (_, _, _, gear_x, gear_y) = displacements
+    skew, inclination = gear_y - pinion_y, pinion_x - gear_x
+    cosine, sine = float(np.cos(pressure_angle)), float(np.sin(pressure_angle))
+    return Misalignment(skew * cosine + inclination * sine, inclination * cosine - skew * sine)
+
+
+def displaced(modifications: Modifications, held: GearSupports, *, own_tilts: bool) -> Modifications:
+    """Flanks whose gears stand as their shafts displace them.
+
+    `own_tilts`: the gears tilt on the matrices by themselves, and what is left is what those do not give.
+    """
+    further = held.misalignment
+    if own_tilts:
+        further = misalignment_of([_of(one, "rest") for one in held[:2]], held.pressure_angle)
+    if not any(further):
+        return modifications
+    stand = modifications.misalignment
+    both = Misalignment(stand.in_plane + further.in_plane, stand.out_of_plane + further.out_of_plane)
+    return modifications._replace(misalignment=both)
+
+
+def _of(held: GearSupport | None, what: str) -> Five:
+    return (0.0,) * 5 if held is None else getattr(held, what)
+
+
+def _with_matrix(bearings: Any, side: str) -> BearingData | None:
+    bearing = getattr(bearings, side) if isinstance(bearings, Bearings) else None
+    if bearing is None or bearing.matrix is None or bearing.damping_ratio is None:
+        return None  # the last is a broken rule
+    return bearing_of(bearing)
+
+
+def _on_matrix(key: str, data: BearingData, load: Five) -> GearSupport:
+    assert data.matrix is not None
+    matrix, force = np.array(data.matrix), np.array(load)
+    moved, *_ = np.linalg.lstsq(matrix, force, rcond=None)
+    if np.max(np.abs(matrix @ moved - force)) > 1e-6 * np.max(np.abs(force)):
+        rule = "does not hold the gear against the load of its mesh: it is zero in some direction of that"
+        raise InputError(key, None, rule, "give it stiffness there, of helical gears also along z")
+    return GearSupport(data, tuple(moved.tolist()), (0.0,) * 5)
+
+
+def _drawn(key: str, table: DrawnShaft, load: Five) -> GearSupport:
+    try:
+        moved, stiffness, forces = _settled(_shaft_of(table), load)
+    except NotHeld as error:
+        rule = f"{error}, under the load of the mesh"
+        remedy = (
+            "give a load, less clearance, or bearings that hold it there; thrust of tapered ones both ways"
+        )
+        raise InputError(key, None, rule, remedy) from error
+    matrix = np.array(stiffness)
+    rest = np.array(moved) - np.linalg.solve(matrix, load)
+    bearings = tuple(
+        BearingUnderLoad(bearing.position, bearing, force)
+        for bearing, force in zip(table.bearing, forces, strict=True)
+    )
+    data = BearingData.of_matrix(stiffness, table.damping_ratio)
+    return GearSupport(data, moved, tuple(rest.tolist()), bearings)
+
+
+@remembered(64)
+def _settled(shaft: SupportedShaft, load: Five) -> tuple[Five, Matrix, tuple[Five, ...]]:
+    found = under_load(shaft, load)
+    return (
+        tuple(found.displacement.tolist()),
+        tuple(map(tuple, found.stiffness.tolist())),
+        tuple(tuple(state.force.tolist()) for state in found.bearings),
+    )
+
+
+def _shaft_of(table: DrawnShaft) -> SupportedShaft:
+    return SupportedShaft(
+        tuple(ShaftSection(*section.model_dump().values()) for section in table.section),
+        table.gear_position,
+        tuple(Support(bearing.position, _held(bearing)) for bearing in table.bearing),
+        ShaftMetal(table.youngs_modulus, table.poisson_ratio),
+    )
+
+
+def _held(table: BearingOfShaft) -> BallRow | RollerRow | Matrix:
+    """A bearing as the physics takes it."""
+    if table.matrix is not None:
+        return matrix_of(table.matrix, table.matrix_units)
+    if table.type is None:
+        x, y, z, tilt = (getattr(table, name) or 0.0 for name in SPRINGS)
+        return tuple(map(tuple, np.diag([x, y, z, tilt, tilt]).tolist()))
+    assert table.elements and table.element_diameter and table.pitch_diameter
+    sizes: Any = table.elements, table.element_diameter
+    fit = {"pitch_diameter": table.pitch_diameter, "clearance": table.clearance}
+    if table.type == "deep-groove-ball":
+        return BallRow(*sizes, **fit, located=table.locating)
+    assert table.roller_length is not None
+    return RollerRow(
+        *sizes,
+        table.roller_length,
+        **fit,
+        contact_angle=table.contact_angle or 0.0,
+        thrust={"+z": 1, "-z": -1, None: 0}[table.thrust],
+        preload=table.preload,
+    )
