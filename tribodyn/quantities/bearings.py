@@ -27,7 +27,7 @@ TILTS = (
     Quantity(
         "shaft_misalignment", "Misalignment by shafts and bearings", "µm", ".3g", symbol="f_sh"
     ).defined_as(
-        "By how much shafts and bearings open the flanks from one end of the common face to the other, within "
+        "By how much shafts and bearings open the flanks from one end of the common face to the other, in "
         "the plane of action, under the mean load of the mesh; positive where the end at larger z opens."
     ),
     Quantity("given_misalignment", "Misalignment of the scenario", "µm", ".3g").defined_as(

@@ -77,10 +77,10 @@ def load_moment(
 ) -> float | None:
     """M_1 = f_1 P_1 d_m, N m, by Palmgren, f_1 and P_1 as Harris gives them (chapter 14; from memory).
 
-    Deep groove ball bearings: f_1 = 0.0005 (P_0/C_0)^0.55 with P_0 = max(0.6 F_r + 0.5 F_a, F_r) of ISO 76, and
-    P_1 = max(3 F_a − 0.1 F_r, F_r); None without C_0. Cylindrical rollers with cage: f_1 = 0.0003, P_1 = F_r.
-    Tapered rollers: f_1 = 0.0004, P_1 = max(2 Y F_a, F_r), Y = 0.4 cot α. Flange friction of cylindrical rollers
-    under axial load is not in it.
+    Deep groove ball bearings: f_1 = 0.0005 (P_0/C_0)^0.55 with P_0 = max(0.6 F_r + 0.5 F_a, F_r) of ISO 76,
+    and P_1 = max(3 F_a − 0.1 F_r, F_r); None without C_0. Cylindrical rollers with cage: f_1 = 0.0003,
+    P_1 = F_r. Tapered rollers: f_1 = 0.0004, P_1 = max(2 Y F_a, F_r), Y = 0.4 cot α. Flange friction of
+    cylindrical rollers under axial load is not in it.
     """
     if kind == "cylindrical-roller":
         return 0.0003 * radial * mean_diameter

@@ -92,7 +92,10 @@ def bearing_of(bearing: Bearing) -> BearingData:
 
 
 def broken_bearing_rules(bearings: Bearings, drawn: Collection[str] = ()) -> Iterator[InputError]:
-    """Go through what is missing in the bearings of both gears, or given twice; of `drawn` sides nothing is."""
+    """Go through what is missing in the bearings of both gears, or given twice.
+
+    Nothing is missing of gears whose shafts are `drawn`.
+    """
     for side in ("pinion", "gear"):
         if (bearing := getattr(bearings, side)) is not None:
             yield from broken_bearing(f"bearings.{side}", bearing)

@@ -175,8 +175,8 @@ def _unstable(key: str, shaft: DrawnShaft) -> Iterator[InputError]:
     if not axial:
         rule = "none of them holds the shaft along its axis"
         remedy = (
-            "make one a deep groove ball bearing that is locating, or two tapered ones, or add an axial stop: "
-            f'a further [[{key}.bearing]] with stiffness_axial = "1e8 N/m" alone'
+            "make one a deep groove ball bearing that is locating, or two tapered ones, or add an axial "
+            f'stop: a further [[{key}.bearing]] with stiffness_axial = "1e8 N/m" alone'
         )
         yield InputError(f"{key}.bearing", None, rule, remedy)
 

@@ -15,8 +15,8 @@ from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.over_time.recorded import DOF_SCALE, PAIR, SLICE, samples_of
-from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.studies.gears.supports import GearSupports
+from tribodyn.studies.protocol.recording import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.losses import LossData

@@ -44,9 +44,9 @@ from tribodyn.scenario.tables.quality import (
     tolerances_of,
     with_sample,
 )
+from tribodyn.scenario.tables.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.studies.gears.supports import displaced, has_supports, supports_of
-from tribodyn.scenario.tables.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
 from tribodyn.tribology.law import FrictionData
 
 Oil = Annotated[Lubricant, model_file("lubricants")]

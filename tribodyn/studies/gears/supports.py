@@ -16,7 +16,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import Misalignment, Modifications
 from tribodyn.geometry.helix import pitch_slope
 from tribodyn.numerics.remembered import remembered
-from tribodyn.scenario.tables.bearings import Bearings, bearing_of
+from tribodyn.scenario.tables.bearings import Bearing, Bearings, bearing_of
 from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.duty import duty_of
 from tribodyn.scenario.tables.model_files import DriveTable
@@ -76,7 +76,7 @@ def supports_of(scenario: Any) -> GearSupports:
         if (shaft := drawn[side]) is not None:
             found[side] = _drawn(f"shaft.{side}", shaft, load)
         elif (matrix := matrices[side]) is not None:
-            found[side] = _on_matrix(f"bearings.{side}.matrix", matrix, load)
+            found[side] = _on_matrix(f"bearings.{side}.matrix", bearing_of(matrix), load)
     angle = float(assembly.path.pressure_angle(0.0))
     stand = misalignment_of([_of(one, "displacement") for one in found.values()], angle)
     return GearSupports(found["pinion"], found["gear"], stand, angle)
@@ -144,11 +144,9 @@ def _of(held: GearSupport | None, what: str) -> Five:
     return (0.0,) * 5 if held is None else getattr(held, what)
 
 
-def _with_matrix(bearings: Any, side: str) -> BearingData | None:
+def _with_matrix(bearings: Any, side: str) -> Bearing | None:
     bearing = getattr(bearings, side) if isinstance(bearings, Bearings) else None
-    if bearing is None or bearing.matrix is None or bearing.damping_ratio is None:
-        return None  # the last is a broken rule
-    return bearing_of(bearing)
+    return bearing if bearing is not None and bearing.matrix is not None else None
 
 
 def _on_matrix(key: str, data: BearingData, load: Five) -> GearSupport:
@@ -206,15 +204,13 @@ def _held(table: BearingOfShaft) -> BallRow | RollerRow | Matrix:
     if table.type is None:
         x, y, z, tilt = (getattr(table, name) or 0.0 for name in SPRINGS)
         return tuple(map(tuple, np.diag([x, y, z, tilt, tilt]).tolist()))
-    assert table.elements and table.element_diameter and table.pitch_diameter
     sizes: Any = table.elements, table.element_diameter
-    fit = {"pitch_diameter": table.pitch_diameter, "clearance": table.clearance}
+    fit: Any = {"pitch_diameter": table.pitch_diameter, "clearance": table.clearance}
     if table.type == "deep-groove-ball":
         return BallRow(*sizes, **fit, located=table.locating)
-    assert table.roller_length is not None
     return RollerRow(
         *sizes,
-        table.roller_length,
+        length=table.roller_length or 0.0,
         **fit,
         contact_angle=table.contact_angle or 0.0,
         thrust={"+z": 1, "-z": -1, None: 0}[table.thrust],

@@ -17,8 +17,8 @@ class Request(NamedTuple):
 
     title: str
     #: tables ``drive``, ``lubricant``, ``bearings``, ``shaft``, ``mesh``, ``temperature`` and ``losses`` as a
-    #: scenario has them, ``shaft`` and ``losses`` only where given; ``film`` that goes with the first friction law, where it is not
-    #: the law's own; ``oil_temperature``, a quantity as text; ``damping_ratio``
+    #: scenario has them, ``shaft`` and the last only where given; ``film`` that goes with the first friction
+    #: law, where it is not the law's own; ``oil_temperature``, a quantity as text; ``damping_ratio``
     tables: Mapping[str, Any]
     #: pinion_speed, gear_torque: rad/s and N m
     pinion_speed: float

@@ -6,6 +6,7 @@ of freedom of their own. J. S. Przemieniecki, Theory of Matrix Structural Analys
 """
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -84,7 +85,7 @@ def stiffness_between(
     ends = np.cumsum([0.0, *(section.length for section in sections)])
     nodes = np.unique([*ends, *places])
     whole = np.zeros((DIRECTIONS * len(nodes),) * 2)
-    for first, (start, end) in enumerate(zip(nodes[:-1], nodes[1:], strict=True)):
+    for first, (start, end) in enumerate(pairwise(nodes.tolist())):
         section = sections[int(np.searchsorted(ends, (start + end) / 2.0)) - 1]
         at = slice(DIRECTIONS * first, DIRECTIONS * (first + 2))
         whole[at, at] += element(section, end - start, metal)

@@ -3,11 +3,11 @@
 Sum over the rolling elements of Hertz contacts between rigid rings, without speed: A. B. Jones, J. Basic Eng.
 82 (1960) 309; T. A. Harris, Rolling Bearing Analysis; as a matrix T. C. Lim, R. Singh, J. Sound Vib. 139
 (1990) 179, and J. M. de Mul, J. M. Vree, D. A. Maas, J. Tribol. 111 (1989) 142. Displacements are those of
-the shaft at the bearing's middle, in the directions of `beam`. Energies are convex in them, so that a shaft on
-such bearings has one equilibrium.
+the shaft at the bearing's middle, in the directions of `beam`. Energies are convex in them, so that a shaft
+has one equilibrium.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 from scipy.optimize import brentq
@@ -101,7 +101,7 @@ def _ellipse(ratio: float) -> tuple[float, float, float]:
     if ratio <= 1.0 + 1e-9:
         return 1.0, np.pi / 2.0, np.pi / 2.0
     guess = ratio**0.636  # Hamrock & Brewe, within a few per cent
-    k = float(brentq(missing, 1.0 + 0.3 * (guess - 1.0), 3.0 * guess))
+    k = cast(float, brentq(missing, 1.0 + 0.3 * (guess - 1.0), 3.0 * guess))
     return (k, *integrals(k))
 
 

@@ -6,7 +6,7 @@ nodes, which carry no load, is exact.
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 
@@ -65,7 +65,7 @@ def under_load(shaft: SupportedShaft, load: Sequence[float]) -> UnderLoad:
     """
     places = [shaft.gear_position, *(support.position for support in shaft.supports)]
     apart, at = np.unique(places, return_inverse=True)
-    beam = stiffness_between(shaft.sections, shaft.metal, apart)
+    beam = stiffness_between(shaft.sections, shaft.metal, apart.tolist())
     length = sum(section.length for section in shaft.sections)
     scale = np.tile([1.0, 1.0, 1.0, 1.0 / length, 1.0 / length], len(apart))  # all unknowns in m
     beam = beam * np.outer(scale, scale)
@@ -105,6 +105,8 @@ def under_load(shaft: SupportedShaft, load: Sequence[float]) -> UnderLoad:
     others = np.setdiff1d(np.arange(len(beam)), np.arange(len(beam))[gear])
     _refuse_loose(tangent, gear)
     if np.linalg.norm(seen[1]) > 1e3 * SETTLED * size:
+        if np.max(np.abs(here)) > length:  # it runs away, whatever stiffness it meets there
+            _refuse(here[gear])
         raise NotHeld("the equilibrium of shaft and bearings is not found")
     held = tangent[gear, gear].copy()
     if len(others):
@@ -117,7 +119,11 @@ def under_load(shaft: SupportedShaft, load: Sequence[float]) -> UnderLoad:
 def _refuse_loose(tangent: np.ndarray, gear: slice) -> None:
     """Refuse a direction in which nothing holds the shaft: it moves as a whole there."""
     values, vectors = np.linalg.eigh(tangent)
-    if values[0] > LOOSE * values[-1]:
-        return
+    if values[0] <= LOOSE * values[-1]:
+        _refuse(vectors[gear, 0])
+
+
+def _refuse(motion: np.ndarray) -> NoReturn:
+    """Refuse a shaft whose gear is free to move so."""
     names = ("along x", "along y", "along its axis", "against tilts about x", "against tilts about y")
-    raise NotHeld(f"nothing holds it {names[int(np.argmax(np.abs(vectors[gear, 0])))]}")
+    raise NotHeld(f"nothing holds it {names[int(np.argmax(np.abs(motion)))]}")
