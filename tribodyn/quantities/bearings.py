@@ -4,22 +4,22 @@ from tribodyn.quantities.quantity import Quantity
 
 #: Of each bearing of a drawn shaft.
 BEARINGS = (
-    Quantity("radial_load", "Radial load", "N", ".4g", symbol="F_r").defined_as(
+    Quantity("radial_load", "Radial load", "N", ",.0f", symbol="F_r").defined_as(
         "Across the axis, on the bearing, under the mean load of the mesh."
     ),
-    Quantity("axial_load", "Axial load", "N", ".4g", symbol="F_a").defined_as(
+    Quantity("axial_load", "Axial load", "N", ",.0f", symbol="F_a").defined_as(
         "Along the axis, on the bearing; of tapered roller bearings with what the other one pushes."
     ),
     Quantity("tilting_moment", "Tilting moment", "N m", ".3g").defined_as(
         "By which the tilted shaft loads the bearing besides."
     ),
-    Quantity("equivalent_load", "Equivalent dynamic load", "N", ".4g", symbol="P").defined_as(
+    Quantity("equivalent_load", "Equivalent dynamic load", "N", ",.0f", symbol="P").defined_as(
         "P = X F_r + Y F_a of ISO 281."
     ),
-    Quantity("life_hours", "Basic rating life", "h", ".4g", symbol="L_10h").defined_as(
+    Quantity("life_hours", "Basic rating life", "h", ",.0f", symbol="L_10h").defined_as(
         "That 90 % of such bearings reach at the duty's speed: (C/P)^p 10⁶ revolutions, ISO 281."
     ),
-    Quantity("power_bearing", "Loss", "W", ".3g").defined_as(
+    Quantity("power_bearing", "Loss", "W", ",.1f").defined_as(
         "By Palmgren's friction moments: of the oil bath, and of the load."
     ),
 )

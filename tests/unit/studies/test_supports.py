@@ -48,7 +48,7 @@ def test_an_overhung_pinion_opens_at_its_free_end():
     free = scenario("load-contact-18-36", {"shaft": {"pinion": OVERHUNG}})
     assert free.supports.misalignment.in_plane > 0.0
     assert free.supports.gear is None
-    turned = copy.deepcopy(OVERHUNG) | {"gear_position": "15 mm"}
+    turned: dict[str, Any] = copy.deepcopy(OVERHUNG) | {"gear_position": "15 mm"}
     for bearing, place in zip(turned["bearing"], ("60 mm", "130 mm"), strict=True):
         bearing["position"] = place
     other = scenario("load-contact-18-36", {"shaft": {"pinion": turned}})
