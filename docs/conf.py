@@ -48,6 +48,7 @@ CONTENTS = {
         "theory",
         "trains",
         "helical",
+        "shafts",
         "laws",
         "physics",
         "standards",
