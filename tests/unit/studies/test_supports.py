@@ -7,16 +7,21 @@ from typing import Any
 import numpy as np
 import pytest
 
+import tribodyn as td
 from tests.support.drawn_shafts import BALL, BETWEEN, OVERHUNG, ROLLER, SHAFTS
 from tribodyn.dynamics.data import in_space
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.interface.scenario import scenario
+from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks, bearings_table, opening_part
+from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks, opening_part
+from tribodyn.studies.gears.rated.first_page import bearings_table
 from tribodyn.studies.gears.supports import mean_loads
+from tribodyn.studies.gears.usual import with_duty
+from tribodyn.studies.protocol.recording import CheckResult
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
 
 HELICAL = {"mesh.slices": 7, "friction.law": "none", "bearings": "rigid-1e9"}
@@ -152,6 +157,33 @@ def test_gears_in_motion_stand_as_the_statics_say():
         assert np.abs((found - tangent) * lengths).max() < 0.06 * np.abs(tangent * lengths).max()
     rest = case.mesh.modifications.misalignment.in_plane
     assert 0.0 < rest < 0.5 * case.supports.misalignment.in_plane
+
+
+def test_spur_gears_on_drawn_shafts_run_and_balance(tmp_path):
+    """They move in space; the energies of springs and dampers with couplings close the audit."""
+    changes = {"shaft": {"pinion": OVERHUNG}, "solver.cycles": 3, "friction.law": "none"}
+    found = td.run("involute-23-47", changes, output=tmp_path / "spur.h5")
+    assert abs(found.summary["energy_residual"]) < 1e-7
+    with Record(found.path) as record:
+        names, moved = list(record["dof"]), np.asarray(record["displacement"])[-1]
+    held = scenario("involute-23-47", changes).supports.pinion
+    assert held is not None
+    tilt = moved[names.index("tilt_y_p")]
+    still = np.linalg.solve(np.array(held.data.matrix), mean_loads(*pair_of("involute-23-47"))[0])
+    assert tilt == pytest.approx(still[4], rel=0.2)  # it vibrates
+
+
+def pair_of(name: str) -> tuple[Any, float]:
+    case = scenario(name)
+    return assemble(family(case.family), case.drive), case.operating.gear_torque
+
+
+def test_check_has_the_bearings():
+    case = scenario("load-contact-18-36", {"shaft": {"pinion": OVERHUNG}})
+    found = with_duty(CheckResult({}, ()), case)
+    assert [table.title for table in found.tables] == ["Duty", "Bearings"]
+    assert found.tables[1].columns[1:] == ("F_r (N)", "F_a (N)", "Tilting moment (N m)", "P (N)")
+    assert set(found.data["bearings"]) == {"pinion-1", "pinion-2"}
 
 
 def test_loads_lives_and_losses_of_bearings():

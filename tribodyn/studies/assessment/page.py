@@ -19,7 +19,6 @@ from tribodyn.studies.assessment.figures import pictures
 from tribodyn.studies.assessment.report import verdict
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.gears.rated import first_page
-from tribodyn.studies.gears.rated.bearings import bearings_table
 from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
 from tribodyn.studies.gears.rated.said import unit_of
 from tribodyn.studies.pages import loaded_again
@@ -61,7 +60,7 @@ def page(record: Record) -> str:
         f'<div class="pictures"><p>{picture}</p></div>',
         '<div class="break"></div>',
         _points(summary),
-        bearings_table(summary),
+        first_page.bearings_table(summary),
         *(
             first_page.part_section(part.study, part.role.title, [done[task.name] for task in part.tasks])
             for part in taking_part

@@ -240,8 +240,8 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     if settings.samples:
         scatter = f"; its scatter is over {settings.samples} samples of deviations within the tolerances"
     sentences.append(
-        f"The simulation has accurate teeth but for modifications and misalignment of the scenario{scatter}. "
-        "Its K_Hα is that of one tooth with the base pitch deviation of the standard."
+        "The simulation has accurate teeth but for modifications and misalignment of the scenario and its "
+        f"shafts{scatter}. Its K_Hα is that of one tooth with the base pitch deviation of the standard."
     )
     of_standards = "The standards' formulas are for involutes: this drive has none beside the simulation."
     if by_standard:

@@ -61,6 +61,7 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     prepared = prepare(case)
     case = prepared.case
     model, cycle = prepared.model, prepared.cycle
+    in_space = model.layout.spatial > 0
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
     summary: dict[str, Any] = {
         **at_rest(case, prepared),
@@ -75,9 +76,10 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     }
     more = {
         "groups": {"mesh_cycle": as_arrays(cycle), "geometry": geometry_arrays(prepared.assembly)},
-        "scales": scales_of(cycle),
+        "scales": scales_of(cycle, in_space=in_space),
     }
-    with writer(case, path, gears_layout(cycle.slices), cycles * samples + 1, force=force, **more) as record:
+    layout = gears_layout(cycle.slices, in_space=in_space)
+    with writer(case, path, layout, cycles * samples + 1, force=force, **more) as record:
         try:
             motion = record_motion(
                 case, model, [mesh_of_run(prepared)], window_of(cycles), record, recorded, progress

@@ -39,11 +39,14 @@ TEMPERATURE = quantities(
 TEMPERATURE_SWEPT = quantities("bulk_temperature", "power_load_independent", "efficiency_with_losses")
 
 
-def gears_layout(slices: int) -> Layout:
-    """Of records over time of pairs with so many slices."""
+def gears_layout(slices: int, *, in_space: bool = False) -> Layout:
+    """Of records over time of pairs with so many slices; see `recorded.samples_of`."""
     scales = {"pair": PAIR, "dof": DOF_SCALE} | ({"slice": SLICE} if slices > 1 else {})
     return Layout(
-        TIME, samples_of(slices), scales, groups={"mesh_cycle": described(slices), "geometry": GEOMETRY}
+        TIME,
+        samples_of(slices, in_space=in_space),
+        scales,
+        groups={"mesh_cycle": described(slices), "geometry": GEOMETRY},
     )
 
 

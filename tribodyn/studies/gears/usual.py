@@ -14,6 +14,7 @@ from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.studies.gears.case import GearCase
 from tribodyn.studies.gears.duty import HERTZ, duty_lines, nominal_duty
+from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_rows
 from tribodyn.studies.protocol.recording import CaseHead, CheckResult, TextTable
 from tribodyn.tribology.oil import T_40, T_100, ZERO_CELSIUS, LubricantData
 
@@ -193,8 +194,12 @@ def with_duty(checked: CheckResult, case: CaseHead) -> CheckResult:
     rows = [(name, f"{_four_digits(value)} {unit}".strip()) for name, (value, unit) in lines.items()]
     table = TextTable("Duty", ("quantity", "value"), rows)
     unusual = unusual_values(case)
-    data = {"duty": lines, "unusual": unusual} | checked.data
-    return checked._replace(data=data, tables=(table, *checked.tables), warnings=tuple(unusual))
+    held = bearing_part(case, getattr(case, "lubricant", None))
+    data = {"duty": lines, "unusual": unusual, **held} | checked.data
+    tables = [table]
+    if held:
+        tables.append(TextTable("Bearings", *bearing_rows(held["bearings"])))
+    return checked._replace(data=data, tables=(*tables, *checked.tables), warnings=tuple(unusual))
 
 
 def _four_digits(value: float) -> str:

@@ -109,13 +109,13 @@ OF_SLICES: dict[str, Variable] = {
 }
 
 
-def samples_of(slices: int) -> dict[str, Variable]:
-    """What a run records over time of pairs with so many slices."""
-    if slices == 1:
+def samples_of(slices: int, *, in_space: bool = False) -> dict[str, Variable]:
+    """What a run records over time of pairs with so many slices; `in_space`: where one moves in space too."""
+    if slices == 1 and not in_space:
         return SAMPLES
     coordinates = "x, y, z in m, theta (rotation) and tilt_x, tilt_y in rad; names in dof"
     moved = Variable(("time", "dof"), "m or rad", f"generalised coordinates: {coordinates}")
-    return SAMPLES | {"displacement": moved} | OF_SLICES
+    return SAMPLES | {"displacement": moved} | (OF_SLICES if slices > 1 else {})
 
 
 def pair_numbers(front_pairs: int, pairs: int) -> list[int]:
@@ -123,10 +123,13 @@ def pair_numbers(front_pairs: int, pairs: int) -> list[int]:
     return [slot + 2 - front_pairs for slot in range(pairs)]
 
 
-def scales_of(cycle: MeshCycle) -> dict[str, Any]:
-    """Values along the axes of pairs and degrees of freedom, and of slices if there are any."""
+def scales_of(cycle: MeshCycle, *, in_space: bool = False) -> dict[str, Any]:
+    """Values along the axes of pairs and degrees of freedom, and of slices if there are any.
+
+    Gears in slices move in space, and others do where `in_space` says so.
+    """
     side = np.asarray(cycle.pair_side)
     pairs = np.array(pair_numbers(int(np.sum(side > 0)), side.size))
     if cycle.slices == 1:
-        return {"pair": pairs, "dof": np.array(DOF)}
+        return {"pair": pairs, "dof": np.array(DOF_IN_SPACE if in_space else DOF)}
     return {"pair": pairs, "dof": np.array(DOF_IN_SPACE), "slice": np.asarray(cycle.face_position)}

@@ -14,7 +14,6 @@ from tribodyn.standards.rolling_bearings import (
     load_moment,
 )
 from tribodyn.studies.gears.case import GearCase
-from tribodyn.studies.gears.rated.first_page import numbers_table
 from tribodyn.studies.gears.supports import BearingUnderLoad
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, palmgren
 from tribodyn.tribology.oil import LubricantData
@@ -89,6 +88,16 @@ def bearing_part(case: GearCase, oil: LubricantData | None = None) -> dict[str, 
     return {"bearings": found} if found else {}
 
 
+def bearing_rows(found: Mapping[str, Mapping[str, float]]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Heading and rows of a table of bearings, as `bearing_part` has them; "–": not determined."""
+    shown = [one for one in BEARINGS if any(one.name in numbers for numbers in found.values())]
+    rows = [
+        (name, *(one.written(numbers[one.name]) if one.name in numbers else "–" for one in shown))
+        for name, numbers in found.items()
+    ]
+    return ("", *(f"{one.symbol or one.label} ({one.unit})" for one in shown)), rows
+
+
 def bearing_remarks(case: GearCase, oil: LubricantData | None = None) -> list[str]:
     """What is missing of the bearings' data, and what their numbers leave out."""
     rated = list(rated_bearings(case, oil))
@@ -108,16 +117,3 @@ def opening_part(case: GearCase, width: float) -> dict[str, float]:
     by_shafts = case.supports.misalignment.in_plane
     whole = case.mesh.modifications.misalignment.in_plane
     return {"shaft_misalignment": by_shafts * width, "given_misalignment": (whole - by_shafts) * width}
-
-
-def bearings_table(summary: Mapping[str, Any]) -> str:
-    """The bearings of a summary as a section of a page; "" where there are none."""
-    found = summary.get("bearings", {})
-    if not found:
-        return ""
-    shown = [one for one in BEARINGS if any(one.name in numbers for numbers in found.values())]
-    rows = [
-        (name, *(one.written(numbers[one.name]) if one.name in numbers else "–" for one in shown))
-        for name, numbers in found.items()
-    ]
-    return numbers_table("Bearings", ("", *(one.titled for one in shown)), rows)

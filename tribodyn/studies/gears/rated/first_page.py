@@ -9,6 +9,7 @@ from tribodyn.post.page.assembled import document
 from tribodyn.post.page.page import summary_tables, verdict_list, warnings_of
 from tribodyn.post.style import inline
 from tribodyn.record.reader import Record
+from tribodyn.studies.gears.rated.bearings import bearing_rows
 from tribodyn.studies.gears.rated.limits import LIMITS, on_limits
 from tribodyn.studies.pages import overview
 from tribodyn.studies.protocol.part import TaskResult
@@ -81,6 +82,12 @@ def numbers_table(
     table = f'<table class="numbers{kind}">{"".join(lines)}</table>'
     dashes = '<p class="quiet">–: not determined.</p>' if any("–" in row for row in rows) else ""
     return f'<section><h2>{heading}</h2><div class="wide">{table}</div>{dashes}</section>'
+
+
+def bearings_table(summary: Mapping[str, Any]) -> str:
+    """The bearings of drawn shafts; "" where there are none."""
+    found = summary.get("bearings")
+    return numbers_table("Bearings", *bearing_rows(found)) if found else ""
 
 
 def limits_table(summary: Mapping[str, Any]) -> str:
