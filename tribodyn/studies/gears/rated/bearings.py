@@ -104,7 +104,7 @@ def bearing_remarks(case: GearCase, oil: LubricantData | None = None) -> list[st
     remarks = [remark for bearing in rated for remark in bearing.remarks]
     if any("equivalent_load" in bearing.numbers for bearing in rated):
         remarks.append(
-            "Bearings: under the mean load of the mesh, without application and dynamic factor; basic rating "
+            "Bearings: under the mean load of the duty, without application and dynamic factor; basic rating "
             "life without the influence of oil, cleanness and misalignment; losses are not in the efficiency."
         )
     return remarks
