@@ -16,7 +16,7 @@ BEARINGS = (
     Quantity("equivalent_load", "Equivalent dynamic load", "N", ",.0f", symbol="P").defined_as(
         "P = X F_r + Y F_a of ISO 281."
     ),
-    Quantity("life_hours", "Basic rating life", "h", ",.0f", symbol="L_10h").defined_as(
+    Quantity("rating_life", "Basic rating life", "h", ",.0f", symbol="L_10h").defined_as(
         "That 90 % of such bearings reach at the duty's speed: (C/P)^p 10⁶ revolutions, ISO 281."
     ),
     Quantity("power_bearing", "Loss", "W", ",.1f").defined_as(

@@ -61,9 +61,9 @@ def basic_life(kind: str, dynamic_rating: float, load: float) -> float:
     return 1e6 * (dynamic_rating / load) ** EXPONENTS[kind] if load > 0.0 else math.inf
 
 
-def life_hours(revolutions: float, speed: float) -> float:
-    """L_10h of a life at a speed (rad/s, > 0), h."""
-    return revolutions * 2.0 * math.pi / speed / 3600.0
+def running_time(revolutions: float, speed: float) -> float:
+    """Time that so many revolutions take at a speed (rad/s, > 0), s: L_10h of L_10."""
+    return revolutions * 2.0 * math.pi / speed
 
 
 def load_moment(

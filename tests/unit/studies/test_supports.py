@@ -197,13 +197,13 @@ def test_loads_lives_and_losses_of_bearings():
     assert found["gear-1"]["axial_load"] == pytest.approx(abs(loads[1][2]), rel=1e-6)
     one = found["pinion-2"]
     life = (67e3 / one["equivalent_load"]) ** (10 / 3) * 1e6 / (60.0 * 1500.0)
-    assert one["life_hours"] == pytest.approx(life)
+    assert one["rating_life"] == pytest.approx(3600.0 * life)
     oil, speed = case.lubricant, 1500.0 * math.pi / 30.0
     drag = BearingDragData(66e-3, DRAG_FACTORS["tapered-roller"], 1)
     assert one["power_bearing"] > palmgren(drag, speed, oil.inlet_viscosity, oil.density).power
     remarks = " ".join(bearing_remarks(case, oil))
     assert "Bearing gear-1: no life without dynamic_rating" in remarks
-    assert "life_hours" not in found["gear-1"]
+    assert "rating_life" not in found["gear-1"]
     assert "<td>pinion-1</td>" in bearings_table({"bearings": found})
     assert bearings_table({}) == ""
 

@@ -10,8 +10,8 @@ from tribodyn.standards.rolling_bearings import (
     STATIC_FACTOR,
     basic_life,
     equivalent_load,
-    life_hours,
     load_moment,
+    running_time,
 )
 from tribodyn.studies.gears.case import GearCase
 from tribodyn.studies.gears.supports import BearingUnderLoad
@@ -60,7 +60,7 @@ def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantDat
         remarks.append(f"Bearing {name}: no life without dynamic_rating, C of its catalogue.")
     elif speed > 0.0 and equivalent.load > 0.0:
         life = basic_life(table.type, table.dynamic_rating, equivalent.load)
-        numbers["life_hours"] = life_hours(life, speed)
+        numbers["rating_life"] = running_time(life, speed)
     balls = table.type == "deep-groove-ball"
     if balls and table.static_rating is None:
         remarks.append(
