@@ -20,6 +20,7 @@ CONTENTS = {
         "notebooks/sweep-and-resonance",
         "notebooks/load-contact-and-relief",
         "notebooks/your-own-law",
+        "notebooks/rating-by-hand",
     ],
     "How to": [
         "how-to/own-gears",

@@ -121,37 +121,12 @@ ASSESSMENT = (
     ),
     Quantity("loss_lowest", "Lowest loss of all friction laws", "W", ".4g").defined_as("Minimum of them."),
     Quantity("loss_highest", "Highest loss of all friction laws", "W", ".4g").defined_as("Maximum of them."),
+    Quantity("life", "Life", "h", ".4g").defined_as(
+        "Of pinion and gear at the required safeties by ISO 6336-2, -3 and -6; where the stress is endured "
+        "without end, the larger of the required life and 10^10 load cycles."
+    ),
     Quantity("pinion_speed", "Speed of the pinion", "rpm", ".5g").defined_as("Of the duty."),
     Quantity("point_angles", "Roll angles of the points A to E", "°").defined_as("From the pitch point."),
-)
-#: By the names of the standards; temperatures are in °C there.
-STANDARDS = (
-    Quantity("theta_M", "Bulk temperature", "degC", ".1f", symbol="θ_M"),
-    Quantity(
-        "theta_M_flash", "Bulk temperature of the flash temperature method", "degC", ".1f", symbol="θ_M"
-    ),
-    Quantity("theta_B", "Contact temperature", "degC", ".1f", symbol="θ_B"),
-    Quantity("theta_int", "Integral temperature", "degC", ".1f", symbol="θ_int"),
-    Quantity("theta_S", "Scuffing temperature", "degC", ".1f", symbol="θ_S"),
-    Quantity("theta_intS", "Scuffing integral temperature", "degC", ".1f", symbol="θ_intS"),
-    Quantity("mu_m", "Mean friction", digits=".4f", symbol="μ_m"),
-    Quantity("h_Y", "Minimum film", "µm", ".3f", symbol="h_Y"),
-    Quantity("lambda_GF", "Specific film", digits=".3f", symbol="λ_GF"),
-    Quantity("c_prime", "Stiffness of one pair", "N/(mm µm)", ".2f", symbol="c′"),
-    Quantity("c_gamma_alpha", "Mesh stiffness", "N/(mm µm)", ".2f", symbol="c_γα"),
-    Quantity("c_gamma_beta", "Mesh stiffness for the face load factor", "N/(mm µm)", ".2f", symbol="c_γβ"),
-    Quantity("resonance_speed", "Resonance speed", "rpm", ".0f"),
-    Quantity("resonance_speeds", "Resonance speeds", "rpm", ".0f"),
-    Quantity("K_v", "Dynamic factor", digits=".3f", symbol="K_v"),
-    Quantity("K_Halpha", "Transverse load factor", digits=".3f", symbol="K_Hα"),
-    Quantity("K_Hbeta", "Face load factor", digits=".3f", symbol="K_Hβ"),
-    Quantity("K_A", "Application factor", digits=".3f", symbol="K_A"),
-    Quantity("K_gamma", "Mesh load factor", digits=".3f", symbol="K_γ"),
-    Quantity("C_R", "Gear blank factor", digits=".3f", symbol="C_R"),
-    Quantity("H_v", "Loss factor", digits=".4f", symbol="H_v"),
-    Quantity("S_B", "Scuffing, flash temperature,", digits=".2f", symbol="S_B"),
-    Quantity("S_intS", "Scuffing, integral temperature,", digits=".2f", symbol="S_intS"),
-    Quantity("S_lambda", "Micropitting", digits=".2f", symbol="S_λ"),
 )
 #: By ISO 6336-2, -3, -5 and -6; of each gear, but for the first ones.
 CAPACITY = (
@@ -201,9 +176,35 @@ CAPACITY = (
     Quantity("S_F", "Tooth bending", digits=".2f", symbol="S_F"),
     Quantity("damage_bending", "Damage by bending over the required life", digits=".3g", symbol="U_F"),
     Quantity("life_bending", "Life until tooth breakage", "h", ".4g"),
-    Quantity("life", "Life", "h", ".4g").defined_as(
-        "Of pinion and gear at the required safeties by ISO 6336-2, -3 and -6; where the stress is endured "
-        "without end, the larger of the required life and 10^10 load cycles."
-    ),
 )
-QUANTITIES = (*LOAD_CONTACT, *ASSESSMENT, *STANDARDS, *CAPACITY)
+#: By the names of the standards; temperatures are in °C there.
+STANDARDS = (
+    *CAPACITY,
+    Quantity("theta_M", "Bulk temperature", "degC", ".1f", symbol="θ_M"),
+    Quantity(
+        "theta_M_flash", "Bulk temperature of the flash temperature method", "degC", ".1f", symbol="θ_M"
+    ),
+    Quantity("theta_B", "Contact temperature", "degC", ".1f", symbol="θ_B"),
+    Quantity("theta_int", "Integral temperature", "degC", ".1f", symbol="θ_int"),
+    Quantity("theta_S", "Scuffing temperature", "degC", ".1f", symbol="θ_S"),
+    Quantity("theta_intS", "Scuffing integral temperature", "degC", ".1f", symbol="θ_intS"),
+    Quantity("mu_m", "Mean friction", digits=".4f", symbol="μ_m"),
+    Quantity("h_Y", "Minimum film", "µm", ".3f", symbol="h_Y"),
+    Quantity("lambda_GF", "Specific film", digits=".3f", symbol="λ_GF"),
+    Quantity("c_prime", "Stiffness of one pair", "N/(mm µm)", ".2f", symbol="c′"),
+    Quantity("c_gamma_alpha", "Mesh stiffness", "N/(mm µm)", ".2f", symbol="c_γα"),
+    Quantity("c_gamma_beta", "Mesh stiffness for the face load factor", "N/(mm µm)", ".2f", symbol="c_γβ"),
+    Quantity("resonance_speed", "Resonance speed", "rpm", ".0f"),
+    Quantity("resonance_speeds", "Resonance speeds", "rpm", ".0f"),
+    Quantity("K_v", "Dynamic factor", digits=".3f", symbol="K_v"),
+    Quantity("K_Halpha", "Transverse load factor", digits=".3f", symbol="K_Hα"),
+    Quantity("K_Hbeta", "Face load factor", digits=".3f", symbol="K_Hβ"),
+    Quantity("K_A", "Application factor", digits=".3f", symbol="K_A"),
+    Quantity("K_gamma", "Mesh load factor", digits=".3f", symbol="K_γ"),
+    Quantity("C_R", "Gear blank factor", digits=".3f", symbol="C_R"),
+    Quantity("H_v", "Loss factor", digits=".4f", symbol="H_v"),
+    Quantity("S_B", "Scuffing, flash temperature,", digits=".2f", symbol="S_B"),
+    Quantity("S_intS", "Scuffing, integral temperature,", digits=".2f", symbol="S_intS"),
+    Quantity("S_lambda", "Micropitting", digits=".2f", symbol="S_λ"),
+)
+QUANTITIES = (*LOAD_CONTACT, *ASSESSMENT, *STANDARDS)
