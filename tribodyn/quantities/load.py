@@ -132,7 +132,7 @@ ASSESSMENT = (
 CAPACITY = (
     Quantity("F_t", "Tangential load at the reference circle", "N", ".0f", symbol="F_t"),
     Quantity("Z_H", "Zone factor", digits=".3f", symbol="Z_H"),
-    Quantity("Z_E", "Elasticity factor", "√(N/mm²)", ".3f", symbol="Z_E"),
+    Quantity("Z_E", "Elasticity factor", "(N/mm²)**0.5", ".3f", symbol="Z_E"),
     Quantity("Z_epsilon", "Contact ratio factor", digits=".3f", symbol="Z_ε"),
     Quantity("Z_beta", "Helix angle factor, pitting,", digits=".3f", symbol="Z_β"),
     Quantity("Z_B", "Single pair contact factor of the pinion", digits=".3f", symbol="Z_B"),

@@ -29,7 +29,7 @@ SHOWN: dict[str, tuple[str, float, float]] = {
     "°": ("rad", 180.0 / math.pi, 0.0),
     "rpm": ("rad/s", 30.0 / math.pi, 0.0),
     "h": ("s", 1.0 / 3600.0, 0.0),
-    "√(N/mm²)": ("Pa**0.5", 1e-3, 0.0),
+    "(N/mm²)**0.5": ("Pa**0.5", 1e-3, 0.0),
 }
 
 
