@@ -81,5 +81,7 @@ def assess(
     limits = data.get("limits", {}).items()
     if missed := [name for name, limit in limits if not limit["kept"]]:
         typer.echo(f"limits exceeded: {', '.join(missed)}")
-    if within := [name for name, limit in limits if limit["kept"] and not limit.get("kept_p95", True)]:
-        typer.echo(f"limits exceeded within the scatter of the deviations: {', '.join(within)}")
+    if within := [
+        f"{name} ({limit['exceed']} of {limit['samples']})" for name, limit in limits if limit.get("exceed")
+    ]:
+        typer.echo(f"limits exceeded by samples of what is not known: {', '.join(within)}")
