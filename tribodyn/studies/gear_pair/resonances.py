@@ -15,8 +15,8 @@ from tribodyn.studies.gear_pair.case import Case
 _PAIRS = GearPairs()
 #: Harmonics of the transmission error that are looked at.
 HARMONICS = 6
-#: Speeds nearer to each other than this share of one are one: about twice the width of a resonance whose
-#: damping ratio is 0.03.
+#: Speeds nearer to each other than this share of one are one: the width of a resonance whose damping ratio is
+#: 0.05, and how far teeth that part bend it down.
 _NEAR = 0.1
 
 
@@ -26,7 +26,8 @@ def resonance_speeds(case: Case, span: tuple[float, float], most: int) -> list[f
     Mode j meets harmonic h where h z_p Ω = ω_j. With the amplitude ε_h of the quasi-static transmission error
     the force in the mesh then swings by ε_h k e_j/(2 ζ_j), where e_j is the share of the mode's strain energy
     that lies in the mesh; damping ratios ζ_j are taken to be alike. The strongest first; `most` of them at
-    most, none near another. Raises InputError or SimulationError where the case cannot be prepared.
+    most, none near another; of one that is near an end of the span, beyond it, that end. Raises InputError or
+    SimulationError where the case cannot be prepared.
     """
     prepared = _PAIRS.prepare(case, _PAIRS.tabulated(case))
     found = modes(prepared.model, [prepared.cycle])
@@ -43,12 +44,14 @@ def resonance_speeds(case: Case, span: tuple[float, float], most: int) -> list[f
 
 
 def _apart(speeds: Float[Array, " speed"], span: tuple[float, float], most: int) -> Iterator[float]:
-    """Those within a span that are not near an earlier one."""
+    """Those that are not near an earlier one, in a span or at the end of it that is near."""
     chosen: list[float] = []
-    for speed in map(float, speeds):
+    for place in map(float, speeds):
         if len(chosen) == most:
             return
-        if span[0] <= speed <= span[1] and all(abs(speed - other) > _NEAR * other for other in chosen):
+        speed = min(max(place, span[0]), span[1])
+        near = abs(place - speed) <= _NEAR * speed
+        if near and all(abs(speed - other) > _NEAR * other for other in chosen):
             chosen.append(speed)
             yield speed
 
