@@ -170,6 +170,7 @@ def put_in(summary: Mapping[str, Any], samples: Samples) -> dict[str, Any]:
         if summary.get(part)
     }
     own = {name: samples.simulated[name] for name in ("S_B", "S_lambda") if name in samples.simulated}
+    own |= {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
     by_sample = samples.drawn | samples.quantities | own
     return {
         **summary,
