@@ -35,7 +35,7 @@ _COMPARED = quantities(
     *("theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss")
 )
 _SCATTERED = quantities("K_Hbeta", "transmission_error_peak_to_peak")
-_MARGINS = quantities("theta_B", "S_B", "S_intS", "S_lambda")
+_MARGINS = quantities("theta_B", "S_H", "S_F", "S_B", "S_intS", "S_lambda")
 
 
 def page(record: Record) -> str:
@@ -169,9 +169,7 @@ def _by_standard(summary: Mapping[str, Any]) -> str:
     margins = [summary["margins"].get(part, {}) for part in ("iso", "simulated")]
     rows = []
     for quantity in (*_COMPARED, *_MARGINS):
-        values = [
-            part.get(quantity.name, over.get(quantity.name)) for part, over in zip(both, margins, strict=True)
-        ]
+        values = [part.get(quantity.name) for part in (margins if quantity in _MARGINS else both)]
         if quantity in _MARGINS and values == [None, None]:
             continue
         ranges = [_between(part.get("spread", {}).get(quantity.name), quantity) for part in both]
