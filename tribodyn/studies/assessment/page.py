@@ -22,6 +22,7 @@ from tribodyn.studies.assessment.report import verdict
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.gears.rated import first_page
 from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
+from tribodyn.studies.gears.rated.limits import least
 from tribodyn.studies.gears.rated.said import unit_of
 from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS
 from tribodyn.studies.pages import loaded_again
@@ -213,7 +214,7 @@ def _scatter(summary: Mapping[str, Any]) -> str:
 
 def _shown(value: Any, quantity: Quantity) -> str:
     if isinstance(value, Mapping):
-        value = value["worst"]
+        value = value["worst"] if "worst" in value else least(value)
     return "–" if value is None else quantity.written(float(value))
 
 

@@ -12,7 +12,7 @@ from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.margins import LocalValues
 from tribodyn.studies.assessment.unknowns import Draw
 from tribodyn.studies.gears.rated.capacity import Capacity
-from tribodyn.studies.gears.rated.limits import over_samples
+from tribodyn.studies.gears.rated.limits import least, over_samples
 from tribodyn.studies.gears.rated.standard import Standard
 
 #: Quantity of the simulation -> its name by the standards.
@@ -81,7 +81,7 @@ def samples_of(
     if "lambda_GF" in simulated:
         known["specific_film_min"] = simulated["lambda_GF"]
     margins = {
-        by: _by_name([None if one is None else one.judged["margins"].get(by, {}) for one in outcomes])
+        by: _by_name([None if one is None else _margins(one, by) for one in outcomes])
         for by in ("simulated", "iso")
     }
     values = [
@@ -116,6 +116,11 @@ def _by_name(found: Sequence[Mapping[str, Any] | None]) -> dict[str, np.ndarray]
     numbers = [{} if one is None else _numbers(one) for one in found]
     names = dict.fromkeys(name for one in numbers for name in one)
     return {name: np.array([one.get(name, math.nan) for one in numbers]) for name in names}
+
+
+def _margins(outcome: Outcome, by: str) -> dict[str, Any]:
+    """Safeties and temperatures of a sample, of what either gear has the smaller."""
+    return {name: least(value) for name, value in outcome.judged["margins"].get(by, {}).items()}
 
 
 def _numbers(values: Mapping[str, Any]) -> dict[str, float]:
