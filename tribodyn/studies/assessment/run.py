@@ -21,7 +21,7 @@ from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import LAYOUT, AssessmentCase
 from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_and_limits, simulated_part
 from tribodyn.studies.assessment.parts import Part
-from tribodyn.studies.assessment.scatter import Outcome, put_in, samples_of
+from tribodyn.studies.assessment.scatter import Conclusion, put_in, samples_of
 from tribodyn.studies.assessment.unknowns import described
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
@@ -145,7 +145,7 @@ def assessed(
     return local, summary | {"units": units_of(summary)}
 
 
-def concluded(case: AssessmentCase, along: Mapping[str, Any], found: Mapping[str, Any]) -> Outcome:
+def concluded(case: AssessmentCase, along: Mapping[str, Any], found: Mapping[str, Any]) -> Conclusion:
     """Put together what the studies found of a case: arrays along the path, and quantities."""
     assembly = assembled(case)
     local = local_of(case, assembly, along, found)
@@ -161,7 +161,7 @@ def concluded(case: AssessmentCase, along: Mapping[str, Any], found: Mapping[str
         found,
     )
     simulated = simulated_part(case, assembly, local, found)
-    return Outcome(local, by_standard, capacity, iso, simulated, judged)
+    return Conclusion(local, by_standard, capacity, iso, simulated, judged)
 
 
 def units_of(summary: Mapping[str, Any]) -> dict[str, str]:

@@ -23,7 +23,7 @@ _PLACES = ("contact_loss_speed_from", "dynamic_factor_max_speed")
 _LOST = 1e-6
 
 
-class Outcome(NamedTuple):
+class Conclusion(NamedTuple):
     """What a case comes to by the other studies' quantities, and by the standards beside them."""
 
     local: LocalValues
@@ -35,10 +35,10 @@ class Outcome(NamedTuple):
 
 
 #: (case, arrays along the path, quantities) -> outcome
-Evaluate = Callable[[AssessmentCase, Mapping[str, Any], Mapping[str, Any]], Outcome]
+Evaluate = Callable[[AssessmentCase, Mapping[str, Any], Mapping[str, Any]], Conclusion]
 
 
-class Samples(NamedTuple):
+class SampleValues(NamedTuple):
     """Values (n,) of n samples by name, NaN where one is not known; SI units, temperatures as said."""
 
     drawn: dict[str, np.ndarray]  # what was drawn
@@ -55,14 +55,14 @@ def samples_of(
     rows: Mapping[str, np.ndarray],
     accurate: tuple[Mapping[str, Any], Mapping[str, Any]],
     evaluate: Evaluate,
-) -> Samples:
+) -> SampleValues:
     """Conclude every sample as the drive with accurate teeth is.
 
     `rows` are what the studies found of the samples (`Findings.spread`), `accurate` the arrays along the path
     and the quantities of accurate teeth, which stand in for what does not scatter.
     """
     along, quantities = accurate
-    outcomes: list[Outcome | None] = []
+    outcomes: list[Conclusion | None] = []
     for number, draw in enumerate(draws):
         own = {name: values[number] for name, values in rows.items()}
         path = {name: value for name, value in own.items() if np.ndim(value)}
@@ -89,7 +89,7 @@ def samples_of(
         for one in outcomes
     ]
     named = {_NAMES.get(name, name): known[name] for name in (*_NAMES, *_ERRORS) if name in known}
-    return Samples(
+    return SampleValues(
         _drawn(draws),
         known,
         simulated | margins["simulated"] | named,
@@ -106,7 +106,7 @@ def _known(found: Mapping[str, float]) -> bool:
     return all(math.isfinite(value) for name, value in found.items() if name not in _PLACES)
 
 
-def _contact_temperature(outcome: Outcome) -> float:
+def _contact_temperature(outcome: Conclusion) -> float:
     films = outcome.local.films
     return float(films.bulk_temperature + np.nanmax(films.flash_rise))
 
@@ -118,7 +118,7 @@ def _by_name(found: Sequence[Mapping[str, Any] | None]) -> dict[str, np.ndarray]
     return {name: np.array([one.get(name, math.nan) for one in numbers]) for name in names}
 
 
-def _margins(outcome: Outcome, by: str) -> dict[str, Any]:
+def _margins(outcome: Conclusion, by: str) -> dict[str, Any]:
     """Safeties and temperatures of a sample, of what either gear has the smaller."""
     return {name: least(value) for name, value in outcome.judged["margins"].get(by, {}).items()}
 
@@ -148,7 +148,7 @@ def _drawn(draws: Sequence[Draw]) -> dict[str, np.ndarray]:
     return found
 
 
-def counts(samples: Samples) -> dict[str, Any]:
+def counts(samples: SampleValues) -> dict[str, Any]:
     """How many samples there are with a motion, and how many of them lose contact, at any speed looked at."""
     lost = samples.quantities.get("contact_loss_fraction_max", np.zeros(0))
     known = int(np.sum(np.isfinite(lost)))
@@ -162,7 +162,7 @@ def counts(samples: Samples) -> dict[str, Any]:
     return found | ({"contact_loss_speed_from": float(np.nanmin(begins))} if found["contact_lost"] else {})
 
 
-def put_in(summary: Mapping[str, Any], samples: Samples) -> dict[str, Any]:
+def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
     """A summary with the ranges of its quantities, the samples themselves, and counts beside the limits."""
     spread = {
         f"{name}_spread": [_scatter(values)[part] for part in SPREAD]

@@ -136,15 +136,7 @@ def test_every_number_has_a_unit(assessed: dict):
             return [missing for inner, number in value.items() for missing in without(inner, number)]
         return [name]
 
-    parts = (
-        "duty",
-        "iso",
-        "simulated",
-        "load_factors",
-        "margins",
-        "point_angles",
-        "loss_by_law",
-    )
+    parts = ("duty", "iso", "simulated", "load_factors", "margins", "point_angles", "loss_by_law")
     assert [missing for part in parts for missing in without(part, assessed[part])] == []
     assert (units["c_prime"], units["h_Y"], units["theta_M"], units["K_v"]) == ("N/m2", "m", "degC", "1")
     assert (units["loss"], units["contact_temperature_max"]) == ("W", "K")
