@@ -56,6 +56,8 @@ def assess(
         kinds = " or ".join(name for name, other in STUDIES.items() if other.verb == "assess")
         remedy = f"tribodyn {loaded.study.verb} it, or begin with: tribodyn init NAME --kind {kinds}"
         raise InputError("kind", f'"{loaded.study.kind}"', "is run, not assessed", remedy)
+    if pdf:
+        require_browser()
     folder = output or Path(loaded.case.name)
     make_folder(folder)
     kept = watched(folder / RECORD)
@@ -63,8 +65,6 @@ def assess(
         loaded = loaded.recorded_in(folder)
     for name in (PAGE, DATA, *([PRINTED] if pdf else [])):
         check_output(folder / name, force)
-    if pdf:
-        require_browser()
     with loaded.naming(), progress_bar(loaded.case.name) as progress:
         result = loaded.study.run(
             loaded.case, folder / RECORD, force=force, progress=progress, allow_large=allow_large
