@@ -57,11 +57,10 @@ def page(record: Record) -> str:
         _tiles(summary),
         f'<div class="columns"><div>{limits_table(summary)}</div><div>{_scatter(summary)}</div></div>',
         _by_standard(summary),
-        '<div class="columns">',
+        '<div class="columns break">',
         f"<div>{listed('Assumed', summary.get('assumed', {}))}</div>",
         f"<div>{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
-        '<div class="break"></div>',
         f'<div class="pictures"><p>{picture}</p></div>',
         _points(summary),
         *(
