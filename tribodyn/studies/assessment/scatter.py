@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -64,17 +65,18 @@ def samples_of(
     along, quantities = accurate
     outcomes: list[Conclusion | None] = []
     for number, draw in enumerate(draws):
-        own = {name: values[number] for name, values in rows.items()}
-        path = {name: value for name, value in own.items() if np.ndim(value)}
-        found = {name: float(value) for name, value in own.items() if not np.ndim(value)}
+        path, found = _of_one({name: values[number] for name, values in rows.items()})
         outcome = None
-        if all(np.all(np.isfinite(value)) for value in path.values()) and _known(found):
-            try:
-                outcome = evaluate(draw.of(case), {**along, **path}, {**quantities, **found})
-            except (InputError, SimulationError):
-                outcome = None
+        if np.all(np.isfinite(list(path.values()))) and not _missing(found) & set(quantities) - set(_PLACES):
+            known = {name: value for name, value in found.items() if name not in _missing(found)}
+            with suppress(InputError, SimulationError):
+                outcome = evaluate(draw.of(case), {**along, **path}, {**quantities, **known})
         outcomes.append(outcome)
-    known = {name: values for name, values in rows.items() if np.ndim(values) == 1}
+    known = {
+        name: values
+        for name, values in rows.items()
+        if np.ndim(values) == 1 and (name in _PLACES or np.any(np.isfinite(values)))
+    }
     contact = [math.nan if one is None else _contact_temperature(one) for one in outcomes]
     simulated = _by_name([None if one is None else one.simulated for one in outcomes])
     known |= {"contact_temperature_max": np.array(contact)}
@@ -101,9 +103,15 @@ def samples_of(
 _ERRORS = ("loaded_transmission_error_peak_to_peak", "transmission_error_peak_to_peak")
 
 
-def _known(found: Mapping[str, float]) -> bool:
-    """Whether what a sample's conclusion needs is known."""
-    return all(math.isfinite(value) for name, value in found.items() if name not in _PLACES)
+def _of_one(own: Mapping[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+    """Arrays along the path, and numbers, of one sample."""
+    path = {name: value for name, value in own.items() if np.ndim(value)}
+    return path, {name: float(value) for name, value in own.items() if name not in path}
+
+
+def _missing(found: Mapping[str, float]) -> set[str]:
+    """What is not known of a sample: nothing is missed that accurate teeth have neither."""
+    return {name for name, value in found.items() if not math.isfinite(value)}
 
 
 def _contact_temperature(outcome: Conclusion) -> float:

@@ -175,7 +175,8 @@ def test_a_stopped_call_goes_on_and_limits_are_judged(assessed: dict, folder: Pa
     assert (kept["dynamic_factor"], kept["hertz_pressure"], kept["micropitting"]) == (False, True, True)
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")
     assert "Limits exceeded with accurate teeth: " in page
-    assert "2 of 2 samples exceed the limit of Dynamic factor K_v" in page
+    assert "With what is not known varied: " in page
+    assert "Dynamic factor K_v (2 of 2)" in page
     assert '<tr class="bad"><td>Dynamic factor' in page
     assert "<tr><td>Hertz pressure" in page
 
@@ -228,6 +229,13 @@ def test_a_change_runs_only_what_it_concerns(assessed: dict, folder: Path):
 def test_what_contradicts_is_refused_with_the_remedy(key: str, value: object, named: str, tmp_path: Path):
     with pytest.raises(InputError, match=named):
         short_case(KIND, tmp_path, **{key.replace(".", "__"): value})
+
+
+def test_samples_are_known_where_the_teeth_are_as_warm_as_the_oil(tmp_path: Path):
+    found = assess(tmp_path, "--set", "temperature.model=oil", "--set", "assessment.seed=5")
+    assert found["simulated"]["spread"]["lambda_GF"]["samples"] == 2
+    assert found["by_sample"]["deviation_sample"] == [5, 6]
+    assert "bulk_temperature_spread" not in found
 
 
 def test_an_oil_without_its_data_sheet_is_refused(tmp_path: Path):

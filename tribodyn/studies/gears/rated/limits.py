@@ -115,19 +115,16 @@ def _on_samples(limits: Mapping[str, Any], samples: Mapping[str, Any]) -> list[t
     count, parts = int(samples["samples"]), []
     if lost := int(samples["contact_lost"]):
         begins = QUANTITIES["contact_loss_speed_from"].written(samples["contact_loss_speed_from"])
-        parts.append(f"{_of(lost, count)} {'loses' if lost == 1 else 'lose'} contact, from {begins} rpm")
-    parts += [
-        f"{_of(found['exceed'], found['samples'])} {'exceeds' if found['exceed'] == 1 else 'exceed'} "
-        f"the limit of {LIMITS[name].label}"
+        lose = "loses" if lost == 1 else "lose"
+        parts.append(f"{lost} of {count} samples {lose} contact, from {begins} rpm")
+    exceeded = [
+        f"{LIMITS[name].label} ({found['exceed']} of {found['samples']})"
         for name, found in limits.items()
         if found.get("exceed")
     ]
+    parts += [f"limits exceeded: {', '.join(exceeded)}"] if exceeded else []
     if parts:
         return [(False, f"With what is not known varied: {'; '.join(parts)}.")]
     judged_too = any("exceed" in found for found in limits.values())
     both = "keep the limits and contact" if judged_too else "keep contact"
     return [(True, f"With what is not known varied: all {count} samples {both}.")]
-
-
-def _of(number: int, count: int) -> str:
-    return f"{number} of {count} samples"
