@@ -126,6 +126,17 @@ def test_what_is_known_has_no_range(assessed: dict, folder: Path, tmp_path: Path
     assert "nothing: all is known" in " ".join(found["assumed"].values())
 
 
+def test_samples_are_known_where_the_teeth_are_as_warm_as_the_oil(
+    assessed: dict, folder: Path, tmp_path: Path
+):
+    shutil.copytree(folder / "out" / "assessment-parts", tmp_path / "out" / "assessment-parts")
+    found = assess(tmp_path, "--set", "temperature.model=oil")
+    assert found["simulated"]["spread"]["lambda_GF"]["samples"] == 2
+    # the loads are those of the warmer teeth: the same samples
+    assert found["by_sample"]["dynamic_factor"] == assessed["by_sample"]["dynamic_factor"]
+    assert "bulk_temperature_spread" not in found
+
+
 def test_every_number_has_a_unit(assessed: dict):
     units = assessed["units"]
 
@@ -229,13 +240,6 @@ def test_a_change_runs_only_what_it_concerns(assessed: dict, folder: Path):
 def test_what_contradicts_is_refused_with_the_remedy(key: str, value: object, named: str, tmp_path: Path):
     with pytest.raises(InputError, match=named):
         short_case(KIND, tmp_path, **{key.replace(".", "__"): value})
-
-
-def test_samples_are_known_where_the_teeth_are_as_warm_as_the_oil(tmp_path: Path):
-    found = assess(tmp_path, "--set", "temperature.model=oil", "--set", "assessment.seed=5")
-    assert found["simulated"]["spread"]["lambda_GF"]["samples"] == 2
-    assert found["by_sample"]["deviation_sample"] == [5, 6]
-    assert "bulk_temperature_spread" not in found
 
 
 def test_an_oil_without_its_data_sheet_is_refused(tmp_path: Path):
