@@ -15,7 +15,7 @@ EXAMPLES = (
     "\b\nThe folder has the record, the report to be opened in a browser, and the parts. A call that was\n"
     "stopped goes on where it was."
 )
-RECORD, PAGE, DATA = "assessment.h5", "report.html", "assessment.json"
+RECORD, PAGE, DATA, PRINTED = "assessment.h5", "report.html", "assessment.json", "report.pdf"
 
 
 def assess(
@@ -33,6 +33,9 @@ def assess(
     ] = False,
     allow_large: LargeOption = False,
     full: FullOption = False,
+    pdf: Annotated[
+        bool, typer.Option("--pdf", help="Also print the report, through an installed browser.")
+    ] = False,
     json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
 ) -> None:
     """Assess a drive: loads, vibration, film, temperatures, losses, margins; one folder, one report."""
@@ -40,6 +43,7 @@ def assess(
     from tribodyn.cli.printing import print_files, print_json, print_rich, write_json
     from tribodyn.errors import InputError
     from tribodyn.numerics.output_files import check_output, make_folder
+    from tribodyn.post.page.pdf import print_page, require_browser
     from tribodyn.post.progress import progress_bar
     from tribodyn.record.previous import watched
     from tribodyn.record.reader import Record
@@ -52,12 +56,14 @@ def assess(
         kinds = " or ".join(name for name, other in STUDIES.items() if other.verb == "assess")
         remedy = f"tribodyn {loaded.study.verb} it, or begin with: tribodyn init NAME --kind {kinds}"
         raise InputError("kind", f'"{loaded.study.kind}"', "is run, not assessed", remedy)
+    if pdf:
+        require_browser()
     folder = output or Path(loaded.case.name)
     make_folder(folder)
     kept = watched(folder / RECORD)
     if output is None:
         loaded = loaded.recorded_in(folder)
-    for name in (PAGE, DATA):
+    for name in (PAGE, DATA, *([PRINTED] if pdf else [])):
         check_output(folder / name, force)
     with loaded.naming(), progress_bar(loaded.case.name) as progress:
         result = loaded.study.run(
@@ -70,16 +76,22 @@ def assess(
         page = write_report([record], folder / PAGE, force=force)
         head = summary_json(record)
         data: dict[str, Any] = {**head.pop("summary"), **head, "report": str(page)}
+        files = {"record": result.path, "data": folder / DATA, "report": page}
+        if pdf:
+            files["pdf"] = print_page(page, force=force)
+            data["pdf"] = str(files["pdf"])
         write_json(folder / DATA, data, force)
         if json:
             print_json(data)
             return
         print_rich(summary_table(record, full))
     print_files("previous", kept())
-    for what, file in (("record", result.path), ("data", folder / DATA), ("report", page)):
+    for what, file in files.items():
         print_files(what, [file])
     limits = data.get("limits", {}).items()
     if missed := [name for name, limit in limits if not limit["kept"]]:
         typer.echo(f"limits exceeded: {', '.join(missed)}")
-    if within := [name for name, limit in limits if limit["kept"] and not limit.get("kept_p95", True)]:
-        typer.echo(f"limits exceeded within the scatter of the deviations: {', '.join(within)}")
+    if within := [
+        f"{name} ({limit['exceed']} of {limit['samples']})" for name, limit in limits if limit.get("exceed")
+    ]:
+        typer.echo(f"limits exceeded by samples of what is not known: {', '.join(within)}")

@@ -36,19 +36,19 @@ def report(
 
     from tribodyn.cli.printing import print_files, print_json
     from tribodyn.numerics.output_files import check_output
+    from tribodyn.post.page.pdf import print_page, require_browser
     from tribodyn.record.sweep_reader import open_any
     from tribodyn.studies.pages import write_report
 
     target = output or Path(f"{'-'.join(Path(path).stem for path in records)}.html")
     if pdf:
+        require_browser()
         check_output(target.with_suffix(".pdf"), force)
     with ExitStack() as stack:
         opened = [stack.enter_context(open_any(Path(path))) for path in records]
         written = write_report(opened, target, force=force, measured=measured, align=align.value)
     files = {"report": written}
     if pdf:
-        from tribodyn.post.page.pdf import print_page
-
         files["pdf"] = print_page(written, force=force)
     if json:
         print_json({what: str(path) for what, path in files.items()})

@@ -22,12 +22,12 @@ def quantities(*names: str) -> tuple[Quantity, ...]:
 
 
 def scatter_of(name: str) -> Quantity:
-    """Percentiles of a quantity over samples of the deviations that a tolerance class allows."""
+    """Percentiles of a quantity over samples of what is not known."""
     return QUANTITIES[name]._replace(
         name=f"{name}_spread",
         label=f"{QUANTITIES[name].label}, over samples: median, 5, 95 %",
         digits=".3f",
-        definition="Percentiles of the same over samples of the deviations that the tolerance class allows.",
+        definition="Percentiles of the same over the samples of an assessment.",
         symbol="",
         below="over samples: median, 5, 95 %",
         listed=True,

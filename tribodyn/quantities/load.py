@@ -85,6 +85,7 @@ ASSESSMENT = (
     Quantity("contact_loss_speed_from", "Contact is lost from", "rpm", ".0f").defined_as(
         "Lowest speed of the pinion at which no pair carries load for part of the time."
     ),
+    Quantity("centre_distance", "Centre distance", "mm", ".6g").defined_as("Of a sample of an assessment."),
     Quantity("input_speed", "Speed of the input", "rpm", ".5g").defined_as("Of the duty of a train."),
     Quantity(
         "dynamic_factor_max_input_speed",

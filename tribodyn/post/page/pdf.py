@@ -18,6 +18,7 @@ BROWSERS = (
     "google-chrome-stable",
     "microsoft-edge",
     "chrome",
+    "msedge",
 )
 #: Options under which a browser draws a file and asks nothing of the network.
 QUIET = (
@@ -37,16 +38,22 @@ def browser() -> str | None:
     return installed_program(BROWSERS)
 
 
-def run_browser(*options: str) -> "subprocess.CompletedProcess[str]":
-    """Run the browser without a window, in a profile of its own; InputError where none is installed."""
-    import os
-
+def require_browser() -> str:
+    """Path of the `browser`; InputError where none is installed: to be said before any work."""
     found = browser()
     if found is None:
         rule = "no browser is installed that could print the page"
         raise InputError(
             "--pdf", None, rule, "install Chromium or Chrome, or print the page from your browser"
         )
+    return found
+
+
+def run_browser(*options: str) -> "subprocess.CompletedProcess[str]":
+    """Run the browser without a window, in a profile of its own; InputError where none is installed."""
+    import os
+
+    found = require_browser()
     # as root, in containers, a browser runs without its sandbox only; the page is our own
     sandbox = ("--no-sandbox",) if hasattr(os, "geteuid") and os.geteuid() == 0 else ()
     with tempfile.TemporaryDirectory(prefix="tribodyn-", ignore_cleanup_errors=True) as profile:

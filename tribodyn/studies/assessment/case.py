@@ -9,7 +9,8 @@ from pydantic import Field
 from tribodyn.geometry.body import GEOMETRY
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.scenario.quantity import NotNegative, Positive, Text
+from tribodyn.scenario.quantity import NotNegative, Positive, Text, written
+from tribodyn.studies.assessment.unknowns import UnknownsTable
 from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.case import GearCase, LubricatedCase, OiledCase
 from tribodyn.studies.gears.prepare import with_chosen_laws
@@ -55,8 +56,12 @@ class AssessmentTable(RatingTable):
         46, description="steady states over that range, besides the duty's"
     )
     samples: Annotated[int, Field(strict=True, ge=0, le=1000)] = Field(
-        16, description="of the deviations that the tolerance class allows, for their scatter; 0: none"
+        16, description="of what is not known, for the scatter of the quantities; 0: none"
     )
+    seed: Annotated[int, Field(strict=True, ge=0, le=10**9)] = Field(
+        1, description="of the samples; their deviations are numbered from it"
+    )
+    unknowns: UnknownsTable = written({})
     friction_laws: tuple[Text, ...] = Field(
         (AUTO, "masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),
         min_length=1,

@@ -116,22 +116,16 @@ def load_factor(settings: AssessmentTable, quantities: Mapping[str, Any]) -> flo
     return settings.application_factor * (settings.mesh_load_factor or 1.0) * dynamic * face
 
 
-#: Quantity of the simulation -> its name by the standards.
-_NAMES = {"dynamic_factor": "K_v", "transverse_load_factor": "K_Halpha", "face_load_factor": "K_Hbeta"}
-
-
 def simulated_part(
     case: AssessmentCase,
     assembly: Assembly,
     local: LocalValues,
     quantities: Mapping[str, Any],
-    spread: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:
     """What stands beside `standard.iso_part`, by the same names; worst values are those of all places.
 
     c' and c_γα are along the line of action per face width: of one pair at the pitch point, and the mean of
-    all pairs. H_v is loss over power and mean friction coefficient. ``spread`` has the scatter over the
-    samples of deviations.
+    all pairs. H_v is loss over power and mean friction coefficient.
     """
     films, count = local.films, len(local.points)
     width = float(assembly.common_width)
@@ -145,7 +139,6 @@ def simulated_part(
     bulk = films.bulk_temperature - ZERO_CELSIUS
     film = by_point(local.at_points(films.film_thickness), min)
     specific = by_point(local.at_points(films.specific_film), min)
-    scattered = {_NAMES.get(name, name): scatter for name, scatter in spread.items()}
     transverse = quantities.get("transverse_load_factor")
     return {
         "theta_M": by_point(np.full(count, bulk), max),
@@ -159,14 +152,9 @@ def simulated_part(
         "loss": loss,
         "K_Hbeta": quantities["face_load_factor"],
         **({"K_Halpha": transverse} if transverse is not None else {}),
-        **({"spread": scattered} if scattered else {}),
         "theta_B": by_point(local.at_points(bulk + films.flash_rise), max)
         | {"worst": float(bulk + np.nanmax(films.flash_rise))},
     }
-
-
-#: Limit -> the quantity that it bounds, of those that scatter.
-_SCATTERED = {"dynamic_factor": "dynamic_factor", "loaded_error": "loaded_transmission_error_peak_to_peak"}
 
 
 def margins_and_limits(
@@ -176,13 +164,10 @@ def margins_and_limits(
     strength: Strength,
     local: LocalValues,
     quantities: Mapping[str, Any],
-    spread: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:
     """Return ``margins`` by ``iso`` and ``simulated``, ``load_factors`` and ``limits``; temperatures in °C.
 
-    The worse of both safeties is compared with a limit. One whose load stage the oil lacks is
-    left out. Where a quantity scatters over samples of deviations (`spread`, by the names of the quantities),
-    its 95 % is compared too, as ``p95`` and ``kept_p95``.
+    The worse of both safeties is compared with a limit. One whose load stage the oil lacks is left out.
     """
     by_standard = margins_by_standard(found, strength, case.oil_temperature) if found else {}
     rated = safeties(capacity)
@@ -199,7 +184,6 @@ def margins_and_limits(
         "root_tension": max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"]),
         "loaded_error": quantities["loaded_transmission_error_peak_to_peak"],
     }
-    of_limits = {limit: spread[name] for limit, name in _SCATTERED.items() if name in spread}
     factors: dict[str, Any] = {"K_A": case.settings.application_factor}
     factors["K_Hbeta"] = case.settings.face_load_factor or quantities["face_load_factor"]
     if found:
@@ -218,7 +202,7 @@ def margins_and_limits(
             "c_gamma_beta": own.stiffness.mesh_face,
         }
     margins = {"simulated": simulated} | ({"iso": by_standard | rated} if by_standard else {})
-    return {"margins": margins, "load_factors": factors, "limits": judged(case.limits, values, of_limits)}
+    return {"margins": margins, "load_factors": factors, "limits": judged(case.limits, values)}
 
 
 def _by_simulation(case: AssessmentCase, strength: Strength, local: LocalValues) -> dict[str, float]:

@@ -5,11 +5,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
 from tribodyn.post.page.page import table
 from tribodyn.post.style import inline
-from tribodyn.quantities.catalogue import SPREAD, quantities
+from tribodyn.quantities.catalogue import SPREAD, quantities, scatter
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
@@ -20,20 +22,21 @@ from tribodyn.studies.assessment.report import verdict
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.gears.rated import first_page
 from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
+from tribodyn.studies.gears.rated.limits import least
 from tribodyn.studies.gears.rated.said import unit_of
+from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS
 from tribodyn.studies.pages import loaded_again
 from tribodyn.studies.protocol import tasks
 
 _RPM = 30.0 / math.pi
+#: What is said of a range.
+_ENDS = ("p5", "p95")
 #: What stands in ``iso`` and ``simulated`` beside each other, in the spread, and in the margins.
 _COMPARED = quantities(
     *("theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss")
 )
-_SCATTERED = quantities(
-    *("K_v", "K_Halpha", "K_Hbeta"),
-    *("loaded_transmission_error_peak_to_peak", "transmission_error_peak_to_peak"),
-)
-_MARGINS = quantities("theta_B", "S_B", "S_intS", "S_lambda")
+_SCATTERED = quantities("K_Hbeta", "transmission_error_peak_to_peak")
+_MARGINS = quantities("theta_B", "S_H", "S_F", "S_B", "S_intS", "S_lambda")
 
 
 def page(record: Record) -> str:
@@ -52,13 +55,13 @@ def page(record: Record) -> str:
         first_page.verdict_of(record, verdict(record)),
         _asked(case),
         _tiles(summary),
-        '<div class="columns">',
-        f"<div>{limits_table(summary)}{_scatter(summary)}",
-        f"{listed('Assumed', summary.get('assumed', {}))}</div>",
-        f"<div>{_by_standard(summary)}{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
+        f'<div class="columns"><div>{limits_table(summary)}</div><div>{_scatter(summary)}</div></div>',
+        _by_standard(summary),
+        '<div class="columns break">',
+        f"<div>{listed('Assumed', summary.get('assumed', {}))}</div>",
+        f"<div>{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
         f'<div class="pictures"><p>{picture}</p></div>',
-        '<div class="break"></div>',
         _points(summary),
         first_page.bearings_table(summary),
         *(
@@ -102,38 +105,100 @@ def _tiles(summary: Mapping[str, Any]) -> str:
     highest = f"{summary['dynamic_factor_max']:.2f} at {summary['dynamic_factor_max_speed'] * _RPM:.0f} rpm"
     root = max(summary[f"{side}_root_tension_max"] for side in ("pinion", "gear"))
     error = summary["loaded_transmission_error_peak_to_peak"]
+    samples, counts = summary.get("by_sample", {}), summary.get("sample_counts", {})
+    roots = [samples[name] for name in ("pinion_root_tension_max", "gear_root_tension_max") if samples]
+
+    def over(name: str, digits: str, factor: float = 1.0, offset: float = 0.0) -> str:
+        return _range(samples.get(name), digits, factor, offset)
+
     shown = (
-        (f"{100.0 * summary['efficiency']:.2f} %", f"efficiency; {spread[0]} to {spread[1]} % by other laws"),
-        (f"{own['K_v']:.2f}", f"dynamic factor at the duty; up to {highest}"),
-        (f"{own['lambda_GF']['worst']:.2f}", "minimum specific film λ_GF"),
-        (f"{margins['theta_B']:.0f} °C", f"contact temperature; bulk {own['theta_M']['worst']:.0f} °C"),
-        (f"{summary['hertz_pressure_max'] * 1e-9:.2f} GPa", "maximum Hertz pressure, slow rotation"),
-        (f"{root * 1e-6:.0f} MPa", "maximum root tension"),
-        (f"{error * 1e6:.2f} µm", "loaded transmission error, peak to peak"),
-        ("none", "loss of contact over the speeds")
-        if lost is None
-        else (f"{lost * _RPM:.0f} rpm", "contact is lost from this pinion speed"),
+        (
+            f"{100.0 * summary['efficiency']:.2f} %",
+            f"efficiency; {spread[0]} to {spread[1]} % by other laws",
+            over("efficiency", ".2f", 100.0),
+        ),
+        (
+            f"{own['K_v']:.2f}",
+            f"dynamic factor at the duty; up to {highest}",
+            over("dynamic_factor", ".2f"),
+        ),
+        (
+            f"{own['lambda_GF']['worst']:.2f}",
+            "minimum specific film λ_GF",
+            over("specific_film_min", ".2f"),
+        ),
+        (
+            f"{margins['theta_B']:.0f} °C",
+            f"contact temperature; bulk {own['theta_M']['worst']:.0f} °C",
+            over("contact_temperature_max", ".0f", 1.0, -ZERO_CELSIUS),
+        ),
+        (
+            f"{summary['hertz_pressure_max'] * 1e-9:.2f} GPa",
+            "maximum Hertz pressure, slow rotation",
+            over("hertz_pressure_max", ".2f", 1e-9),
+        ),
+        (
+            f"{root * 1e-6:.0f} MPa",
+            "maximum root tension",
+            _range(np.max(roots, axis=0), ".0f", 1e-6) if roots else "",
+        ),
+        (
+            f"{error * 1e6:.2f} µm",
+            "loaded transmission error, peak to peak",
+            over("loaded_transmission_error_peak_to_peak", ".2f", 1e6),
+        ),
+        (
+            "none" if lost is None else f"{lost * _RPM:.0f} rpm",
+            "loss of contact over the speeds" if lost is None else "contact is lost from this pinion speed",
+            f"{counts['contact_lost']} of {counts['samples']} samples lose it" if counts else "",
+        ),
     )
     return first_page.tiles(shown)
 
 
+def _range(values: Any, digits: str, factor: float = 1.0, offset: float = 0.0) -> str:
+    """5 and 95 % of values over the samples, in another unit; nothing where none is known."""
+    if values is None or not np.any(np.isfinite(np.asarray(values, dtype=float))):
+        return ""
+    found = scatter(values)
+    return " to ".join(format(factor * (found[end] + offset), digits) for end in _ENDS)
+
+
 def _by_standard(summary: Mapping[str, Any]) -> str:
-    iso, simulated = summary.get("iso", {}), summary["simulated"]
-    of_iso, of_simulation = (summary["margins"].get(part, {}) for part in ("iso", "simulated"))
-    compared = [(quantity, iso, simulated) for quantity in _COMPARED] + [
-        (quantity, of_iso, of_simulation)
-        for quantity in _MARGINS
-        if quantity.name in of_iso or quantity.name in of_simulation
-    ]
-    rows = [
-        (quantity.title, *(_shown(part.get(quantity.name), quantity) for part in parts), unit_of(quantity))
-        for quantity, *parts in compared
-    ]
-    return numbers_table("Standard and simulation", ("", "ISO 6336", "simulated", ""), rows)
+    """Both parts beside each other, with ranges where there are samples."""
+    both = summary.get("iso", {}), summary["simulated"]
+    margins = [summary["margins"].get(part, {}) for part in ("iso", "simulated")]
+    rows = []
+    for quantity in (*_COMPARED, *_MARGINS):
+        values = [part.get(quantity.name) for part in (margins if quantity in _MARGINS else both)]
+        if quantity in _MARGINS and values == [None, None]:
+            continue
+        ranges = [_between(part.get("spread", {}).get(quantity.name), quantity) for part in both]
+        cells = [_shown(value, quantity) for value in values]
+        rows.append(
+            (
+                quantity.title,
+                *(text for pair in zip(cells, ranges, strict=True) for text in pair),
+                unit_of(quantity),
+            )
+        )
+    heads = ("", "ISO 6336", "5 to 95 %", "simulated", "5 to 95 %", "")
+    if not any(part.get("spread") for part in both):
+        rows, heads = [row[:2] + row[3:4] + row[5:] for row in rows], heads[:2] + heads[3:4] + heads[5:]
+        return numbers_table("Standard and simulation", heads, rows)
+    return numbers_table("Standard and simulation", heads, rows, " ranges")
+
+
+def _between(found: Mapping[str, float] | None, quantity: Quantity) -> str:
+    """A range; nothing of what does not scatter."""
+    if found is None:
+        return ""
+    ends = [quantity.written(float(found[end])) for end in _ENDS]
+    return " to ".join(ends) if ends[0] != ends[1] else ""
 
 
 def _scatter(summary: Mapping[str, Any]) -> str:
-    """Quantities over the samples of deviations, where there are any."""
+    """Quantities over the samples that stand nowhere else, where there are any."""
     spread = summary["simulated"].get("spread", {})
     rows = [
         (quantity.title, *(_shown(spread[quantity.name][part], quantity) for part in SPREAD), quantity.unit)
@@ -143,13 +208,13 @@ def _scatter(summary: Mapping[str, Any]) -> str:
     if not rows:
         return ""
     known = min(int(found["samples"]) for found in spread.values())
-    heading = f"Scatter over {known} samples of deviations"
+    heading = f"Scatter over {known} samples of what is not known"
     return numbers_table(heading, ("", "median", "5 %", "95 %", ""), rows, " scatter")
 
 
 def _shown(value: Any, quantity: Quantity) -> str:
     if isinstance(value, Mapping):
-        value = value["worst"]
+        value = value["worst"] if "worst" in value else least(value)
     return "–" if value is None else quantity.written(float(value))
 
 

@@ -10,6 +10,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.studies import STUDIES
 from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.unknowns import Draw, drawn
 from tribodyn.studies.gears.by_standard import base_pitch_deviation
 from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult
 from tribodyn.studies.protocol.study import Study
@@ -51,8 +52,14 @@ def request_of(case: AssessmentCase) -> Request:
         tuple(sorted({*map(float, speeds), case.operating.pinion_speed})),
         tuple(dict.fromkeys((first, *(name for name in settings.friction_laws[1:] if name != AUTO)))),
         pitch_deviation,
-        settings.samples,
+        tuple(draw.keys(tables["bearings"]) for draw in draws_of(case)),
     )
+
+
+def draws_of(case: AssessmentCase) -> list[Draw]:
+    """Samples of what is not known of a case."""
+    settings = case.settings
+    return drawn(case, settings.unknowns, settings.damping_ratio, settings.samples, settings.seed)
 
 
 def parts(request: Request) -> tuple[Part, ...]:

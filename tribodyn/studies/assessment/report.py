@@ -27,12 +27,19 @@ REPORTED: Reported = {
     "Steady states": (
         *quantities("dynamic_factor"),
         scatter_of("dynamic_factor"),
-        *quantities("dynamic_factor_max", "dynamic_factor_max_speed", "contact_loss_speed_from"),
+        *quantities("dynamic_factor_max", "dynamic_factor_max_speed"),
+        scatter_of("dynamic_factor_max"),
+        *quantities("contact_loss_speed_from"),
     ),
     "Load capacity": quantities("S_H", "S_F", "life"),
-    "Film and losses": quantities(
-        *("specific_film_min", "contact_temperature_max", "power_friction_mean"),
-        *("efficiency", "efficiency_lowest", "efficiency_highest"),
+    "Film and losses": (
+        *quantities("specific_film_min"),
+        scatter_of("specific_film_min"),
+        *quantities("contact_temperature_max"),
+        scatter_of("contact_temperature_max"),
+        *quantities("power_friction_mean", "efficiency"),
+        scatter_of("efficiency"),
+        *quantities("efficiency_lowest", "efficiency_highest"),
     ),
     "Solver": quantities("wall_time"),
 }

@@ -13,7 +13,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.post.report import EXCEEDED
-from tribodyn.quantities.catalogue import QUANTITIES, SPREAD, scatter
+from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import Record
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
@@ -21,6 +21,8 @@ from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import LAYOUT, AssessmentCase
 from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_and_limits, simulated_part
 from tribodyn.studies.assessment.parts import Part
+from tribodyn.studies.assessment.scatter import Conclusion, put_in, samples_of
+from tribodyn.studies.assessment.unknowns import described
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks
@@ -38,7 +40,7 @@ from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.oil import oil_values
 
 #: What is no number, or has the unit of what is compared; what ends the name of a scatter.
-WITHOUT_UNIT, SPREAD_OF = ("limits", "samples"), "_spread"
+WITHOUT_UNIT, SPREAD_OF = ("limits", "limit_values", "samples"), "_spread"
 #: Keys of a table that has values of one quantity.
 _PARTS = {"worst", "median", "pinion"}
 
@@ -104,22 +106,17 @@ def assessed(
     Raises InputError or SimulationError if a part that is needed cannot be run; see also `parts.results`.
     """
     begun = perf_counter()
-    assembly = assembled(case)
     request = parts.request_of(case)
     taking_part = parts.parts(request)
     done = tasks.results(parts.tasks_of(taking_part), folder, progress, force=force)
     found: dict[str, Any] = {}
     along: dict[str, Any] = {}
-    spread: dict[str, dict[str, float]] = {}
+    rows: dict[str, np.ndarray] = {}
     for answer in parts.answers(taking_part, request, done):
         found |= answer.quantities
         along |= answer.along
-        spread |= {name: _scatter(values) for name, values in answer.spread.items()}
-    local = local_of(case, assembly, along, found)
-    iso, by_standard, capacity = {}, None, None
-    if assembly.family.involute:
-        iso, by_standard, capacity = _by_standard(case, assembly, found["face_load_factor"])
-    simulated = simulated_part(case, assembly, local, found, spread)
+        rows |= answer.spread
+    local, by_standard, capacity, iso, simulated, judged = concluded(case, along, found)
     summary: dict[str, Any] = {
         "duty": {
             "pinion_speed": case.operating.pinion_speed,
@@ -135,16 +132,12 @@ def assessed(
         "simulated": simulated,
         **bearing_part(case, case.lubricant),
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
-        **{f"{name}_spread": [values[part] for part in SPREAD] for name, values in spread.items()},
-        **margins_and_limits(
-            case,
-            by_standard,
-            capacity,
-            strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor),
-            local,
-            found,
-            spread,
-        ),
+        **judged,
+    }
+    if rows:
+        samples = samples_of(case, parts.draws_of(case), rows, (along, found), concluded)
+        summary = put_in(summary, samples)
+    summary |= {
         "assumed": numbered(assumed(case, by_standard is not None)),
         "extrapolated": numbered(extrapolated(taking_part, done)),
         **_trust(done, {task.name for _, task in parts.tasks_of(taking_part) if task.needed}),
@@ -152,6 +145,25 @@ def assessed(
     }
     summary = {name: value for name, value in summary.items() if value not in ({}, [])}
     return local, summary | {"units": units_of(summary)}
+
+
+def concluded(case: AssessmentCase, along: Mapping[str, Any], found: Mapping[str, Any]) -> Conclusion:
+    """Put together what the studies found of a case: arrays along the path, and quantities."""
+    assembly = assembled(case)
+    local = local_of(case, assembly, along, found)
+    iso, by_standard, capacity = {}, None, None
+    if assembly.family.involute:
+        iso, by_standard, capacity = _by_standard(case, assembly, found["face_load_factor"])
+    judged = margins_and_limits(
+        case,
+        by_standard,
+        capacity,
+        strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor),
+        local,
+        found,
+    )
+    simulated = simulated_part(case, assembly, local, found)
+    return Conclusion(local, by_standard, capacity, iso, simulated, judged)
 
 
 def units_of(summary: Mapping[str, Any]) -> dict[str, str]:
@@ -169,12 +181,6 @@ def units_of(summary: Mapping[str, Any]) -> dict[str, str]:
         elif not isinstance(value, str | bool):
             found[name] = quantity.si if quantity else "1"
     return dict(sorted(found.items()))
-
-
-def _scatter(values: np.ndarray) -> dict[str, float]:
-    """Median, 5 and 95 % over the samples, and how many of them are known."""
-    known = {name: float(value) for name, value in scatter(values).items()}
-    return known | {"samples": int(np.sum(np.isfinite(values)))}
 
 
 def _arrays(local: LocalValues) -> dict[str, Any]:
@@ -238,7 +244,8 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     sentences += bearing_remarks(case, case.lubricant)
     scatter = ""
     if settings.samples:
-        scatter = f"; its scatter is over {settings.samples} samples of deviations within the tolerances"
+        varied = described(case, settings.unknowns, settings.damping_ratio)
+        scatter = f"; its scatter is over {settings.samples} samples of {varied}"
     sentences.append(
         "The simulation has accurate teeth but for modifications and misalignment of the scenario and its "
         f"shafts{scatter}. Its K_Hα is that of one tooth with the base pitch deviation of the standard."

@@ -18,6 +18,7 @@ from tribodyn.scenario.tables.lubricant import lubricant_of
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.quality import tolerances_of
 from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
+from tribodyn.studies.assessment.unknowns import broken_unknowns
 from tribodyn.studies.gears.rated.capacity import required
 from tribodyn.studies.gears.rated.limits import OilLimits, Pressure
 from tribodyn.studies.gears.rated.settings import broken_strength_rules
@@ -126,6 +127,7 @@ def _broken_settings(scenario: Scenario) -> Iterator[InputError]:
             yield InputError(
                 "assessment.torque_shares", f"{higher:g}", rule, "write them in increasing order"
             )
+    yield from broken_unknowns(settings.unknowns, settings.damping_ratio, "assessment.unknowns")
     first, last = settings.speed_range
     if not first < last:
         rule = "the last speed must be above the first"

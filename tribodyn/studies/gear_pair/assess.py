@@ -1,7 +1,7 @@
 """The part in an assessment: steady states over the speed."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,10 +16,14 @@ _SLICES = 11
 _RISE = 0.02
 #: Share of the time without contact that counts.
 _LOST = 1e-6
+#: Resonances at which every sample is looked at, and speeds over that of the linearised model: teeth that
+#: part vibrate most some percent below it.
+_RESONANCES, _AT = 3, (1.0, 0.94)
+_SPEED = "operating.pinion_speed"
 
 
 def tasks(request: Request) -> tuple[Task, ...]:
-    """A steady state at every speed, and of every sample of deviations at the duty.
+    """A steady state at every speed, and of every sample at the duty and at its own resonances.
 
     The oil is taken as it enters, for friction hardly moves the loads.
     """
@@ -35,13 +39,21 @@ def tasks(request: Request) -> tuple[Task, ...]:
         "friction": {"law": request.laws[0]},
         **{name: tables[name] for name in ("shaft", "film") if name in tables},
     }
-    speeds = [f"{speed!r} rad/s" for speed in request.speeds]
-    found = [Task(_TASK, "steady states over the speed", scenario, "operating.pinion_speed", speeds)]
+    speeds = [{_SPEED: f"{speed!r} rad/s"} for speed in request.speeds]
+    found = [Task(_TASK, "steady states over the speed", scenario, speeds)]
     if request.samples:
         sliced = scenario | {"mesh": {"slices": _SLICES, **scenario["mesh"]}}
-        numbers = [str(number) for number in range(1, request.samples + 1)]
-        about = "steady states, samples of deviations"
-        found.append(Task(_SAMPLES, about, sliced, "mesh.deviation_sample", numbers, needed=False))
+        span = request.speeds[0], request.speeds[-1]
+
+        def at_resonances(case: Any) -> list[dict[str, str]]:
+            from tribodyn.studies.gear_pair.resonances import resonance_speeds  # the dynamics
+
+            found = resonance_speeds(case, span, _RESONANCES)
+            speeds = [max(share * speed, span[0]) for speed in found for share in _AT]
+            return [{_SPEED: f"{speed!r} rad/s"} for speed in speeds]
+
+        about = "steady states, samples"
+        found.append(Task(_SAMPLES, about, sliced, request.samples, at_resonances, needed=False))
     return tuple(found)
 
 
@@ -79,9 +91,43 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         {"": factor},
         request.pinion_speed * rpm,
     )
-    samples = done[_SAMPLES].rows if _SAMPLES in done else {}
-    names = ("dynamic_factor", "transmission_error_peak_to_peak") if samples else ()
-    return Findings(quantities, curves=(curve,), spread={name: samples[name] for name in names})
+    return Findings(quantities, curves=(curve,), spread=_of_samples(request, done.get(_SAMPLES)))
+
+
+def _of_samples(request: Request, done: TaskResult | None) -> dict[str, np.ndarray]:
+    """Quantities of every sample at the duty, and the worst of all its speeds; NaN where none is known."""
+    if done is None or not done.rows:
+        return {}
+    places = _places(request.samples, done.cases)
+    names = ("dynamic_factor", "transmission_error_peak_to_peak", "contact_loss_fraction")
+    found = {name: np.array([done.rows[name][own[0]] for own in places]) for name in names}
+    speeds = np.array([_speed(case, request.pinion_speed) for case in done.cases])
+    ends = ("dynamic_factor_max", "dynamic_factor_max_speed", "contact_loss_fraction_max")
+    worst = np.full((len(ends), len(places)), np.nan)
+    begins = np.full(len(places), np.nan)
+    for sample, own in enumerate(places):
+        factor, lost = done.rows["dynamic_factor"][own], done.rows["contact_loss_fraction"][own]
+        if np.any(np.isfinite(factor)):
+            most = int(np.nanargmax(factor))
+            worst[:, sample] = factor[most], speeds[own][most], np.nanmax(lost)
+        parted = np.nan_to_num(lost) > _LOST
+        begins[sample] = np.min(speeds[own][parted]) if np.any(parted) else np.nan
+    return found | dict(zip(ends, worst, strict=True)) | {"contact_loss_speed_from": begins}
+
+
+def _places(samples: Sequence[Mapping[str, Any]], cases: Sequence[Mapping[str, Any]]) -> list[list[int]]:
+    """Rows of every sample, that at the duty first: its further ones follow it."""
+    found: list[list[int]] = []
+    for place, case in enumerate(cases):
+        if _SPEED not in case:
+            found.append([])
+        found[-1].append(place)
+    assert len(found) == len(samples)
+    return found
+
+
+def _speed(case: Mapping[str, Any], duty: float) -> float:
+    return float(str(case[_SPEED]).split()[0]) if _SPEED in case else duty
 
 
 def maxima(values: np.ndarray) -> list[int]:

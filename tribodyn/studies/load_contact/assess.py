@@ -8,7 +8,16 @@ import numpy as np
 from tribodyn.record.reader import Record
 from tribodyn.standards.load_factors import transverse_load_factor
 from tribodyn.studies.load_contact import STUDY
-from tribodyn.studies.protocol.part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
+from tribodyn.studies.load_contact.along import ALONG, highest_over_face
+from tribodyn.studies.protocol.part import (
+    Contribution,
+    Findings,
+    ReportCurve,
+    Request,
+    Task,
+    TaskResult,
+    of_teeth,
+)
 
 _TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-contact-samples"
 #: Mesh cycles in which a deviating tooth is seen from its entry to its exit, up to ε_α = 3.
@@ -22,7 +31,10 @@ _QUANTITIES = (
     *("shaft_misalignment", "given_misalignment"),
     *("pinion_root_tension_max", "gear_root_tension_max"),
 )
-_SCATTERED = ("face_load_factor", "loaded_transmission_error_peak_to_peak")
+_SCATTERED = (
+    *("face_load_factor", "loaded_transmission_error_peak_to_peak", "mesh_stiffness_mean"),
+    *("hertz_pressure_max", "pinion_root_tension_max", "gear_root_tension_max"),
+)
 
 
 def tasks(request: Request) -> tuple[Task, ...]:
@@ -50,9 +62,9 @@ def tasks(request: Request) -> tuple[Task, ...]:
     }
     found.append(Task(_DEVIATING, "load sharing with a pitch deviation", deviating, needed=False))
     if request.samples:
-        numbers = [str(number) for number in range(1, request.samples + 1)]
-        about = "load sharing, samples of deviations"
-        found.append(Task(_SAMPLES, about, at_duty, "mesh.deviation_sample", numbers, needed=False))
+        cases = [of_teeth(sample) for sample in request.samples]
+        about = "load sharing, samples"
+        found.append(Task(_SAMPLES, about, at_duty, cases, arrays=tuple(ALONG), needed=False))
     return tuple(found)
 
 
@@ -72,10 +84,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     with Record(done[_TASK].path) as record:
         roll, load = over_roll(record, record["normal_load"])
         _, over_face = over_roll(record, record["hertz_pressure"])
-        # largest of all sections while they pass a place of the path of contact
-        behind = np.asarray(record["slice"]) * late(record)
-        sections = (np.interp(roll + lag, roll, at) for lag, at in zip(behind, over_face.T, strict=True))
-        pressure = np.max(np.nan_to_num(list(sections)), axis=0)
+        pressure = highest_over_face(roll, over_face, np.asarray(record["slice"]) * late(record))
         torques, spread = record["torque"], record["map_peak_to_peak"]
     found: dict[str, Any] = {name: summary[name] for name in _QUANTITIES if name in summary}
     accurate = summary.get("shared_load_max")
@@ -88,6 +97,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         shared = rows["shared_load_max"]
         factors = [transverse_load_factor(load, accurate) if np.isfinite(load) else load for load in shared]
         scattered["transverse_load_factor"] = np.array(factors)
+    scattered |= {ALONG[name]: rows[name] for name in ALONG} if rows else {}
     along = {"roll_angle": roll, "normal_load": load, "hertz_pressure": pressure}
     curve = ReportCurve(
         "Loaded transmission error, peak to peak",

@@ -25,6 +25,7 @@ from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.gears.check import sheet_and_stiffness
 from tribodyn.studies.gears.rated.bearings import bearing_part, opening_part
+from tribodyn.studies.load_contact.along import of_one_cycle
 from tribodyn.studies.load_contact.case import BODIES, LAYOUT, OILED, LoadContactCase
 from tribodyn.studies.load_contact.film import film_over_face
 from tribodyn.studies.load_contact.prepare import PreparedTeeth, contact_of, flanks_of, prepare
@@ -97,9 +98,11 @@ def check(case: LoadContactCase) -> CheckResult:
 
 
 def quantities_of(case: LoadContactCase) -> dict[str, Any]:
-    """Quantities of a case at its own torque, without a record."""
+    """Quantities of a case at its own torque, without a record, and arrays along the path of contact."""
     study = prepare(case)
-    return _evaluated(study, roll_through(*contact_of(study, case.operating.gear_torque)))[1]
+    loaded = roll_through(*contact_of(study, case.operating.gear_torque))
+    along = of_one_cycle(study.flexible.assembly, loaded) if case.cycles == 1 else {}
+    return _evaluated(study, loaded)[1] | along
 
 
 def _evaluated(

@@ -201,8 +201,8 @@ def quasi_static_cycle(samples: float) -> Estimate:
 
 
 def steady_states(speeds: float, laws: float, samples: float) -> Estimate:
-    """Steady states at some speeds and of some samples of deviations, and losses by some friction laws."""
-    return Estimate(100e3 * (speeds + samples), seconds=0.15 * speeds + 0.5 * laws + 0.7 * samples)
+    """Steady states at some speeds, losses by some friction laws, and both of some samples."""
+    return Estimate(100e3 * (speeds + 7.0 * samples), seconds=0.15 * speeds + 0.5 * laws + 1.5 * samples)
 
 
 def solved_contacts(positions: float, steady: float, *, squeeze: bool, coarseness: float) -> Estimate:

@@ -28,7 +28,9 @@ class Request(NamedTuple):
     speeds: Sequence[float]
     laws: Sequence[str]  # friction laws, the first of them for everything but the spread of the losses
     pitch_deviation: float  # base pitch deviation f_pb − y_α of the drive's tolerance class, m
-    samples: int  # samples of the class's deviations whose scatter is asked for, numbered from 1
+    #: samples of what is not known, whose scatter is asked for: keys of a scenario with these tables and the
+    #: values that take the place of theirs. Those of `of_teeth` concern the gears, the others their motion
+    samples: Sequence[Mapping[str, Any]]
 
     def operating(self) -> dict[str, Any]:
         """Table ``operating`` of a scenario at the duty."""
@@ -47,16 +49,27 @@ class Request(NamedTuple):
         return found
 
 
+def of_teeth(sample: Mapping[str, Any]) -> dict[str, Any]:
+    """Keys of a sample that concern the gears, not how they are borne and damped."""
+    return {key: value for key, value in sample.items() if key in OF_TEETH}
+
+
+#: Keys of `of_teeth`.
+OF_TEETH = ("drive.centre_distance", "mesh.deviation_sample")
+
+
 class Task(NamedTuple):
     """A scenario to be run."""
 
     name: str  # of its file
     about: str  # what it finds, in a few words: shown while it runs
     scenario: Mapping[str, Any]  # as a file has it, with its kind
-    #: key, values: what is varied: then only quantities are kept, one row per value. None: one run, with its
-    #: record.
-    key: str = ""
-    values: Sequence[str] = ()
+    #: values by dotted key that each of several cases has in place of the scenario's: then only quantities
+    #: are kept, one row per case. None: one run, with its record.
+    cases: Sequence[Mapping[str, Any]] = ()
+    #: a case -> further values of it, a mapping for each case that is evaluated with it
+    further: Callable[[Any], Sequence[Mapping[str, Any]]] | None = None
+    arrays: Sequence[str] = ()  # names of arrays that are kept of every case beside the study's quantities
     needed: bool = True  # whether the assessment ends where this cannot be run
 
 
@@ -65,8 +78,9 @@ class TaskResult(NamedTuple):
 
     path: Path  # the record of a run, or the file with the rows
     summary: Mapping[str, Any] = MappingProxyType({})  # of a run
-    #: quantity -> values (n,) over what was varied; NaN where a case failed
+    #: quantity -> values (n,) over the cases, arrays (n, …); NaN where a case failed
     rows: Mapping[str, np.ndarray] = MappingProxyType({})
+    cases: Sequence[Mapping[str, Any]] = ()  # those of the rows, the further ones included
     #: what could not be computed, and why; of a run that is not needed there is no summary then
     failures: Sequence[str] = ()
 
@@ -89,7 +103,8 @@ class Findings(NamedTuple):
     #: arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch point)
     along: Mapping[str, Any] = MappingProxyType({})
     curves: Sequence[ReportCurve] = ()
-    #: values (samples,) of quantities by name, over the samples of deviations; NaN where one failed
+    #: values (samples,) of quantities by name over the samples, and (samples, places) of arrays along the
+    #: path of contact by the names of `along`; NaN where one failed
     spread: Mapping[str, np.ndarray] = MappingProxyType({})
 
 

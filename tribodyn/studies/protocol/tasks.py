@@ -136,19 +136,19 @@ def _kept(task: Task, folder: Path) -> TaskResult | None:
 
 
 def _read(task: Task, path: Path) -> TaskResult:
-    if not task.values:
+    if not task.cases:
         with Record(path) as record:
             return TaskResult(path, record.summary)
     data = json.loads(path.read_text(encoding="utf-8"))
     rows = {name: np.array(row, dtype=float) for name, row in data["quantities"].items()}
-    return TaskResult(path, rows=rows, failures=tuple(data["failures"]))
+    return TaskResult(path, rows=rows, failures=tuple(data["failures"]), cases=tuple(data["cases"]))
 
 
 def _computed(study: Study, task: Task, folder: Path) -> TaskResult:
     """Run a task, or the cases over which it varies, and seal what it gives; until then nothing is kept."""
     path = _file(task, folder)
     _seal(task, folder).unlink(missing_ok=True)
-    if task.values:
+    if task.cases:
         write_output(path, json.dumps(_varied(study, task), indent=1), force=True)
     else:
         result = study.run(case_of(task), path, force=True, allow_large=True)  # the whole was asked for
@@ -160,32 +160,62 @@ def _computed(study: Study, task: Task, folder: Path) -> TaskResult:
 
 def _varied(study: Study, task: Task) -> dict[str, Any]:
     """Quantities over the cases of a task, None where one fails, and why those failed."""
-    rows: dict[str, list[float | None]] = {name: [] for name in study.swept()}
-    failures = []
-    base = case_of(task)
-    cases = [case_of(task, {task.key: value}).beside(base) for value in task.values]
-    for found in evaluated(study, cases):
-        if isinstance(found, str):
-            failures.append(found)
-        for name, row in rows.items():
-            value = None if isinstance(found, str) else found.get(name)
-            row.append(float(value) if value is not None and np.isfinite(value) else None)
+    keys, cases = _cases(task)
+    found = evaluated(study, cases)
     return {
         "scenario": tomli_w.dumps(dict(task.scenario)),
-        "varied": task.key,
-        "values": list(task.values),
-        "quantities": rows,
-        "failures": failures,
+        "cases": keys,
+        "quantities": {name: [_number(known, name) for known in found] for name in study.swept()}
+        | {name: _alike([_array(known, name) for known in found]) for name in task.arrays},
+        "failures": list(dict.fromkeys(known for known in found if isinstance(known, str))),
     }
+
+
+def _cases(task: Task) -> tuple[list[dict[str, Any]], list[Any]]:
+    """Values by which the cases of a task differ, and the cases; a text where one cannot be made: why."""
+    base, keys, cases = case_of(task), list[dict[str, Any]](), list[Any]()
+
+    def add(own: Mapping[str, Any]) -> Any:
+        keys.append(dict(own))
+        try:
+            cases.append(case_of(task, own).beside(base))
+        except InputError as error:
+            cases.append(str(error))
+        return cases[-1]
+
+    for own in task.cases:
+        case = add(own)
+        if task.further is not None and not isinstance(case, str):
+            with suppress(InputError, SimulationError):  # the case itself says why
+                for more in task.further(case):
+                    add({**own, **more})
+    return keys, cases
+
+
+def _number(known: dict[str, Any] | str, name: str) -> float | None:
+    value = None if isinstance(known, str) else known.get(name)
+    return float(value) if value is not None and np.isfinite(value) else None
+
+
+def _array(known: dict[str, Any] | str, name: str) -> list[float | None] | None:
+    if isinstance(known, str) or known.get(name) is None:
+        return None
+    return [float(value) if np.isfinite(value) else None for value in known[name]]
+
+
+def _alike(rows: list[list[float | None] | None]) -> list[list[float | None]]:
+    """Rows of one length: those that are missing have nothing known in them."""
+    length = max((len(row) for row in rows if row is not None), default=0)
+    return [[*row, *[None] * (length - len(row))] if row is not None else [None] * length for row in rows]
 
 
 def _first(task: Task) -> Any:
     """The case of a task, or the first of its cases."""
-    return case_of(task, {task.key: task.values[0]} if task.values else {})
+    return case_of(task, task.cases[0] if task.cases else {})
 
 
 def _file(task: Task, folder: Path) -> Path:
-    return folder / f"{task.name}.{'json' if task.values else 'h5'}"
+    return folder / f"{task.name}.{'json' if task.cases else 'h5'}"
 
 
 def _seal(task: Task, folder: Path) -> Path:
@@ -194,7 +224,7 @@ def _seal(task: Task, folder: Path) -> Path:
 
 def _origin(task: Task) -> str:
     """Digest of everything that the part of a task depends on."""
-    parts = [_first(task).sha256, task.key, list(task.values), computing_digest()]
+    parts = [_first(task).sha256, [dict(case) for case in task.cases], list(task.arrays), computing_digest()]
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
 
 

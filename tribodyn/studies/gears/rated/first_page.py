@@ -59,10 +59,13 @@ def oil_line(lubricant: LubricantData, temperature: float, lubrication: str) -> 
     return f"{sheet.type}, {sheet.viscosity_40 * 1e6:.4g}/{sheet.viscosity_100 * 1e6:.4g} mm²/s, {duty}"
 
 
-def tiles(shown: Sequence[tuple[str, str]]) -> str:
-    """Values, written, and what they are."""
+def tiles(shown: Sequence[Sequence[str]]) -> str:
+    """Values, written, what they are, and where known their range over samples."""
     each = (
-        f'<div class="tile"><b>{escape(value)}</b><span>{escape(text)}</span></div>' for value, text in shown
+        f'<div class="tile"><b>{escape(value)}</b>'
+        + "".join(f"<i>{escape(text)}</i>" for text in over if text)
+        + f"<span>{escape(text)}</span></div>"
+        for value, text, *over in shown
     )
     return f'<div class="tiles">{"".join(each)}</div>'
 
@@ -99,8 +102,12 @@ def limits_table(summary: Mapping[str, Any]) -> str:
         value, bound = (f"{limit.quantity.in_unit(found[key]):.3g}" for key in ("value", "limit"))
         required = f"{'≥' if limit.least else '≤'} {bound}"
         verdict = "holds" if found["kept"] else "exceeded"
+        if found.get("exceed"):
+            verdict += f"; {found['exceed']} of {found['samples']} exceed it"
         rows.append((limit.label, value, required, limit.quantity.unit, verdict))
-    exceeded = [number for number, found in enumerate(limits.values()) if not found["kept"]]
+    exceeded = [
+        number for number, found in enumerate(limits.values()) if not found["kept"] or found.get("exceed")
+    ]
     return numbers_table("Limits", ("Limit", "value", "required", "", ""), rows, marked=exceeded)
 
 

@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Annotated, Any, NamedTuple
 
+import numpy as np
 from pydantic import Field
 
-from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities.catalogue import QUANTITIES, scatter
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import InUnit, Positive, Table
@@ -62,16 +62,10 @@ def least(value: Any) -> float | None:
     return min(value.values()) if isinstance(value, Mapping) else value
 
 
-def judged(
-    limits: Mapping[str, float | None],
-    values: Mapping[str, float],
-    spread: Mapping[str, Mapping[str, float]] = MappingProxyType({}),
-) -> dict[str, dict[str, Any]]:
+def judged(limits: Mapping[str, float | None], values: Mapping[str, float]) -> dict[str, dict[str, Any]]:
     """Values beside the limits that are given, and whether they are kept.
 
-    What has no value, as a safety for which the oil lacks the load stage, is left out. Where it scatters over
-    samples of deviations (`spread`, by the names of the limits), its 95 % is compared too, as ``p95`` and
-    ``kept_p95``.
+    What has no value, as a safety for which the oil lacks the load stage, is left out.
     """
     found: dict[str, dict[str, Any]] = {}
     for name, limit in limits.items():
@@ -80,30 +74,57 @@ def judged(
             continue
         kept = value >= limit if LIMITS[name].least else value <= limit
         found[name] = {"value": value, "limit": float(limit), "kept": bool(kept)}
-        upper = spread.get(name, {}).get("p95", math.nan)
-        if math.isfinite(upper):
-            found[name] |= {"p95": upper, "kept_p95": bool(upper <= limit)}
+    return found
+
+
+def over_samples(limits: Mapping[str, Mapping[str, Any]], samples: Mapping[str, Any]) -> dict[str, Any]:
+    """Judged limits with their scatter over samples: ``p5``, ``p95``, ``samples`` and how many ``exceed``.
+
+    `samples` has values (n,) by the names of limits, NaN where a sample has none.
+    """
+    found: dict[str, Any] = {}
+    for name, limit in limits.items():
+        values = np.asarray(samples.get(name, ()), dtype=float)
+        found[name] = dict(limit)
+        if np.any(np.isfinite(values)):
+            known = values[np.isfinite(values)]
+            exceeding = known < limit["limit"] if LIMITS[name].least else known > limit["limit"]
+            ends = {end: float(value) for end, value in scatter(values).items() if end != "median"}
+            found[name] |= ends | {"samples": len(known), "exceed": int(np.sum(exceeding))}
     return found
 
 
 def on_limits(summary: Mapping[str, Any]) -> list[tuple[bool, str]]:
-    """Whether the limits hold: good or bad, and the sentence."""
-    limits = summary.get("limits", {})
+    """Whether the limits hold: good or bad, and the sentence; a second one over samples, where there are."""
+    limits, samples = summary.get("limits", {}), summary.get("sample_counts", {})
     exceeded = [LIMITS[name].label for name, found in limits.items() if not found["kept"]]
-    within = [
-        f"{LIMITS[name].label} ({LIMITS[name].quantity.in_unit(found['p95']):.3g} at 95 %)"
-        for name, found in limits.items()
-        if found["kept"] and not found.get("kept_p95", True)
-    ]
+    accurate = " with accurate teeth" if samples else ""
     every = f"All {len(limits)} limits hold" if len(limits) != 1 else "The one limit holds"
     found = []
     if exceeded:
-        found.append((False, f"Limits exceeded: {'; '.join(exceeded)}."))
-    elif limits and not within:
-        found.append((True, f"{every}."))
-    if within:
-        accurate = "" if exceeded else f"{every} with accurate teeth. "
-        found.append(
-            (False, f"{accurate}Exceeded within the scatter of the deviations: {'; '.join(within)}.")
-        )
-    return found
+        found.append((False, f"Limits exceeded{accurate}: {'; '.join(exceeded)}."))
+    elif limits:
+        found.append((True, f"{every}{accurate}."))
+    return [*found, *_on_samples(limits, samples)]
+
+
+def _on_samples(limits: Mapping[str, Any], samples: Mapping[str, Any]) -> list[tuple[bool, str]]:
+    """How many samples exceed which limit, and how many lose contact."""
+    if not samples:
+        return []
+    count, parts = int(samples["samples"]), []
+    if lost := int(samples["contact_lost"]):
+        begins = QUANTITIES["contact_loss_speed_from"].written(samples["contact_loss_speed_from"])
+        lose = "loses" if lost == 1 else "lose"
+        parts.append(f"{lost} of {count} samples {lose} contact, from {begins} rpm")
+    exceeded = [
+        f"{LIMITS[name].label} ({found['exceed']} of {found['samples']})"
+        for name, found in limits.items()
+        if found.get("exceed")
+    ]
+    parts += [f"limits exceeded: {', '.join(exceeded)}"] if exceeded else []
+    if parts:
+        return [(False, f"With what is not known varied: {'; '.join(parts)}.")]
+    judged_too = any("exceed" in found for found in limits.values())
+    both = "keep the limits and contact" if judged_too else "keep contact"
+    return [(True, f"With what is not known varied: all {count} samples {both}.")]

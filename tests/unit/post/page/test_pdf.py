@@ -1,0 +1,67 @@
+"""A page as PDF: on A4, whole or not at all, and refused before any work where nothing can print it."""
+
+import re
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from tests.support.short_studies import shortened, written_template
+from tribodyn.cli.app import app
+from tribodyn.post.page.pdf import BROWSERS, browser
+
+RECORDS = Path(__file__).parents[3] / "fixtures" / "records-0.2.0"
+
+
+def invoked(*words: object, path: Path | None = None) -> Any:
+    """Run a verb, with programs of one folder only."""
+    env = {} if path is None else {"PATH": str(path)}
+    return CliRunner().invoke(app, [str(word) for word in words], env=env)
+
+
+def test_without_a_browser_nothing_is_begun(tmp_path: Path):
+    empty = tmp_path / "programs"
+    empty.mkdir()
+    scenario, out = written_template("assessment", tmp_path), tmp_path / "out"
+    for words in (
+        ("assess", scenario, *shortened("assessment"), "-o", out, "--pdf"),
+        ("report", RECORDS / "assessment.h5", "-o", tmp_path / "page.html", "--pdf"),
+    ):
+        ended = invoked(*words, path=empty)
+        assert ended.exit_code == 2
+        assert len(ended.stderr.splitlines()) == 1
+        assert "install Chromium or Chrome" in ended.stderr
+    assert not out.exists()
+    assert not (tmp_path / "page.html").exists()
+
+
+@pytest.mark.parametrize("script", ["exit 3", "exit 0", "kill -9 $$"])
+def test_a_browser_that_fails_leaves_what_was_there(script: str, tmp_path: Path):
+    programs, page = tmp_path / "programs", tmp_path / "page.html"
+    programs.mkdir()
+    broken = programs / BROWSERS[0]
+    broken.write_text(f"#!/bin/sh\n{script}\n", encoding="ascii")
+    broken.chmod(0o755)
+    before = b"%PDF-1.4\n% as it was\n\n% made by tribodyn\n"
+    page.with_suffix(".pdf").write_bytes(before)
+    ended = invoked("report", RECORDS / "assessment.h5", "-o", page, "--pdf", path=programs)
+    assert ended.exit_code != 0
+    assert "the browser ended with status" in ended.stderr
+    assert page.with_suffix(".pdf").read_bytes() == before
+    assert {file.name for file in tmp_path.iterdir()} == {"programs", "page.html", "page.pdf"}
+
+
+@pytest.mark.skipif(browser() is None, reason="no browser is installed")
+def test_pages_are_printed_on_a4(tmp_path: Path):
+    record = shutil.copy(RECORDS / "assessment.h5", tmp_path)
+    ended = invoked("report", record, "-o", tmp_path / "page.html", "--pdf", "--json")
+    assert ended.exit_code == 0, ended.output
+    printed = (tmp_path / "page.pdf").read_bytes()
+    boxes = re.findall(rb"/MediaBox ?\[([^]]*)\]", printed)
+    assert boxes
+    for box in boxes:
+        left, bottom, right, top = map(float, box.split())
+        assert (right - left, top - bottom) == pytest.approx((595.28, 841.89), abs=1.0)
+    assert printed.endswith(b"% made by tribodyn\n")

@@ -1,0 +1,117 @@
+"""What is not known: drawn over its range, the same for the same seed, and not at all where it is known."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.support.short_studies import short_case
+from tribodyn.errors import InputError
+from tribodyn.geometry.families.involute import tight_centre_distance
+from tribodyn.scenario.tables.bearings import Bearing, bearing_of
+from tribodyn.studies.assessment.unknowns import UnknownsTable, drawn, js7, stiffened
+
+KIND, SAMPLES = "assessment", 16
+KNOWN: dict[str, Any] = {"deviations": False, "bearings": 1.0, "damping_ratio": [0.05, 0.05]}
+
+
+def table(**keys: Any) -> UnknownsTable:
+    return UnknownsTable.model_validate(keys)
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    return short_case(KIND, tmp_path_factory.mktemp("drive"), drive__centre_distance="81.1 mm")
+
+
+def test_the_same_seed_draws_the_same(case: Any):
+    first, again, other = (drawn(case, table(), 0.05, SAMPLES, seed) for seed in (3, 3, 4))
+    assert first == again
+    assert [draw.bearings for draw in first] != [draw.bearings for draw in other]
+    assert [draw.deviation for draw in first] == list(range(3, 3 + SAMPLES))
+
+
+def test_every_part_of_every_range_is_met_once(case: Any):
+    draws = drawn(case, table(bearings=4.0, damping_ratio=[0.02, 0.08]), 0.05, SAMPLES, 1)
+    shares = {
+        "pinion": [math.log(draw.bearings[0]) / math.log(16.0) + 0.5 for draw in draws],
+        "gear": [math.log(draw.bearings[1]) / math.log(16.0) + 0.5 for draw in draws],
+        "damping": [math.log(draw.damping_ratio / 0.02) / math.log(4.0) for draw in draws],
+    }
+    for name, values in shares.items():
+        assert sorted(np.floor(np.multiply(values, SAMPLES))) == list(range(SAMPLES)), name
+    # four ranges, each in an order of its own
+    assert np.max(np.abs(np.corrcoef(list(shares.values())) - np.eye(3))) < 0.75
+
+
+def test_what_is_known_is_not_varied(case: Any):
+    for draw in drawn(case, table(**KNOWN, centre_distance="0 um"), 0.05, SAMPLES, 1):
+        assert draw.keys({}) == {"mesh.damping_ratio": 0.05}
+        assert draw.of(case) is case
+
+
+def test_the_centre_distance_stays_where_the_teeth_do_not_jam(case: Any):
+    distances = [draw.centre_distance for draw in drawn(case, table(centre_distance="1 mm"), 0.05, 64, 1)]
+    tight = float(tight_centre_distance(case.drive))
+    assert tight < min(distances) < tight + 0.1e-3
+    assert 82.0e-3 < max(distances) < 82.1e-3
+
+
+def test_a_drive_without_a_centre_distance_has_no_other(tmp_path: Path):
+    # rack shifts of the short drive are zero: 81 mm is the mesh without backlash
+    bare = short_case(KIND, tmp_path)
+    alone = drawn(
+        bare.__class__(**{**vars(bare), "drive": bare.drive._replace(centre_distance=None)}),
+        table(),
+        0.05,
+        2,
+        1,
+    )
+    assert [draw.centre_distance for draw in alone] == [None, None]
+
+
+@pytest.mark.parametrize(
+    ("over", "to", "grade_7"),
+    [(80, 120, 35), (120, 180, 40), (250, 315, 52), (800, 1000, 90), (1600, 2000, 150)],
+)
+def test_js7_is_half_of_the_standard_tolerance(over: float, to: float, grade_7: float):
+    # the table of ISO 286-1, whose steps have the tolerance of their ends' geometric mean, rounded
+    assert 2.0 * js7(1e-3 * math.sqrt(over * to)) == pytest.approx(1e-6 * grade_7, rel=0.025)
+
+
+def test_all_stiffnesses_of_bearings_are_multiplied():
+    rolling = {"type": "cylindrical-roller", "elements": 12, "length": "12 mm", "radial_load": "5 kN"}
+    for given in (
+        {
+            "stiffness_x": "4e8 N/m",
+            "stiffness_y": "2e8 N/m",
+            "stiffness_tilt": "1e6 N*m/rad",
+            "damping_ratio": 0.05,
+        },
+        {"rolling": rolling, "span": "100 mm", "damping_ratio_x": 0.05, "damping_ratio_y": 0.04},
+    ):
+        held, other = (bearing_of(Bearing.model_validate(keys)) for keys in (given, stiffened(given, 3.0)))
+        for name in ("stiffness_x", "stiffness_y", "stiffness_tilt"):
+            before, after = getattr(held, name), getattr(other, name)
+            assert after == (None if before is None else pytest.approx(3.0 * before))
+        assert (other.span, other.damping_ratio_x, other.damping_ratio_y) == (
+            held.span,
+            held.damping_ratio_x,
+            held.damping_ratio_y,
+        )
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "named"),
+    [
+        ("damping_ratio", [0.06, 0.1], "between the lowest and the highest"),
+        ("damping_ratio", [0.06, 0.01], "between the lowest and the highest"),
+        ("bearings", 0.5, "bearings"),
+        ("centre_distance", 20.0, "unit"),
+    ],
+)
+def test_ranges_that_are_none_are_refused(key: str, value: Any, named: str, tmp_path: Path):
+    with pytest.raises(InputError, match=named):
+        short_case(KIND, tmp_path, **{f"assessment__unknowns__{key}": value})

@@ -1,0 +1,208 @@
+"""Scatter of an assessment: quantities of every sample of what is not known, and their ranges."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.quantities.catalogue import SPREAD, scatter
+from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.margins import LocalValues
+from tribodyn.studies.assessment.unknowns import Draw
+from tribodyn.studies.gears.rated.capacity import Capacity
+from tribodyn.studies.gears.rated.limits import least, over_samples
+from tribodyn.studies.gears.rated.standard import Standard
+
+#: Quantity of the simulation -> its name by the standards.
+_NAMES = {"dynamic_factor": "K_v", "transverse_load_factor": "K_Halpha", "face_load_factor": "K_Hbeta"}
+#: Speeds of something that a sample may not have: no range is given of them.
+_PLACES = ("contact_loss_speed_from", "dynamic_factor_max_speed")
+#: Share of the time without contact that counts.
+_LOST = 1e-6
+
+
+class Conclusion(NamedTuple):
+    """What a case comes to by the other studies' quantities, and by the standards beside them."""
+
+    local: LocalValues
+    by_standard: Standard | None
+    capacity: Capacity | None
+    iso: dict[str, Any]  # see `standard.iso_part`
+    simulated: dict[str, Any]  # see `margins.simulated_part`
+    judged: dict[str, Any]  # see `margins.margins_and_limits`
+
+
+#: (case, arrays along the path, quantities) -> outcome
+Evaluate = Callable[[AssessmentCase, Mapping[str, Any], Mapping[str, Any]], Conclusion]
+
+
+class SampleValues(NamedTuple):
+    """Values (n,) of n samples by name, NaN where one is not known; SI units, temperatures as said."""
+
+    drawn: dict[str, np.ndarray]  # what was drawn
+    quantities: dict[str, np.ndarray]  # by the names of the summary
+    #: by the names of the standards, safeties included, worst of all places; temperatures in °C
+    simulated: dict[str, np.ndarray]
+    iso: dict[str, np.ndarray]
+    limits: dict[str, np.ndarray]  # what is compared with the limits, by their names
+
+
+def samples_of(
+    case: AssessmentCase,
+    draws: Sequence[Draw],
+    rows: Mapping[str, np.ndarray],
+    accurate: tuple[Mapping[str, Any], Mapping[str, Any]],
+    evaluate: Evaluate,
+) -> SampleValues:
+    """Conclude every sample as the drive with accurate teeth is.
+
+    `rows` are what the studies found of the samples (`Findings.spread`), `accurate` the arrays along the path
+    and the quantities of accurate teeth, which stand in for what does not scatter.
+    """
+    along, quantities = accurate
+    outcomes: list[Conclusion | None] = []
+    for number, draw in enumerate(draws):
+        path, found = _of_one({name: values[number] for name, values in rows.items()})
+        outcome = None
+        if np.all(np.isfinite(list(path.values()))) and not _missing(found) & set(quantities) - set(_PLACES):
+            known = {name: value for name, value in found.items() if name not in _missing(found)}
+            with suppress(InputError, SimulationError):
+                outcome = evaluate(draw.of(case), {**along, **path}, {**quantities, **known})
+        outcomes.append(outcome)
+    known = {
+        name: values
+        for name, values in rows.items()
+        if np.ndim(values) == 1 and (name in _PLACES or np.any(np.isfinite(values)))
+    }
+    contact = [math.nan if one is None else _contact_temperature(one) for one in outcomes]
+    simulated = _by_name([None if one is None else one.simulated for one in outcomes])
+    known |= {"contact_temperature_max": np.array(contact)}
+    if "lambda_GF" in simulated:
+        known["specific_film_min"] = simulated["lambda_GF"]
+    margins = {
+        by: _by_name([None if one is None else _margins(one, by) for one in outcomes])
+        for by in ("simulated", "iso")
+    }
+    values = [
+        None if one is None else {name: limit["value"] for name, limit in one.judged["limits"].items()}
+        for one in outcomes
+    ]
+    named = {_NAMES.get(name, name): known[name] for name in (*_NAMES, *_ERRORS) if name in known}
+    return SampleValues(
+        _drawn(draws),
+        known,
+        simulated | margins["simulated"] | named,
+        _by_name([None if one is None else one.iso for one in outcomes]) | margins["iso"],
+        _by_name(values),
+    )
+
+
+_ERRORS = ("loaded_transmission_error_peak_to_peak", "transmission_error_peak_to_peak")
+
+
+def _of_one(own: Mapping[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+    """Arrays along the path, and numbers, of one sample."""
+    path = {name: value for name, value in own.items() if np.ndim(value)}
+    return path, {name: float(value) for name, value in own.items() if name not in path}
+
+
+def _missing(found: Mapping[str, float]) -> set[str]:
+    """What is not known of a sample: nothing is missed that accurate teeth have neither."""
+    return {name for name, value in found.items() if not math.isfinite(value)}
+
+
+def _contact_temperature(outcome: Conclusion) -> float:
+    films = outcome.local.films
+    return float(films.bulk_temperature + np.nanmax(films.flash_rise))
+
+
+def _by_name(found: Sequence[Mapping[str, Any] | None]) -> dict[str, np.ndarray]:
+    """Numbers of every sample by name, of values by points the worst; none of what either gear has."""
+    numbers = [{} if one is None else _numbers(one) for one in found]
+    names = dict.fromkeys(name for one in numbers for name in one)
+    return {name: np.array([one.get(name, math.nan) for one in numbers]) for name in names}
+
+
+def _margins(outcome: Conclusion, by: str) -> dict[str, Any]:
+    """Safeties and temperatures of a sample, of what either gear has the smaller."""
+    return {name: least(value) for name, value in outcome.judged["margins"].get(by, {}).items()}
+
+
+def _numbers(values: Mapping[str, Any]) -> dict[str, float]:
+    found = {
+        name: value.get("worst") if isinstance(value, Mapping) else value for name, value in values.items()
+    }
+    return {
+        name: float(value)
+        for name, value in found.items()
+        if isinstance(value, int | float) and not isinstance(value, bool)
+    }
+
+
+def _drawn(draws: Sequence[Draw]) -> dict[str, np.ndarray]:
+    pinion, gear = np.array([draw.bearings for draw in draws]).T
+    found = {
+        "bearing_stiffness_factor_pinion": pinion,
+        "bearing_stiffness_factor_gear": gear,
+        "damping_ratio": np.array([draw.damping_ratio for draw in draws]),
+    }
+    if draws[0].deviation is not None:
+        found["deviation_sample"] = np.array([draw.deviation for draw in draws], dtype=float)
+    if draws[0].centre_distance is not None:
+        found["centre_distance"] = np.array([draw.centre_distance for draw in draws])
+    return found
+
+
+def counts(samples: SampleValues) -> dict[str, Any]:
+    """How many samples there are with a motion, and how many of them lose contact, at any speed looked at."""
+    lost = samples.quantities.get("contact_loss_fraction_max", np.zeros(0))
+    known = int(np.sum(np.isfinite(lost)))
+    if not known:
+        return {}
+    begins = samples.quantities["contact_loss_speed_from"]
+    found = {"samples": known, "contact_lost": int(np.sum(np.nan_to_num(lost) > _LOST))}
+    found["contact_lost_at_duty"] = int(
+        np.sum(np.nan_to_num(samples.quantities["contact_loss_fraction"]) > _LOST)
+    )
+    return found | ({"contact_loss_speed_from": float(np.nanmin(begins))} if found["contact_lost"] else {})
+
+
+def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
+    """A summary with the ranges of its quantities, the samples themselves, and counts beside the limits."""
+    spread = {
+        f"{name}_spread": [_scatter(values)[part] for part in SPREAD]
+        for name, values in samples.quantities.items()
+        if name not in _PLACES
+    }
+    parts = {
+        part: {**summary[part], "spread": _ranges(values)}
+        for part, values in (("simulated", samples.simulated), ("iso", samples.iso))
+        if summary.get(part)
+    }
+    own = {name: samples.simulated[name] for name in ("S_B", "S_lambda") if name in samples.simulated}
+    own |= {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
+    by_sample = samples.drawn | samples.quantities | own
+    return {
+        **summary,
+        **parts,
+        **spread,
+        "limits": over_samples(summary["limits"], samples.limits),
+        "sample_counts": counts(samples),
+        "by_sample": {
+            **{name: list(map(float, values)) for name, values in by_sample.items()},
+            "limit_values": {name: list(map(float, values)) for name, values in samples.limits.items()},
+        },
+    }
+
+
+def _ranges(samples: Mapping[str, np.ndarray]) -> dict[str, dict[str, float]]:
+    return {name: _scatter(values) for name, values in samples.items() if np.any(np.isfinite(values))}
+
+
+def _scatter(values: np.ndarray) -> dict[str, float]:
+    """Median, 5 and 95 % over the samples, and how many of them are known."""
+    known = {name: float(value) for name, value in scatter(values).items()}
+    return known | {"samples": int(np.sum(np.isfinite(values)))}
