@@ -22,7 +22,8 @@ from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import NominalConditions, Surfaces, local_contact
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.table import STEP, contact_of
+from tribodyn.tribology.ehl.of_case import contact_of
+from tribodyn.tribology.ehl.table import STEP
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw, LawInput

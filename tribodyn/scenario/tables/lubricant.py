@@ -5,6 +5,7 @@ from typing import Any, cast
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.tables.model_files import Lubricant
+from tribodyn.scenario.tables.viscosity_law import broken_viscosity_rules, measured_of
 from tribodyn.tribology import oil
 
 #: What is taken for an oil: densities at 15 °C, kg/m³, and the kinematic viscosity at 40 °C at most, m²/s.
@@ -45,11 +46,18 @@ def sheet_of(lubricant: Lubricant) -> oil.OilSheet | None:
         return None
     given = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
     viscosity_100, density_15 = cast(float, lubricant.viscosity_100), cast(float, lubricant.density_15)
-    return oil.OilSheet(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given)
+    law = lubricant.viscosity_law
+    roelands = law is not None and law.model == "roelands"
+    return oil.OilSheet(
+        *(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given),
+        measured_of(law),
+        roelands,
+    )
 
 
 def broken_lubricant_rules(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
     """Go through the rules that a lubricant breaks by itself or at the oil's temperature (K)."""
+    yield from broken_viscosity_rules(lubricant)
     if all(getattr(lubricant, name) is None for name in _SHEET):
         yield from _direct(lubricant, oil_temperature)
         return

@@ -9,8 +9,10 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Relief
 from tribodyn.scenario import quantity, units
 from tribodyn.scenario.fields import ErrorCurve
+from tribodyn.scenario.tables.viscosity_law import ViscosityLaw
 from tribodyn.standards.metals import Grade as MetalGrade
 from tribodyn.standards.metals import Treatment
+from tribodyn.tribology.asperities import FinishName
 from tribodyn.tribology.oil import OilType
 
 Amount = Annotated[float, quantity.InUnit(units.not_negative(units.RELIEF))]
@@ -274,6 +276,15 @@ class DriveTable(Described):
     mean_roughness: Roughness | None = Field(
         None, description="Ra of the flanks; default: the gears' own, or roughness/sqrt(pi)"
     )
+    finish: FinishName | None = Field(
+        None, description="of the flanks, for asperity_density and asperity_slope; default: ground"
+    )
+    asperity_density: quantity.Positive | None = Field(
+        None, description="σβn of Greenwood & Tripp in the solved contact; default: by finish"
+    )
+    asperity_slope: quantity.Positive | None = Field(
+        None, description="σ/β of Greenwood & Tripp in the solved contact; default: by finish"
+    )
     material: MaterialReference | None = None
     quality: Grade | None = Field(None, description="tolerance class of both gears by ISO 1328-1")
     pinion: Gear
@@ -327,4 +338,7 @@ class Lubricant(Described):
     )
     fzg_micropitting_temperature: Annotated[float, quantity.InUnit(units.TEMPERATURE_KIND, "90 degC")] = (
         quantity.written("90 degC", description="oil temperature of that test")
+    )
+    viscosity_law: ViscosityLaw | None = Field(
+        None, description="how viscosity rises with pressure in the solved contact; default: by type"
     )

@@ -17,7 +17,7 @@ from tribodyn.tribology.closure import surfaces_of, untried_closure_of, with_law
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
 from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact, Solution
-from tribodyn.tribology.ehl.table import Contact, contact_of
+from tribodyn.tribology.ehl.of_case import Contact, contact_of
 from tribodyn.tribology.law import LawInput
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
 
@@ -291,7 +291,7 @@ def over_places(solution: Solution, values: Array, outside: float) -> Array:
 def contact_for(case: EhlCase) -> Contact:
     """What all contacts of a case have in common: oil, surfaces, rheology and heat."""
     given = LawInput(surfaces_of(case), case.lubricant, case.materials, without_nominal_conditions)
-    return contact_of(given)
+    return contact_of(given._replace(asperities=case.asperities))
 
 
 def loaded(over: PairWay) -> Array:
