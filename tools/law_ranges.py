@@ -21,8 +21,8 @@ from tribodyn.scenario.tables.model_files import Lubricant
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import NominalConditions, Surfaces, local_contact
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
-from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.of_case import contact_of
+from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.table import STEP
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
@@ -135,6 +135,8 @@ def pairs(seed: int, count: int) -> Iterator[Pair]:
 def oil_of(name: str, temperature: float | None) -> LubricantData:
     """Return a shipped oil at a temperature, K."""
     table = tomllib.loads((ROOT / "models" / "lubricants" / f"{name}.toml").read_text("utf-8"))
+    if temperature is not None:  # the judged ranges are those of Roelands' law
+        table["viscosity_law"] = {"model": "roelands"}
     return lubricant_of(Lubricant.model_validate(table), temperature)
 
 

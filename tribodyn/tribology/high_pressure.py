@@ -16,9 +16,9 @@ from tribodyn.numerics.elementary import is_jax
 from tribodyn.tribology.oil import ZERO_CELSIUS, LubricantData
 from tribodyn.tribology.pressure_law import (
     DoolittleTait,
+    LawPart,
     MeasuredLaw,
     MeasuredViscosity,
-    LawPart,
     PressureLaw,
     Yasutomi,
     asymptotic_coefficient,
@@ -77,7 +77,7 @@ class ContactViscosity(NamedTuple):
             found.append(f"viscosity at high pressure estimated: {self.origin}")
         if pressure > self.maximum_pressure:
             found.append(
-                f"p_H {pressure / 1e9:.3g} GPa is above {self.maximum_pressure / 1e9:.3g} GPa, up to which the "
+                f"p_H {pressure / 1e9:.4g} GPa is above {self.maximum_pressure / 1e9:.4g} GPa, up to which the "
                 f"viscosity was measured: friction is extrapolated"
             )
         if temperature is not None and self.temperature_outside(temperature) and self.measured is not None:

@@ -9,7 +9,7 @@ is the data sheet's. Two models of free volume, with the constants by which pape
     Doolittle   ln η = const + B R0 o/(V − R0 o),  o = 1 + ε (T − T_R),  V = [1 + a_V (T − T_R)] v
     with Tait   v = 1 − ln[1 + (1 + K') p/K_0]/(1 + K'),  K_0 = K_00 exp(−β_K T)
 
-Beyond the glass transition, x < 0, Yasutomi's law goes on along its tangent.
+Beyond the glass transition, T < T_g, F stays what it is there, and Yasutomi's law goes on along its tangent.
 """
 
 import math
@@ -22,6 +22,8 @@ from tribodyn.numerics.elementary import is_jax
 from tribodyn.numerics.shapes import Array
 
 _LN_10 = math.log(10.0)
+#: Expansivity F of the law of 1984, over that at ambient pressure, at which it is held: it has no bound itself.
+_LEAST_EXPANSION = 1e-3
 #: Free volume over the volume at T_R at which it is held: ln η is beyond 500 there.
 _LEAST_FREE = 5e-3
 #: Pressure up to which η0/η is integrated, Pa: nothing is left of it there; panels, finer towards p = 0.
@@ -44,21 +46,32 @@ class Yasutomi(NamedTuple):
     improved: bool = True  # which F
 
     def exponent(self, pressure: Array, temperature: Array) -> Rise:
-        """ln η less a constant, and its derivatives by pressure (1/Pa) and temperature (1/K)."""
+        """Ln η less a constant, and its derivatives by pressure (1/Pa) and temperature (1/K)."""
         glass = self.glass_temperature + self.a1 * np.log1p(self.a2 * pressure)
         glass_slope = self.a1 * self.a2 / (1.0 + self.a2 * pressure)
-        if self.improved:
-            share = (1.0 + self.b1 * pressure) ** self.b2
-            share_slope = self.b1 * self.b2 * share / (1.0 + self.b1 * pressure)
-        else:
-            share = np.maximum(1.0 - self.b1 * np.log1p(self.b2 * pressure), 1e-3)
-            share_slope = np.where(share > 1e-3, -self.b1 * self.b2 / (1.0 + self.b2 * pressure), 0.0)
+        # beyond the transition F stays what it is there
+        grown = np.exp((temperature - self.glass_temperature) / self.a1)
+        transition = np.maximum(grown - 1.0, 0.0) / self.a2
+        solid = pressure > transition
+        share, share_slope = self._expansion(np.minimum(pressure, transition))
         above = temperature - glass
         place = above * share
         width = self.c2 + np.maximum(place, 0.0)
         slope = -_LN_10 * self.c1 * self.c2 / (width * width)
-        value = np.where(place > 0.0, -_LN_10 * self.c1 * place / width, -_LN_10 * self.c1 * place / self.c2)
-        return value, slope * (above * share_slope - glass_slope * share), slope * share
+        by_pressure = np.where(solid, 0.0, above * share_slope) - glass_slope * share
+        moving = np.where(solid & (transition > 0.0), grown / (self.a1 * self.a2), 0.0)
+        by_heat = share + above * share_slope * moving
+        return -_LN_10 * self.c1 * place / width, slope * by_pressure, slope * by_heat
+
+    def _expansion(self, pressure: Array) -> tuple[Array, Array]:
+        """F and its derivative by pressure, 1/Pa."""
+        if self.improved:
+            share = (1.0 + self.b1 * pressure) ** self.b2
+            return share, self.b1 * self.b2 * share / (1.0 + self.b1 * pressure)
+        share = 1.0 - self.b1 * np.log1p(self.b2 * pressure)
+        held = share < _LEAST_EXPANSION
+        slope = np.where(held, 0.0, -self.b1 * self.b2 / (1.0 + self.b2 * pressure))
+        return np.maximum(share, _LEAST_EXPANSION), slope
 
 
 class DoolittleTait(NamedTuple):
@@ -74,7 +87,7 @@ class DoolittleTait(NamedTuple):
     bulk_modulus_slope: float  # K' = dK/dp at ambient pressure
 
     def exponent(self, pressure: Array, temperature: Array) -> Rise:
-        """ln η less a constant, and its derivatives by pressure (1/Pa) and temperature (1/K)."""
+        """Ln η less a constant, and its derivatives by pressure (1/Pa) and temperature (1/K)."""
         warmer = temperature - self.reference_temperature
         occupied = self.occupied_share * (1.0 + self.occupied_expansion * warmer)
         modulus = self.bulk_modulus * np.exp(-self.bulk_modulus_decay * temperature)

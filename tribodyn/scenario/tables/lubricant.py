@@ -1,9 +1,14 @@
 """A lubricant by its data sheet or by the numbers that the laws read: its numbers, and its rules."""
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any, cast
 
+from pydantic import ValidationError
+
 from tribodyn.errors import InputError, quoted
+from tribodyn.scenario.messages import explain
+from tribodyn.scenario.sources import find_model, read_toml
 from tribodyn.scenario.tables.model_files import Lubricant
 from tribodyn.scenario.tables.viscosity_law import broken_viscosity_rules, measured_of
 from tribodyn.tribology import oil
@@ -38,6 +43,21 @@ def lubricant_of(lubricant: Lubricant, oil_temperature: float | None = None) -> 
     typical = oil.by_type(lubricant.type) if lubricant.type else {}
     numbers: dict[str, Any] = {name: number.value for name, number in typical.items()} | given
     return oil.LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
+
+
+def read_lubricant(name: str, oil_temperature: float) -> oil.LubricantData:
+    """Return the numbers at a temperature, K, of a shipped lubricant, or of a file (.toml); InputError."""
+    path = find_model(name, "lubricants", "lubricant", Path("scenario"))
+    try:
+        table = Lubricant.model_validate(read_toml(path))
+    except ValidationError as error:
+        raise explain(error, Lubricant)[0] from None
+    if table.viscosity_40 is None:
+        rule = "is known at one temperature only"
+        raise InputError("lubricant", quoted(name), rule, "give viscosity and pressure_viscosity instead")
+    for broken in broken_lubricant_rules(table, oil_temperature):
+        raise broken
+    return lubricant_of(table, oil_temperature)
 
 
 def sheet_of(lubricant: Lubricant) -> oil.OilSheet | None:

@@ -86,7 +86,9 @@ def broken_viscosity_rules(lubricant: Any) -> Iterator[InputError]:
     if table is None:
         return
     if lubricant.viscosity_40 is None:
-        rule = "needs a data sheet: viscosity_40, viscosity_100, density_15 and type give it at ambient pressure"
+        rule = (
+            "needs a data sheet: viscosity_40, viscosity_100, density_15 and type give it at ambient pressure"
+        )
         yield InputError(_PLACE, None, rule, "add them, or leave the table out")
         return
     for name in ("viscosity_pressure_index", "pressure_viscosity"):
@@ -105,7 +107,9 @@ def broken_viscosity_rules(lubricant: Any) -> Iterator[InputError]:
         elif name not in needed and value is not None:
             of = [quoted(model) for model, keys in _KEYS.items() if name in keys]
             rule = f'has no effect with model = "{table.model}"; it is a key of {", ".join(of)}'
-            yield InputError(f"{_PLACE}.{name}", f"{value:g}", rule, f"leave it out, or write model = {of[0]}")
+            yield InputError(
+                f"{_PLACE}.{name}", f"{value:g}", rule, f"leave it out, or write model = {of[0]}"
+            )
     low, high = table.minimum_temperature, table.maximum_temperature
     if low is not None and high is not None and low >= high:
         rule = f"must be above minimum_temperature, {low:g} K"

@@ -16,8 +16,8 @@ from tribodyn.studies.gears.prepare import PreparedGears, assembled
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of, with_laws, without_nominal_conditions
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
-from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact, Solution
 from tribodyn.tribology.ehl.of_case import Contact, contact_of
+from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact, Solution
 from tribodyn.tribology.law import LawInput
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
 
@@ -263,6 +263,16 @@ def solved_at(
         return solve_coupled(problem, contact.rheology, contact.thermal, step=study.case.step)
     except SimulationError:
         return None
+
+
+def loaded_places(study: PreparedEhl, over: PairWay, most: int) -> list[tuple[float, float, float, float]]:
+    """Line load, entrainment, radius and sliding speed at positions that carry load, so many at most."""
+    seen, at = seen_by(study, over), np.flatnonzero(loaded(over))
+    at = at[:: max(1, -(-len(at) // most))]
+    columns = over.line_load, seen.radius, seen.entrainment, over.sliding
+    load, radius, speed, sliding = (np.broadcast_to(np.asarray(x), over.roll.shape)[at] for x in columns)
+    rows = np.stack([load, speed, radius, sliding], axis=1).tolist()
+    return [(float(w), float(u), float(r), float(v)) for w, u, r, v in rows]
 
 
 def profiles(found: CoupledSolution) -> dict[str, Array]:

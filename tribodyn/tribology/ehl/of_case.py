@@ -31,7 +31,9 @@ class Contact(NamedTuple):
 
     def under(self, law: PressureLaw) -> "Contact":
         """The contact with another rise of its viscosity."""
-        return self._replace(fluid=self.fluid._replace(pressure_viscosity=asymptotic_coefficient(law), law=law))
+        return self._replace(
+            fluid=self.fluid._replace(pressure_viscosity=asymptotic_coefficient(law), law=law)
+        )
 
 
 def contact_of(given: LawInput) -> Contact:
