@@ -35,9 +35,7 @@ OTHERS = ((0.03, 0.01), (0.05, 0.1), (0.1, 0.01))
 
 def row(name: str, density: float, slope: float) -> list[str]:
     """Return a row of the table."""
-    found = quantities_of(
-        scenario(PAIR, {"drive.asperity_density": density, "drive.asperity_slope": slope})
-    )
+    found = quantities_of(scenario(PAIR, {"drive.asperity_density": density, "drive.asperity_slope": slope}))
     return [
         name,
         f"{density:g}",

@@ -1,4 +1,4 @@
-"""Mean friction of FZG type C gears by solved contacts, beside regressions made on measurements of such gears.
+"""Mean friction of FZG type C gears by solved contacts, beside regressions made on measurements.
 
 python -m tools.fzg_friction --into docs/ehl.md
 

@@ -12,7 +12,7 @@ from tribodyn.tribology.pressure_law import asymptotic_coefficient
 
 
 def named_oil(name: str, temperature: float | None, numbers: tuple[Any, ...]) -> LubricantData:
-    """Return the lubricant at its temperature; InputError beside numbers of its own, or without a temperature."""
+    """Return the lubricant at its temperature; InputError beside other numbers, or without a temperature."""
     keys = ("viscosity", "pressure_viscosity", "viscosity_pressure_index", "temperature_viscosity")
     for key, value in zip(keys, numbers, strict=True):
         if value is not None:

@@ -141,8 +141,8 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
     low, high = summary.get("friction_band_low"), summary.get("friction_band_high")
     if low is not None and high is not None:
         sentences.append(
-            f"The oil's viscosity at high pressure is estimated by its type: what measured oils span makes the "
-            f"solved friction {float(low):.2g} to {float(high):.2g} times what is printed."
+            f"The oil's viscosity at high pressure is estimated by its type: what measured oils span makes "
+            f"the solved friction {float(low):.2g} to {float(high):.2g} times what is printed."
         )
     if errors:
         sentences.append(

@@ -1,4 +1,4 @@
-"""Asperities of two flanks by Greenwood & Tripp's two constants: given, or typical of how the flanks are finished.
+"""Asperities of two flanks by Greenwood & Tripp's two constants: given, or typical of the flanks' finish.
 
 Height σ of the rms roughness, radius β and number per area n enter as σβn and σ/β. No drawing gives them, and
 friction of a mixed contact follows them: of one pair 0.008 to 0.045 (docs/ehl.md).

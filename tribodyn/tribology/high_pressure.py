@@ -2,9 +2,9 @@
 
 A data sheet says nothing of the viscosity at 1 GPa. The measured oils of a type say how it rises: at the
 temperature of the contact ln(η/η0) of oils of one kind hardly depends on their grade (the exponents of η38 in
-ISO/TR 15144-1's α are 0.05 to 0.16). A measured oil gives two such rises, its own, and one over pressures that
-are scaled to the sheet's α. The band of a mineral oil is what both of both measured mineral oils span; of other
-types, what all measured oils at the sheet's α and squalane itself do.
+ISO/TR 15144-1's α are 0.05 to 0.16). A measured oil gives two such rises, its own, and one over pressures
+that are scaled to the sheet's α. The band of a mineral oil is what both of both measured mineral oils span;
+of other types, what all measured oils at the sheet's α and squalane itself do.
 """
 
 from typing import NamedTuple
@@ -38,8 +38,9 @@ MEASURED: dict[str, MeasuredLaw] = {
 #: Measured oils of mineral type: their mean, at the sheet's α, is the best estimate of a mineral oil; ISO/TR
 #: 15144-1's α of HVI 650 is its α* within 3 %.
 MINERAL = "hvi-650", "shell-t9"
-#: Stands for the other types. No polyalphaolefin, ester or polyglycol was found with published constants: squalane
-#: is a branched alkane of 30 carbon atoms, as the trimers in PAO 4 are; of esters and glycols it is an assumption.
+#: Stands for the other types. No polyalphaolefin, ester or polyglycol was found with published constants:
+#: squalane is a branched alkane of 30 carbon atoms, as the trimers in PAO 4 are; of esters and glycols it is
+#: an assumption.
 #: Its own α* is kept: ISO/TR 15144-1's α of PAO, made for films, is two thirds of it.
 STAND_IN = "squalane"
 #: Pressure at which rises are compared, Pa.
@@ -71,14 +72,14 @@ class ContactViscosity(NamedTuple):
         return max(low - temperature, temperature - high, 0.0)
 
     def limits(self, pressure: float, temperature: float | None) -> tuple[str, ...]:
-        """Say what a solved friction at a Hertz pressure, Pa, and an oil temperature, K, is not covered by."""
+        """Say what does not cover friction solved at a Hertz pressure, Pa, and an oil temperature, K."""
         found = []
         if self.estimated:
             found.append(f"viscosity at high pressure estimated: {self.origin}")
         if pressure > self.maximum_pressure:
             found.append(
-                f"p_H {pressure / 1e9:.4g} GPa is above {self.maximum_pressure / 1e9:.4g} GPa, up to which the "
-                f"viscosity was measured: friction is extrapolated"
+                f"p_H {pressure / 1e9:.4g} GPa is above {self.maximum_pressure / 1e9:.4g} GPa, up to which "
+                f"the viscosity was measured: friction is extrapolated"
             )
         if temperature is not None and self.temperature_outside(temperature) and self.measured is not None:
             low, high = (

@@ -1,7 +1,7 @@
 """How an oil's viscosity rises with pressure at any temperature: laws that serve inlet and contact.
 
-Each law gives ln(η/η0) over pressure p at a temperature T, η0 the viscosity at T and ambient pressure; η0 itself
-is the data sheet's. Two models of free volume, with the constants by which papers on measured oils state them:
+Each law gives ln(η/η0) over pressure p at a temperature T, η0 the viscosity at T and ambient pressure; η0
+itself is the data sheet's. Two models of free volume, with the constants that papers on measured oils state:
 
     Yasutomi    ln η = const − ln 10 C1 x/(C2 + x),  x = (T − T_g) F,  T_g = T_g0 + A1 ln(1 + A2 p)
                 F = (1 + b1 p)^b2 (improved: Bair, Mary, Bouscharain & Vergne 2013)
@@ -22,7 +22,7 @@ from tribodyn.numerics.elementary import is_jax
 from tribodyn.numerics.shapes import Array
 
 _LN_10 = math.log(10.0)
-#: Expansivity F of the law of 1984, over that at ambient pressure, at which it is held: it has no bound itself.
+#: Expansivity F of the law of 1984, over that at ambient pressure, at which it is held: it has no bound.
 _LEAST_EXPANSION = 1e-3
 #: Free volume over the volume at T_R at which it is held: ln η is beyond 500 there.
 _LEAST_FREE = 5e-3
@@ -143,9 +143,9 @@ class PressureLaw(NamedTuple):
 
 
 def asymptotic_coefficient(law: PressureLaw) -> float:
-    """α* = 1/∫ η0/η dp over all pressures, at the law's temperature, 1/Pa: the reciprocal isoviscous pressure.
+    """α* = 1/∫ η0/η dp over all pressures, at the law's temperature, 1/Pa.
 
-    Blok (1963); Bair, Liu & Wang (2006) take it as the pressure-viscosity coefficient of film formulas. Of
+    The reciprocal asymptotic isoviscous pressure: Blok (1963); Bair, Liu & Wang (2006) take it as the pressure-viscosity coefficient of film formulas. Of
     Barus' law it is α.
     """
     edges = _ISOVISCOUS_END * np.linspace(0.0, 1.0, _PANELS + 1) ** 3

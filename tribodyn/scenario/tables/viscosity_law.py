@@ -1,4 +1,4 @@
-"""The table [lubricant.viscosity_law]: how the viscosity of a measured oil rises with pressure, and its rules."""
+"""The table [lubricant.viscosity_law]: how a measured oil thickens under pressure, and its rules."""
 
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal
@@ -19,7 +19,7 @@ Pressure = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "1 G
 
 
 class ViscosityLaw(quantity.Table):
-    """Constants of a published law of a measured oil; the viscosity at ambient pressure is the data sheet's."""
+    """Constants of a measured oil's published law; viscosity at ambient pressure is the data sheet's."""
 
     model: Model = Field("by-type", description="whose constants follow, or how to do without any")
     a1: Kelvins | None = Field(None, description="A1 of both Yasutomi laws")

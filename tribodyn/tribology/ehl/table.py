@@ -170,12 +170,11 @@ class ContactTable(NamedTuple):
     film_error: float
     friction_error: float
     solved: float
-    #: friction_low, friction_high: factors on the friction coefficient that the band of an estimated viscosity
-    #: makes
+    #: friction_low, friction_high: factors on the friction coefficient, of the band of an estimated viscosity
     friction_low: float = 1.0
     friction_high: float = 1.0
-    #: whether the viscosity at high pressure is no estimate, 1 or 0; pressure up to which it was measured, Pa;
-    #: share of the temperatures' limit, at least 1 inside
+    #: whether the viscosity at high pressure is no estimate, 1 or 0; pressure up to which it was measured,
+    #: Pa; share of the temperatures' limit, at least 1 inside
     measured: float = 1.0
     pressure_limit: float = math.inf
     temperature_share: float = 1.0
@@ -211,7 +210,7 @@ def _made(contact: Contact, duty: DutyRange) -> ContactTable:
 
 
 def _along(duty: DutyRange) -> list[tuple[float, float, float, float]]:
-    """Line load, entrainment, radius and sliding speed of contacts along a path, at its highest nominal load."""
+    """Line load, entrainment, radius and sliding speed along a path, at its highest nominal load."""
     whole = duty.line_load[1] / DUTY_LOADS[1]
     middle = [tuple(math.sqrt(low * high) for low, high in duty[1:4])]
     places = duty.places[:: max(1, len(duty.places) // _BAND)] or middle
