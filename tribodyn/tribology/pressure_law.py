@@ -145,8 +145,8 @@ class PressureLaw(NamedTuple):
 def asymptotic_coefficient(law: PressureLaw) -> float:
     """α* = 1/∫ η0/η dp over all pressures, at the law's temperature, 1/Pa.
 
-    The reciprocal asymptotic isoviscous pressure: Blok (1963); Bair, Liu & Wang (2006) take it as the pressure-viscosity coefficient of film formulas. Of
-    Barus' law it is α.
+    The reciprocal asymptotic isoviscous pressure (Blok 1963), which Bair, Liu & Wang (2006) take as the
+    pressure-viscosity coefficient of film formulas. Of Barus' law it is α.
     """
     edges = _ISOVISCOUS_END * np.linspace(0.0, 1.0, _PANELS + 1) ** 3
     half = 0.5 * np.diff(edges)[:, None]

@@ -259,6 +259,20 @@ CompositeRoughness = Annotated[
 ]
 
 
+Finish = Annotated[
+    FinishName | None,
+    Field(description="of the flanks, for asperity_density and asperity_slope; default: ground"),
+]
+AsperityDensity = Annotated[
+    quantity.Positive | None,
+    Field(description="σβn of Greenwood & Tripp in the solved contact; default: by finish"),
+]
+AsperitySlope = Annotated[
+    quantity.Positive | None,
+    Field(description="σ/β of Greenwood & Tripp in the solved contact; default: by finish"),
+]
+
+
 class DriveTable(Described):
     """A gear pair (`models/drives/`)."""
 
@@ -276,15 +290,9 @@ class DriveTable(Described):
     mean_roughness: Roughness | None = Field(
         None, description="Ra of the flanks; default: the gears' own, or roughness/sqrt(pi)"
     )
-    finish: FinishName | None = Field(
-        None, description="of the flanks, for asperity_density and asperity_slope; default: ground"
-    )
-    asperity_density: quantity.Positive | None = Field(
-        None, description="σβn of Greenwood & Tripp in the solved contact; default: by finish"
-    )
-    asperity_slope: quantity.Positive | None = Field(
-        None, description="σ/β of Greenwood & Tripp in the solved contact; default: by finish"
-    )
+    finish: Finish = None
+    asperity_density: AsperityDensity = None
+    asperity_slope: AsperitySlope = None
     material: MaterialReference | None = None
     quality: Grade | None = Field(None, description="tolerance class of both gears by ISO 1328-1")
     pinion: Gear
