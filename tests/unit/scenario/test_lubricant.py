@@ -109,8 +109,8 @@ def test_a_measured_law_gives_the_pressure_viscosity_coefficient():
 @pytest.mark.parametrize(
     ("changed", "at", "rule"),
     [
-        ({"viscosity_law.c2": None}, "viscosity_law.c2", 'missing: model = "improved-yasutomi" needs it'),
-        ({"viscosity_law.bulk_modulus": "8 GPa"}, "viscosity_law.bulk_modulus", "has no effect"),
+        ({"viscosity_law.c2": None}, "viscosity_law.c2", 'missing: model = "improved-yasutomi" needs c2'),
+        ({"viscosity_law.bulk_modulus": "8 GPa"}, "viscosity_law.bulk_modulus", "no effect"),
         ({"viscosity_law.b2": 0.5}, "viscosity_law.b2", "0"),
         ({"viscosity_law.a1": 188.86}, "viscosity_law.a1", "without a unit"),
         ({"viscosity_law.model": "barus"}, "viscosity_law.model", "not one of the choices"),

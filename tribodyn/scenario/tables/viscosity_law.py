@@ -96,20 +96,16 @@ def broken_viscosity_rules(lubricant: Any) -> Iterator[InputError]:
             continue
         rule = f'contradicts viscosity_law.model = "{table.model}", which says how the viscosity rises'
         yield InputError(f"lubricant.{name}", getattr(lubricant, name), rule, "leave one of the two out")
+    given = {name for name in type(table).model_fields if getattr(table, name) is not None} - {"model"}
     needed = _KEYS[table.model]
-    for name in type(table).model_fields:
-        value = getattr(table, name)
-        if name == "model":
-            continue
-        if name in needed and value is None:
-            rule = f'missing: model = "{table.model}" needs it'
-            yield InputError(f"{_PLACE}.{name}", None, rule, "give the constant of the oil's publication")
-        elif name not in needed and value is not None:
-            of = [quoted(model) for model, keys in _KEYS.items() if name in keys]
-            rule = f'has no effect with model = "{table.model}"; it is a key of {", ".join(of)}'
-            yield InputError(
-                f"{_PLACE}.{name}", f"{value:g}", rule, f"leave it out, or write model = {of[0]}"
-            )
+    if missing := [name for name in needed if name not in given]:
+        rule = f'missing: model = "{table.model}" needs {", ".join(missing)}'
+        yield InputError(f"{_PLACE}.{missing[0]}", None, rule, "give the constants of the oil's publication")
+    if idle := [name for name in type(table).model_fields if name in given and name not in needed]:
+        of = [model for model, keys in _KEYS.items() if idle[0] in keys]
+        rule = f'no effect with model = "{table.model}": {", ".join(idle)}'
+        remedy = f"leave out what has none, or write model = {quoted(of[0])}"
+        yield InputError(f"{_PLACE}.{idle[0]}", getattr(table, idle[0]), rule, remedy)
     low, high = table.minimum_temperature, table.maximum_temperature
     if low is not None and high is not None and low >= high:
         rule = f"must be above minimum_temperature, {low:g} K"

@@ -226,9 +226,9 @@ def _judged(case: EhlCase, arrays: dict[str, Array], solved: Array) -> dict[str,
         | heat_of(found["temperature_rise_max"], case.lubricant.temperature),
         {"phase": arrays["phase"][solved]},
     )
-    limits = along_path.contact_for(case).viscosity_limits
-    inside = min(limits[0], limits[2]) >= 1.0
-    judge.take({"viscosity_unmeasured": np.mean(~inside | (found["hertz_pressure"] > limits[1]))})
+    measured, pressure, temperature = along_path.contact_for(case).viscosity_limits
+    beyond = (found["hertz_pressure"] > pressure) | (min(measured, temperature) < 1.0)
+    judge.take({"viscosity_unmeasured": np.mean(beyond)})
     film = np.min(found["minimum_film_thickness"]), np.min(found["film_parameter"])
     judge_tribology(judge, dict(zip(("film_min", "film_parameter_min"), film, strict=True)))
     return judge.summary()
