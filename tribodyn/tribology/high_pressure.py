@@ -87,8 +87,8 @@ class ContactViscosity(NamedTuple):
                 for limit in (self.measured.minimum_temperature, self.measured.maximum_temperature)
             )
             found.append(
-                f"oil of {temperature - ZERO_CELSIUS:.4g} °C: its viscosity under pressure was measured from "
-                f"{low:.4g} to {high:.4g} °C"
+                f"The oil at {temperature - ZERO_CELSIUS:.4g} °C: its viscosity under pressure was measured "
+                f"from {low:.4g} to {high:.4g} °C"
             )
         return tuple(found)
 

@@ -102,6 +102,9 @@ def test_a_measured_law_gives_the_pressure_viscosity_coefficient():
     assert given.sheet.law.law.c1 == 16.09
     assert given.pressure_viscosity == given.sheet.law.coefficient(353.15)
     assert "viscosity_law" in oil_data(given)["pressure_viscosity"]["origin"]
+    assert not oil_remarks(given)
+    hot = oil_remarks(oil(lubricant__viscosity_law=LAW, operating__oil_temperature="130 degC"))
+    assert "was measured from 20 to 120 °C" in hot[0]
     assert oil(lubricant__viscosity_law={"model": "by-type"}).sheet.law is None
     assert oil(lubricant__viscosity_law={"model": "roelands"}).sheet.roelands
 
