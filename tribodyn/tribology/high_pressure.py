@@ -36,7 +36,7 @@ MEASURED: dict[str, MeasuredLaw] = {
     ),
 }
 #: Measured oils of mineral type: their mean, at the sheet's α, is the best estimate of a mineral oil; ISO/TR
-#: 15144-1's α of HVI 650 is its α* within 3 %.
+#: 15144-1's α of HVI 650 is its α* within 3 % at 80 and 100 °C, a sixth below it at 40 °C.
 MINERAL = "hvi-650", "shell-t9"
 #: Stands for the other types. No polyalphaolefin, ester or polyglycol was found with published constants:
 #: squalane is a branched alkane of 30 carbon atoms, as the trimers in PAO 4 are; of esters and glycols it is
