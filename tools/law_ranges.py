@@ -16,13 +16,13 @@ import numpy as np
 from tools.marked_block import DOCS, ROOT, put, table
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.drive import MaterialData
-from tribodyn.scenario.tables.lubricant import lubricant_of
-from tribodyn.scenario.tables.model_files import Lubricant
+from tribodyn.scenario.tables.lubricant import Lubricant, lubricant_of
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import NominalConditions, Surfaces, local_contact
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
+from tribodyn.tribology.ehl.of_case import contact_of
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.table import STEP, contact_of
+from tribodyn.tribology.ehl.table import STEP
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw, LawInput
@@ -134,6 +134,8 @@ def pairs(seed: int, count: int) -> Iterator[Pair]:
 def oil_of(name: str, temperature: float | None) -> LubricantData:
     """Return a shipped oil at a temperature, K."""
     table = tomllib.loads((ROOT / "models" / "lubricants" / f"{name}.toml").read_text("utf-8"))
+    if temperature is not None:  # the judged ranges are those of Roelands' law
+        table["viscosity_law"] = {"model": "roelands"}
     return lubricant_of(Lubricant.model_validate(table), temperature)
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tribodyn.errors import InputError, quoted
+from tribodyn.interface.oil_of_contact import fluid_of, named_oil
 from tribodyn.interface.scenario import in_python
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid import Fluid, Rheology
@@ -13,6 +14,7 @@ from tribodyn.tribology.ehl.grid import STEP
 from tribodyn.tribology.ehl.heat import HeatProperties
 from tribodyn.tribology.ehl.problem import LineContact, Solution, check, positive
 from tribodyn.tribology.ehl.rough import Roughness
+from tribodyn.tribology.high_pressure import ContactViscosity, contact_viscosity
 from tribodyn.tribology.oil import roelands_index
 
 if TYPE_CHECKING:
@@ -95,9 +97,12 @@ def line_contact(
     radius: float,
     entrainment_speed: float,
     sliding_speed: float = 0.0,
-    viscosity: float,
-    pressure_viscosity: float,
+    viscosity: float | None = None,
+    pressure_viscosity: float | None = None,
     viscosity_pressure_index: float | None = None,
+    lubricant: str | None = None,
+    oil_temperature: float | None = None,
+    viscosity_band: str = "best",
     effective_modulus: float,
     compressible: bool = True,
     roughness: float | None = None,
@@ -130,13 +135,22 @@ def line_contact(
         Mean speed (u_1 + u_2)/2 of the surfaces relative to the contact, m/s.
     sliding_speed : float
         u_1 − u_2, m/s, any sign.
-    viscosity : float
-        η0 at ambient pressure and the inlet's temperature, Pa s.
-    pressure_viscosity : float
+    viscosity : float, optional
+        η0 at ambient pressure and the inlet's temperature, Pa s. This and the next, or a lubricant.
+    pressure_viscosity : float, optional
         α, 1/Pa.
     viscosity_pressure_index : float, optional
         z of Roelands' law, ln(η/η0) = α p_r/z [(1 + p/p_r)^z − 1], p_r = 0.1962 GPa; 1: Barus' law. Default:
         the z that Roelands' own isotherm has at this η0 and α, at most 1.
+    lubricant : str, optional
+        Name of a shipped lubricant that has a data sheet, or its file: it gives viscosity, its slope over the
+        temperature and its rise with pressure, in place of `viscosity`, `pressure_viscosity`,
+        `viscosity_pressure_index` and `temperature_viscosity`; the contact is solved with heat.
+    oil_temperature : float, optional
+        Of the lubricant at the inlet, K.
+    viscosity_band : {"best", "lowest", "highest"}
+        Of a lubricant whose viscosity at high pressure is estimated by its type: the best estimate, or an end
+        of what measured oils of the type span.
     effective_modulus : float
         E', 2/E' = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2, Pa.
     compressible : bool
@@ -179,12 +193,27 @@ def line_contact(
         If the equations could not be solved.
     """
     _check_options(compressible, step, start, roughness)
-    index = viscosity_pressure_index
-    if index is None:
-        fluid = Fluid(viscosity, pressure_viscosity)
+    known: ContactViscosity | None = None
+    if lubricant is not None:
+        numbers = viscosity, pressure_viscosity, viscosity_pressure_index, temperature_viscosity
+        oil = named_oil(lubricant, oil_temperature, numbers)
+        known = contact_viscosity(oil)
+        fluid = fluid_of(oil, known, viscosity_band)._replace(compressible=compressible)
+        temperature_viscosity = float(oil.temperature_viscosity)
+    else:
+        if oil_temperature is not None or viscosity_band != "best":
+            key = "viscosity_band" if oil_temperature is None else "oil_temperature"
+            raise InputError(
+                key, None, "has no effect without a lubricant", "leave it out, or name a lubricant"
+            )
+        # what is missing is refused by the check as no number
+        alpha: Any = pressure_viscosity
+        fluid = Fluid(viscosity, alpha)  # pyright: ignore[reportArgumentType]
         check(LineContact(line_load, radius, entrainment_speed, fluid, effective_modulus))
-        index = min(max(float(roelands_index(pressure_viscosity, viscosity)), 1e-3), 1.0)
-    fluid = Fluid(viscosity, pressure_viscosity, index, compressible)
+        index = viscosity_pressure_index
+        if index is None:
+            index = min(max(float(roelands_index(alpha, viscosity)), 1e-3), 1.0)
+        fluid = fluid._replace(viscosity_pressure_index=index, compressible=compressible)
     rough = None
     if roughness is not None:
         rough = Roughness(roughness, asperity_density, asperity_slope, asperity_friction)
@@ -223,7 +252,10 @@ def line_contact(
         half_width=problem.half_width,
         moes_load=problem.moes_load,
         moes_material=problem.moes_material,
-        limits=_limits(problem, shear, abs(solved.friction) / line_load),
+        limits=(
+            *_limits(problem, shear, abs(solved.friction) / line_load),
+            *(known.limits(problem.hertz_pressure, oil_temperature) if known is not None else ()),
+        ),
         solution=solution,
     )
 

@@ -138,6 +138,12 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
         for what, key in (("film", "film_table_error"), ("friction", "friction_table_error"))
         if key in summary
     ]
+    low, high = summary.get("friction_band_low"), summary.get("friction_band_high")
+    if low is not None and high is not None:
+        sentences.append(
+            f"The oil's viscosity at high pressure is estimated by its type: what measured oils span makes "
+            f"the solved friction {float(low):.2g} to {float(high):.2g} times what is printed."
+        )
     if errors:
         sentences.append(
             f"The table of solved contacts gives {' and '.join(errors)} of 95 % of those it was held against."

@@ -49,6 +49,8 @@ _MEANS = {
     "V ≥": "the steel is softer than it was fitted for",
     "G ≤": "the oil thickens much under pressure",
     "G ≥": "the oil thickens little under pressure",
+    "viscosity measured": "the viscosity at high pressure is estimated by the oil's type",
+    "oil within": "the oil's temperature is beyond the measured ones",
     "slide-to-roll": "the flanks slide fast",
     "sliding ≥": "the flanks hardly slide",
     "2 m/s": "speed or load is outside the standard",
@@ -93,9 +95,20 @@ def lost(summary: Mapping[str, Any]) -> Iterable[str]:
     power, friction = summary.get("power_in_mean"), summary.get("power_friction_mean")
     if power and friction is not None and friction > 0.0:
         mean = summary.get("friction_coefficient_mean")
-        coefficient = f", at a mean coefficient of {mean:.3f}" if mean is not None else ""
+        at = f", at a mean coefficient of {mean:.3f}{band_of(summary)}" if mean is not None else ""
         through = share(friction / abs(power))
-        yield f"Friction takes {watts(friction)} of {watts(abs(power))}, {through}{coefficient}."
+        yield f"Friction takes {watts(friction)} of {watts(abs(power))}, {through}{at}."
+
+
+def band_of(summary: Mapping[str, Any]) -> str:
+    """The band of a friction coefficient solved with an estimated viscosity, in brackets; "" without one."""
+    known = numbers(summary)
+    if not {"friction_coefficient_mean", "friction_band_low", "friction_band_high"} <= set(known):
+        return ""
+    low, high = (
+        known["friction_coefficient_mean"] * known[f"friction_band_{end}"] for end in ("low", "high")
+    )
+    return f" ({low:.3f} to {high:.3f}: the oil's viscosity at high pressure is estimated)"
 
 
 def outside(summary: Mapping[str, Any]) -> Iterable[str]:

@@ -76,6 +76,15 @@ RULES: dict[str, Rule] = {
     "bearing_displacement": Rule(
         "displacement of a gear in its bearings over the tip clearance", 1.0, "1", factor=100.0, unit="%"
     ),
+    # Friction at 1 GPa goes as a viscosity that no data sheet has.
+    "viscosity_unmeasured": Rule(
+        "share of the contact whose viscosity at high pressure is estimated, or beyond its measurement",
+        0.01,
+        "1",
+        factor=100.0,
+        unit="%",
+        extrapolates=True,
+    ),
     # A law that is nowhere used where it was fitted is a guess; one that leaves its range in a part of the
     # contact is a remark.
     **{

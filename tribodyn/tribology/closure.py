@@ -11,7 +11,8 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.drive import Drive, MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.elementary import as_float, is_jax, minimum, sense
-from tribodyn.tribology.contact import DutyRange, NominalConditions, Surfaces
+from tribodyn.tribology.asperities import Asperities
+from tribodyn.tribology.contact import DUTY_LOADS, DutyRange, NominalConditions, Surfaces
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import ActiveLaw, Closure, FilmData, FilmLaw, FrictionData, FrictionLaw, LawInput
@@ -21,9 +22,9 @@ from tribodyn.tribology.trial import try_laws
 
 #: Pressure angle at the pitch point below which Niemann's formula has no meaning: radius and speed vanish.
 MINIMUM_ANGLE = math.radians(1.0)
-#: Loads over the whole torque on one pair, and speeds over the nominal ones, that a table of contacts spans;
-#: beyond, film and friction are those at its end.
-_LOADS, _SPEEDS = (0.25, 1.5), (0.8, 1.2)
+#: Speeds over the nominal ones that a table of contacts spans; beyond them, and beyond its loads, film and
+#: friction are those at its end.
+_SPEEDS = (0.8, 1.2)
 #: Least entrainment and radius over the largest along the path, and least slide-to-roll ratio, of a table.
 _LEAST_SHARE, LEAST_SLIDING = 0.1, 0.02
 #: Names in a summary of the ratios to the solved contact outside the range of a law.
@@ -52,6 +53,8 @@ class Lubricated(Protocol):
     def roughness(self) -> float: ...  # noqa: D102
     @property
     def mean_roughness(self) -> float: ...  # noqa: D102
+    @property
+    def asperities(self) -> Asperities: ...  # noqa: D102
     @property
     def lubricant(self) -> LubricantData: ...  # noqa: D102
     @property
@@ -86,7 +89,7 @@ def untried_closure_of(case: Lubricated) -> Closure:
 def law_input(case: Lubricated) -> LawInput:
     """Return what the laws of a case may make their parameters of."""
     nominal, duty = partial(nominal_conditions, case), partial(duty_range, case)
-    return LawInput(surfaces_of(case), case.lubricant, case.materials, nominal, duty)
+    return LawInput(surfaces_of(case), case.lubricant, case.materials, nominal, duty, case.asperities)
 
 
 def closure(
@@ -132,7 +135,8 @@ def with_laws(
 def law_quantities(case: Lubricated) -> dict[str, Any]:
     """Names of the laws in use, their ranges and the errors of their tables, for a summary.
 
-    `film_judged` and `friction_judged`: their ratios to the solved contact, where they were compared.
+    `film_judged` and `friction_judged`: their ratios to the solved contact, where they were compared;
+    `friction_band_low` and `_high`: factors on friction solved with an estimated viscosity.
     """
     film, friction = laws_of(case)
     chosen = {"film_chosen": case.film.chosen, "friction_chosen": case.friction.chosen}
@@ -145,6 +149,9 @@ def law_quantities(case: Lubricated) -> dict[str, Any]:
         if law.table_error is not None:
             active: Any = getattr(untried_closure_of(case), law.table)
             errors[f"{law.table}_table_error"] = law.table_error(active.parameters)
+            low, high = law.table_band(active.parameters) if law.table_band else (1.0, 1.0)
+            if low < high:
+                errors |= {f"{law.table}_band_low": low, f"{law.table}_band_high": high}
     return {
         "film_law": film.name,
         "film_thickness": film.thickness,
@@ -228,7 +235,7 @@ def duty_range(case: Lubricated) -> DutyRange:
     curvature = np.minimum(curvature, np.min(curvature) / _LEAST_SHARE)
     ratio = speed * np.abs(motion.sliding) / entrainment
     return DutyRange(
-        (_LOADS[0] * load, _LOADS[1] * load),
+        (DUTY_LOADS[0] * load, DUTY_LOADS[1] * load),
         (_SPEEDS[0] * float(np.min(entrainment)), _SPEEDS[1] * float(np.max(entrainment))),
         (0.99 * float(np.min(curvature)), 1.01 * float(np.max(curvature))),
         (LEAST_SLIDING, max(1.05 * float(np.max(ratio)), 2.0 * LEAST_SLIDING)),
@@ -238,7 +245,7 @@ def duty_range(case: Lubricated) -> DutyRange:
 
 def nominal_line_load(duty: DutyRange) -> float:
     """Return the load of a pair that carries the whole torque alone, N/m, from the range made for it."""
-    return duty.line_load[1] / _LOADS[1]
+    return duty.line_load[1] / DUTY_LOADS[1]
 
 
 def nominal_conditions(case: Lubricated) -> NominalConditions:

@@ -172,6 +172,10 @@ class NominalConditions(NamedTuple):
         return 1.0 / self.pinion_pitch_radius + 1.0 / self.gear_pitch_radius
 
 
+#: Loads over the whole torque on one pair that a duty spans.
+DUTY_LOADS = (0.25, 1.5)
+
+
 class DutyRange(NamedTuple):
     """Least and greatest of each, as `LocalContact` has them; SI."""
 

@@ -15,6 +15,7 @@ from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.drive import MaterialData
 from tribodyn.numerics.elementary import LAWS, absolute, law
 from tribodyn.numerics.parameter import Parameter
+from tribodyn.tribology.asperities import Asperities
 from tribodyn.tribology.contact import (
     DutyRange,
     NominalConditions,
@@ -63,6 +64,7 @@ class LawInput(NamedTuple):
     nominal: Callable[[], NominalConditions]
     #: () -> DutyRange of the mesh; raises InputError where there is no mesh
     duty: Callable[[], DutyRange] = without_duty
+    asperities: Asperities = Asperities()
 
 
 class FilmFunctions(NamedTuple):
@@ -155,6 +157,8 @@ class KeyedLaw:
     #: of a law that is tabulated before a run: (parameters) -> share by which 95 % of the values of its table
     #: deviate at most from what they stand for
     table_error: Callable[[Any], float] | None = None
+    #: of such a law: (parameters) -> lowest and highest factor on its values that what it estimates makes
+    table_band: Callable[[Any], tuple[float, float]] | None = None
     #: what the solved contact says of the law; None: it was not compared
     judged: JudgedRange | None = None
 

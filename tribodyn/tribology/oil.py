@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import Any, Literal, NamedTuple, get_args
 
 from tribodyn.numerics.elementary import exp, log, minimum
+from tribodyn.tribology.pressure_law import MeasuredViscosity
 
 OilType = Literal["mineral", "pao", "ester", "pag"]
 OIL_TYPES: tuple[OilType, ...] = get_args(OilType)
@@ -174,6 +175,8 @@ class OilSheet:
     density_15: Any  # at 15 °C, kg/m³
     #: numbers of `LubricantData` that take the place of derived ones, by name
     given: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
+    law: MeasuredViscosity | None = None  # how its viscosity rises with pressure, where that was measured
+    roelands: bool = False  # whether the solved contact takes Roelands' law, and no estimate by type
 
     def viscosity(self, temperature: Any) -> Any:
         """Dynamic viscosity η = ν ρ at a temperature, Pa·s."""
@@ -183,8 +186,10 @@ class OilSheet:
     def pressure_viscosity(self, temperature: Any) -> Any:
         """Pressure-viscosity coefficient α at a temperature, 1/Pa.
 
-        α = α38 [1 + 516 (1/T − 1/311)] (ISO/TR 15144-1), but of esters `ESTER`.
+        α* of a measured law; else α = α38 [1 + 516 (1/T − 1/311)] (ISO/TR 15144-1), but of esters `ESTER`.
         """
+        if self.law is not None:
+            return self.law.coefficient(temperature)
         if self.type == "ester":
             kinematic = kinematic_viscosity(self.viscosity_40, self.viscosity_100, temperature)
             return ESTER[0] * exp(ESTER[1] * log(1e6 * kinematic))
@@ -205,6 +210,8 @@ class OilSheet:
         viscosity = put("inlet_viscosity", self.viscosity(temperature), f"kinematic by {at_hand}")
         put("density", density_at(self.density_15, temperature), f"density_15 - 0.7 (T - 289 K), {_STANDARD}")
         source = f"{'Gold et al. (2001)' if self.type == 'ester' else _STANDARD}, {self.type} oil"
+        if self.law is not None:
+            source = "α* of viscosity_law, 1/∫ η0/η dp"
         coefficient = put("pressure_viscosity", self.pressure_viscosity(temperature), source)
         index = roelands_index(coefficient, viscosity)
         put("viscosity_pressure_index", index, "pressure_viscosity and inlet_viscosity, Roelands")

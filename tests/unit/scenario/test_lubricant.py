@@ -82,6 +82,79 @@ def test_what_cannot_be_is_refused(key, value, at, rule, remedy):
     assert remedy in refused.value.remedy
 
 
+LAW = {
+    "model": "improved-yasutomi",
+    "a1": "188.86 K",
+    "a2": "0.719 1/GPa",
+    "b1": "8.2 1/GPa",
+    "b2": -0.5278,
+    "c1": 16.09,
+    "c2": "17.38 K",
+    "glass_temperature": "-83.2 degC",
+    "maximum_pressure": "1 GPa",
+    "minimum_temperature": "20 degC",
+    "maximum_temperature": "120 degC",
+}
+
+
+def test_a_measured_law_gives_the_pressure_viscosity_coefficient():
+    given = oil(lubricant__viscosity_law=LAW)
+    assert given.sheet.law.law.c1 == 16.09
+    assert given.pressure_viscosity == given.sheet.law.coefficient(353.15)
+    assert "viscosity_law" in oil_data(given)["pressure_viscosity"]["origin"]
+    assert not oil_remarks(given)
+    hot = oil_remarks(oil(lubricant__viscosity_law=LAW, operating__oil_temperature="130 degC"))
+    assert "was measured from 20 to 120 °C" in hot[0]
+    assert oil(lubricant__viscosity_law={"model": "by-type"}).sheet.law is None
+    assert oil(lubricant__viscosity_law={"model": "roelands"}).sheet.roelands
+
+
+@pytest.mark.parametrize(
+    ("changed", "at", "rule"),
+    [
+        ({"viscosity_law.c2": None}, "viscosity_law.c2", 'missing: model = "improved-yasutomi" needs c2'),
+        ({"viscosity_law.bulk_modulus": "8 GPa"}, "viscosity_law.bulk_modulus", "no effect"),
+        ({"viscosity_law.b2": 0.5}, "viscosity_law.b2", "0"),
+        ({"viscosity_law.a1": 188.86}, "viscosity_law.a1", "without a unit"),
+        ({"viscosity_law.model": "barus"}, "viscosity_law.model", "not one of the choices"),
+        ({"viscosity_law.maximum_temperature": "10 degC"}, "viscosity_law.maximum_temperature", "above"),
+        ({"viscosity_law.a3": 1.0}, "viscosity_law.a3", "unknown"),
+        ({"viscosity_pressure_index": 0.6}, "viscosity_pressure_index", "contradicts"),
+        ({"pressure_viscosity": "20 1/GPa"}, "pressure_viscosity", "contradicts"),
+    ],
+)
+def test_a_law_that_cannot_be_is_refused(changed, at, rule):
+    table = SCENARIO["lubricant"] | {"viscosity_law": dict(LAW)}
+    for key, value in changed.items():
+        place, last = (table["viscosity_law"], key[14:]) if key.startswith("viscosity_law.") else (table, key)
+        place[last] = value
+        if value is None:
+            del place[last]
+    with pytest.raises(InputError) as refused:
+        scenario(SCENARIO | {"lubricant": table})
+    assert refused.value.key == f"lubricant.{at}"
+    assert rule in refused.value.rule
+    assert refused.value.remedy
+
+
+def test_a_law_needs_a_data_sheet():
+    direct = {key: value for key, value in SCENARIO["operating"].items() if key != "oil_temperature"}
+    lubricant = {"like": "liu-ni-2022", "viscosity_law": {"model": "by-type"}}
+    with pytest.raises(InputError, match="needs a data sheet"):
+        scenario(SCENARIO | {"lubricant": lubricant, "operating": direct})
+
+
+def test_a_finish_that_does_not_exist_is_refused():
+    with pytest.raises(InputError) as refused:
+        scenario(SCENARIO, {"drive.finish": "honed"})
+    assert refused.value.key == "drive.finish"
+    assert '"superfinished"' in refused.value.remedy
+    with pytest.raises(InputError, match="asperity_slope"):
+        scenario(SCENARIO, {"drive.asperity_slope": -0.01})
+    case = scenario(SCENARIO, {"drive.finish": "hobbed", "drive.asperity_density": 0.04})
+    assert case.asperities == (0.04, 0.03)
+
+
 @pytest.mark.parametrize(
     ("table", "name"),
     [

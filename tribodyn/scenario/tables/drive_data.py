@@ -27,6 +27,7 @@ from tribodyn.scenario.tables.tooth_data import (
     pressure_angle_of,
     shape_of,
 )
+from tribodyn.tribology.asperities import asperities_of
 
 #: Rounding that is believed, at most, modules: about the backlash that gears are given. A larger overlap is a
 #: mistake, whatever the digits ("0.1 m").
@@ -113,6 +114,7 @@ def teeth_of(drive: DriveTable) -> dict[str, Any]:
         "materials": materials_of(drive),
         "roughness": roughness_of(drive),
         "mean_roughness": mean_roughness(drive),
+        "asperities": asperities_of(drive.finish, drive.asperity_density, drive.asperity_slope),
     }
 
 

@@ -9,7 +9,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.drive import SIDES
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Count, InUnit, Positive, Table, written
-from tribodyn.scenario.tables.model_files import Lubricant
+from tribodyn.scenario.tables.lubricant import Lubricant
 from tribodyn.tribology.bulk_temperature import Lubrication, TemperatureData
 from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, LossData
 

@@ -1,11 +1,74 @@
 """A lubricant by its data sheet or by the numbers that the laws read: its numbers, and its rules."""
 
 from collections.abc import Iterator
-from typing import Any, cast
+from pathlib import Path
+from typing import Annotated, Any, cast
+
+from pydantic import Field, ValidationError
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.scenario.tables.model_files import Lubricant
+from tribodyn.scenario import quantity, units
+from tribodyn.scenario.messages import explain
+from tribodyn.scenario.sources import find_model, read_toml
+from tribodyn.scenario.tables.model_files import Described
+from tribodyn.scenario.tables.viscosity_law import ViscosityLaw, broken_viscosity_rules, measured_of
 from tribodyn.tribology import oil
+
+KinematicViscosity = Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY))]
+
+
+class Lubricant(Described):
+    """A lubricant (`models/lubricants/`): by its data sheet, or by the numbers that the laws read."""
+
+    type: oil.OilType | None = Field(None, description="base oil; needed with a data sheet")
+    viscosity_40: KinematicViscosity | None = Field(None, description="kinematic, at 40 °C")
+    viscosity_100: (
+        Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
+    ) = Field(None, description="kinematic, at 100 °C")
+    density_15: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = (
+        Field(None, description="at 15 °C")
+    )
+    asperity_friction: quantity.NotNegative | None = Field(None, description="f_c; default: by type")
+    limiting_shear_coefficient: quantity.Positive | None = Field(None, description="Λ_lim; default: by type")
+    inlet_viscosity: Annotated[float, quantity.InUnit(units.positive(units.VISCOSITY))] | None = Field(
+        None, description="dynamic; without a data sheet"
+    )
+    pressure_viscosity: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE_VISCOSITY))] | None = (
+        Field(None, description="default: by type and viscosity")
+    )
+    viscosity_pressure_index: quantity.Positive | None = Field(
+        None, description="z of Roelands' law; default: from pressure_viscosity and viscosity"
+    )
+    temperature_viscosity: Annotated[float, quantity.InUnit(units.not_negative(units.PER_KELVIN))] | None = (
+        Field(None, description="default: slope of the viscosity over temperature")
+    )
+    density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
+        None, description="at the oil's temperature; default: from density_15"
+    )
+    load_exponent: quantity.NotNegative | None = Field(
+        None,
+        description="d of Niemann's lubricant factor; default: 0 with a type, else 0.0651, mineral oil 75W90 "
+        "(Diez-Ibarbia et al.)",
+    )
+    lubricant_factor: quantity.Positive | None = Field(
+        None, description="X_L of Niemann and of ISO/TR 15144-1; default: by type, else 1"
+    )
+    schlenk_factor: quantity.Positive | None = Field(
+        None, description="X_L of Schlenk; default: by type, else that of mineral oil"
+    )
+    fzg_scuffing_stage: Annotated[int, Field(strict=True, ge=1, le=14)] | None = Field(
+        None, description="failure load stage of the FZG scuffing test A/8.3/90"
+    )
+    fzg_micropitting_stage: Annotated[int, Field(strict=True, ge=5, le=11)] | None = Field(
+        None, description="failure load stage of the FZG micropitting test C-GF/8.3"
+    )
+    fzg_micropitting_temperature: Annotated[float, quantity.InUnit(units.TEMPERATURE_KIND, "90 degC")] = (
+        quantity.written("90 degC", description="oil temperature of that test")
+    )
+    viscosity_law: ViscosityLaw | None = Field(
+        None, description="how viscosity rises with pressure in the solved contact; default: by type"
+    )
+
 
 #: What is taken for an oil: densities at 15 °C, kg/m³, and the kinematic viscosity at 40 °C at most, m²/s.
 DENSITIES, THICKEST = (650.0, 1300.0), 0.1
@@ -39,17 +102,39 @@ def lubricant_of(lubricant: Lubricant, oil_temperature: float | None = None) -> 
     return oil.LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
 
 
+def read_lubricant(name: str, oil_temperature: float) -> oil.LubricantData:
+    """Return the numbers at a temperature, K, of a shipped lubricant, or of a file (.toml); InputError."""
+    path = find_model(name, "lubricants", "lubricant", Path("scenario"))
+    try:
+        table = Lubricant.model_validate(read_toml(path))
+    except ValidationError as error:
+        raise explain(error, Lubricant)[0] from None
+    if table.viscosity_40 is None:
+        rule = "is known at one temperature only"
+        raise InputError("lubricant", quoted(name), rule, "give viscosity and pressure_viscosity instead")
+    for broken in broken_lubricant_rules(table, oil_temperature):
+        raise broken
+    return lubricant_of(table, oil_temperature)
+
+
 def sheet_of(lubricant: Lubricant) -> oil.OilSheet | None:
     """Return the data sheet of a lubricant; None where it is given by the numbers that the laws read."""
     if lubricant.type is None or lubricant.viscosity_40 is None:
         return None
     given = {name: value for name in oil.UNITS if (value := getattr(lubricant, name)) is not None}
     viscosity_100, density_15 = cast(float, lubricant.viscosity_100), cast(float, lubricant.density_15)
-    return oil.OilSheet(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given)
+    law = lubricant.viscosity_law
+    roelands = law is not None and law.model == "roelands"
+    return oil.OilSheet(
+        *(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given),
+        measured_of(law),
+        roelands,
+    )
 
 
 def broken_lubricant_rules(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
     """Go through the rules that a lubricant breaks by itself or at the oil's temperature (K)."""
+    yield from broken_viscosity_rules(lubricant)
     if all(getattr(lubricant, name) is None for name in _SHEET):
         yield from _direct(lubricant, oil_temperature)
         return

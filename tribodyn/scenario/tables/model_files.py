@@ -1,4 +1,4 @@
-"""The tables of `models/`: what drives, with their modified flanks, materials and lubricants are."""
+"""The tables of `models/`: what drives, with their modified flanks, and materials are."""
 
 from typing import Annotated, Any, Literal
 
@@ -11,7 +11,7 @@ from tribodyn.scenario import quantity, units
 from tribodyn.scenario.fields import ErrorCurve
 from tribodyn.standards.metals import Grade as MetalGrade
 from tribodyn.standards.metals import Treatment
-from tribodyn.tribology.oil import OilType
+from tribodyn.tribology.asperities import FinishName
 
 Amount = Annotated[float, quantity.InUnit(units.not_negative(units.RELIEF))]
 Length = Annotated[float, quantity.InUnit(units.positive(units.LENGTH))]
@@ -99,7 +99,6 @@ Pressure = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE))]
 Strength = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "1500 MPa")]
 FaceWidth = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "20 mm")]
 Radius = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "12 mm")]
-KinematicViscosity = Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY))]
 Diameter = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "30 mm")]
 Rounding = Annotated[float, quantity.InUnit(units.not_negative(units.LENGTH), "0.03 mm")]
 Allowance = Annotated[float, quantity.InUnit(units.DEVIATION, "-60 um")]
@@ -257,6 +256,20 @@ CompositeRoughness = Annotated[
 ]
 
 
+Finish = Annotated[
+    FinishName | None,
+    Field(description="of the flanks, for asperity_density and asperity_slope; default: ground"),
+]
+AsperityDensity = Annotated[
+    quantity.Positive | None,
+    Field(description="σβn of Greenwood & Tripp in the solved contact; default: by finish"),
+]
+AsperitySlope = Annotated[
+    quantity.Positive | None,
+    Field(description="σ/β of Greenwood & Tripp in the solved contact; default: by finish"),
+]
+
+
 class DriveTable(Described):
     """A gear pair (`models/drives/`)."""
 
@@ -274,57 +287,10 @@ class DriveTable(Described):
     mean_roughness: Roughness | None = Field(
         None, description="Ra of the flanks; default: the gears' own, or roughness/sqrt(pi)"
     )
+    finish: Finish = None
+    asperity_density: AsperityDensity = None
+    asperity_slope: AsperitySlope = None
     material: MaterialReference | None = None
     quality: Grade | None = Field(None, description="tolerance class of both gears by ISO 1328-1")
     pinion: Gear
     gear: Gear
-
-
-class Lubricant(Described):
-    """A lubricant (`models/lubricants/`): by its data sheet, or by the numbers that the laws read."""
-
-    type: OilType | None = Field(None, description="base oil; needed with a data sheet")
-    viscosity_40: KinematicViscosity | None = Field(None, description="kinematic, at 40 °C")
-    viscosity_100: (
-        Annotated[float, quantity.InUnit(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
-    ) = Field(None, description="kinematic, at 100 °C")
-    density_15: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = (
-        Field(None, description="at 15 °C")
-    )
-    asperity_friction: quantity.NotNegative | None = Field(None, description="f_c; default: by type")
-    limiting_shear_coefficient: quantity.Positive | None = Field(None, description="Λ_lim; default: by type")
-    inlet_viscosity: Annotated[float, quantity.InUnit(units.positive(units.VISCOSITY))] | None = Field(
-        None, description="dynamic; without a data sheet"
-    )
-    pressure_viscosity: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE_VISCOSITY))] | None = (
-        Field(None, description="default: by type and viscosity")
-    )
-    viscosity_pressure_index: quantity.Positive | None = Field(
-        None, description="z of Roelands' law; default: from pressure_viscosity and viscosity"
-    )
-    temperature_viscosity: Annotated[float, quantity.InUnit(units.not_negative(units.PER_KELVIN))] | None = (
-        Field(None, description="default: slope of the viscosity over temperature")
-    )
-    density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
-        None, description="at the oil's temperature; default: from density_15"
-    )
-    load_exponent: quantity.NotNegative | None = Field(
-        None,
-        description="d of Niemann's lubricant factor; default: 0 with a type, else 0.0651, mineral oil 75W90 "
-        "(Diez-Ibarbia et al.)",
-    )
-    lubricant_factor: quantity.Positive | None = Field(
-        None, description="X_L of Niemann and of ISO/TR 15144-1; default: by type, else 1"
-    )
-    schlenk_factor: quantity.Positive | None = Field(
-        None, description="X_L of Schlenk; default: by type, else that of mineral oil"
-    )
-    fzg_scuffing_stage: Annotated[int, Field(strict=True, ge=1, le=14)] | None = Field(
-        None, description="failure load stage of the FZG scuffing test A/8.3/90"
-    )
-    fzg_micropitting_stage: Annotated[int, Field(strict=True, ge=5, le=11)] | None = Field(
-        None, description="failure load stage of the FZG micropitting test C-GF/8.3"
-    )
-    fzg_micropitting_temperature: Annotated[float, quantity.InUnit(units.TEMPERATURE_KIND, "90 degC")] = (
-        quantity.written("90 degC", description="oil temperature of that test")
-    )

@@ -16,8 +16,8 @@ from tribodyn.studies.gears.prepare import PreparedGears, assembled
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of, with_laws, without_nominal_conditions
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
+from tribodyn.tribology.ehl.of_case import Contact, contact_of
 from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact, Solution
-from tribodyn.tribology.ehl.table import Contact, contact_of
 from tribodyn.tribology.law import LawInput
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
 
@@ -265,6 +265,16 @@ def solved_at(
         return None
 
 
+def loaded_places(study: PreparedEhl, over: PairWay, most: int) -> list[tuple[float, float, float, float]]:
+    """Line load, entrainment, radius and sliding speed at positions that carry load, so many at most."""
+    seen, at = seen_by(study, over), np.flatnonzero(loaded(over))
+    at = at[:: max(1, -(-len(at) // most))]
+    columns = over.line_load, seen.radius, seen.entrainment, over.sliding
+    load, radius, speed, sliding = (np.broadcast_to(np.asarray(x), over.roll.shape)[at] for x in columns)
+    rows = np.stack([load, speed, radius, sliding], axis=1).tolist()
+    return [(float(w), float(u), float(r), float(v)) for w, u, r, v in rows]
+
+
 def profiles(found: CoupledSolution) -> dict[str, Array]:
     """Pressure, film, temperature and shear at the places of a record."""
     solution = found.solution
@@ -291,7 +301,7 @@ def over_places(solution: Solution, values: Array, outside: float) -> Array:
 def contact_for(case: EhlCase) -> Contact:
     """What all contacts of a case have in common: oil, surfaces, rheology and heat."""
     given = LawInput(surfaces_of(case), case.lubricant, case.materials, without_nominal_conditions)
-    return contact_of(given)
+    return contact_of(given._replace(asperities=case.asperities))
 
 
 def loaded(over: PairWay) -> Array:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.post.page.data import Profile, Profiles
-from tribodyn.post.verdict import numbers, share, with_unit
+from tribodyn.post.verdict import band_of, numbers, share, with_unit
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
@@ -70,7 +70,8 @@ def verdict(record: Record) -> list[str]:
         rise = with_unit("temperature_rise_max", summary["temperature_rise_max"])
         mean = summary["friction_coefficient_mean"]
         found.append(
-            f"The friction coefficient is {mean:.3f} on the mean; the oil film heats by up to {rise}."
+            f"The friction coefficient is {mean:.3f} on the mean{band_of(summary)}; the oil film heats by up "
+            f"to {rise}."
         )
     if (departure := summary.get("central_film_departure_max")) is not None:
         found.append(f"Squeeze moves the central film by up to {share(departure)}.")
@@ -88,6 +89,8 @@ def sentences(record: Record) -> list[str]:
     loads = "given loads" if given else "quasi-static loads with friction, without inertia"
     found = [f"Steady contacts, one after another, under {loads}."]
     found.extend(_squeeze_sentences(summary))
+    if (origin := summary.get("viscosity_origin")) is not None:
+        found.append(f"Viscosity at high pressure: {origin}.")
     if (residual := summary.get("residual_max")) is not None:
         found.append(f"Flow and load are balanced to {residual:.1e}.")
     solved, of = summary.get("positions_solved"), summary.get("positions")

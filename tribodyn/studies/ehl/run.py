@@ -17,11 +17,15 @@ from tribodyn.studies.ehl.squeezed import SteadyContact, squeezed, steady_of
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
+from tribodyn.tribology.ehl.of_case import friction_band
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
+from tribodyn.tribology.high_pressure import contact_viscosity
 
 #: Slide-to-roll ratios of the traction curve.
 TRACTION = np.array([0.001, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
+#: Positions over which the band of the friction coefficient is taken.
+_BAND = 5
 #: Share of the time that the steady contacts take, of a way that is solved with squeeze too.
 _STEADY = 0.7
 
@@ -186,6 +190,7 @@ def _summary(
     return {
         **(squeeze_summary(arrays) if study.case.transient else {}),
         **_judged(study.case, arrays, solved),
+        **_viscosity(study, over),
         "contact_ratio": float(study.cycle.contact_ratio),
         "positions_solved": int(np.count_nonzero(solved)),
         "positions": study.case.positions,
@@ -205,6 +210,14 @@ def _summary(
     }
 
 
+def _viscosity(study: along_path.PreparedEhl, over: along_path.PairWay) -> dict[str, Any]:
+    """Where the viscosity under pressure is from, and by what its band changes the friction coefficient."""
+    places = along_path.loaded_places(study, over, _BAND)
+    low, high = friction_band(along_path.contact_for(study.case), places)
+    band = {"friction_band_low": low, "friction_band_high": high} if low < high else {}
+    return {"viscosity_origin": contact_viscosity(study.case.lubricant).origin, **band}
+
+
 def _judged(case: EhlCase, arrays: dict[str, Array], solved: Array) -> dict[str, Any]:
     """Whether the solved contacts lie within their model, see `record.trust`."""
     judge, found = Judge(), {name: values[solved] for name, values in arrays.items() if name in SAMPLES}
@@ -213,6 +226,9 @@ def _judged(case: EhlCase, arrays: dict[str, Array], solved: Array) -> dict[str,
         | heat_of(found["temperature_rise_max"], case.lubricant.temperature),
         {"phase": arrays["phase"][solved]},
     )
+    measured, pressure, temperature = along_path.contact_for(case).viscosity_limits
+    beyond = (found["hertz_pressure"] > pressure) | (min(measured, temperature) < 1.0)
+    judge.take({"viscosity_unmeasured": np.mean(beyond)})
     film = np.min(found["minimum_film_thickness"]), np.min(found["film_parameter"])
     judge_tribology(judge, dict(zip(("film_min", "film_parameter_min"), film, strict=True)))
     return judge.summary()

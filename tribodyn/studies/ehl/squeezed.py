@@ -19,12 +19,12 @@ from tribodyn.studies.ehl.case import SQUEEZED, EhlCase, unsolved
 from tribodyn.studies.protocol.study import Progress
 from tribodyn.tribology.ehl.coupled import CoupledSolution, friction_of
 from tribodyn.tribology.ehl.grid import FilmGrid
+from tribodyn.tribology.ehl.of_case import Contact
 from tribodyn.tribology.ehl.problem import LineContact, Solution
 from tribodyn.tribology.ehl.reynolds import FilmState, FlowCorrection, film
 from tribodyn.tribology.ehl.rough import RoughReduced, with_films
 from tribodyn.tribology.ehl.shear import LAYERS
 from tribodyn.tribology.ehl.steady import grid_of, reduced_problem, solve_steady
-from tribodyn.tribology.ehl.table import Contact
 from tribodyn.tribology.ehl.transient import Instant, march
 
 #: Longest time step, over that in which the oil is drawn through half a contact: films within 0.1 %.

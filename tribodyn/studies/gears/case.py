@@ -17,6 +17,7 @@ from tribodyn.studies.gears.by_standard import Quality
 from tribodyn.studies.gears.over_time.recorded import DOF_SCALE, PAIR, SLICE, samples_of
 from tribodyn.studies.gears.supports import GearSupports
 from tribodyn.studies.protocol.recording import CaseHead
+from tribodyn.tribology.asperities import Asperities
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.losses import LossData
@@ -71,6 +72,7 @@ class GearCase(CaseHead):
     masses: tuple[BodyMass, BodyMass]
     roughness: float  # composite rms roughness σ of the flanks, m
     mean_roughness: float  # arithmetic mean roughness Ra, m
+    asperities: Asperities  # of the flanks, as the solved contact takes them
     operating: OperatingData
     mesh: MeshData
     quality: Quality | None  # deviations of the gears by ISO 1328-1; None: the drive has no tolerance class

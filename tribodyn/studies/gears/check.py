@@ -24,6 +24,7 @@ from tribodyn.tribology.closure import (
     nominal_line_load,
 )
 from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.high_pressure import contact_viscosity
 from tribodyn.tribology.law import Closure, FilmLaw, FrictionLaw
 from tribodyn.tribology.oil import (
     GIVEN,
@@ -109,12 +110,17 @@ def oil_table(lubricant: LubricantData) -> TextTable:
 
 
 def oil_remarks(lubricant: LubricantData) -> list[str]:
-    """Say what is extrapolated beyond the data sheet's two temperatures."""
-    if lubricant.sheet is None or T_40 <= lubricant.temperature <= T_100:
+    """Say what is extrapolated beyond the data sheet's two temperatures, and a measured law's."""
+    if lubricant.sheet is None:
         return []
+    measured = lubricant.sheet.law
+    found = [] if measured is None else contact_viscosity(lubricant).limits(0.0, lubricant.temperature)
+    if T_40 <= lubricant.temperature <= T_100:
+        return [*found]
     return [
+        *found,
         f"The oil at {lubricant.temperature - ZERO_CELSIUS:.4g} °C: viscosity extrapolated beyond the data "
-        "sheet's 40 to 100 °C by ASTM D341."
+        "sheet's 40 to 100 °C by ASTM D341.",
     ]
 
 

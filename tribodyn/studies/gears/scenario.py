@@ -34,8 +34,8 @@ from tribodyn.scenario.tables.losses import (
     losses_of,
     temperature_of,
 )
-from tribodyn.scenario.tables.lubricant import broken_lubricant_rules, lubricant_of
-from tribodyn.scenario.tables.model_files import DriveTable, Lubricant, MisalignmentTable
+from tribodyn.scenario.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
+from tribodyn.scenario.tables.model_files import DriveTable, MisalignmentTable
 from tribodyn.scenario.tables.quality import (
     DeviationSample,
     broken_sample_rules,

@@ -1,11 +1,13 @@
 """The fluid: viscosity and density under pressure, and how fast it flows sheared; arrays in, arrays out."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.numerics.shapes import Array
-from tribodyn.tribology.oil import ROELANDS_PRESSURE
+from tribodyn.tribology.oil import ROELANDS_POLE, ROELANDS_PRESSURE
+from tribodyn.tribology.pressure_law import PressureLaw
 
 #: Dowson & Higginson (1966): ρ/ρ0 = 1 + 0.6e-9 p/(1 + 1.7e-9 p), p in Pa.
 DENSITY_RISE, DENSITY_SATURATION = 0.6e-9, 1.7e-9
@@ -20,6 +22,13 @@ class Fluid(NamedTuple):
     pressure_viscosity: float  # α, d ln η/dp at ambient pressure, 1/Pa
     viscosity_pressure_index: float = 1.0  # z of Roelands' law; 1 is Barus' law, ln(η/η0) = α p
     compressible: bool = True  # whether density follows Dowson & Higginson; else it is constant
+    #: takes the place of Roelands' law; `pressure_viscosity` is then its α*
+    law: PressureLaw | None = None
+
+    def softened(self, share: float) -> "Fluid":
+        """The fluid with a share of its pressure-viscosity coefficient."""
+        law = self.law.softened(share) if self.law is not None else None
+        return self._replace(pressure_viscosity=share * self.pressure_viscosity, law=law)
 
 
 def log_viscosity(pressure: Array, fluid: Fluid) -> tuple[Array, Array]:
@@ -28,7 +37,9 @@ def log_viscosity(pressure: Array, fluid: Fluid) -> tuple[Array, Array]:
     Roelands: ln(η/η0) = α p_r/z [(1 + p/p_r)^z − 1], whose slope at p = 0 is α for every z.
     """
     z = fluid.viscosity_pressure_index
-    if z == 1.0:
+    if fluid.law is not None:
+        exponent, slope, _ = fluid.law.rise(pressure, fluid.law.temperature)
+    elif z == 1.0:
         exponent = fluid.pressure_viscosity * pressure
         slope = np.full_like(pressure, fluid.pressure_viscosity)
     else:
@@ -46,8 +57,15 @@ def hot_log_viscosity(pressure: Array, rise: Array, fluid: Fluid, coefficient: f
 
     Roelands' law over pressure and temperature, ln(η/η0) = A [(1 + p/p_r)^z exp(−K_T Θ/A) − 1] with
     A = α p_r/z: the coefficient K_T = −d ln η/dT at ambient pressure grows with pressure, and no heat thins
-    the oil below exp(−A). Barus' law: ln(η/η0) = α p − K_T Θ.
+    the oil below exp(−A). Barus' law: ln(η/η0) = α p − K_T Θ. With a `PressureLaw` this holds of ambient
+    pressure, A = ln η0 + 9.67, and its rise at the higher temperature is added.
     """
+    if fluid.law is not None:
+        hotter, _, by_heat = fluid.law.rise(pressure, fluid.law.temperature + rise)
+        pole = math.log(fluid.viscosity) + ROELANDS_POLE
+        thinner = np.exp(-coefficient / pole * rise)
+        found = np.clip(hotter, 0.0, MAXIMUM_LOG_VISCOSITY) + pole * (thinner - 1.0)
+        return found, by_heat - coefficient * thinner
     cold, _ = log_viscosity(pressure, fluid)
     if fluid.viscosity_pressure_index == 1.0 or fluid.pressure_viscosity == 0.0:
         return cold - coefficient * rise, np.full_like(cold + rise, -coefficient)

@@ -173,12 +173,11 @@ def _continued(
     state: FilmState, reduced: Reduced, grid: FilmGrid, closure: FlowCorrection
 ) -> tuple[FilmState, int, float]:
     """Raise the pressure-viscosity coefficient from a part of it, in steps that Newton's method takes."""
-    whole = reduced.fluid.pressure_viscosity
     done, way, total, imbalance = 0.0, 0.5, 0, math.nan
     while way >= _SHORTEST_WAY and done < 1.0:
         share = min(done + way, 1.0)
-        fluid = reduced.fluid._replace(pressure_viscosity=share * whole)
-        found, steps, imbalance = converged(state, reduced._replace(fluid=fluid), grid, closure)
+        softer = reduced._replace(fluid=reduced.fluid.softened(share))
+        found, steps, imbalance = converged(state, softer, grid, closure)
         total += steps
         if imbalance <= TOLERANCE:
             state, done, way = found, share, 2.0 * way

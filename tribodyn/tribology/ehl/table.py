@@ -16,20 +16,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.errors import InputError, SimulationError
+from tribodyn.errors import SimulationError
 from tribodyn.numerics import child
 from tribodyn.numerics.cache import arrays_kept_or_made
-from tribodyn.numerics.elementary import is_jax
 from tribodyn.numerics.shapes import Array
 from tribodyn.numerics.sources import digest_of
 from tribodyn.numerics.work import steps, usable_cores
-from tribodyn.tribology.contact import DutyRange, hertz_half_width
+from tribodyn.tribology.contact import DUTY_LOADS, DutyRange, hertz_half_width
 from tribodyn.tribology.ehl.coupled import solve_coupled
-from tribodyn.tribology.ehl.fluid import Fluid, Rheology
-from tribodyn.tribology.ehl.heat import HeatProperties
 from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, most_of_film
+from tribodyn.tribology.ehl.of_case import Contact, contact_of, friction_band
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.law import LawInput
 
 if TYPE_CHECKING:
@@ -42,18 +39,8 @@ STEP = 0.12
 BOXED = 6
 #: Departures from the path that vibrations make: of ln curvature and of ln slide-to-roll ratio.
 _BESIDE = (0.02, 0.1)
-#: Contacts that a process of its own is worth.
-_WORTH = 40
-
-
-class Contact(NamedTuple):
-    """What is the same in all contacts of a table; numbers alone, so that it has a hash."""
-
-    fluid: Fluid
-    effective_modulus: float
-    roughness: Roughness
-    rheology: Rheology
-    thermal: HeatProperties
+#: Contacts that a process of its own is worth; places along a path that the band of friction is taken over.
+_WORTH, _BAND = 40, 5
 
 
 def spread(duty: DutyRange, count: int) -> tuple[Array, Array]:
@@ -183,6 +170,14 @@ class ContactTable(NamedTuple):
     film_error: float
     friction_error: float
     solved: float
+    #: friction_low, friction_high: factors on the friction coefficient, of the band of an estimated viscosity
+    friction_low: float = 1.0
+    friction_high: float = 1.0
+    #: whether the viscosity at high pressure is no estimate, 1 or 0; pressure up to which it was measured,
+    #: Pa; share of the temperatures' limit, at least 1 inside
+    measured: float = 1.0
+    pressure_limit: float = math.inf
+    temperature_share: float = 1.0
 
 
 @lru_cache(maxsize=16)
@@ -210,7 +205,16 @@ def _made(contact: Contact, duty: DutyRange) -> ContactTable:
         if max(found.film_error, found.friction_error) <= WANTED:
             break
     assert found is not None
-    return found
+    low, high = friction_band(contact, _along(duty))
+    return found._replace(friction_low=low, friction_high=high)
+
+
+def _along(duty: DutyRange) -> list[tuple[float, float, float, float]]:
+    """Line load, entrainment, radius and sliding speed along a path, at its highest nominal load."""
+    whole = duty.line_load[1] / DUTY_LOADS[1]
+    middle = [tuple(math.sqrt(low * high) for low, high in duty[1:4])]
+    places = duty.places[:: max(1, len(duty.places) // _BAND)] or middle
+    return [(whole, speed, 1.0 / curvature, ratio * speed) for speed, curvature, ratio in places]
 
 
 def _fitted(
@@ -249,7 +253,10 @@ def _fitted(
     errors = (float(np.quantile(deviation[compared], 0.95)) for deviation in deviations)
     numbers = [float(number) for pair in zip(*box, strict=True) for number in pair]
     return ContactTable._make(
-        [*numbers, *coefficients, limit, floor, rubbing, *errors, float(np.count_nonzero(good))]
+        [
+            *(*numbers, *coefficients, limit, floor, rubbing, *errors, float(np.count_nonzero(good))),
+            *(1.0, 1.0, *contact.viscosity_limits),
+        ]
     )
 
 
@@ -259,33 +266,6 @@ def _solved(powers: Array, known: Array, weight: Array) -> Array:
     system = np.concatenate([powers * weight[:, None], stiff])
     right = np.concatenate([known * weight, np.zeros(len(TERMS))])
     return np.ascontiguousarray(np.linalg.lstsq(system, right, rcond=None)[0])
-
-
-def contact_of(given: LawInput) -> Contact:
-    """Return what all contacts of a case have in common, from its surfaces, oil and materials.
-
-    The film slips at the oil's limiting shear stress Λ p beside `Rheology`'s floor. Raises InputError if a
-    derivative by one of these numbers is requested: a table is of one oil and one pair of surfaces.
-    """
-    surfaces, oil = given.surfaces, given.lubricant
-    numbers = (
-        *(oil.inlet_viscosity, oil.pressure_viscosity, oil.viscosity_pressure_index, oil.asperity_friction),
-        *(oil.limiting_shear_coefficient, oil.temperature_viscosity),
-        *(surfaces.effective_modulus, surfaces.roughness),
-        *(surfaces.pinion_conductivity, surfaces.gear_conductivity),
-        *(surfaces.pinion_heat_capacity, surfaces.gear_heat_capacity),
-    )
-    if any(is_jax(number) for number in numbers):
-        remedy = "use a law of formulas, or differences"
-        raise InputError("film.law", '"solved"', "has no derivative by oil or surfaces", remedy)
-    eta, alpha, index, rubbing, limit, hot, modulus, height, k_1, k_2, c_1, c_2 = map(float, numbers)
-    return Contact(
-        Fluid(eta, alpha, min(index, 1.0)),
-        modulus,
-        Roughness(max(height, 1e-9), friction=rubbing),
-        Rheology("limiting", limiting_coefficient=limit),
-        HeatProperties(hot, solid_conductivity=(k_1, k_2), solid_heat_capacity=(c_1, c_2)),
-    )
 
 
 def table_of(given: LawInput) -> ContactTable:

@@ -1,7 +1,7 @@
 """Friction of the solved contact, from a table made before the run over the duty of the mesh."""
 
 from tribodyn.numerics.elementary import law
-from tribodyn.tribology.contact import hertz_half_width
+from tribodyn.tribology.contact import hertz_half_width, hertz_pressure
 from tribodyn.tribology.ehl.lookup import (
     LIMITS,
     RANGE,
@@ -28,18 +28,32 @@ def solved_friction(contact, film, surfaces, parameters):
 
 @law
 def in_its_table(contact, film, surfaces, parameters):
-    """Shares of load and entrainment allowed by the table."""
-    return in_table(contact, surfaces, parameters)
+    """Shares of load and entrainment allowed by the table, and of what the viscosity was measured for."""
+    pressure = hertz_pressure(contact.line_load, contact.curvature, surfaces.effective_modulus)
+    return (
+        *in_table(contact, surfaces, parameters),
+        parameters.measured,
+        parameters.pressure_limit / pressure,
+        parameters.temperature_share,
+    )
 
+
+#: What an oil's viscosity must be measured for, that a friction solved with it is no extrapolation.
+MEASURED = (
+    "viscosity measured at high pressure, not estimated",
+    "p_H ≤ pressure of the measured viscosity",
+    "oil within the measured temperatures",
+)
 
 LAW = FrictionLaw(
     "solved",
     "mixed thermal contact at the limiting shear stress, solved before the run over the duty of the mesh",
     solved_friction,
     solved_table,
-    range=RANGE,
-    limits=LIMITS,
+    range=f"{RANGE}; viscosity measured at pressure and temperature of the contact",
+    limits=(*LIMITS, *MEASURED),
     in_range=in_its_table,
     table_error=lambda table: table.friction_error,
+    table_band=lambda table: (table.friction_low, table.friction_high),
     film="solved",
 )

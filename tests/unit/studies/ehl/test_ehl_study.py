@@ -11,6 +11,7 @@ from tribodyn.geometry.families import family
 from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.along_path import jump_width, prepare, way
 from tribodyn.studies.ehl.judgement import case_for
+from tribodyn.studies.ehl.run import quantities_of
 from tribodyn.studies.protocol.load import load_scenario
 
 
@@ -181,3 +182,34 @@ def test_jumps_of_the_load_are_spread(monkeypatch):
     jump = np.max(np.abs(np.diff(sharp[1])))
     steepest = np.max(np.abs(np.diff(over.table[1]) / np.diff(over.table[0])))
     assert steepest == pytest.approx(2.0 * jump / width, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("lubricant", "temperature", "torque", "verdict"),
+    [
+        ("iso-vg-220-pao", "80 degC", "200 N*m", "laws extrapolated"),
+        ("squalane", "80 degC", "200 N*m", "inside the model"),
+        ("squalane", "80 degC", "900 N*m", "laws extrapolated"),
+        ("squalane", "110 degC", "200 N*m", "laws extrapolated"),
+    ],
+)
+def test_an_oil_estimated_or_beyond_its_measurement_is_extrapolated(lubricant, temperature, torque, verdict):
+    """With the band of its friction where it is estimated."""
+    oil = {"lubricant": lubricant, "operating.oil_temperature": temperature}
+    case = td.scenario("ehl-crc-23-47", oil | {"operating.gear_torque": torque, "output.positions": 4})
+    found = quantities_of(replace(case, operating=replace(case.operating, pinion_speed=100.0)))
+    assert found["trust"] == verdict
+    assert ("viscosity_unmeasured" in found.get("trust_reasons", {})) == (verdict != "inside the model")
+    assert ("type" in found["viscosity_origin"]) == ("friction_band_low" in found) == (lubricant[:3] == "iso")
+    if lubricant[:3] == "iso":
+        assert found["friction_band_low"] < 1.0 <= found["friction_band_high"]
+
+
+def test_superfinished_flanks_rub_less_than_hobbed_ones():
+    means = []
+    for finish in ("superfinished", "ground", "hobbed"):
+        changes = {"drive.finish": finish, "drive.roughness": "0.8 um", "output.positions": 4}
+        found = quantities_of(td.scenario("ehl-crc-23-47", changes))
+        means.append(found["asperity_load_ratio_max"])
+    assert sorted(means) == means
+    assert means[2] > 2.0 * means[0]

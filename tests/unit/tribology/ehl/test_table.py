@@ -292,7 +292,7 @@ def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
     zero = np.zeros(len(TERMS))
     for share, clipped in ((-0.4, 0.0), (0.3, 0.3), (1.7, 1.0)):
         constant = zero + share * (np.arange(len(TERMS)) == TERMS.index((0, 0, 0, 0)))
-        table = tables.ContactTable._make([*numbers, zero, zero, constant, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0])
+        table = tables.ContactTable(*numbers, zero, zero, constant, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0)
         seen = local_contact(3e5, 110.0, 0.15, 0.06, 0.18, 0.12)
         assert solved_film(seen, LIU_NI.surfaces, table)[2] == clipped
         mu = solved_friction(seen, None, LIU_NI.surfaces, table)
@@ -317,7 +317,12 @@ def test_a_contact_of_a_table_is_that_of_the_case():
         pinion_conductivity=51.0, gear_conductivity=37.0, pinion_heat_capacity=3.4e6, gear_heat_capacity=2.9e6
     )
     found = tables.contact_of(LIU_NI._replace(surfaces=surfaces))
-    assert found.fluid == (oil.inlet_viscosity, oil.pressure_viscosity, oil.viscosity_pressure_index, True)
+    assert found.fluid[:4] == (
+        oil.inlet_viscosity,
+        oil.pressure_viscosity,
+        oil.viscosity_pressure_index,
+        True,
+    )
     assert found.effective_modulus == surfaces.effective_modulus
     assert (found.roughness.height, found.roughness.friction) == (3e-7, oil.asperity_friction)
     assert found.rheology.law == "limiting"

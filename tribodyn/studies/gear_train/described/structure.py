@@ -282,7 +282,8 @@ def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, dr
     }
     if isinstance(table, BareMesh):
         return DriveTable.model_construct(family="involute", **common)
-    own = {name: getattr(table, name) for name in ("family", "rack", "shape", "roughness", "helix_angle")}
+    flanks = "roughness", "finish", "asperity_density", "asperity_slope"
+    own = {name: getattr(table, name) for name in ("family", "rack", "shape", "helix_angle", *flanks)}
     distance: Printed | None = table.centre_distance
     at_ring = isinstance(table, PlanetaryStage) and (pinion.internal or gear.internal)
     if distance is None and at_ring and family(table.family).involute:

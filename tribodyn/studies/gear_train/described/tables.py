@@ -14,11 +14,14 @@ from tribodyn.scenario.tables.duty import Power, Speed
 from tribodyn.scenario.tables.laws import LawTable
 from tribodyn.scenario.tables.model_files import (
     Angle,
+    AsperityDensity,
+    AsperitySlope,
     CentreDistance,
     CompositeRoughness,
     Described,
     FaceWidth,
     FamilyKeys,
+    Finish,
     Gear,
     HelixAngle,
     Inertia,
@@ -88,6 +91,9 @@ class StageTeeth(Table):
     rack: Rack = None
     shape: FamilyKeys = None
     roughness: CompositeRoughness = None
+    finish: Finish = None
+    asperity_density: AsperityDensity = None
+    asperity_slope: AsperitySlope = None
     damping_ratio: NotNegative | None = Field(None, description="default: that of [mesh]")
 
 

@@ -11,7 +11,7 @@ from tribodyn.studies.gears.case import GearCase
 #: Fields of a case that its table does not depend on. Whatever is not named here is taken to matter.
 _NOT_IN_TABLE = (
     *("title", "name", "toml", "sha256"),
-    *("roughness", "mean_roughness", "lubricant", "bearings", "operating"),
+    *("roughness", "mean_roughness", "asperities", "lubricant", "bearings", "operating"),
     *("film", "friction", "temperature", "losses", "solver", "output", "quality", "supports"),
 )
 _MESH_NOT_IN_TABLE = {"damping_ratio": 0.0, "formulation": "classical", "contact_width": 0.0}
