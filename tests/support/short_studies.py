@@ -33,7 +33,7 @@ SHORT: dict[str, dict[str, Any]] = {
         "drive.pinion.profile_shift": 0.0,
         "drive.gear.profile_shift": 0.0,
         "drive.centre_distance": "81 mm",
-        "drive.material": "steel-liu-ni-2022",
+        "drive.material": "16MnCr5",
         **{f"drive.{side}.face_width": "26.7 mm" for side in ("pinion", "gear")},
         "drive.pinion.bore_radius": "12 mm",
         "drive.gear.bore_radius": "25 mm",

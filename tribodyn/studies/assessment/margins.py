@@ -174,26 +174,28 @@ def margins_and_limits(
     found: Standard | None,
     capacity: Capacity | None,
     strength: Strength,
+    beside: Mapping[str, float],
     local: LocalValues,
     quantities: Mapping[str, Any],
     spread: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:
     """Return ``margins`` by ``iso`` and ``simulated``, ``load_factors`` and ``limits``; temperatures in °C.
 
-    The worse of both safeties is compared with a limit. One whose load stage the oil lacks is
-    left out. Where a quantity scatters over samples of deviations (`spread`, by the names of the quantities),
-    its 95 % is compared too, as ``p95`` and ``kept_p95``.
+    The worse of both safeties is compared with a limit; `beside` are the simulation's against pitting and
+    bending, and its life. One whose load stage the oil lacks is left out. Where a quantity scatters over
+    samples of deviations (`spread`, by the names of the quantities), its 95 % is compared too, as ``p95`` and
+    ``kept_p95``.
     """
     by_standard = margins_by_standard(found, strength, case.oil_temperature) if found else {}
     rated = safeties(capacity)
-    simulated = _by_simulation(case, strength, local)
+    simulated = _by_simulation(case, strength, local) | dict(beside)
     values = {
         "scuffing_flash": worst(by_standard.get("S_B"), simulated.get("S_B")),
         "scuffing_integral": by_standard.get("S_intS", math.nan),
         "micropitting": worst(by_standard.get("S_lambda"), simulated.get("S_lambda")),
-        "pitting": rated.get("S_H", math.nan),
-        "bending": rated.get("S_F", math.nan),
-        "life": rated.get("life", math.nan),
+        "pitting": worst(rated.get("S_H"), simulated.get("S_H")),
+        "bending": worst(rated.get("S_F"), simulated.get("S_F")),
+        "life": worst(rated.get("life"), simulated.get("life")),
         "dynamic_factor": quantities["dynamic_factor"],
         "hertz_pressure": float(np.nanmax(local.films.pressure)),
         "root_tension": max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"]),

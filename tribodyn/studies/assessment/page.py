@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
 from tribodyn.post.page.page import table
@@ -27,7 +28,8 @@ from tribodyn.studies.protocol import tasks
 _RPM = 30.0 / math.pi
 #: What stands in ``iso`` and ``simulated`` beside each other, in the spread, and in the margins.
 _COMPARED = quantities(
-    *("theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss")
+    *("theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss"),
+    *("sigma_H", "sigma_F", "S_H", "S_F"),
 )
 _SCATTERED = quantities(
     *("K_v", "K_Halpha", "K_Hbeta"),
@@ -55,7 +57,8 @@ def page(record: Record) -> str:
         '<div class="columns">',
         f"<div>{limits_table(summary)}{_scatter(summary)}",
         f"{listed('Assumed', summary.get('assumed', {}))}</div>",
-        f"<div>{_by_standard(summary)}{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
+        f"<div>{_by_standard(summary)}{_reasons(summary)}",
+        f"{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
         f'<div class="pictures"><p>{picture}</p></div>',
         '<div class="break"></div>',
@@ -120,7 +123,11 @@ def _tiles(summary: Mapping[str, Any]) -> str:
 def _by_standard(summary: Mapping[str, Any]) -> str:
     iso, simulated = summary.get("iso", {}), summary["simulated"]
     of_iso, of_simulation = (summary["margins"].get(part, {}) for part in ("iso", "simulated"))
-    compared = [(quantity, iso, simulated) for quantity in _COMPARED] + [
+    compared = [
+        (quantity, iso, simulated)
+        for quantity in _COMPARED
+        if quantity.name in iso or quantity.name in simulated
+    ] + [
         (quantity, of_iso, of_simulation)
         for quantity in _MARGINS
         if quantity.name in of_iso or quantity.name in of_simulation
@@ -130,6 +137,12 @@ def _by_standard(summary: Mapping[str, Any]) -> str:
         for quantity, *parts in compared
     ]
     return numbers_table("Standard and simulation", ("", "ISO 6336", "simulated", ""), rows)
+
+
+def _reasons(summary: Mapping[str, Any]) -> str:
+    """Why both part, where they do."""
+    found = summary.get("reasons", {})
+    return listed("Where standard and simulation part by more than 15 %", found) if found else ""
 
 
 def _scatter(summary: Mapping[str, Any]) -> str:
@@ -149,6 +162,8 @@ def _scatter(summary: Mapping[str, Any]) -> str:
 
 def _shown(value: Any, quantity: Quantity) -> str:
     if isinstance(value, Mapping):
+        if "worst" not in value:  # of pinion and gear
+            return " / ".join(_shown(value[side], quantity) for side in SIDES)
         value = value["worst"]
     return "–" if value is None else quantity.written(float(value))
 

@@ -21,6 +21,7 @@ from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import LAYOUT, AssessmentCase
 from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_and_limits, simulated_part
 from tribodyn.studies.assessment.parts import Part
+from tribodyn.studies.assessment.reasons import compared
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks
@@ -110,16 +111,20 @@ def assessed(
     done = tasks.results(parts.tasks_of(taking_part), folder, progress, force=force)
     found: dict[str, Any] = {}
     along: dict[str, Any] = {}
+    motion: dict[str, Any] = {}
     spread: dict[str, dict[str, float]] = {}
     for answer in parts.answers(taking_part, request, done):
         found |= answer.quantities
         along |= answer.along
+        motion |= answer.motion
         spread |= {name: _scatter(values) for name, values in answer.spread.items()}
     local = local_of(case, assembly, along, found)
     iso, by_standard, capacity = {}, None, None
     if assembly.family.involute:
         iso, by_standard, capacity = _by_standard(case, assembly, found["face_load_factor"])
     simulated = simulated_part(case, assembly, local, found, spread)
+    factors = by_standard.factors if by_standard else None
+    beside = compared(case, assembly, (along, motion), capacity, factors, found)
     summary: dict[str, Any] = {
         "duty": {
             "pinion_speed": case.operating.pinion_speed,
@@ -132,7 +137,8 @@ def assessed(
         **({"transverse_load_factor_method_b": by_standard.factors.transverse_b} if by_standard else {}),
         **safeties(capacity),
         "iso": iso,
-        "simulated": simulated,
+        "simulated": simulated | beside.named,
+        "reasons": numbered(beside.parted),
         **bearing_part(case, case.lubricant),
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
         **{f"{name}_spread": [values[part] for part in SPREAD] for name, values in spread.items()},
@@ -141,6 +147,7 @@ def assessed(
             by_standard,
             capacity,
             strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor),
+            beside.least,
             local,
             found,
             spread,
@@ -264,12 +271,16 @@ def _of_models(table: Mapping[str, Any]) -> Iterator[str]:
 def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, TaskResult]) -> list[str]:
     """Where laws are used outside their range, and what could not be computed."""
     remarks, compared = [], []
+    # of a law that is needed the parts that need it say where it is used outside its range
+    needed = [task.name for _, task in parts.tasks_of(taking_part) if task.needed]
+    laws = {done[name].summary.get("friction_law") for name in needed}
     for study, task in parts.tasks_of(taking_part):
         result = done[task.name]
         remarks += result.failures
         if result.summary and not task.needed:
             inside = result.summary.get("friction_in_range_fraction")
-            compared += [task.about] if inside is not None and inside < 1.0 else []
+            own = result.summary.get("friction_law") not in laws
+            compared += [task.about] if own and inside is not None and inside < 1.0 else []
         elif result.summary:
             with Record(result.path) as record:
                 sentences = study.sentences(record)

@@ -6,10 +6,16 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.record.reader import Record
 from tribodyn.studies.gear_pair import STUDY
 from tribodyn.studies.protocol.part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
 
-_TASK, _SAMPLES = "steady-states", "steady-states-samples"
+_TASK, _SAMPLES, _AT_DUTY = "steady-states", "steady-states-samples", "steady-duty"
+#: Mesh cycles until the motion at the duty counts as steady, and samples of each, for vibrations of some ten
+#: times the mesh frequency.
+_CYCLES, _RESOLVED = 60, 80
+#: Cycles that its loads are of where they do not repeat from one to the next; change that counts as none.
+_LAST, _REPEATED = 4, 1e-3
 #: Slices of the face of the samples, which are inclined to each other: dynamic factors within 0.02 % of 21.
 _SLICES = 11
 #: Rise of the dynamic factor over both neighbours' minimum from which a maximum counts as a resonance.
@@ -37,6 +43,10 @@ def tasks(request: Request) -> tuple[Task, ...]:
     }
     speeds = [f"{speed!r} rad/s" for speed in request.speeds]
     found = [Task(_TASK, "steady states over the speed", scenario, "operating.pinion_speed", speeds)]
+    over_time = {"solver": {"cycles": _CYCLES}, "output": {"samples_per_cycle": _RESOLVED}}
+    found.append(
+        Task(_AT_DUTY, "loads of the teeth over time at the duty", scenario | over_time, needed=False)
+    )
     if request.samples:
         sliced = scenario | {"mesh": {"slices": _SLICES, **scenario["mesh"]}}
         numbers = [str(number) for number in range(1, request.samples + 1)]
@@ -81,7 +91,24 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     )
     samples = done[_SAMPLES].rows if _SAMPLES in done else {}
     names = ("dynamic_factor", "transmission_error_peak_to_peak") if samples else ()
-    return Findings(quantities, curves=(curve,), spread={name: samples[name] for name in names})
+    at_duty_loads = _loads(done[_AT_DUTY]) if done[_AT_DUTY].summary else {}
+    spread = {name: samples[name] for name in names}
+    return Findings(quantities, curves=(curve,), spread=spread, motion=at_duty_loads)
+
+
+def _loads(run: TaskResult) -> dict[str, np.ndarray]:
+    """Roll angles (position, pair) and loads (cycle, position, pair) of the driving flanks, last cycles."""
+    with Record(run.path) as record:
+        table, front = record.mesh_cycle, [n for n, pair in enumerate(record.pairs) if pair <= 1]
+        loads = record["normal_load"][-1 - _LAST * _RESOLVED : -1][:, front]
+        ages = np.array([1 - record.pairs[n] for n in front])
+    loads = loads.reshape(_LAST, _RESOLVED, len(front))
+    if np.max(np.abs(loads[-1] - loads[-2])) < _REPEATED * np.max(loads):
+        loads = loads[-1:]
+    phase = np.arange(_RESOLVED) / _RESOLVED
+    pitch = 2.0 * math.pi / float(table["pinion_teeth"])
+    roll = float(table["roll_start"]) + pitch * (phase[:, None] + ages)
+    return {"roll_angle": roll, "normal_load": loads}
 
 
 def maxima(values: np.ndarray) -> list[int]:

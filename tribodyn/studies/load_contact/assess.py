@@ -72,6 +72,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
     with Record(done[_TASK].path) as record:
         roll, load = over_roll(record, record["normal_load"])
         _, over_face = over_roll(record, record["hertz_pressure"])
+        _, line_load = over_roll(record, record["line_load"])
         # largest of all sections while they pass a place of the path of contact
         behind = np.asarray(record["slice"]) * late(record)
         sections = (np.interp(roll + lag, roll, at) for lag, at in zip(behind, over_face.T, strict=True))
@@ -88,7 +89,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         shared = rows["shared_load_max"]
         factors = [transverse_load_factor(load, accurate) if np.isfinite(load) else load for load in shared]
         scattered["transverse_load_factor"] = np.array(factors)
-    along = {"roll_angle": roll, "normal_load": load, "hertz_pressure": pressure}
+    along = {"roll_angle": roll, "normal_load": load, "hertz_pressure": pressure, "line_load": line_load}
     curve = ReportCurve(
         "Loaded transmission error, peak to peak",
         "Torque on the gear (N m)",
