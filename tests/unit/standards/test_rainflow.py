@@ -1,6 +1,6 @@
 """Rain-flow counting beside the counts that ASTM E1049-85 prints for its example."""
 
-from collections import Counter
+from collections import defaultdict
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ EXAMPLE = (-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0)
 
 
 def counts(cycles: list[LoadCycle]) -> dict[float, float]:
-    found: Counter[float] = Counter()
+    found: dict[float, float] = defaultdict(float)
     for each in cycles:
         found[each.range] += each.share
     return dict(found)
