@@ -183,9 +183,9 @@ def _static_notch(metal: Metal, correction: float) -> float:
 _STRESS_RATIO = -1.2
 
 
-def _alternating(metal: Metal, correction: float) -> float:
-    """Y_M = 1/(1 − R (1 − M)/(1 + M)): how much less a root stands that is bent both ways: annex B."""
-    of_metal = {
+def mean_stress_influence(metal: Metal, correction: float) -> float:
+    """M of annex B, by how much less amplitude is endured per mean stress; of roots with so much Y_S."""
+    return {
         "case-hardened": 0.8 - 0.15 * correction,
         "induction-hardened": 0.7,
         "nitrided": 0.3,
@@ -197,7 +197,26 @@ def _alternating(metal: Metal, correction: float) -> float:
         "ductile-iron": 0.4,
         "grey-iron": 0.4,
     }[metal.treatment]
-    return 1.0 / (1.0 - _STRESS_RATIO * (1.0 - of_metal) / (1.0 + of_metal))
+
+
+def pulsating_stress(low: float, high: float, influence: float) -> float:
+    """Stress that pulsates from 0 (R = 0) with the damage of one between `low` and `high`, Pa.
+
+    Haigh's lines of equal damage: amplitude + M mean stress below R = low/high = 0, where it is
+    σ_high − σ_low (1 − M)/(1 + M), with σ_low = R σ_high that is σ_high/Y_M of annex B. In tension throughout
+    as in the FKM guideline: a third of M up to R = 0.5, amplitude alone from there on.
+    """
+    if low <= 0.0:
+        return high - low * (1.0 - influence) / (1.0 + influence)
+    third = influence / 3.0
+    if low < 0.5 * high:
+        return (high - low + third * (high + low)) / (1.0 + third)
+    return (high - low) * (1.0 + influence) / (1.0 + third)
+
+
+def _alternating(metal: Metal, correction: float) -> float:
+    """Y_M = 1/(1 − R (1 − M)/(1 + M)): how much less a root stands that is bent both ways: annex B."""
+    return 1.0 / pulsating_stress(_STRESS_RATIO, 1.0, mean_stress_influence(metal, correction))
 
 
 def permissible(metal: Metal, factors: Relative) -> StressCurve:

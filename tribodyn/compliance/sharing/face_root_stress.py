@@ -31,6 +31,22 @@ def root_stress(
     Of helical teeth in their elastic section (`section`), under the load's part in it; slices (last axis of
     `faces`) are touched at their own radii.
     """
+    tension, compression = np.empty((2, *line_load.shape)), np.empty((2, *line_load.shape))
+    for body, rows, stress in root_stress_fields(flexible, faces, line_load, coupled):
+        tension[body, rows], compression[body, rows] = np.max(stress, axis=0), np.min(stress, axis=0)
+    return tension, compression
+
+
+def root_stress_fields(
+    flexible: PairFlexibility,
+    faces: ObliqueFaces,
+    line_load: Float[Array, "position pair slice"],
+    coupled: bool = True,
+) -> Iterator[tuple[int, slice, Float[Array, "fillet_point position pair slice"]]]:
+    """Stress at all points of both fillets, Pa: body, positions and field, a batch of positions at a time.
+
+    See `root_stress`, which takes the extremes of these.
+    """
     assembly = flexible.assembly
     positions, _, slices = line_load.shape
     length, section = flexible.width * length_per_width(assembly), elastic_section(assembly)
@@ -38,7 +54,6 @@ def root_stress(
     basis = modes(len(wave_number), slices)
     slice_load = line_load * (flexible.width / slices) * faces.within
     line_load = line_load * faces.within / length_per_width(assembly)
-    tension, compression = np.empty((2, *line_load.shape)), np.empty((2, *line_load.shape))
     reaches = faces.geometry.pinion_radius, faces.geometry.gear_radius
     # on the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other
     for body, (side, gear, material, touched, sign) in enumerate(
@@ -58,8 +73,7 @@ def root_stress(
                 along, at_ends = weights
                 counted = [_counted(slice_load[rows], along[parity], at_ends[rows]) for parity in (0, 1)]
                 stress += _of_free_ends(ends, along, counted, sign)
-            tension[body, rows], compression[body, rows] = np.max(stress, axis=0), np.min(stress, axis=0)
-    return tension, compression
+            yield body, rows, stress
 
 
 def _counted(

@@ -116,6 +116,18 @@ def load_factor(settings: AssessmentTable, quantities: Mapping[str, Any]) -> flo
     return settings.application_factor * (settings.mesh_load_factor or 1.0) * dynamic * face
 
 
+def largest_stresses(
+    case: AssessmentCase, local: LocalValues, quantities: Mapping[str, Any]
+) -> dict[str, float]:
+    """Largest pressure on the flanks and tension in the roots, slow rotation times `load_factor`, Pa.
+
+    By the names of the safeties that go by them.
+    """
+    root = max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"])
+    raised = load_factor(case.settings, quantities)
+    return {"S_H": float(np.nanmax(local.films.pressure)), "S_F": raised * float(root)}
+
+
 def simulated_part(
     case: AssessmentCase,
     assembly: Assembly,
@@ -162,23 +174,25 @@ def margins_and_limits(
     found: Standard | None,
     capacity: Capacity | None,
     strength: Strength,
+    beside: Mapping[str, float],
     local: LocalValues,
     quantities: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return ``margins`` by ``iso`` and ``simulated``, ``load_factors`` and ``limits``; temperatures in °C.
 
-    The worse of both safeties is compared with a limit. One whose load stage the oil lacks is left out.
+    The worse of both safeties is compared with a limit; `beside` are the simulation's against pitting and
+    bending, and its life. One whose load stage the oil lacks is left out.
     """
     by_standard = margins_by_standard(found, strength, case.oil_temperature) if found else {}
     rated = safeties(capacity)
-    simulated = _by_simulation(case, strength, local)
+    simulated = _by_simulation(case, strength, local) | dict(beside)
     values = {
         "scuffing_flash": worst(by_standard.get("S_B"), simulated.get("S_B")),
         "scuffing_integral": by_standard.get("S_intS", math.nan),
         "micropitting": worst(by_standard.get("S_lambda"), simulated.get("S_lambda")),
-        "pitting": rated.get("S_H", math.nan),
-        "bending": rated.get("S_F", math.nan),
-        "life": rated.get("life", math.nan),
+        "pitting": worst(rated.get("S_H"), simulated.get("S_H")),
+        "bending": worst(rated.get("S_F"), simulated.get("S_F")),
+        "life": worst(rated.get("life"), simulated.get("life")),
         "dynamic_factor": quantities["dynamic_factor"],
         "hertz_pressure": float(np.nanmax(local.films.pressure)),
         "root_tension": max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"]),

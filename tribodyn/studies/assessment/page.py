@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.rack_section import as_written
 from tribodyn.post.page.page import table
@@ -22,7 +23,6 @@ from tribodyn.studies.assessment.report import verdict
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.gears.rated import first_page
 from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
-from tribodyn.studies.gears.rated.limits import least
 from tribodyn.studies.gears.rated.said import unit_of
 from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS
 from tribodyn.studies.pages import loaded_again
@@ -33,7 +33,8 @@ _RPM = 30.0 / math.pi
 _ENDS = ("p5", "p95")
 #: What stands in ``iso`` and ``simulated`` beside each other, in the spread, and in the margins.
 _COMPARED = quantities(
-    *("theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss")
+    *("theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss"),
+    *("sigma_H", "sigma_F", "S_H", "S_F"),
 )
 _SCATTERED = quantities("K_Hbeta", "transmission_error_peak_to_peak")
 _MARGINS = quantities("theta_B", "S_H", "S_F", "S_B", "S_intS", "S_lambda")
@@ -197,6 +198,12 @@ def _between(found: Mapping[str, float] | None, quantity: Quantity) -> str:
     return " to ".join(ends) if ends[0] != ends[1] else ""
 
 
+def _reasons(summary: Mapping[str, Any]) -> str:
+    """Why both part, where they do."""
+    found = summary.get("reasons", {})
+    return listed("Where standard and simulation part by more than 15 %", found) if found else ""
+
+
 def _scatter(summary: Mapping[str, Any]) -> str:
     """Quantities over the samples that stand nowhere else, where there are any."""
     spread = summary["simulated"].get("spread", {})
@@ -214,7 +221,9 @@ def _scatter(summary: Mapping[str, Any]) -> str:
 
 def _shown(value: Any, quantity: Quantity) -> str:
     if isinstance(value, Mapping):
-        value = value["worst"] if "worst" in value else least(value)
+        if "worst" not in value:  # of pinion and gear
+            return " / ".join(_shown(value[side], quantity) for side in SIDES)
+        value = value["worst"]
     return "–" if value is None else quantity.written(float(value))
 
 

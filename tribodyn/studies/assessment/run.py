@@ -2,9 +2,11 @@
 
 import tomllib
 from collections.abc import Collection, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -19,8 +21,15 @@ from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import LAYOUT, AssessmentCase
-from tribodyn.studies.assessment.margins import LocalValues, local_of, margins_and_limits, simulated_part
+from tribodyn.studies.assessment.margins import (
+    LocalValues,
+    largest_stresses,
+    local_of,
+    margins_and_limits,
+    simulated_part,
+)
 from tribodyn.studies.assessment.parts import Part
+from tribodyn.studies.assessment.reasons import compared
 from tribodyn.studies.assessment.scatter import Conclusion, put_in, samples_of
 from tribodyn.studies.assessment.unknowns import described
 from tribodyn.studies.gears.check import sheet_tables, with_oil
@@ -111,12 +120,15 @@ def assessed(
     done = tasks.results(parts.tasks_of(taking_part), folder, progress, force=force)
     found: dict[str, Any] = {}
     along: dict[str, Any] = {}
+    motion: dict[str, Any] = {}
     rows: dict[str, np.ndarray] = {}
     for answer in parts.answers(taking_part, request, done):
         found |= answer.quantities
         along |= answer.along
+        motion |= answer.motion
         rows |= answer.spread
-    local, by_standard, capacity, iso, simulated, judged = concluded(case, along, found)
+    outcome = concluded(case, along, found, motion)
+    local, by_standard = outcome.local, outcome.by_standard
     summary: dict[str, Any] = {
         "duty": {
             "pinion_speed": case.operating.pinion_speed,
@@ -125,17 +137,19 @@ def assessed(
         },
         **found,
         "contact_temperature_max": float(local.films.bulk_temperature + np.nanmax(local.films.flash_rise)),
-        "specific_film_min": simulated["lambda_GF"]["worst"],
+        "specific_film_min": outcome.simulated["lambda_GF"]["worst"],
         **({"transverse_load_factor_method_b": by_standard.factors.transverse_b} if by_standard else {}),
-        **safeties(capacity),
-        "iso": iso,
-        "simulated": simulated,
+        **safeties(outcome.capacity),
+        "iso": outcome.iso,
+        "simulated": outcome.simulated,
+        "reasons": numbered(outcome.parted),
         **bearing_part(case, case.lubricant),
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
-        **judged,
+        **outcome.judged,
     }
     if rows:
-        samples = samples_of(case, parts.draws_of(case), rows, (along, found), concluded)
+        like = partial(concluded, accurate=outcome)
+        samples = samples_of(case, parts.draws_of(case), rows, (along, found), like)
         summary = put_in(summary, samples)
     summary |= {
         "assumed": numbered(assumed(case, by_standard is not None)),
@@ -147,23 +161,38 @@ def assessed(
     return local, summary | {"units": units_of(summary)}
 
 
-def concluded(case: AssessmentCase, along: Mapping[str, Any], found: Mapping[str, Any]) -> Conclusion:
-    """Put together what the studies found of a case: arrays along the path, and quantities."""
+def concluded(
+    case: AssessmentCase,
+    along: Mapping[str, Any],
+    found: Mapping[str, Any],
+    motion: Mapping[str, Any] = MappingProxyType({}),
+    *,
+    accurate: Conclusion | None = None,
+) -> Conclusion:
+    """Put together what the studies found of a case: arrays along the path, quantities, loads in motion.
+
+    A sample has no loads in motion: its safeties of the simulation are those of `accurate` teeth, by how its
+    stresses are to theirs.
+    """
     assembly = assembled(case)
     local = local_of(case, assembly, along, found)
     iso, by_standard, capacity = {}, None, None
     if assembly.family.involute:
         iso, by_standard, capacity = _by_standard(case, assembly, found["face_load_factor"])
+    factors = by_standard.factors if by_standard else None
+    beside = compared(case, assembly, (along, motion), capacity, factors, found)
+    stresses = largest_stresses(case, local, found)
     judged = margins_and_limits(
         case,
         by_standard,
         capacity,
         strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor),
+        beside.least if accurate is None else accurate.safeties_under(stresses),
         local,
         found,
     )
-    simulated = simulated_part(case, assembly, local, found)
-    return Conclusion(local, by_standard, capacity, iso, simulated, judged)
+    simulated = simulated_part(case, assembly, local, found) | beside.named
+    return Conclusion(local, by_standard, capacity, iso, simulated, judged, stresses, beside.parted)
 
 
 def units_of(summary: Mapping[str, Any]) -> dict[str, str]:
@@ -271,12 +300,16 @@ def _of_models(table: Mapping[str, Any]) -> Iterator[str]:
 def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, TaskResult]) -> list[str]:
     """Where laws are used outside their range, and what could not be computed."""
     remarks, compared = [], []
+    # of a law that is needed the parts that need it say where it is used outside its range
+    needed = [task.name for _, task in parts.tasks_of(taking_part) if task.needed]
+    laws = {done[name].summary.get("friction_law") for name in needed}
     for study, task in parts.tasks_of(taking_part):
         result = done[task.name]
         remarks += result.failures
         if result.summary and not task.needed:
             inside = result.summary.get("friction_in_range_fraction")
-            compared += [task.about] if inside is not None and inside < 1.0 else []
+            own = result.summary.get("friction_law") not in laws
+            compared += [task.about] if own and inside is not None and inside < 1.0 else []
         elif result.summary:
             with Record(result.path) as record:
                 sentences = study.sentences(record)

@@ -33,6 +33,13 @@ class Conclusion(NamedTuple):
     iso: dict[str, Any]  # see `standard.iso_part`
     simulated: dict[str, Any]  # see `margins.simulated_part`
     judged: dict[str, Any]  # see `margins.margins_and_limits`
+    stresses: dict[str, float]  # that S_H and S_F go by, see `margins.largest_stresses`
+    parted: list[str]  # why simulation and standard part
+
+    def safeties_under(self, stresses: Mapping[str, float]) -> dict[str, float]:
+        """The simulation's safeties against pitting and bending under other stresses."""
+        own = self.judged["margins"].get("simulated", {})
+        return {name: own[name] * self.stresses[name] / stresses[name] for name in stresses if name in own}
 
 
 #: (case, arrays along the path, quantities) -> outcome
@@ -182,8 +189,12 @@ def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
         for part, values in (("simulated", samples.simulated), ("iso", samples.iso))
         if summary.get(part)
     }
-    own = {name: samples.simulated[name] for name in ("S_B", "S_lambda") if name in samples.simulated}
-    own |= {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
+    own = {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
+    own |= {
+        name: samples.simulated[name]
+        for name in ("S_H", "S_F", "S_B", "S_lambda")
+        if name in samples.simulated
+    }
     by_sample = samples.drawn | samples.quantities | own
     return {
         **summary,

@@ -6,10 +6,16 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.record.reader import Record
 from tribodyn.studies.gear_pair import STUDY
 from tribodyn.studies.protocol.part import Contribution, Findings, ReportCurve, Request, Task, TaskResult
 
-_TASK, _SAMPLES = "steady-states", "steady-states-samples"
+_TASK, _SAMPLES, _AT_DUTY = "steady-states", "steady-states-samples", "steady-duty"
+#: Mesh cycles until the motion at the duty counts as steady, and samples of each, for vibrations of some ten
+#: times the mesh frequency.
+_CYCLES, _RESOLVED = 60, 80
+#: Cycles that its loads are of where they do not repeat from one to the next; change that counts as none.
+_LAST, _REPEATED = 4, 1e-3
 #: Slices of the face of the samples, which are inclined to each other: dynamic factors within 0.02 % of 21.
 _SLICES = 11
 #: Rise of the dynamic factor over both neighbours' minimum from which a maximum counts as a resonance.
@@ -41,6 +47,9 @@ def tasks(request: Request) -> tuple[Task, ...]:
     }
     speeds = [{_SPEED: f"{speed!r} rad/s"} for speed in request.speeds]
     found = [Task(_TASK, "steady states over the speed", scenario, speeds)]
+    over_time = {"solver": {"cycles": _CYCLES}, "output": {"samples_per_cycle": _RESOLVED}}
+    about = "loads of the teeth over time at the duty"
+    found.append(Task(_AT_DUTY, about, scenario | over_time, needed=False))
     if request.samples:
         sliced = scenario | {"mesh": {"slices": _SLICES, **scenario["mesh"]}}
         span = request.speeds[0], request.speeds[-1]
@@ -91,7 +100,9 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         {"": factor},
         request.pinion_speed * rpm,
     )
-    return Findings(quantities, curves=(curve,), spread=_of_samples(request, done.get(_SAMPLES)))
+    loads = _loads(done[_AT_DUTY]) if done[_AT_DUTY].summary else {}
+    spread = _of_samples(request, done.get(_SAMPLES))
+    return Findings(quantities, curves=(curve,), spread=spread, motion=loads)
 
 
 def _of_samples(request: Request, done: TaskResult | None) -> dict[str, np.ndarray]:
@@ -128,6 +139,21 @@ def _places(samples: Sequence[Mapping[str, Any]], cases: Sequence[Mapping[str, A
 
 def _speed(case: Mapping[str, Any], duty: float) -> float:
     return float(str(case[_SPEED]).split()[0]) if _SPEED in case else duty
+
+
+def _loads(run: TaskResult) -> dict[str, np.ndarray]:
+    """Roll angles (position, pair) and loads (cycle, position, pair) of the driving flanks, last cycles."""
+    with Record(run.path) as record:
+        table, front = record.mesh_cycle, [n for n, pair in enumerate(record.pairs) if pair <= 1]
+        loads = record["normal_load"][-1 - _LAST * _RESOLVED : -1][:, front]
+        ages = np.array([1 - record.pairs[n] for n in front])
+    loads = loads.reshape(_LAST, _RESOLVED, len(front))
+    if np.max(np.abs(loads[-1] - loads[-2])) < _REPEATED * np.max(loads):
+        loads = loads[-1:]
+    phase = np.arange(_RESOLVED) / _RESOLVED
+    pitch = 2.0 * math.pi / float(table["pinion_teeth"])
+    roll = float(table["roll_start"]) + pitch * (phase[:, None] + ages)
+    return {"roll_angle": roll, "normal_load": loads}
 
 
 def maxima(values: np.ndarray) -> list[int]:

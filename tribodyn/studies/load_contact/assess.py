@@ -85,6 +85,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         roll, load = over_roll(record, record["normal_load"])
         _, over_face = over_roll(record, record["hertz_pressure"])
         pressure = highest_over_face(roll, over_face, np.asarray(record["slice"]) * late(record))
+        _, line_load = over_roll(record, record["line_load"])
         torques, spread = record["torque"], record["map_peak_to_peak"]
     found: dict[str, Any] = {name: summary[name] for name in _QUANTITIES if name in summary}
     accurate = summary.get("shared_load_max")
@@ -98,7 +99,7 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         factors = [transverse_load_factor(load, accurate) if np.isfinite(load) else load for load in shared]
         scattered["transverse_load_factor"] = np.array(factors)
     scattered |= {ALONG[name]: rows[name] for name in ALONG} if rows else {}
-    along = {"roll_angle": roll, "normal_load": load, "hertz_pressure": pressure}
+    along = {"roll_angle": roll, "normal_load": load, "hertz_pressure": pressure, "line_load": line_load}
     curve = ReportCurve(
         "Loaded transmission error, peak to peak",
         "Torque on the gear (N m)",

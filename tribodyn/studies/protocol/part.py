@@ -100,12 +100,16 @@ class Findings(NamedTuple):
     """What a study found."""
 
     quantities: Mapping[str, Any]  # numbers by name, SI units, see `docs/assessment.md`
-    #: arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch point)
+    #: arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch point);
+    #: ``line_load`` is (place, slice)
     along: Mapping[str, Any] = MappingProxyType({})
     curves: Sequence[ReportCurve] = ()
     #: values (samples,) of quantities by name over the samples, and (samples, places) of arrays along the
     #: path of contact by the names of `along`; NaN where one failed
     spread: Mapping[str, np.ndarray] = MappingProxyType({})
+    #: loads of all pairs in steady motion at the duty, the pair that entered first in front: ``roll_angle``
+    #: (position, pair), rad, and ``normal_load`` (cycle, position, pair), N
+    motion: Mapping[str, Any] = MappingProxyType({})
 
 
 class Contribution(NamedTuple):

@@ -65,6 +65,28 @@ def test_the_simulation_stands_beside_it(assessed: dict):
     )
 
 
+def test_pitting_and_bending_of_the_simulation_stand_beside_the_standards(assessed: dict):
+    own, iso, margins = assessed["simulated"], assessed["iso"], assessed["margins"]
+    for name in ("sigma_H", "sigma_F", "S_H", "S_F", "life_pitting", "life_bending"):
+        assert set(own[name]) == {"pinion", "gear"}
+    for side in ("pinion", "gear"):
+        # what is endured is the standard's, the stress the simulation's
+        assert own["S_H"][side] * own["sigma_H"][side] == pytest.approx(iso["sigma_HG"][side])
+        assert own["S_F"][side] * own["sigma_F"][side] == pytest.approx(iso["sigma_FG"][side])
+        # the motion raises the stresses of slow rotation, by no more than all loads
+        raised = own["sigma_F"][side] / assessed[f"{side}_root_tension_max"]
+        assert 0.95 < raised < 1.01 * own["K_v"]
+        parted = abs(math.log(own["S_F"][side] / iso["S_F"][side])) > math.log(1.15)
+        said = [
+            text for text in assessed.get("reasons", {}).values() if text.startswith(f"S_F of the {side}")
+        ]
+        assert len(said) == parted
+    assert margins["simulated"]["S_H"] == min(own["S_H"].values())
+    for limit, name in (("pitting", "S_H"), ("bending", "S_F"), ("life", "life")):
+        both = [margins[part][name] for part in ("iso", "simulated")]
+        assert assessed["limits"][limit]["value"] == min(both)
+
+
 def test_a_deviating_tooth_and_samples_stand_beside_accurate_teeth(assessed: dict):
     own = assessed["simulated"]
     whole = 60e3 / (1800.0 * math.pi / 30.0) / (27e-3 * math.cos(math.radians(20.0)))

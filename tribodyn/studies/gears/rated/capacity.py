@@ -237,9 +237,7 @@ def _root(
 
 def _failure(stress: float, bins: Sequence[Bin], curve: StressCurve, required: float, life: float) -> Failure:
     cycles = sum(one.cycles for one in bins)
-    share = life_share(bins, curve, required)
-    unlimited = math.isinf(share)
-    found = life * max(1.0, LAST_CYCLES / cycles) if unlimited else life * share
+    found, unlimited = life_of(bins, curve, required, life, cycles)
     return Failure(
         stress,
         tuple(bins),
@@ -250,3 +248,16 @@ def _failure(stress: float, bins: Sequence[Bin], curve: StressCurve, required: f
         found,
         unlimited,
     )
+
+
+def life_of(
+    bins: Sequence[Bin], curve: StressCurve, required: float, life: float, cycles: float
+) -> tuple[float, bool]:
+    """Life at a required safety, s, of bins of a required life with so many meshings, and whether unlimited.
+
+    Where nothing is damaged it is that until `LAST_CYCLES`, at least the required one.
+    """
+    share = life_share(bins, curve, required)
+    if math.isinf(share):
+        return life * max(1.0, LAST_CYCLES / cycles), True
+    return life * share, False

@@ -1,0 +1,178 @@
+"""Pitting and bending of the simulation: under slow loads those of the load contact, and why both part."""
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.support.short_studies import short_case
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
+from tribodyn.compliance.sharing.loaded_contact import roll_through
+from tribodyn.studies.assessment.beside import (
+    GivenFactors,
+    _in_motion,
+    given_factors,
+    loaded_teeth,
+    root_bins,
+    strength_beside,
+)
+from tribodyn.studies.assessment.reasons import bending_reasons, pitting_reasons, reasons
+from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
+from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
+
+SLICES = 7
+#: As the simulation has them: without dynamics.
+STATIC = {"dynamic_factor": 1.0, "face_load_factor": 1.0}
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory):
+    return short_case("assessment", tmp_path_factory.mktemp("beside"), drive__material="16MnCr5")
+
+
+@pytest.fixture(scope="module")
+def loaded(case):
+    flexible = flexibility(assembled(case), case.materials, lead=True)
+    return roll_through(LoadedFlanks(flexible, slices=SLICES), case.operating.gear_torque, 24)
+
+
+def of_one_pair(values: np.ndarray) -> np.ndarray:
+    """Values (position, pair, …) along the way of one pair, which is younger in the places behind."""
+    return np.concatenate(list(np.moveaxis(values, 1, 0))[::-1])
+
+
+@pytest.fixture(scope="module")
+def along(loaded):
+    names = {"roll_angle": "roll", "normal_load": "normal_load", "line_load": "line_load"}
+    return {name: of_one_pair(getattr(loaded, field)) for name, field in names.items()}
+
+
+def teeth_of(case, loaded, along, factor: float | np.ndarray = 1.0):
+    motion = {"roll_angle": loaded.roll, "normal_load": factor * loaded.normal_load[None]}
+    found = loaded_teeth(case, assembled(case), along, motion)
+    assert found is not None
+    return found
+
+
+@pytest.fixture(scope="module")
+def teeth(case, loaded, along):
+    return teeth_of(case, loaded, along)
+
+
+def rated_of(case, **changed: Any):
+    settings = case.settings.model_copy(update=changed)
+    case, assembly = dataclasses.replace(case, settings=settings), assembled(case)
+    found = standard_of(case, assembly, rated_duty(settings, case.oil_temperature, face=1.1)).factors
+    capacity = capacity_of(case, assembly, found, life_bins(case, assembly, found, case.spectrum), settings)
+    assert capacity is not None
+    return case, capacity, found
+
+
+def test_slow_loads_have_the_stresses_of_the_load_contact(case, loaded, teeth):
+    for found in (teeth.slow, teeth.moving):
+        assert found.pressure_peak.value == pytest.approx(np.max(loaded.pressure), rel=1e-6)
+        for peak, tension in zip(found.root_peak, loaded.root_tension, strict=True):
+            assert peak.value == pytest.approx(np.max(tension), rel=1e-6)
+    strength = strength_beside(case, teeth, None, STATIC)
+    named = strength.by_name()
+    assert set(named) == {"sigma_H", "sigma_F"}
+    assert named["sigma_F"]["pinion"] == pytest.approx(np.max(loaded.root_tension[0]), rel=1e-6)
+    assert strength.safeties() == {}
+    assert loaded_teeth(case, assembled(case), {}, {}) is None
+
+
+@pytest.mark.parametrize("helical", [False, True])
+def test_loads_in_motion_add_up_to_those_of_the_pairs(loaded, along, rng, helical):
+    """Of spur pairs each to its own, of helical ones those of an instant; none where nothing touches."""
+    total = rng.uniform(0.5, 2.0, (2, 24, 1)) * loaded.normal_load
+    total[1, 5] = 0.0
+    motion = {"roll_angle": loaded.roll, "normal_load": total}
+    found = _in_motion(motion, along["roll_angle"], along["line_load"], helical)
+    assert found.shape == (*total.shape, SLICES)
+    over = (2, 3) if helical else 3
+    np.testing.assert_allclose(np.sum(found, axis=over), np.sum(total, axis=2) if helical else total)
+    assert np.all(found >= 0.0)
+    assert not np.any(found[1, 5])
+
+
+def test_safeties_and_lives_are_of_the_standards_lines(case, teeth):
+    case, capacity, _ = rated_of(case)
+    strength = strength_beside(case, teeth, capacity, STATIC)
+    for gear, rated in enumerate(capacity.gears):
+        for failure, found in ((rated.pitting, strength.pitting), (rated.bending, strength.bending)):
+            allowed = failure.curve.at(failure.cycles)
+            assert found[gear].safety == pytest.approx(allowed / found[gear].stress)
+    assert strength.safeties()["S_F"] == min(one.safety for one in strength.bending if one.safety)
+
+
+def test_loads_raise_stresses_and_shorten_lives(case, loaded, along, teeth):
+    case, capacity, _ = rated_of(case, required_safety_bending=2.5)
+    slow = strength_beside(case, teeth, capacity, STATIC)
+    fast = strength_beside(case, teeth_of(case, loaded, along, 2.0), capacity, STATIC)
+    for gear in (0, 1):
+        assert fast.bending[gear].stress == pytest.approx(2.0 * slow.bending[gear].stress)
+        assert fast.pitting[gear].stress == pytest.approx(math.sqrt(2.0) * slow.pitting[gear].stress)
+        for before, after in ((slow.bending, fast.bending), (slow.pitting, fast.pitting)):
+            assert (after[gear].life or 0.0) < (before[gear].life or 0.0)
+    # a factor that is given stands for twice the load, too
+    given = dataclasses.replace(case, settings=case.settings.model_copy(update={"application_factor": 2.0}))
+    doubled = strength_beside(given, teeth, capacity, STATIC)
+    assert doubled.bending[0].stress == pytest.approx(fast.bending[0].stress)
+    assert doubled.bending[0].life == pytest.approx(fast.bending[0].life)
+
+
+def test_given_factors_replace_those_of_the_simulation(case):
+    own = {"dynamic_factor": 1.25, "face_load_factor": 1.1}
+    settings = case.settings.model_copy(
+        update={"dynamic_factor": 1.5, "face_load_factor": 1.32, "mesh_load_factor": 1.1}
+    )
+    assert given_factors(settings, own) == pytest.approx(GivenFactors(1.1, 1.2, 1.2))
+    assert given_factors(case.settings, own).load == 1.0
+
+
+def test_a_root_that_only_pulsates_has_one_cycle_per_meshing():
+    course = np.array([[0.0, 100.0, 300.0, 50.0, 0.0], [0.0, 200.0, 250.0, 50.0, 0.0]])
+    found = root_bins(course, 0.5)
+    shares = {size: sum(one.cycles for one in found if one.stress == size) for size in (250.0, 300.0)}
+    assert shares == {250.0: 1.0, 300.0: 1.0}
+    assert {one.stress for one in found} == set(shares)
+    # compression before it makes the cycle as bad as one to a higher stress
+    pressed = root_bins(course - 30.0 * (course == 0.0), 0.5)
+    assert max(one.stress for one in pressed) == pytest.approx(300.0 + 30.0 * 0.5 / 1.5)
+
+
+@pytest.mark.parametrize("given", [GivenFactors(1.0, 1.0, 1.0), GivenFactors(1.4, 1.2, 1.3)])
+def test_the_factors_of_a_reason_make_the_ratio(case, loaded, along, given):
+    """They are σ of the standard over σ of the simulation, both under the same K_A."""
+    pulse = 1.0 + 0.3 * np.sin(np.arange(24.0))[:, None]
+    shaken = teeth_of(case, loaded, along, pulse)
+    _, capacity, factors = rated_of(case, application_factor=given.application)
+    for gear, rated in enumerate(capacity.gears):
+        bent = given.load * shaken.moving.root_peak[gear].value
+        parts = bending_reasons(gear, shaken, given, capacity, factors)
+        assert math.prod(part.factor for part in parts) == pytest.approx(rated.bending.stress / bent)
+        pressed = math.sqrt(given.load) * shaken.moving.pressure_peak.value
+        parts = pitting_reasons(gear, shaken, given, capacity, factors)
+        assert math.prod(part.factor for part in parts) == pytest.approx(rated.pitting.stress / pressed)
+        assert all(part.factor > 0.0 for part in parts)
+
+
+def test_reasons_are_given_where_both_part(case, loaded, along):
+    heavy = teeth_of(case, loaded, along, 3.0)
+    case, capacity, factors = rated_of(case)
+    given = GivenFactors(1.0, 1.0, 1.0)
+    strength = strength_beside(case, heavy, capacity, STATIC)
+    said = reasons(heavy, strength, given, capacity, factors)
+    assert len(said) == 4
+    assert all("mostly by" in text and "dynamic factor × " in text.lower() for text in said)
+    # without any difference nothing is said
+    alike = strength._replace(
+        bending=tuple(
+            one._replace(safety=gear.bending.safety)
+            for one, gear in zip(strength.bending, capacity.gears, strict=True)
+        )
+    )
+    assert [text[:3] for text in reasons(heavy, alike, given, capacity, factors)] == ["S_H", "S_H"]

@@ -1,0 +1,240 @@
+"""Pitting and bending of the simulation beside the standard's: stresses, safeties, lives.
+
+Contact pressure by Hertz, the tips' corners included, and root stress by finite elements under the loads of
+the steady state at the duty; what is endured is the standard's.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
+from tribodyn.compliance.sharing.loaded_contact import slice_contacts
+from tribodyn.compliance.sharing.tooth_stress import ToothStress, tooth_stress
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.standards.bending import mean_stress_influence, pulsating_stress
+from tribodyn.standards.fatigue import Bin
+from tribodyn.standards.rainflow import rainflow_repeated
+from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
+from tribodyn.studies.gears.rated.capacity import Capacity, Failure, life_of
+from tribodyn.studies.gears.rated.strength import metals_of
+
+
+class LoadedTeeth(NamedTuple):
+    """Stresses of the teeth in slow rotation and in motion, without K_A, K_γ and other given factors."""
+
+    slow: ToothStress
+    moving: ToothStress
+    #: pair_share: share of all pairs' load that one carries in slow rotation where the root stress of pinion
+    #: and gear is largest
+    pair_share: tuple[float, float]
+    #: the same where the pressure is, of helical pairs times the face width over the length of their contact
+    line_share: float
+    #: angle of the pinion from the pitch point, rad, at which that place of the face touches
+    pressure_roll: float
+    #: largest pressure in motion on the path of contact where the largest of all is in corner contact, Pa
+    on_path: float | None
+
+
+def loaded_teeth(
+    case: AssessmentCase, assembly: Assembly, along: Mapping[str, Any], motion: Mapping[str, Any]
+) -> LoadedTeeth | None:
+    """Stresses from the loads of a pair `along` its path and those in `motion`, see `protocol.part.Findings`.
+
+    In motion loads lie on the faces as in slow rotation, see `_in_motion`. None where there are none.
+    """
+    if not motion:
+        return None
+    flexible = flexibility(assembly, case.materials, lead=True)
+    slices = along["line_load"].shape[1]
+    flanks = LoadedFlanks(flexible, case.mesh.modifications, slices, case.mesh.slice_coupling)
+    roll = along["roll_angle"]
+    length = slice_contacts(flanks, roll[:, None]).length[:, 0] * flexible.width / slices
+    slice_load = along["line_load"] * length
+    # the places of one pair's way are those of all pairs at the positions of a mesh cycle
+    positions = round(float(assembly.pitch_angle) / (roll[1] - roll[0]))
+
+    def in_cycle(values: np.ndarray) -> np.ndarray:
+        return np.moveaxis(values.reshape(-1, positions, *values.shape[1:])[::-1], 0, 1)
+
+    loads = in_cycle(slice_load)
+    slow = tooth_stress(flanks, in_cycle(roll), loads[None])
+    moved = _in_motion(motion, roll, slice_load, float(case.drive.helix_angle) != 0.0)
+    moving = tooth_stress(flanks, motion["roll_angle"], moved)
+    shares = [_share(loads, peak.at) for peak in slow.root_peak]
+    at = slow.pressure_peak.at
+    line = _share(loads, at)
+    if float(case.drive.helix_angle):
+        touching = in_cycle(length * (slice_load > 0.0))[at[1], at[2]]
+        line *= flexible.width / float(np.sum(touching))
+    start, end = assembly.roll_limits
+    rolls = _slice_rolls(flanks, motion["roll_angle"])
+    inside = np.max(np.where((rolls >= start) & (rolls <= end), moving.pressure, 0.0))
+    return LoadedTeeth(
+        slow,
+        moving,
+        (shares[0], shares[1]),
+        line,
+        float(_slice_rolls(flanks, in_cycle(roll))[at[1:]]),
+        float(inside) if inside < moving.pressure_peak.value else None,
+    )
+
+
+def _slice_rolls(
+    flanks: LoadedFlanks, roll: Float[Array, "position pair"]
+) -> Float[Array, "position pair slice"]:
+    """Angles at which slices touch, of spur pairs all the same."""
+    rolls = flanks.rolls(roll)
+    return rolls if rolls.ndim == 3 else np.repeat(rolls[..., None], flanks.slices, axis=-1)
+
+
+def _share(loads: Float[Array, "position pair slice"], at: tuple[int, int, int, int]) -> float:
+    return float(np.sum(loads[at[1], at[2]]) / np.sum(loads[at[1]]))
+
+
+def _in_motion(
+    motion: Mapping[str, Any],
+    roll: Float[Array, " place"],
+    slice_load: Float[Array, "place slice"],
+    helical: bool,
+) -> Float[Array, "cycle position pair slice"]:
+    """Loads of slices in motion, N, from those of a pair in slow rotation over its roll angle.
+
+    Spur pairs have their own loads of the motion, each spread as in slow rotation; where a pair carries none
+    there, as in the nearest place. Of helical pairs all loads of an instant are raised alike: where slices
+    come and go one by one, a pair's load of a model that differs a little would lie on the last of them.
+    """
+    wanted, total = motion["roll_angle"], motion["normal_load"][..., None]
+    if helical:
+        found = _at_roll(wanted, roll, slice_load, outside=0.0)
+        return found * np.sum(total, axis=2, keepdims=True) / np.sum(found, axis=(1, 2), keepdims=True)
+    loaded = np.sum(slice_load, axis=1) > 0.0
+    found = _at_roll(wanted, roll[loaded], slice_load[loaded])
+    return total * found / np.sum(found, axis=-1, keepdims=True)
+
+
+def _at_roll(
+    wanted: Float[Array, "position pair"],
+    roll: Float[Array, " place"],
+    values: Float[Array, "place slice"],
+    outside: float | None = None,
+) -> Float[Array, "position pair slice"]:
+    columns = [np.interp(wanted, roll, column, outside, outside) for column in values.T]
+    return np.stack(columns, axis=-1)
+
+
+class GivenFactors(NamedTuple):
+    """Factors of load that a case gives, over those that the simulation has itself."""
+
+    application: float  # K_A K_γ
+    dynamic: float  # K_v over the simulation's
+    face: float  # K_Hβ over the simulation's
+
+    @property
+    def load(self) -> float:
+        """By which all loads grow."""
+        return self.application * self.dynamic * self.face
+
+
+def given_factors(settings: AssessmentTable, quantities: Mapping[str, Any]) -> GivenFactors:
+    """What stands beside the simulation's own factors, or replaces them; see also `margins.load_factor`."""
+    own, face = max(quantities["dynamic_factor"], 1.0), quantities["face_load_factor"]
+    return GivenFactors(
+        settings.application_factor * (settings.mesh_load_factor or 1.0),
+        (settings.dynamic_factor or own) / own,
+        (settings.face_load_factor or face) / face,
+    )
+
+
+class SimulatedFailure(NamedTuple):
+    """One way to fail of one gear, as `capacity.Failure`; safety and life are None without a material's."""
+
+    stress: float  # Pa
+    safety: float | None = None
+    life: float | None = None  # s
+
+
+class SimulatedStrength(NamedTuple):
+    """What the simulation says of pitting and bending, of pinion and gear."""
+
+    pitting: tuple[SimulatedFailure, SimulatedFailure]
+    bending: tuple[SimulatedFailure, SimulatedFailure]
+
+    def by_name(self) -> dict[str, dict[str, float]]:
+        """By the standard's names, of each gear."""
+        found: dict[str, dict[str, float]] = {}
+        for letter, name, both in (("H", "pitting", self.pitting), ("F", "bending", self.bending)):
+            values = {f"sigma_{letter}": "stress", f"S_{letter}": "safety", f"life_{name}": "life"}
+            for key, field in values.items():
+                of_gears = {side: getattr(one, field) for side, one in zip(SIDES, both, strict=True)}
+                found |= {key: of_gears} if None not in of_gears.values() else {}
+        return found
+
+    def safeties(self) -> dict[str, float]:
+        """The smaller safeties of both gears and the shortest life, s."""
+        named = self.by_name()
+        found = {name: min(named[name].values()) for name in ("S_H", "S_F") if name in named}
+        lives = [min(named[name].values()) for name in ("life_pitting", "life_bending") if name in named]
+        return found | ({"life": min(lives)} if lives else {})
+
+
+def strength_beside(
+    case: AssessmentCase, teeth: LoadedTeeth, capacity: Capacity | None, quantities: Mapping[str, Any]
+) -> SimulatedStrength:
+    """Safeties and lives of stresses of the simulation, by the stresses that the standard permits.
+
+    Under a load spectrum the stresses follow the duties as the standard's do. A flank's place is pressed once
+    in a meshing; at the root cycles are counted by rain-flow, compression included.
+    """
+    settings, metals = case.settings, metals_of(case)
+    given = given_factors(settings, quantities)
+    pressed = float(np.sqrt(given.load))
+    _, *place = teeth.moving.pressure_peak.at
+    flank = [Bin(pressed * p, 1.0) for p in teeth.moving.pressure[:, *place]]
+    pitting, bending = [], []
+    for gear, peak in enumerate(teeth.moving.root_peak):
+        of_flank = SimulatedFailure(pressed * teeth.moving.pressure_peak.value)
+        of_root = SimulatedFailure(given.load * peak.value)
+        if capacity is not None and metals is not None:
+            rated = capacity.gears[gear]
+            influence = mean_stress_influence(metals[gear], rated.factors["Y_S"])
+            root = root_bins(given.load * teeth.moving.root[gear], influence)
+            required = settings.safety_pitting, settings.safety_bending
+            life = settings.life
+            of_flank = _rated(of_flank, flank, len(flank), rated.pitting, required[0], life)
+            of_root = _rated(of_root, root, len(teeth.moving.root[gear]), rated.bending, required[1], life)
+        pitting.append(of_flank)
+        bending.append(of_root)
+    return SimulatedStrength((pitting[0], pitting[1]), (bending[0], bending[1]))
+
+
+def root_bins(course: Float[Array, "tooth time"], influence: float) -> list[Bin]:
+    """Pulsating stresses with the damage of the cycles of some teeth, Pa; between its meshings a tooth rests.
+
+    `influence` is M of ISO 6336-3, annex B.
+    """
+    at_rest = np.pad(course, ((0, 0), (0, 1)))
+    cycles = rainflow_repeated(at_rest.ravel())
+    found = [Bin(pulsating_stress(each.low, each.high, influence), each.share) for each in cycles]
+    return [one for one in found if one.stress > 0.0]
+
+
+def _rated(
+    found: SimulatedFailure,
+    bins: Sequence[Bin],
+    meshings: int,
+    rated: Failure,
+    required: float,
+    life: float,
+) -> SimulatedFailure:
+    """Add safety and life: `bins` are those of so many meshings at the duty, `rated` by the standard."""
+    endured = [
+        Bin(one.stress * duty.stress / rated.stress, one.cycles / meshings * duty.cycles)
+        for duty in rated.bins
+        for one in bins
+    ]
+    reached, _ = life_of(endured, rated.curve, required, life, rated.cycles)
+    return found._replace(safety=rated.safety * rated.stress / found.stress, life=reached)
