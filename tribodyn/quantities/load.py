@@ -122,7 +122,7 @@ ASSESSMENT = (
     ),
     Quantity("loss_lowest", "Lowest loss of all friction laws", "W", ".4g").defined_as("Minimum of them."),
     Quantity("loss_highest", "Highest loss of all friction laws", "W", ".4g").defined_as("Maximum of them."),
-    Quantity("life", "Life", "h", ".4g").defined_as(
+    Quantity("life", "Life", "h", ",.0f").defined_as(
         "Of pinion and gear at the required safeties by ISO 6336-2, -3 and -6; where the stress is endured "
         "without end, the larger of the required life and 10^10 load cycles."
     ),
@@ -155,7 +155,7 @@ CAPACITY = (
     Quantity("sigma_HP", "Permissible contact stress", "MPa", ".1f", symbol="σ_HP"),
     Quantity("S_H", "Pitting", digits=".2f", symbol="S_H"),
     Quantity("damage_pitting", "Damage by pitting over the required life", digits=".3g", symbol="U_H"),
-    Quantity("life_pitting", "Life until pitting", "h", ".4g"),
+    Quantity("life_pitting", "Life until pitting", "h", ",.0f"),
     Quantity("sigma_Flim", "Nominal stress number, bending,", "MPa", ".0f", symbol="σ_Flim"),
     Quantity("h_F", "Bending moment arm", "mm", ".3f", symbol="h_Fe"),
     Quantity("s_Fn", "Root chord", "mm", ".3f", symbol="s_Fn"),
@@ -176,7 +176,7 @@ CAPACITY = (
     Quantity("sigma_FP", "Permissible root stress", "MPa", ".1f", symbol="σ_FP"),
     Quantity("S_F", "Tooth bending", digits=".2f", symbol="S_F"),
     Quantity("damage_bending", "Damage by bending over the required life", digits=".3g", symbol="U_F"),
-    Quantity("life_bending", "Life until tooth breakage", "h", ".4g"),
+    Quantity("life_bending", "Life until tooth breakage", "h", ",.0f"),
 )
 #: By the names of the standards; temperatures are in °C there.
 STANDARDS = (

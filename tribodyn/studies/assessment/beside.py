@@ -4,7 +4,7 @@ Contact pressure by Hertz, the tips' corners included, and root stress by finite
 the steady state at the duty; what is endured is the standard's.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -155,6 +155,8 @@ class SimulatedFailure(NamedTuple):
     stress: float  # Pa
     safety: float | None = None
     life: float | None = None  # s
+    #: the same under stresses so many times as large
+    times: Callable[[float], "SimulatedFailure"] | None = None
 
 
 class SimulatedStrength(NamedTuple):
@@ -172,6 +174,14 @@ class SimulatedStrength(NamedTuple):
                 of_gears = {side: getattr(one, field) for side, one in zip(SIDES, both, strict=True)}
                 found |= {key: of_gears} if None not in of_gears.values() else {}
         return found
+
+    def times(self, flank: float, root: float) -> "SimulatedStrength":
+        """The same under stresses so many times as large."""
+        found = [
+            [one.times(factor) if one.times else one._replace(stress=factor * one.stress) for one in both]
+            for factor, both in ((flank, self.pitting), (root, self.bending))
+        ]
+        return SimulatedStrength((found[0][0], found[0][1]), (found[1][0], found[1][1]))
 
     def safeties(self) -> dict[str, float]:
         """The smaller safeties of both gears and the shortest life, s."""
@@ -236,5 +246,11 @@ def _rated(
         for duty in rated.bins
         for one in bins
     ]
-    reached, _ = life_of(endured, rated.curve, required, life, rated.cycles)
-    return found._replace(safety=rated.safety * rated.stress / found.stress, life=reached)
+
+    def times(factor: float) -> SimulatedFailure:
+        stress = factor * found.stress
+        grown = [Bin(factor * one.stress, one.cycles) for one in endured]
+        reached, _ = life_of(grown, rated.curve, required, life, rated.cycles)
+        return SimulatedFailure(stress, rated.safety * rated.stress / stress, reached, times)
+
+    return times(1.0)

@@ -118,14 +118,11 @@ def load_factor(settings: AssessmentTable, quantities: Mapping[str, Any]) -> flo
 
 def largest_stresses(
     case: AssessmentCase, local: LocalValues, quantities: Mapping[str, Any]
-) -> dict[str, float]:
-    """Largest pressure on the flanks and tension in the roots, slow rotation times `load_factor`, Pa.
-
-    By the names of the safeties that go by them.
-    """
+) -> tuple[float, float]:
+    """Largest pressure on the flanks and tension in the roots, slow rotation times `load_factor`, Pa."""
     root = max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"])
     raised = load_factor(case.settings, quantities)
-    return {"S_H": float(np.nanmax(local.films.pressure)), "S_F": raised * float(root)}
+    return float(np.nanmax(local.films.pressure)), raised * float(root)
 
 
 def simulated_part(

@@ -19,11 +19,13 @@ from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.figures import pictures
+from tribodyn.studies.assessment.holds import holds
 from tribodyn.studies.assessment.report import verdict
 from tribodyn.studies.assessment.run import check
 from tribodyn.studies.gears.rated import first_page
 from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
 from tribodyn.studies.gears.rated.said import unit_of
+from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
 from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS
 from tribodyn.studies.pages import loaded_again
 from tribodyn.studies.protocol import tasks
@@ -37,7 +39,7 @@ _COMPARED = quantities(
     *("sigma_H", "sigma_F", "S_H", "S_F"),
 )
 _SCATTERED = quantities("K_Hbeta", "transmission_error_peak_to_peak")
-_MARGINS = quantities("theta_B", "S_H", "S_F", "S_B", "S_intS", "S_lambda")
+_MARGINS = quantities("theta_B", "S_B", "S_intS", "S_lambda")
 
 
 def page(record: Record) -> str:
@@ -54,16 +56,20 @@ def page(record: Record) -> str:
     body = [
         first_page.header(record, "Assessment"),
         first_page.verdict_of(record, verdict(record)),
-        _asked(case),
-        _tiles(summary),
-        f'<div class="columns"><div>{limits_table(summary)}</div><div>{_scatter(summary)}</div></div>',
-        _by_standard(summary),
-        '<div class="columns break">',
+        holds(summary),
+        "<section><h2>Duty</h2>" + _asked(case) + "</section>",
+        '<div class="columns">',
         f"<div>{listed('Assumed', summary.get('assumed', {}))}</div>",
         f"<div>{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
+        '<div class="break"></div>',
+        _tiles(summary),
+        f'<div class="columns"><div>{limits_table(summary)}</div><div>{_scatter(summary)}</div></div>',
+        _by_standard(summary),
+        _reasons(summary),
         f'<div class="pictures"><p>{picture}</p></div>',
         _points(summary),
+        _factors(summary),
         first_page.bearings_table(summary),
         *(
             first_page.part_section(part.study, part.role.title, [done[task.name] for task in part.tasks])
@@ -76,6 +82,15 @@ def page(record: Record) -> str:
         first_page.origin(record),
     ]
     return first_page.written(record, body)
+
+
+def _factors(summary: Mapping[str, Any]) -> str:
+    """Every factor of the standards, folded."""
+    rows = rating_rows(summary.get("iso", {}))
+    if not rows:
+        return ""
+    inside = numbers_table("Factors of ISO 6336", COLUMNS, rows)
+    return f'<details class="factors"><summary>Every factor of ISO 6336</summary>{inside}</details>'
 
 
 def _asked(case: AssessmentCase) -> str:

@@ -139,8 +139,7 @@ def reasons(
 class Compared(NamedTuple):
     """The simulation beside the standard."""
 
-    named: dict[str, Any]  # by the standard's names, of each gear
-    least: dict[str, float]  # the smaller safeties of both gears, the shortest life, s
+    strength: SimulatedStrength | None  # None: without loads in motion
     parted: list[str]  # `reasons`
 
 
@@ -155,8 +154,8 @@ def compared(
     """Compare both; `motion` are arrays along the path, and those of the motion, see `loaded_teeth`."""
     teeth = loaded_teeth(case, assembly, *motion)
     if teeth is None:
-        return Compared({}, {}, [])
+        return Compared(None, [])
     found, parted = strength_beside(case, teeth, capacity, quantities), list[str]()
     if capacity is not None and factors is not None:
         parted = reasons(teeth, found, given_factors(case.settings, quantities), capacity, factors)
-    return Compared(found.by_name(), found.safeties(), parted)
+    return Compared(found, parted)

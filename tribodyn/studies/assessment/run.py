@@ -171,8 +171,8 @@ def concluded(
 ) -> Conclusion:
     """Put together what the studies found of a case: arrays along the path, quantities, loads in motion.
 
-    A sample has no loads in motion: its safeties of the simulation are those of `accurate` teeth, by how its
-    stresses are to theirs.
+    A sample has no loads in motion: its stresses in motion are those of `accurate` teeth, by how the largest
+    in slow rotation, with its dynamic factor, are to theirs.
     """
     assembly = assembled(case)
     local = local_of(case, assembly, along, found)
@@ -182,17 +182,19 @@ def concluded(
     factors = by_standard.factors if by_standard else None
     beside = compared(case, assembly, (along, motion), capacity, factors, found)
     stresses = largest_stresses(case, local, found)
+    strength = beside.strength if accurate is None else accurate.strength_under(stresses)
     judged = margins_and_limits(
         case,
         by_standard,
         capacity,
         strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor),
-        beside.least if accurate is None else accurate.safeties_under(stresses),
+        strength.safeties() if strength else {},
         local,
         found,
     )
-    simulated = simulated_part(case, assembly, local, found) | beside.named
-    return Conclusion(local, by_standard, capacity, iso, simulated, judged, stresses, beside.parted)
+    simulated = simulated_part(case, assembly, local, found) | (strength.by_name() if strength else {})
+    outcome = Conclusion(local, by_standard, capacity, iso, simulated, judged)
+    return outcome._replace(stresses=stresses, strength=strength, parted=beside.parted)
 
 
 def units_of(summary: Mapping[str, Any]) -> dict[str, str]:

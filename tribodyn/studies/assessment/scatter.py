@@ -9,6 +9,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.quantities.catalogue import SPREAD, scatter
+from tribodyn.studies.assessment.beside import SimulatedStrength
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.margins import LocalValues
 from tribodyn.studies.assessment.unknowns import Draw
@@ -33,13 +34,16 @@ class Conclusion(NamedTuple):
     iso: dict[str, Any]  # see `standard.iso_part`
     simulated: dict[str, Any]  # see `margins.simulated_part`
     judged: dict[str, Any]  # see `margins.margins_and_limits`
-    stresses: dict[str, float]  # that S_H and S_F go by, see `margins.largest_stresses`
-    parted: list[str]  # why simulation and standard part
+    stresses: tuple[float, float] = (0.0, 0.0)  # of flanks and roots, see `margins.largest_stresses`
+    strength: SimulatedStrength | None = None  # of the simulation against pitting and bending
+    parted: Sequence[str] = ()  # why simulation and standard part
 
-    def safeties_under(self, stresses: Mapping[str, float]) -> dict[str, float]:
-        """The simulation's safeties against pitting and bending under other stresses."""
-        own = self.judged["margins"].get("simulated", {})
-        return {name: own[name] * self.stresses[name] / stresses[name] for name in stresses if name in own}
+    def strength_under(self, stresses: tuple[float, float]) -> SimulatedStrength | None:
+        """The strength where the largest stresses are others."""
+        if self.strength is None:
+            return None
+        flank, root = (other / own for own, other in zip(self.stresses, stresses, strict=True))
+        return self.strength.times(flank, root)
 
 
 #: (case, arrays along the path, quantities) -> outcome

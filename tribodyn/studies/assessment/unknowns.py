@@ -41,7 +41,7 @@ class UnknownsTable(Table):
     bearings: Annotated[float, Field(strict=True, ge=1.0, le=100.0)] = Field(
         round(CLASS, 1),
         description="factor up and down of the stiffness of each gear's bearings: 4.5, a class of "
-        "models/bearings; 1: they are known",
+        "models/bearings; 1: they are known, as those of drawn shafts are",
     )
     damping_ratio: tuple[NotNegative, NotNegative] | None = Field(
         None, description="of the mesh, lowest and highest; default: 0.6 and 2 times the ratio that is given"
@@ -104,19 +104,26 @@ def drawn(case: GearCase, table: UnknownsTable, damping_ratio: float, samples: i
         (random.permutation(samples) + random.uniform(size=samples)) / samples for _ in range(4)
     )
     lowest, highest = table.damping_ratio or tuple(damping_ratio * share for share in DAMPING)
-    apart = distances(case, table)
+    apart, ranges = distances(case, table), stiffness_ranges(case, table)
     return [
         Draw(
             seed + number if table.deviations else None,
             (
-                _logarithmic(pinion[number], 1.0 / table.bearings, table.bearings),
-                _logarithmic(gear[number], 1.0 / table.bearings, table.bearings),
+                _logarithmic(pinion[number], 1.0 / ranges[0], ranges[0]),
+                _logarithmic(gear[number], 1.0 / ranges[1], ranges[1]),
             ),
             _logarithmic(damping[number], lowest, highest),
             None if apart is None else apart[0] + float(distance[number]) * (apart[1] - apart[0]),
         )
         for number in range(samples)
     ]
+
+
+def stiffness_ranges(case: GearCase, table: UnknownsTable) -> tuple[float, float]:
+    """Factors up and down of both gears' bearings: 1 of drawn shafts and of matrices, which are known."""
+    of_gears = case.supports.pinion, case.supports.gear
+    pinion, gear = (table.bearings if support is None else 1.0 for support in of_gears)
+    return pinion, gear
 
 
 def _logarithmic(share: float, lowest: float, highest: float) -> float:
@@ -170,7 +177,7 @@ def described(case: GearCase, table: UnknownsTable, damping_ratio: float) -> str
     """What is varied, and how far."""
     lowest, highest = table.damping_ratio or tuple(damping_ratio * share for share in DAMPING)
     parts = ["deviations within the tolerances"] if table.deviations else []
-    if table.bearings != 1.0:
+    if max(stiffness_ranges(case, table)) != 1.0:
         parts.append(f"bearings {1.0 / table.bearings:.2g} to {table.bearings:.2g} times as stiff")
     if lowest != highest:
         parts.append(f"damping of the mesh {lowest:.2g} to {highest:.2g}")

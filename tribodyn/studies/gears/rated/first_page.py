@@ -1,9 +1,10 @@
 """Pieces of the first page of an assessment: verdict, tiles, tables of numbers, sentences, origin."""
 
+import math
 from collections.abc import Mapping, Sequence
 from html import escape
 from importlib import resources
-from typing import Any
+from typing import Any, NamedTuple
 
 from tribodyn.post.page.assembled import document
 from tribodyn.post.page.page import summary_tables, verdict_list, warnings_of
@@ -87,6 +88,40 @@ def numbers_table(
     return f'<section><h2>{heading}</h2><div class="wide">{table}</div>{dashes}</section>'
 
 
+class Judged(NamedTuple):
+    """A cell of a table that says what holds."""
+
+    text: str
+    mark: str = ""  # "good", "bad" or neither
+    span: int = 1  # columns that it takes
+
+
+def judged_cell(value: float | None, limit: str, limits: Mapping[str, Any], span: int = 1) -> Judged:
+    """A value as it is written, good or bad by a limit of the summary; a dash where there is none."""
+    if value is None or not math.isfinite(value):
+        return Judged("–", "", span)
+    mark, asked_for = "", limits.get(limit)
+    if asked_for is not None:
+        kept = value >= asked_for["limit"] if LIMITS[limit].least else value <= asked_for["limit"]
+        mark = "good" if kept else "bad"
+    return Judged(LIMITS[limit].quantity.written(float(value)), mark, span)
+
+
+def holds_table(heading: str, heads: Sequence[Sequence[Judged]], rows: Sequence[Sequence[Judged]]) -> str:
+    """A section with what holds in green and what does not in red."""
+
+    def line(tag: str, cells: Sequence[Judged]) -> str:
+        return "".join(
+            f'<{tag} class="{cell.mark}" colspan="{cell.span}">{escape(cell.text)}</{tag}>' for cell in cells
+        )
+
+    lines = [f"<tr>{line('th', head)}</tr>" for head in heads] + [
+        f"<tr>{line('td', row)}</tr>" for row in rows
+    ]
+    table = f'<table class="holds">{"".join(lines)}</table>'
+    return f'<section><h2>{escape(heading)}</h2><div class="wide">{table}</div></section>'
+
+
 def bearings_table(summary: Mapping[str, Any]) -> str:
     """The bearings of drawn shafts; "" where there are none."""
     found = summary.get("bearings")
@@ -99,7 +134,7 @@ def limits_table(summary: Mapping[str, Any]) -> str:
     rows = []
     for name, found in limits.items():
         limit = LIMITS[name]
-        value, bound = (f"{limit.quantity.in_unit(found[key]):.3g}" for key in ("value", "limit"))
+        value, bound = (limit.quantity.written(float(found[key])) for key in ("value", "limit"))
         required = f"{'≥' if limit.least else '≤'} {bound}"
         verdict = "holds" if found["kept"] else "exceeded"
         if found.get("exceed"):
