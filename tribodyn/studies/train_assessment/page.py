@@ -10,7 +10,15 @@ from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.gears.rated import first_page
-from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
+from tribodyn.studies.gears.rated.first_page import (
+    Judged,
+    holds_table,
+    judged_cell,
+    limits_table,
+    listed,
+    numbers_table,
+)
+from tribodyn.studies.gears.rated.limits import LIMITS, least, worst
 from tribodyn.studies.pages import loaded_again, overview
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.train_assessment.case import TrainAssessmentCase
@@ -30,15 +38,16 @@ def page(record: Record) -> str:
     body = [
         first_page.header(record, "Assessment of a train"),
         first_page.verdict_of(record, verdict(record)),
-        _asked(case, summary),
-        _tiles(summary),
+        _holds(summary),
+        "<section><h2>Duty</h2>" + _asked(case, summary) + "</section>",
         '<div class="columns">',
-        f"<div>{limits_table(summary)}{_stages(summary)}</div>",
-        f"<div>{listed('Assumed', summary.get('assumed', {}))}"
-        f"{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
+        f"<div>{listed('Assumed', summary.get('assumed', {}))}</div>",
+        f"<div>{listed('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
-        f'<div class="pictures"><p>{picture}</p></div>',
         '<div class="break"></div>',
+        _tiles(summary),
+        f'<div class="columns"><div>{limits_table(summary)}</div><div>{_stages(summary)}</div></div>',
+        f'<div class="pictures"><p>{picture}</p></div>',
         _meshes(summary, "simulated", "Each mesh, simulated; of several planets the worst"),
         _meshes(summary, "iso", "Each mesh by the standards; of several planets the worst"),
         first_page.part_section(study, "Motion at the duty", [done[DUTY]] if done else []),
@@ -105,6 +114,45 @@ def _tiles(summary: Mapping[str, Any]) -> str:
         else (f"{lost * _RPM:.4g} rpm", "contact is lost from this input speed")
     )
     return first_page.tiles(shown)
+
+
+#: Limit -> what of a mesh it bounds.
+_HOLDS = {
+    **{"pitting": "S_H", "bending": "S_F", "life": "life"},
+    **{"scuffing_flash": "S_B", "scuffing_integral": "S_intS", "micropitting": "S_lambda"},
+}
+
+
+def _holds(summary: Mapping[str, Any]) -> str:
+    """The worst of the standard and the simulation of every mesh, green or red against the required."""
+    limits, meshes = summary.get("limits", {}), summary[MESHES]
+    columns = [name for name in _HOLDS if any(_worst(mesh, name) is not None for mesh in meshes.values())]
+    heads = [Judged(""), *(Judged(_short(name)) for name in columns)]
+    rows = []
+    for group, names in groups_of(meshes).items():
+        known = {
+            name: [value for mesh in names if (value := _worst(meshes[mesh], name)) is not None]
+            for name in columns
+        }
+        cells = [judged_cell(min(known[name], default=None), name, limits) for name in columns]
+        rows.append([Judged(group), *cells])
+    bounds = (limits.get(name, {}).get("limit") for name in columns)
+    required = [
+        "" if bound is None else f"≥ {LIMITS[name].quantity.written(bound)}"
+        for name, bound in zip(columns, bounds, strict=True)
+    ]
+    rows.append([Judged("required"), *map(Judged, required)])
+    return holds_table("Does it hold, and how long?", (heads,), rows)
+
+
+def _worst(mesh: Mapping[str, Any], limit: str) -> float | None:
+    found = worst(*(least(mesh.get(part, {}).get(_HOLDS[limit])) for part in ("iso", "simulated")))
+    return found if math.isfinite(found) else None
+
+
+def _short(limit: str) -> str:
+    quantity = LIMITS[limit].quantity
+    return f"{quantity.label.rstrip(',')} {quantity.symbol or quantity.unit}"
 
 
 def _stages(summary: Mapping[str, Any]) -> str:
