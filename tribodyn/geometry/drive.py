@@ -27,10 +27,13 @@ class MaterialData:
 
 @dataclass(frozen=True)
 class BodyMass:
-    """Mass (kg) and polar moment of inertia (kg m²) of a gear; None: computed from outline, bore, width."""
+    """A gear's body: mass, kg, polar moment of inertia, kg m²; None: computed from outline, bore, width."""
 
     mass: float | None = None
     inertia: float | None = None
+    #: rim under the teeth and web, m, for the standards' stiffness and root stress; None: a solid disc
+    rim: float | None = None
+    web: float | None = None
 
 
 Side = Literal["pinion", "gear"]

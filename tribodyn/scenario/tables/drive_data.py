@@ -181,8 +181,11 @@ def materials_of(drive: DriveTable) -> tuple[MaterialData, MaterialData]:
 
 def masses_of(drive: DriveTable) -> tuple[BodyMass, BodyMass]:
     """Return the masses that a drive file gives."""
-    pinion, gear = drive.pinion, drive.gear
-    return BodyMass(pinion.mass, pinion.inertia), BodyMass(gear.mass, gear.inertia)
+    pinion, gear = (
+        BodyMass(each.mass, each.inertia, each.rim_thickness, each.web_thickness)
+        for each in (drive.pinion, drive.gear)
+    )
+    return pinion, gear
 
 
 def _material(drive: DriveTable, gear: Gear) -> MaterialData:

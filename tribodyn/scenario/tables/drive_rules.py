@@ -17,7 +17,7 @@ from tribodyn.geometry.flanks.modification import (
     vary_along_lead,
 )
 from tribodyn.scenario.scope import outside
-from tribodyn.scenario.tables.model_files import DriveTable, MisalignmentTable, flank_of
+from tribodyn.scenario.tables.model_files import DriveTable, Gear, MisalignmentTable, flank_of
 from tribodyn.scenario.tables.quality import broken_quality_rules, helix_allowance
 from tribodyn.scenario.tables.tooth_data import broken_tooth_rules, modules_of, shape_errors
 
@@ -169,6 +169,21 @@ def _broken_hands(drive: DriveTable) -> Iterator[InputError]:
             yield InputError(key, quoted(hand), rule, f"write {quoted(other[hand])}, or leave it out")
 
 
+def _broken_blank(key: str, gear: Gear) -> Iterator[InputError]:
+    """A web without a rim to carry, or wider than the teeth."""
+    if gear.web_thickness is None:
+        return
+    if gear.rim_thickness is None:
+        remedy = 'add rim_thickness = "12 mm", under the teeth'
+        yield InputError(f"{key}.rim_thickness", rule="missing: web_thickness needs it", remedy=remedy)
+    if gear.web_thickness > gear.face_width:
+        shown, rule = (
+            f"{1e3 * gear.web_thickness:g} mm",
+            "is wider than the teeth: such a body is a solid disc",
+        )
+        yield InputError(f"{key}.web_thickness", shown, rule, "leave it out, or write a smaller one")
+
+
 def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
     """Go through the rules that a drive breaks by itself."""
     for name in ("pinion", "gear"):
@@ -176,6 +191,7 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
         if drive.material is None and gear.material is None:
             remedy = "give the name of a file in models/materials here, or drive.material for both gears"
             yield InputError(f"drive.{name}.material", rule="missing", remedy=remedy)
+        yield from _broken_blank(f"drive.{name}", gear)
     yield from broken_helix_rules(drive)
     yield from broken_tooth_rules(drive)
     yield from broken_modification_rules(drive)

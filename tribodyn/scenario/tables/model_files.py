@@ -215,6 +215,13 @@ class Gear(quantity.Table):
     mean_roughness: Roughness | None = Field(None, description="Ra of its flanks; default: the drive's")
     mass: Mass | None = Field(None, description="default: from outline, bore and width")
     inertia: Inertia | None = Field(None, description="polar; default: from outline, bore and width")
+    rim_thickness: Length | None = Field(
+        None,
+        description="under the teeth, of a webbed body, for the standards; default: down to the bore",
+    )
+    web_thickness: Length | None = Field(
+        None, description="of such a body, with rim_thickness; default: a solid disc"
+    )
     material: MaterialReference | None = Field(None, description="default: the drive's")
     quality: Grade | None = Field(None, description="its tolerance class; default: the drive's")
     hand: Hand | None = Field(None, description="of its helix; default: by the drive's")

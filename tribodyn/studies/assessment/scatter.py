@@ -193,12 +193,8 @@ def put_in(summary: Mapping[str, Any], samples: SampleValues) -> dict[str, Any]:
         for part, values in (("simulated", samples.simulated), ("iso", samples.iso))
         if summary.get(part)
     }
-    own = {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
-    own |= {
-        name: samples.simulated[name]
-        for name in ("S_H", "S_F", "S_B", "S_lambda")
-        if name in samples.simulated
-    }
+    own = {name: samples.simulated[name] for name in ("S_B", "S_lambda") if name in samples.simulated}
+    own |= {name: samples.iso[name] for name in ("S_H", "S_F") if name in samples.iso}
     by_sample = samples.drawn | samples.quantities | own
     return {
         **summary,

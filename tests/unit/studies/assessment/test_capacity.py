@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 
+from tribodyn.compliance.iso6336 import blank_factor
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
 from tribodyn.studies.gear_train import whole
@@ -71,6 +72,21 @@ def test_a_gear_blank_softens_the_mesh_and_moves_its_resonance(plain):
     assert after.dynamic.resonance_speed == pytest.approx(
         math.sqrt(0.8) * before.dynamic.resonance_speed, rel=1e-9
     )
+
+
+def test_rim_and_web_as_drawn_soften_the_mesh_and_raise_the_root_stress(plain):
+    """C_R of the gear by ISO 6336-1, 1 of the solid pinion, and their mean; Y_B of a thin rim."""
+    drawn = {"drive.gear.rim_thickness": "30 mm", "drive.gear.web_thickness": "90 mm"}
+    standard, capacity = rated(drawn)
+    blank = (1.0 + blank_factor(90.0 / 360.0, 30.0 / 14.0)) / 2.0
+    assert standard.factors.stiffness.blank == pytest.approx(blank)
+    assert blank < 1.0
+    assert capacity.gears[0].factors["Y_B"] == 1.0
+    root = 95 * 14.0 / (2 * math.cos(math.radians(10.0))) + 14.0 * (0.6691 - 1.25)
+    height = 1395.376 / 2 - root
+    assert capacity.gears[1].factors["Y_B"] == pytest.approx(1.6 * math.log(2.242 * height / 30.0), rel=1e-6)
+    both = rated(drawn | {"assessment.gear_blank_factor": 0.7})[0]
+    assert both.factors.stiffness.blank == 0.7
 
 
 def test_a_spectrum_of_equal_duties_is_one_duty_without_application_factor():
@@ -175,6 +191,11 @@ def test_a_required_safety_needs_the_strength_of_the_material(key: str):
         ({"drive.material.treatment": "hardened"}, "drive.material.treatment"),
         ({"drive.material.contact_stress_limit": "0 MPa"}, "drive.material.contact_stress_limit"),
         ({"operating.pinion_speed": "0 rpm"}, "operating.pinion_speed"),
+        ({"drive.gear.web_thickness": "90 mm"}, "drive.gear.rim_thickness"),
+        (
+            {"drive.gear.rim_thickness": "30 mm", "drive.gear.web_thickness": "400 mm"},
+            "drive.gear.web_thickness",
+        ),
     ],
 )
 def test_numbers_without_sense_are_named(changes: dict[str, Any], key: str):

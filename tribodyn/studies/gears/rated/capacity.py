@@ -227,7 +227,7 @@ def _root(
         section.virtual_contact_ratio,
         min(float(body.face_width), float(assembly.common_width) + 2.0 * module),
         abs(tip - root),
-        bore - root if internal else root - bore,
+        case.masses[SIDES.index(side)].rim or abs(root - bore),
         internal,
         case.quality.grade,
         settings.root_roughness,

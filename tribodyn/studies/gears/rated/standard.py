@@ -5,11 +5,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.iso6336 import ReferenceStiffness
+from tribodyn.compliance.iso6336 import ReferenceStiffness, blank_factor
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
-from tribodyn.geometry.drive import reference_radius, tip_radius
-from tribodyn.geometry.helix import base_helix_angle, normal_pressure_angle, overlap_ratio
+from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
+from tribodyn.geometry.helix import base_helix_angle, normal_module, normal_pressure_angle, overlap_ratio
 from tribodyn.standards import micropitting, scuffing
 from tribodyn.standards.contact_path import (
     POINTS,
@@ -124,7 +124,7 @@ def load_factors(
         case.quality,
         operating or (case.operating.pinion_speed, case.operating.gear_torque),
         duty.application * duty.mesh,
-        duty.blank,
+        duty.blank or _blank(case, assembly),
     )
     dynamic = by.dynamic.factor if duty.dynamic is None else duty.dynamic
     transverse = transverse_factor_b(
@@ -134,6 +134,18 @@ def load_factors(
         by.line_load * dynamic * duty.face,
     )
     return LoadFactors(duty, by.dynamic, by.stiffness, transverse, by.line_load)
+
+
+def _blank(case: OiledCase, assembly: Assembly) -> float:
+    """C_R of both bodies as drawn, their mean; 1 of solid discs."""
+    module = float(normal_module(assembly.drive))
+    factors = [
+        1.0
+        if body.web is None or body.rim is None
+        else blank_factor(body.web / float(body_of(assembly.drive, side).face_width), body.rim / module)
+        for side, body in zip(SIDES, case.masses, strict=True)
+    ]
+    return sum(factors) / len(factors)
 
 
 def standard_of(case: OiledCase, assembly: Assembly, duty: RatedDuty) -> Standard:
