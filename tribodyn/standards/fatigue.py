@@ -9,8 +9,6 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple, cast
 
-from scipy.optimize import brentq
-
 #: Bounds within which a safety is looked for.
 _SAFETIES = (1e-4, 1e4)
 
@@ -80,6 +78,8 @@ def safety(bins: Sequence[Bin], curve: StressCurve) -> float:
         return math.inf
     if len(loaded) == 1:
         return curve.at(loaded[0].cycles) / loaded[0].stress
+    from scipy.optimize import brentq  # heavy, and materials need none of it
+
     highest = max(one.stress for one in loaded)
 
     def excess(logarithm: float) -> float:

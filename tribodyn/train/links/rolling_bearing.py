@@ -10,8 +10,6 @@ has one equilibrium.
 from typing import NamedTuple, cast
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import ellipe, ellipk
 
 from tribodyn.numerics.shapes import Array, Float
 
@@ -89,6 +87,8 @@ def _ellipse(ratio: float) -> tuple[float, float, float]:
 
     Hertz: R_y/R_x = (k² ε − ξ)/(ξ − ε).
     """
+    from scipy.optimize import brentq  # heavy, and most pairs have no such bearing
+    from scipy.special import ellipe, ellipk
 
     def integrals(k: float) -> tuple[float, float]:
         parameter = 1.0 - 1.0 / k**2
