@@ -123,8 +123,9 @@ ASSESSMENT = (
     Quantity("loss_lowest", "Lowest loss of all friction laws", "W", ".4g").defined_as("Minimum of them."),
     Quantity("loss_highest", "Highest loss of all friction laws", "W", ".4g").defined_as("Maximum of them."),
     Quantity("life", "Life", "h", ",.0f").defined_as(
-        "Of pinion and gear at the required safeties by ISO 6336-2, -3 and -6; where the stress is endured "
-        "without end, the larger of the required life and 10^10 load cycles."
+        "Of pinion and gear at the required safeties, the shorter of the standard's (ISO 6336-2, -3, -6) and "
+        "the simulation's; where the stress is endured without end, the larger of the required life and "
+        "10^10 load cycles."
     ),
     Quantity("pinion_speed", "Speed of the pinion", "rpm", ".5g").defined_as("Of the duty."),
     Quantity("point_angles", "Roll angles of the points A to E", "°").defined_as("From the pitch point."),

@@ -112,6 +112,21 @@ def rim_factor(gear: BendingGear) -> float:
     return max(1.6 * math.log(2.242 * gear.tooth_height / max(gear.rim, 1e-9)), 1.0)
 
 
+def beyond(gear: BendingGear, notch: float) -> list[str]:
+    """What of a root lies outside the limits of the standard; none: all is inside."""
+    found = []
+    thinnest = 1.75 * gear.normal_module if gear.internal else 0.5 * gear.tooth_height
+    if gear.rim < thinnest:
+        found.append(
+            f"rim {1e3 * gear.rim:.3g} mm, below {1e3 * thinnest:.3g} mm, for which Y_B is extrapolated"
+        )
+    if not 1.0 <= notch < 8.0:
+        found.append(f"notch parameter q_s {notch:.2g}, outside 1 to 8, for which Y_S holds")
+    if math.degrees(gear.helix_angle) > 30.0:
+        found.append("helix angle above 30°: Y_β is that of 30°")
+    return found
+
+
 def deep_tooth_factor(virtual_contact_ratio: float, quality: float) -> float:
     """Y_DT: 1 up to ε_αn = 2.05 and from grade 5 on, falling to 0.7 at 2.5: (44) to (46)."""
     if quality > 4.0 or virtual_contact_ratio <= 2.05:

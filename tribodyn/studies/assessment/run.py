@@ -35,7 +35,7 @@ from tribodyn.studies.assessment.unknowns import described
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks
-from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins, safeties
+from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins
 from tribodyn.studies.gears.rated.margins import strength_of
 from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
 from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
@@ -64,10 +64,11 @@ def check(case: AssessmentCase) -> CheckResult:
     found = with_oil(CheckResult(data, sheet_tables(sheet)), case.lubricant)
     if not assembled(case).family.involute:
         return found
-    iso = _by_standard(case, assembled(case), face=1.0)[0]
+    iso, _, capacity = _by_standard(case, assembled(case), face=1.0)
     face = "given" if case.settings.face_load_factor else "1, until the contact is analysed"
     table = TextTable(f"ISO 6336, K_Hβ {face}", COLUMNS, rating_rows(iso))
-    return found._replace(data={**found.data, "iso": iso}, tables=(*found.tables, table))
+    remarks = (*found.remarks, *metal_remarks(case), *_outside(capacity))
+    return found._replace(data={**found.data, "iso": iso}, tables=(*found.tables, table), remarks=remarks)
 
 
 def _by_standard(
@@ -139,7 +140,7 @@ def assessed(
         "contact_temperature_max": float(local.films.bulk_temperature + np.nanmax(local.films.flash_rise)),
         "specific_film_min": outcome.simulated["lambda_GF"]["worst"],
         **({"transverse_load_factor_method_b": by_standard.factors.transverse_b} if by_standard else {}),
-        **safeties(outcome.capacity),
+        **outcome.least(),
         "iso": outcome.iso,
         "simulated": outcome.simulated,
         "reasons": numbered(outcome.parted),
@@ -153,12 +154,16 @@ def assessed(
         summary = put_in(summary, samples)
     summary |= {
         "assumed": numbered(assumed(case, by_standard is not None)),
-        "extrapolated": numbered(extrapolated(taking_part, done)),
+        "extrapolated": numbered([*extrapolated(taking_part, done), *_outside(outcome.capacity)]),
         **_trust(done, {task.name for _, task in parts.tasks_of(taking_part) if task.needed}),
         "wall_time": perf_counter() - begun,
     }
     summary = {name: value for name, value in summary.items() if value not in ({}, [])}
     return local, summary | {"units": units_of(summary)}
+
+
+def _outside(capacity: Capacity | None) -> tuple[str, ...]:
+    return capacity.remarks if capacity else ()
 
 
 def concluded(
@@ -252,6 +257,8 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     """What is chosen here, or stands in for what the scenario does not say."""
     settings, stages = case.settings, case.lubricant.fzg
     tables = {name: table for name, table in tomllib.loads(case.toml).items() if isinstance(table, Mapping)}
+    if None not in (case.supports.pinion, case.supports.gear):
+        tables.pop("bearings", None)  # shafts as drawn hold both gears
     laws = case.with_laws()
     sentences = [
         f"{law.table.capitalize()} law {law.name}: {data.chosen}."

@@ -13,8 +13,8 @@ from tribodyn.studies.assessment.beside import SimulatedStrength
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.margins import LocalValues
 from tribodyn.studies.assessment.unknowns import Draw
-from tribodyn.studies.gears.rated.capacity import Capacity
-from tribodyn.studies.gears.rated.limits import least, over_samples
+from tribodyn.studies.gears.rated.capacity import Capacity, safeties
+from tribodyn.studies.gears.rated.limits import least, over_samples, worst
 from tribodyn.studies.gears.rated.standard import Standard
 
 #: Quantity of the simulation -> its name by the standards.
@@ -37,6 +37,12 @@ class Conclusion(NamedTuple):
     stresses: tuple[float, float] = (0.0, 0.0)  # of flanks and roots, see `margins.largest_stresses`
     strength: SimulatedStrength | None = None  # of the simulation against pitting and bending
     parted: Sequence[str] = ()  # why simulation and standard part
+
+    def least(self) -> dict[str, float]:
+        """The worse of the standard and the simulation: S_H, S_F, and the life, s."""
+        both = safeties(self.capacity), self.strength.safeties() if self.strength else {}
+        names = dict.fromkeys(name for found in both for name in found)
+        return {name: worst(*(found.get(name) for found in both)) for name in names}
 
     def strength_under(self, stresses: tuple[float, float]) -> SimulatedStrength | None:
         """The strength where the largest stresses are others."""

@@ -1,6 +1,7 @@
 """The part in an assessment: film, friction and losses at the duty, and the losses by every friction law."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -8,9 +9,9 @@ from tribodyn.studies.efficiency import STUDY
 from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult, of_teeth
 
 _TASK, _SAMPLES = "efficiency-", "efficiency-samples"
-#: Slices of the face of samples of spur and of helical teeth, and positions of the mesh cycle: loss and bulk
-#: temperature rise within 0.1 % of 11 slices, of helical teeth within 1 % of 21.
-_SLICES, _HELICAL_SLICES, _POSITIONS = 3, 11, 60
+#: Slices of the face of samples, fewer of spur teeth that nothing but deviations inclines, and positions of
+#: the mesh cycle: loss and bulk temperature rise within 0.1 % of 11 slices, of helical teeth 1 % of 21.
+_SLICES, _MORE_SLICES, _POSITIONS = 3, 11, 60
 _SCATTERED = ("efficiency", "power_friction_mean", "friction_coefficient_mean", "bulk_temperature")
 _QUANTITIES = (
     *("efficiency", "power_in_mean", "power_friction_mean", "friction_coefficient_mean"),
@@ -47,7 +48,8 @@ def tasks(request: Request) -> tuple[Task, ...]:
         for law in request.laws
     ]
     if request.samples:
-        slices = _HELICAL_SLICES if "helix_angle" in tables["drive"] else _SLICES
+        inclined = "helix_angle" in tables["drive"] or "shaft" in tables or _tilted(shared["mesh"])
+        slices = _MORE_SLICES if inclined else _SLICES
         sliced = {
             **found[0].scenario,
             "mesh": {"slices": slices, **shared["mesh"]},
@@ -56,6 +58,12 @@ def tasks(request: Request) -> tuple[Task, ...]:
         cases = [of_teeth(sample) for sample in request.samples]
         found.append(Task(_SAMPLES, "film and losses, samples", sliced, cases, needed=False))
     return tuple(found)
+
+
+def _tilted(mesh: Mapping[str, Any]) -> bool:
+    """Whether the scenario misaligns the axes: any angle but 0."""
+    angles = [mesh.get("misalignment", {}).get(name, "0") for name in ("in_plane", "out_of_plane")]
+    return any(float(str(angle).split()[0]) != 0.0 for angle in angles)
 
 
 def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:

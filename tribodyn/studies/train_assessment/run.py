@@ -130,7 +130,7 @@ def assessed(
         MESHES: meshes,
         "limits": judged(case.limits, _values(own, meshes)),
         "assumed": numbered(list(_assumed(case, meshes))),
-        "extrapolated": numbered(_extrapolated(every, done)),
+        "extrapolated": numbered([*_extrapolated(every, done), *_outside(meshes)]),
         **{name: own[name] for name in (TRUST, REASONS) if own.get(name)},
         "wall_time": perf_counter() - begun,
     }
@@ -210,7 +210,10 @@ def _of_mesh(case: TrainAssessmentCase, mesh: MeshAtDuty, own: Mapping[str, Any]
     bins = life_bins(pair, assembly, standard.factors)
     capacity = capacity_of(pair, assembly, standard.factors, bins, settings, mesh.meshing)
     by_standard = iso_part(pair, standard) | margins_by_standard(standard, strength, oil)
-    return found | {"iso": by_standard | ({"life": capacity.life, **capacity.by_name()} if capacity else {})}
+    if capacity is not None:
+        by_standard |= {"life": capacity.life, **capacity.by_name()}
+    beyond = list(capacity.remarks) if capacity else []
+    return found | {"iso": by_standard} | ({"outside": numbered(beyond)} if beyond else {})
 
 
 def _margin(mesh: Mapping[str, Any], name: str) -> float:
@@ -271,6 +274,12 @@ def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]])
         yield life_said(settings, 0)
     if any("S_B" not in mesh.get("simulated", {}) for mesh in meshes.values()):
         yield "Without an FZG load stage of the oil there is no safety against scuffing."
+
+
+def _outside(meshes: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """What of the meshes lies outside the limits of the standards."""
+    found = [(name, text) for name, mesh in meshes.items() for text in mesh.get("outside", {}).values()]
+    return [f"Mesh {name}: {text}" for name, text in found]
 
 
 def _extrapolated(every: Sequence[tuple[Study, Task]], done: Mapping[str, TaskResult]) -> list[str]:

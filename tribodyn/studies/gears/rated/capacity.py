@@ -58,6 +58,7 @@ class Capacity(NamedTuple):
 
     gears: tuple[GearCapacity, GearCapacity]
     common: dict[str, float]  # factors of both gears by their names
+    remarks: tuple[str, ...] = ()  # what lies outside the limits of the standard
 
     @property
     def life(self) -> float:
@@ -92,7 +93,7 @@ def capacity_of(
     roots = [_root(case, assembly, side, settings, turns) for side, turns in zip(SIDES, meshing, strict=True)]
     slender = min(root.face_width for root in roots) / max(root.tooth_height for root in roots)
     face, tangential = bending.face_factor(at_duty.duty.face, slender), pitting.tangential_load(mesh)
-    gears = []
+    gears, remarks = [], list[str]()
     for number, (metal, root, turns) in enumerate(zip(metals, roots, meshing, strict=True)):
         turned = turns.per_turn / (abs(mesh.path.ratio) if number else 1.0)
         cycles = [settings.life * load.share * load.pinion_speed * turned / (2.0 * math.pi) for load in bins]
@@ -106,6 +107,7 @@ def capacity_of(
         def bent(factors: LoadFactors, share: float = 1.0, nominal: bending.Stress = nominal) -> float:
             return bending.root_stress(nominal, factors.flank / factors.duty.face * face * share)
 
+        remarks += [f"Root of the {SIDES[number]}: {text}." for text in bending.beyond(root, nominal.notch)]
         relative = bending.relative_factors(root, nominal, metal)
         curves = pitting.permissible(metal, influence.of(number)), bending.permissible(metal, relative)
         needed = settings.safety_pitting, settings.safety_bending
@@ -125,7 +127,7 @@ def capacity_of(
         factors = flank_names(metal, influence, number) | root_names(metal, root, nominal, relative)
         gears.append(GearCapacity(found[0], found[1], factors | _failures_by_name(metal, found, needed)))
     common = common_names(mesh, shape, influence) | {"K_Fbeta": face, "K_Falpha": at_duty.transverse}
-    return Capacity((gears[0], gears[1]), common)
+    return Capacity((gears[0], gears[1]), common, tuple(remarks))
 
 
 def _mesh(case: OiledCase, assembly: Assembly, settings: RatingTable) -> pitting.PittingMesh:

@@ -10,7 +10,7 @@ from tribodyn.geometry.drive import MaterialData
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import InUnit, Positive, Switch, Table, written
 
-AtLeastOne = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=1)]
+AtLeastOne = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=1, le=100)]
 Hours = Annotated[float, InUnit(units.positive(units.TIME), "20000 h")]
 Roughness = Annotated[float, InUnit(units.positive(units.LENGTH), "4.8 um")]
 #: Mean peak-to-valley roughness over Ra where the former is not given: ISO 6336-2.
