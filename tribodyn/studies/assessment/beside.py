@@ -16,10 +16,10 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards.bending import mean_stress_influence, pulsating_stress
-from tribodyn.standards.fatigue import Bin
+from tribodyn.standards.fatigue import Bin, damage
 from tribodyn.standards.rainflow import rainflow_repeated
 from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.gears.rated.capacity import Capacity, Failure, life_of
+from tribodyn.studies.gears.rated.capacity import MOST_DAMAGE, Capacity, Failure, life_of
 from tribodyn.studies.gears.rated.strength import metals_of
 
 
@@ -155,6 +155,7 @@ class SimulatedFailure(NamedTuple):
     stress: float  # Pa
     safety: float | None = None
     life: float | None = None  # s
+    damage: float | None = None  # Miner's sum at the required safety; 0: without end, `life` is a lower bound
     #: the same under stresses so many times as large
     times: Callable[[float], "SimulatedFailure"] | None = None
 
@@ -169,7 +170,8 @@ class SimulatedStrength(NamedTuple):
         """By the standard's names, of each gear."""
         found: dict[str, dict[str, float]] = {}
         for letter, name, both in (("H", "pitting", self.pitting), ("F", "bending", self.bending)):
-            values = {f"sigma_{letter}": "stress", f"S_{letter}": "safety", f"life_{name}": "life"}
+            values = {f"sigma_{letter}": "stress", f"S_{letter}": "safety"}
+            values |= {f"life_{name}": "life", f"damage_{name}": "damage"}
             for key, field in values.items():
                 of_gears = {side: getattr(one, field) for side, one in zip(SIDES, both, strict=True)}
                 found |= {key: of_gears} if None not in of_gears.values() else {}
@@ -251,6 +253,7 @@ def _rated(
         stress = factor * found.stress
         grown = [Bin(factor * one.stress, one.cycles) for one in endured]
         reached, _ = life_of(grown, rated.curve, required, life, rated.cycles)
-        return SimulatedFailure(stress, rated.safety * rated.stress / stress, reached, times)
+        used = min(damage(grown, rated.curve, required), MOST_DAMAGE)
+        return SimulatedFailure(stress, rated.safety * rated.stress / stress, reached, used, times)
 
     return times(1.0)

@@ -21,6 +21,8 @@ from tribodyn.studies.protocol.part import Meshing
 
 #: Where lines of permissible stress end, load cycles.
 LAST_CYCLES = 1e10
+#: Miner's sum that stands for the infinite one of a stress above the static limit.
+MOST_DAMAGE = 1e12
 
 
 class LoadBin(NamedTuple):
@@ -246,7 +248,7 @@ def _failure(stress: float, bins: Sequence[Bin], curve: StressCurve, required: f
         curve,
         cycles,
         safety(bins, curve),
-        min(damage(bins, curve, required), 1e12),
+        min(damage(bins, curve, required), MOST_DAMAGE),
         found,
         unlimited,
     )

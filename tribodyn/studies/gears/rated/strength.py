@@ -46,9 +46,7 @@ def metal_remarks(case: GearCase) -> list[str]:
             continue
         metal = cast(Metal, metal_of(material))
         origin = "given" if material.contact_stress_limit and material.bending_stress_limit else "ISO 6336-5"
-        text = (
-            f"{material.name}, {material.treatment} {material.grade}: σ_Hlim {metal.contact_limit * 1e-6:.0f}"
-        )
+        text = f"Strength of {material.name}, {material.grade}: σ_Hlim {metal.contact_limit * 1e-6:.0f}"
         found.append(f"{text} and σ_Flim {metal.bending_limit * 1e-6:.0f} N/mm² ({origin}).")
         low, high = hardness_range(metal.treatment, cast(Grade, material.grade))
         hardness = material.hardness / VICKERS
