@@ -1,7 +1,6 @@
 """From a case of an assessment to its record: the other studies' parts, then the standards beside them."""
 
-import tomllib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,9 +13,7 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.sheet import geometry_sheet
-from tribodyn.post.report import EXCEEDED
 from tribodyn.quantities.catalogue import QUANTITIES
-from tribodyn.record.reader import Record
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
@@ -28,16 +25,15 @@ from tribodyn.studies.assessment.margins import (
     margins_and_limits,
     simulated_part,
 )
-from tribodyn.studies.assessment.parts import Part
 from tribodyn.studies.assessment.reasons import compared
+from tribodyn.studies.assessment.said import assumed, extrapolated
 from tribodyn.studies.assessment.scatter import Conclusion, put_in, samples_of
-from tribodyn.studies.assessment.unknowns import described
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks
+from tribodyn.studies.gears.rated.bearings import bearing_part
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins
 from tribodyn.studies.gears.rated.margins import strength_of
-from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
+from tribodyn.studies.gears.rated.said import numbered
 from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
 from tribodyn.studies.gears.rated.standard import Standard, iso_part, rated_duty, standard_of
 from tribodyn.studies.gears.rated.strength import metal_remarks
@@ -45,8 +41,6 @@ from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.part import TaskResult
 from tribodyn.studies.protocol.recording import TextTable
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
-from tribodyn.tribology.closure import laws_of
-from tribodyn.tribology.oil import oil_values
 
 #: What is no number, or has the unit of what is compared; what ends the name of a scatter.
 WITHOUT_UNIT, SPREAD_OF = ("limits", "limit_values", "samples"), "_spread"
@@ -245,87 +239,3 @@ def _trust(done: dict[str, TaskResult], needed: Collection[str]) -> dict[str, An
         if found:
             return {TRUST: verdict, REASONS: reasons}
     return {TRUST: INSIDE} if judged else {}
-
-
-#: Words by which a study says that a law is used outside its range.
-_BEYOND = "extrapolated"
-#: How the origin of a number begins that nobody has measured.
-_ASSUMPTION = "assumption"
-
-
-def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
-    """What is chosen here, or stands in for what the scenario does not say."""
-    settings, stages = case.settings, case.lubricant.fzg
-    tables = {name: table for name, table in tomllib.loads(case.toml).items() if isinstance(table, Mapping)}
-    if None not in (case.supports.pinion, case.supports.gear):
-        tables.pop("bearings", None)  # shafts as drawn hold both gears
-    laws = case.with_laws()
-    sentences = [
-        f"{law.table.capitalize()} law {law.name}: {data.chosen}."
-        for law, data in zip(laws_of(laws), (laws.film, laws.friction), strict=True)
-        if data.chosen
-    ]
-    sentences += [
-        f"{name.capitalize()}: {text}" for name, table in tables.items() for text in _of_models(table)
-    ]
-    for name, value in oil_values(case.lubricant).items():
-        if value.origin.startswith(_ASSUMPTION) or value.spread is not None:
-            spread = f", published {value.spread[0]:g} to {value.spread[1]:g}" if value.spread else ""
-            sentences.append(f"Oil: {name.replace('_', ' ')} {value.value:.3g} ({value.origin}{spread}).")
-    if missing := [name for name in ("scuffing", "micropitting") if not getattr(stages, name)]:
-        names = " and ".join(missing)
-        sentences.append(f"The oil has no FZG load stage of {names}: no margin can be given.")
-    sentences.append(f"{factors_said(settings)} Damping of the mesh {settings.damping_ratio:g}.")
-    if by_standard:
-        sentences += metal_remarks(case)
-        sentences.append(life_said(settings, len(case.spectrum)))
-    sentences += bearing_remarks(case, case.lubricant)
-    scatter = ""
-    if settings.samples:
-        varied = described(case, settings.unknowns, settings.damping_ratio)
-        scatter = f"; its scatter is over {settings.samples} samples of {varied}"
-    sentences.append(
-        "The simulation has accurate teeth but for modifications and misalignment of the scenario and its "
-        f"shafts{scatter}. Its K_Hα is that of one tooth with the base pitch deviation of the standard."
-    )
-    of_standards = "The standards' formulas are for involutes: this drive has none beside the simulation."
-    if by_standard:
-        of_standards = (
-            f"Standards: deviations of class {case.quality.grade:g} by ISO 1328-1, K_v and K_Hα by method B, "
-            "flanks without credited tip relief, case-hardened running-in, new oil."
-        )
-    return [*sentences, of_standards]
-
-
-def _of_models(table: Mapping[str, Any]) -> Iterator[str]:
-    """Assumptions that model files state."""
-    if table.get("assumptions"):
-        yield str(table["assumptions"])
-    for inner in table.values():
-        if isinstance(inner, Mapping):
-            yield from _of_models(inner)
-
-
-def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, TaskResult]) -> list[str]:
-    """Where laws are used outside their range, and what could not be computed."""
-    remarks, compared = [], []
-    # of a law that is needed the parts that need it say where it is used outside its range
-    needed = [task.name for _, task in parts.tasks_of(taking_part) if task.needed]
-    laws = {done[name].summary.get("friction_law") for name in needed}
-    for study, task in parts.tasks_of(taking_part):
-        result = done[task.name]
-        remarks += result.failures
-        if result.summary and not task.needed:
-            inside = result.summary.get("friction_in_range_fraction")
-            own = result.summary.get("friction_law") not in laws
-            compared += [task.about] if own and inside is not None and inside < 1.0 else []
-        elif result.summary:
-            with Record(result.path) as record:
-                sentences = study.sentences(record)
-            exceeded = [sentence for sentence in sentences if sentence.startswith(EXCEEDED)]
-            found = exceeded or [sentence for sentence in sentences if _BEYOND in sentence]
-            remarks += [f"{task.about.capitalize()}: {sentence}" for sentence in found]
-    if compared:
-        about = "; ".join(compared)
-        remarks.append(f"For comparison only, outside the range of the law in part or all: {about}.")
-    return list(dict.fromkeys(remarks))
