@@ -1,0 +1,46 @@
+"""What one tooth has of its own, over the roll of a pair and the face: missing material, compliance, friction.
+
+A tooth has two flanks: the *leading* one, which drives another gear as this one turns nominally, and the
+*trailing* one, which is driven. A planet between sun and ring is touched on both. Teeth are numbered from 0 in
+the order in which they come into contact; in scenarios and on pages from 1.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Float
+
+#: Flanks of a tooth.
+LEADING, TRAILING = range(2)
+
+
+class FlankPlaces(NamedTuple):
+    """Where the flank of one gear is touched in a mesh: nodes over the roll of a pair, slices over the face."""
+
+    roll: Float[Array, " node"]  # of the mesh's driver from the pitch point, rad
+    distance: Float[Array, " node"]  # signed distance r of the contact from the pitch point, m
+    radius: Float[Array, " node"]  # of the contact from this gear's axis, m
+    pressure_angle: Float[Array, " node"]  # rad
+    face: Float[Array, " slice"]  # middles of the slices, m from the middle of the face
+
+
+class ToothFields(NamedTuple):
+    """What a flank of one tooth has of its own at `FlankPlaces`."""
+
+    gap: Float[Array, "slice node"]  # material missing along the flank's normal, m
+    #: compliance added along the normal, as if the whole face were as the slice is, m/N
+    compliance: Float[Array, "slice node"]
+    friction: Float[Array, "slice node"]  # factor on the friction coefficient
+
+    def beside(self, other: "ToothFields") -> "ToothFields":
+        """What both together make of a tooth."""
+        return ToothFields(
+            self.gap + other.gap, self.compliance + other.compliance, self.friction * other.friction
+        )
+
+
+def sound(places: FlankPlaces) -> ToothFields:
+    """A tooth as it was drawn."""
+    shape = len(places.face), len(places.roll)
+    return ToothFields(np.zeros(shape), np.zeros(shape), np.ones(shape))
