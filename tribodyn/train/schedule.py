@@ -31,6 +31,10 @@ class Schedule(NamedTuple):
     opens: Float[Array, "interval mesh"]  # 1 where the mesh comes to this segment at the interval's start
     rate: Float[Array, " mesh"]  # cycles of the mesh per reference cycle
     offset: Float[Array, "interval mesh"]  # phase of the mesh less its rate times the phase
+    #: driver_tooth, driven_tooth: numbers of the teeth that entered last, where these have anything of their
+    #: own (`with_teeth`); otherwise nothing reads them
+    driver_tooth: Float[Array, "interval mesh"] = np.zeros((0, 0))
+    driven_tooth: Float[Array, "interval mesh"] = np.zeros((0, 0))
 
     @property
     def period(self) -> int:
@@ -96,6 +100,45 @@ def schedule_of(
     phase_in = np.array(starts) - np.array(cycles)
     phase_out = np.array(ends) - np.array(cycles)
     return Schedule(first, phase_in, phase_out, segment, opens, np.array([float(r) for r in rates]), offset)
+
+
+def with_teeth(
+    schedule: Schedule,
+    first: Sequence[tuple[int, int]],
+    teeth: Sequence[tuple[int, int]],
+    cycles: int,
+) -> Schedule:
+    """The schedule of so many reference cycles, or of the hunting period if that is shorter, with its teeth.
+
+    `first` are the numbers of the driver's and the driven gear's teeth that entered each mesh last at the
+    start, `teeth` how many these gears have. After as many cycles of a mesh as the least common multiple of
+    both the same teeth meet again.
+    """
+    short, count = schedule.period, len(np.asarray(schedule.start))
+    begun = np.searchsorted(np.asarray(schedule.first)[1:], np.arange(count), side="right")
+    rate, offset = np.asarray(schedule.rate), np.asarray(schedule.offset)
+    turns = np.round(offset[0] + rate * begun[:, None] - offset)  # whole cycles of every mesh since the start
+    in_period = np.round(rate * short).astype(int)
+    hunting = [
+        lcm(int(turned), *(abs(z) for z in both)) // int(turned)
+        for turned, both in zip(in_period, teeth, strict=True)
+    ]
+    times = min(lcm(*hunting), -(-cycles // short))
+    whole = (turns + in_period * np.arange(times)[:, None, None]).reshape(times * count, -1)
+    numbers = [
+        np.mod(whole + [one[end] for one in first], [abs(both[end]) for both in teeth]) for end in (0, 1)
+    ]
+    starts = (np.asarray(schedule.first)[:-1] + count * np.arange(times)[:, None]).ravel()
+    return Schedule(
+        np.append(starts, float(times * count)),
+        np.tile(schedule.start, times),
+        np.tile(schedule.end, times),
+        np.tile(schedule.segment, (times, 1)),
+        np.tile(schedule.opens, (times, 1)),
+        rate,
+        np.tile(offset, (times, 1)),
+        *numbers,
+    )
 
 
 @law

@@ -23,6 +23,9 @@ class FlankPlaces(NamedTuple):
     radius: Float[Array, " node"]  # of the contact from this gear's axis, m
     pressure_angle: Float[Array, " node"]  # rad
     face: Float[Array, " slice"]  # middles of the slices, m from the middle of the face
+    #: direction of the axis of tooth 0 while it is touched there, from the line of centres to the mate in the
+    #: gear's own sense of rotation, rad; that of tooth n is 2πn/z behind
+    turned: Float[Array, "slice node"]
 
 
 class ToothFields(NamedTuple):
