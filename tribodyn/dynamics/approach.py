@@ -7,6 +7,10 @@ from typing import Any, NamedTuple
 
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.elementary import last_axis_of_four, law, skippable, sqrt
+from tribodyn.train.teeth import COMPLIANCE as COMPLIANCE_OF_TEETH
+from tribodyn.train.teeth import FRICTION as FRICTION_OF_TEETH
+from tribodyn.train.teeth import GAP as GAP_OF_TEETH
+from tribodyn.train.teeth import deflect_apart, differ, own_and_slope, own_place
 
 # Quantities of one contact, rows of `work`.
 DISTANCE = 0  # signed distance r from the pitch point, m
@@ -39,8 +43,9 @@ LINE_LOAD = 26  # normal load per width of the slot, N/m
 LEAN_COS = 27  # of the angle of the normal to the transverse plane
 LEAN_SIN = 28  # positive where the driver pushes the driven flank along +z
 AXIAL_PLACE = 29  # z of the slot from the middle of the face, m
-COUPLING = 30  # deflection per load on slot 0, and on from here per load on the other slots, m/N
-QUANTITIES = 30  # and one more for every slot
+OWN_FRICTION = 30  # what single teeth add to 1 as a factor on the friction coefficient, where they differ
+COUPLING = 31  # deflection per load on slot 0, and on from here per load on the other slots, m/N
+QUANTITIES = 31  # and one more for every slot
 
 # Channels of mesh.cycle.Polynomials.channel.
 _COSINE, _SINE = CHANNELS.index("cosine"), CHANNELS.index("sine")
@@ -58,6 +63,10 @@ class MeshPlace(NamedTuple):
     cell: Any  # whole
     u: Any  # position in the cell, 0 … 1
     cells_per_radian: Any  # cells per rotation of the driver
+    phase: Any  # of the mesh, 0 … 1
+    #: driver_tooth, driven_tooth: numbers of the teeth that entered last, where teeth differ
+    driver_tooth: Any
+    driven_tooth: Any
 
 
 class Motion(NamedTuple):
@@ -134,7 +143,7 @@ def approach(place, motion, mesh, work):
     """
     table = mesh.table
     c = table.channel
-    segment, cell, u, cells_per_radian = place
+    segment, cell, u, cells_per_radian, _, _, _ = place
     ratio = mesh.driver_radius / mesh.driven_radius
     speed = motion.driver_speed
     for i in range(table.side.shape[0]):
@@ -185,6 +194,17 @@ def approach(place, motion, mesh, work):
             error = lean_cos * error + lean_sin * axial
             rate = lean_cos * rate + lean_sin * axial_rate
         slope = (slope - gap_slope) * cells_per_radian
+        compliance_slope = compliance_slope * cells_per_radian
+        if differ(mesh):
+            own = own_place(i, place, mesh)
+            missing, missing_slope = own_and_slope(own, GAP_OF_TEETH, mesh)
+            gap = gap + missing
+            slope = slope - missing_slope
+            if deflect_apart(mesh):
+                softer, softer_slope = own_and_slope(own, COMPLIANCE_OF_TEETH, mesh)
+                compliance = compliance + softer
+                compliance_slope = compliance_slope + softer_slope
+                work[OWN_FRICTION, i], _ = own_and_slope(own, FRICTION_OF_TEETH, mesh)
         flank_speed = cubic(c, segment, cell, i, _SPEED, u)
         driver_lever = distance + mesh.driver_radius * sine
         driven_lever = mesh.driven_radius * sine - distance
@@ -199,7 +219,7 @@ def approach(place, motion, mesh, work):
         work[DRIVER_SPEED, i] = side * speed * flank_speed
         work[DRIVEN_SPEED, i] = side * speed * (flank_speed - (1.0 + ratio) * distance)
         work[COMPLIANCE, i] = compliance
-        work[COMPLIANCE_SLOPE, i] = compliance_slope * cells_per_radian
+        work[COMPLIANCE_SLOPE, i] = compliance_slope
         work[TRANSMISSION_ERROR, i] = error
         work[APPROACH, i] = error - gap
         work[APPROACH_SLOPE, i] = slope

@@ -98,7 +98,7 @@ def parametric_torque(place, mesh, model, work):
     Grosh & Barber 2005); the damping part of F_i belongs to it, so that damping dissipates c_i δ_i'² and
     nothing else.
     """
-    segment, cell, u, cells_per_radian = place
+    segment, cell, u, cells_per_radian, _, _, _ = place
     pairs = mesh.table.side.shape[0]
     torque = 0.0
     for i in range(pairs):

@@ -17,6 +17,7 @@ from tribodyn.dynamics.approach import (
     FRICTION_FORCE,
     LINE_LOAD,
     NORMAL_LOAD,
+    OWN_FRICTION,
     PRESENT,
     RADIUS,
     RELATIVE_VELOCITY,
@@ -41,6 +42,7 @@ from tribodyn.dynamics.smooth import (
 )
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.elementary import law, maximum, skippable, sqrt, where
+from tribodyn.train.teeth import deflect_apart
 from tribodyn.tribology.contact import averaged_radius, local_contact
 from tribodyn.tribology.law import ActiveLaw
 
@@ -61,7 +63,7 @@ def elastic_loads(place, mesh, model, work):
     projected Gauss-Seidel sweeps. With all pairs loaded the start is the answer up to interpolation, and each
     sweep reduces an error by (C_ij/C_ii)² ≈ 0.1; a pair that separates is out after the first.
     """
-    segment, cell, u, _ = place
+    segment, cell, u, _, _, _, _ = place
     table = mesh.table
     pairs = table.side.shape[0]
     width = model.operation.contact_width
@@ -134,7 +136,7 @@ def normal_contacts(place, motion, mesh, model, work):
 def _normal_contact(i, place, motion, mesh, model, work):
     """Fill `work` with slot i's normal load and what depends on it; return the line load of its friction."""
     width, table = model.operation.contact_width, mesh.table
-    segment, cell, u, _ = place
+    segment, cell, u, _, _, _, _ = place
     stiffness = work[STIFFNESS, i]
     engaged = ramp(work[EFFECTIVE_APPROACH, i], width)
     damping = mesh.damping * sqrt(stiffness) * work[APPROACH_RATE, i]
@@ -185,6 +187,8 @@ def contact_forces(place, motion, reversals, mesh, model, work):
         )
         film = ActiveLaw(model.options.film, mesh.film)
         coefficient = model.options.friction.coefficient(state, film, mesh.surfaces, mesh.friction)
+        if deflect_apart(mesh):
+            coefficient = coefficient * (1.0 + work[OWN_FRICTION, i])
         work[FRICTION_COEFFICIENT, i] = coefficient
         work[TURNED, i] = sliding * reversals
         work[FRICTION_FORCE, i] = coefficient * work[NORMAL_LOAD, i] * sign(work[TURNED, i])

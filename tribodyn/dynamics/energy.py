@@ -6,16 +6,17 @@ from tribodyn.dynamics.contact_forces import elastic_loads
 from tribodyn.dynamics.frame import frame_energy
 from tribodyn.dynamics.loads import link_energy
 from tribodyn.dynamics.parameters import DRIVE_SPEED, ENERGY_CONSISTENT
-from tribodyn.dynamics.places import locate, motion_of
+from tribodyn.dynamics.places import latest_teeth, locate, motion_of
 from tribodyn.numerics.elementary import by_chain_rule, independent, law, maximum, skippable, sqrt, truncate
 from tribodyn.train.structure import shift_of, slip_of, speed_of
 
 
 @law
-def strain_energy(phase, segment, m, y, model, work):
+def strain_energy(phase, segment, interval, m, y, model, work):
     """Strain energy of a mesh's contacts at a phase of its own, J; fills its `work` with elastic loads."""
     mesh = model.meshes[m]
-    place = locate(phase, segment, mesh.table)
+    one, two = latest_teeth(m, interval, model)
+    place = locate(phase, segment, one, two, mesh.table)
     motion = motion_of(m, y, model)
     approach(place, independent(motion, work), mesh, work)
     elastic_loads(place, mesh, model, work)
@@ -42,8 +43,8 @@ def engagement(interval, y, model, work):
             continue
         boundary = model.meshes[m].table.boundary
         behind, ahead = truncate(schedule.segment[before, m]), truncate(schedule.segment[interval, m])
-        gained = strain_energy(boundary[ahead], ahead, m, y, model, work[m]) - strain_energy(
-            boundary[behind + 1], behind, m, y, model, work[m]
+        gained = strain_energy(boundary[ahead], ahead, interval, m, y, model, work[m]) - strain_energy(
+            boundary[behind + 1], behind, before, m, y, model, work[m]
         )
         step = step + schedule.opens[interval, m] * gained
     if model.options.formulation != ENERGY_CONSISTENT:

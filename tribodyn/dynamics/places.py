@@ -25,14 +25,28 @@ from tribodyn.train.structure import (
 
 
 @law
-def locate(phase, segment, table):
-    """`MeshPlace` at a phase of a mesh (0 … 1) inside a segment of its table."""
+def locate(phase, segment, driver_tooth, driven_tooth, table):
+    """`MeshPlace` at a phase of a mesh (0 … 1) inside a segment of its table; numbers of the latest teeth."""
     start = table.boundary[segment]
     cells = table.channel.shape[1]
     cells_per_cycle = cells / (table.boundary[segment + 1] - start)
     position = minimum(maximum((phase - start) * cells_per_cycle, 0.0), cells - 1e-9)
     cell = truncate(position)
-    return MeshPlace(segment, cell, position - cell, cells_per_cycle / table.pitch_angle)
+    return MeshPlace(
+        segment,
+        cell,
+        position - cell,
+        cells_per_cycle / table.pitch_angle,
+        phase,
+        driver_tooth,
+        driven_tooth,
+    )
+
+
+@law
+def latest_teeth(m, interval, model):
+    """Numbers of the teeth of a mesh that entered last, driver's and driven gear's; 0 where all are alike."""
+    return model.schedule.driver_tooth[interval, m], model.schedule.driven_tooth[interval, m]
 
 
 @law
@@ -40,7 +54,8 @@ def place_in_mesh(m, phase, interval, model):
     """`MeshPlace` of a mesh at a phase of the reference in an interval of the schedule."""
     schedule = model.schedule
     segment = truncate(schedule.segment[interval, m])
-    return locate(phase_of(phase, interval, m, schedule), segment, model.meshes[m].table)
+    one, two = latest_teeth(m, interval, model)
+    return locate(phase_of(phase, interval, m, schedule), segment, one, two, model.meshes[m].table)
 
 
 @law

@@ -31,10 +31,10 @@ class Schedule(NamedTuple):
     opens: Float[Array, "interval mesh"]  # 1 where the mesh comes to this segment at the interval's start
     rate: Float[Array, " mesh"]  # cycles of the mesh per reference cycle
     offset: Float[Array, "interval mesh"]  # phase of the mesh less its rate times the phase
-    #: driver_tooth, driven_tooth: numbers of the teeth that entered last, where these have anything of their
-    #: own (`with_teeth`); otherwise nothing reads them
-    driver_tooth: Float[Array, "interval mesh"] = np.zeros((0, 0))
-    driven_tooth: Float[Array, "interval mesh"] = np.zeros((0, 0))
+    #: driver_tooth, driven_tooth: numbers of the teeth that entered last, see `with_teeth`; 0 where all teeth
+    #: are alike
+    driver_tooth: Float[Array, "interval mesh"]
+    driven_tooth: Float[Array, "interval mesh"]
 
     @property
     def period(self) -> int:
@@ -49,7 +49,8 @@ def of_one_mesh(boundary: Float[Array, " boundary"]) -> Schedule:
     segment = np.arange(count, dtype=float)[:, None]
     start, end = xp.asarray(boundary)[:-1], xp.asarray(boundary)[1:]
     first = np.array([0.0, count])
-    return Schedule(first, start, end, segment, np.ones((count, 1)), np.ones(1), np.zeros((count, 1)))
+    none = np.zeros((count, 1))
+    return Schedule(first, start, end, segment, np.ones((count, 1)), np.ones(1), none, none, none)
 
 
 def common_period(rates: Sequence[Fraction]) -> int:
@@ -99,7 +100,8 @@ def schedule_of(
             offset[n, mesh] = phase + float(rate * cycle) - floor(middle)
     phase_in = np.array(starts) - np.array(cycles)
     phase_out = np.array(ends) - np.array(cycles)
-    return Schedule(first, phase_in, phase_out, segment, opens, np.array([float(r) for r in rates]), offset)
+    none, rate = np.zeros_like(opens), np.array([float(r) for r in rates])
+    return Schedule(first, phase_in, phase_out, segment, opens, rate, offset, none, none)
 
 
 def with_teeth(

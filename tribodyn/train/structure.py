@@ -23,6 +23,7 @@ from tribodyn.numerics.elementary import law
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.static import Indices, StaticInt
 from tribodyn.train.links.chain import NoLinkParameters
+from tribodyn.train.teeth import ALIKE, Teeth
 from tribodyn.tribology.contact import Surfaces
 
 #: Works, counted from the first: those of the whole train, and from `OF_MESHES` on two of every mesh.
@@ -110,6 +111,7 @@ class GearMesh(NamedTuple):
     driven_sense: Any = 1.0
     #: what the rotation of its carrier moves the pitch point by along the tangent, m/rad
     carrier_arm: Any = 0.0
+    teeth: Teeth = ALIKE  # what single teeth have of their own
 
 
 class TrainLayout(NamedTuple):

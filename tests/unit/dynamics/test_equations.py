@@ -207,7 +207,7 @@ def test_coupled_loads_solve_the_contact_problem(prepared, rng, overrides):
 
 
 def _strain(model, y, phase, segment):
-    return strain_energy(phase, segment, 0, y, model, {})
+    return strain_energy(phase, segment, 0, 0, y, model, {})
 
 
 def test_elastic_loads_are_the_gradient_of_the_strain_energy(model, rng):
@@ -218,7 +218,7 @@ def test_elastic_loads_are_the_gradient_of_the_strain_energy(model, rng):
         y[TURN_G] = -abs(y[TURN_G]) - 2e-5 / radius
         phase, segment = random_place(rng, model.schedule)
         work: dict = {}
-        strain_energy(phase, segment, 0, y, model, work)
+        strain_energy(phase, segment, 0, 0, y, model, work)
         step = 1e-9
         up, down = y.copy(), y.copy()
         up[TURN_G] -= step / radius
@@ -342,13 +342,13 @@ def test_engagement_keeps_the_energy_with_a_free_pinion(prepared, rng, inertia):
     places = [(0, boundary[1], 1, boundary[1]), (segments - 1, 1.0, 0, 0.0)]
     for before, phase_before, after, phase_after in places:
         work = contacts_of(model)
-        strain_energy(phase_before, before, 0, y, model, work[0])
+        strain_energy(phase_before, before, before, 0, y, model, work[0])
         energy = stored_energy(y, model, work)
         slip, work_in, parametric = engagement(after, y, model, contacts_of(model))
         z = y.copy()
         engage(after, True, y, model, contacts_of(model), z)
         assert z[SLIP] == y[SLIP] + slip
-        strain_energy(phase_after, after, 0, z, model, work[0])
+        strain_energy(phase_after, after, after, 0, z, model, work[0])
         # only the pinion's speed jumps: the gear's does not
         assert stored_energy(z, model, work) == pytest.approx(energy + parametric, rel=1e-12)
         assert slip != 0.0
@@ -364,8 +364,8 @@ def test_locate_stays_inside_the_given_segment(prepared):
     cells = table.channel.shape[1]
     for segment in range(2):
         start, end = table.boundary[segment], table.boundary[segment + 1]
-        assert locate(float(start), segment, table)[:3] == (segment, 0, 0.0)
-        there, cell, u, _ = locate(float(end), segment, table)
+        assert locate(float(start), segment, 0.0, 0.0, table)[:3] == (segment, 0, 0.0)
+        there, cell, u, *_ = locate(float(end), segment, 0.0, 0.0, table)
         assert there == segment
         assert cell == cells - 1
         assert u == pytest.approx(1.0, abs=1e-8)

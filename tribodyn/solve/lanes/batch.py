@@ -29,7 +29,7 @@ INTERVAL = 0.1
 #: The model's parts of numbers and tables.
 RECORDS = tuple(name for name in Model._fields if name != "options")
 #: Tables that models of one shape have in common, value for value: branches may hang on them.
-SHARED = ("side", "in_contact", "first", "segment", "opens")
+SHARED = ("side", "in_contact", "first", "segment", "opens", "driver_tooth", "driven_tooth")
 #: Records whose tables are short, and stand among the numbers.
 SHORT = ("Bodies", "Links", "Schedule")
 

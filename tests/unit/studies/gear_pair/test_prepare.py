@@ -39,7 +39,7 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
         for count in (sweeps, 100):
             work: dict = {}
             exact = model._replace(options=model.options._replace(sweeps=count))
-            strain_energy(0.5 * mesh.table.boundary[1], 0, 0, y, exact, work)
+            strain_energy(0.5 * mesh.table.boundary[1], 0, 0, 0, y, exact, work)
             loads.append([work[ELASTIC_LOAD, i] for i in range(2)])
         separated += min(loads[1]) == 0.0 < max(loads[1])
         np.testing.assert_allclose(loads[0], loads[1], rtol=0, atol=1e-4 * max(loads[1]))
