@@ -5,7 +5,8 @@ A tooth has two flanks: the *leading* one, which drives another gear as this one
 the order in which they come into contact; in scenarios and on pages from 1.
 """
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -22,6 +23,7 @@ class FlankPlaces(NamedTuple):
     distance: Float[Array, " node"]  # signed distance r of the contact from the pitch point, m
     radius: Float[Array, " node"]  # of the contact from this gear's axis, m
     pressure_angle: Float[Array, " node"]  # rad
+    lean: Float[Array, " node"]  # cosine of the normal's angle out of the transverse plane
     face: Float[Array, " slice"]  # middles of the slices, m from the middle of the face
     #: direction of the axis of tooth 0 while it is touched there, from the line of centres to the mate in the
     #: gear's own sense of rotation, rad; that of tooth n is 2πn/z behind
@@ -47,3 +49,26 @@ def sound(places: FlankPlaces) -> ToothFields:
     """A tooth as it was drawn."""
     shape = len(places.face), len(places.roll)
     return ToothFields(np.zeros(shape), np.zeros(shape), np.ones(shape))
+
+
+class OwnFields(Protocol):
+    """What teeth of a gear have of their own: deviations, a kind of damage, wear."""
+
+    @property
+    def of_gap_alone(self) -> bool:
+        """Whether nothing but material is missing: compliance and friction are those of the drawn tooth."""
+        ...
+
+    def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
+        """What a flank (`LEADING`, `TRAILING`) of a tooth has at the places; None: nothing."""
+        ...
+
+
+#: Of one gear.
+OwnTeeth = Sequence[OwnFields]
+
+
+def height_share(places: FlankPlaces) -> Float[Array, " node"]:
+    """Place along the profile: 0 at the root's end of the path of contact, 1 at the tip's, over its length."""
+    low, high = int(np.argmin(np.abs(places.radius))), int(np.argmax(np.abs(places.radius)))
+    return (places.distance - places.distance[low]) / (places.distance[high] - places.distance[low])
