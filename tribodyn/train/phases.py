@@ -99,16 +99,54 @@ def nominal_phases(gears: Sequence[ToothedShaft], meshes: Sequence[Engagement]) 
 
 def driver_phase(driver: ToothedShaft, mesh: Engagement, mark: float) -> float:
     """Phase of a mesh, 0 ≤ … < 1, by its driver, whose shaft's mark stands in this direction (rad)."""
-    place = driver.signed_sense * (mark + driver.signed_angle - mesh.azimuth)
-    return _fraction(driver.teeth * (place + mesh.half_angles[0] - mesh.entry) / (2.0 * pi))
+    return _fraction(_driver_cycles(driver, mesh, mark + driver.signed_angle))
 
 
 def driven_phase(gears: Sequence[ToothedShaft], mesh: Engagement, mark: float) -> float:
     """Phase of a mesh, 0 ≤ … < 1, by its driven gear, whose shaft's mark stands in this direction (rad)."""
+    return _fraction(_driven_cycles(gears, mesh, mark + gears[mesh.gears[1]].signed_angle))
+
+
+def _driver_cycles(driver: ToothedShaft, mesh: Engagement, direction: float) -> float:
+    """Mesh cycles since the driver's tooth in this direction (polar, rad) entered."""
+    place = driver.signed_sense * (direction - mesh.azimuth)
+    return driver.teeth * (place + mesh.half_angles[0] - mesh.entry) / (2.0 * pi)
+
+
+def _driven_cycles(gears: Sequence[ToothedShaft], mesh: Engagement, direction: float) -> float:
+    """The same of the driven gear's tooth."""
     driver, driven = (gears[end] for end in mesh.gears)
-    place = driven.signed_sense * (mark + driven.signed_angle - mesh.azimuth - pi)
+    place = driven.signed_sense * (direction - mesh.azimuth - pi)
     turned = driven.teeth * (place - mesh.half_angles[1]) - driver.teeth * mesh.entry
-    return _fraction(turned / (2.0 * pi))
+    return turned / (2.0 * pi)
+
+
+def entering_teeth(
+    gears: Sequence[ToothedShaft],
+    meshes: Sequence[Engagement],
+    found: Phases,
+    further: Sequence[float] | None = None,
+) -> list[tuple[int, int]]:
+    """Numbers of the driver's and the driven gear's teeth that entered every mesh last, at turn 0.
+
+    Tooth 0 of a gear is the one whose direction is given; the others follow in the order in which they enter.
+    `further` are cycles by which the meshes stand further than that, see `solve.twist`; they may make another
+    tooth the last one.
+    """
+    numbers = []
+    for place, mesh in enumerate(meshes):
+        driver, driven = (gears[end] for end in mesh.gears)
+        one, two = (found.teeth[end] for end in mesh.gears)
+        ahead = found.meshes[place] + (further[place] if further is not None else 0.0)
+        turned = round(ahead - ahead % 1.0)
+        cycles = (
+            _driver_cycles(driver, mesh, one + (0.0 if driver.teeth > 0 else pi)),
+            _driven_cycles(gears, mesh, two + (0.0 if driven.teeth > 0 else pi)),
+        )
+        own = (round(number - found.meshes[place]) + turned for number in cycles)
+        first, second = own
+        numbers.append((first % abs(driver.teeth), second % abs(driven.teeth)))
+    return numbers
 
 
 def _fraction(cycles: float) -> float:

@@ -1,8 +1,8 @@
-"""What single teeth have of their own in a mesh, looked up for a slot: missing material, compliance, friction.
+"""What single teeth have of their own in a mesh, as a slot looks it up.
 
 Every tooth of either gear refers to a row of a table over the roll of a pair, one for each of its flanks;
-teeth that are alike share a row. Which teeth a slot holds follows from the numbers of those that entered last,
-which the schedule has for every interval. Between the nodes the table is C¹.
+teeth that are alike share a row. Which teeth a slot holds follows from the numbers of those that entered
+last, which the schedule has for every interval. Between the nodes the table is C¹.
 """
 
 from typing import Any, NamedTuple
@@ -17,7 +17,7 @@ GAP, COMPLIANCE, FRICTION, CHANNELS = range(4)
 
 
 class ToothTable(NamedTuple):
-    """Teeth of one gear, as cubics in the position u in a cell: gap (m), compliance (m/N), friction less 1."""
+    """Teeth of one gear, as cubics over the cells: gap (m), compliance (m/N), factor on friction less 1."""
 
     row: Float[Array, " place"]  # of `channel`; by the tooth, driving sides first
     channel: Float[Array, "row cell slice channel 4"]

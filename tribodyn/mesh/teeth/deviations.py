@@ -9,6 +9,7 @@ import numpy as np
 
 from tribodyn.geometry.flanks.modification import MOST_WAVES, SPREAD, Limits, sampled
 from tribodyn.mesh.teeth.fields import LEADING, FlankPlaces, ToothFields, height_share, sound
+from tribodyn.numerics.formula import evaluated
 from tribodyn.numerics.shapes import Array, Float
 
 
@@ -86,7 +87,9 @@ class ToothSample:
         along = height_share(places)
         gap = pitch if flank == LEADING else -pitch
         gap = gap + share[0] * self.limits.profile_slope * (along - 0.5)
-        gap = gap + abs(share[1]) * self.limits.profile_form / 2.0 * np.cos(2.0 * np.pi * waves * along + phase)
+        gap = gap + abs(share[1]) * self.limits.profile_form / 2.0 * np.cos(
+            2.0 * np.pi * waves * along + phase
+        )
         lead = share[2] * self.limits.helix_slope * places.face[:, None] / self.face_width
         return _gap_alone(gap + lead, places)
 
@@ -117,3 +120,33 @@ class MeasuredFlanks:
             return _gap_alone(by_height, places)
         columns = [np.interp(places.face, self.face, node) for node in by_height.T]
         return _gap_alone(np.stack(columns, axis=-1), places)
+
+
+@dataclass(frozen=True)
+class FormulaErrors:
+    """Errors of every tooth's leading flank by a formula, of `FORMULA_VARIABLES`, in µm along the normal."""
+
+    formula: str
+    teeth: int
+    face_width: float  # m
+    of_gap_alone: bool = True
+
+    def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
+        """See `fields.OwnFields`."""
+        if flank != LEADING:
+            return None
+        height, face = height_share(places), places.face[:, None] / self.face_width
+        return _gap_alone(1e-6 * formula_value(self.formula, tooth, self.teeth, height, face), places)
+
+
+#: Of `FormulaErrors`: number of the tooth, from 1; number of teeth; place along the profile, 0 at the root's
+#: end of the path and 1 at the tip's; place on the face, −½ … ½.
+FORMULA_VARIABLES = ("i", "z", "h", "f")
+
+
+def formula_value(
+    formula: str, tooth: int, teeth: int, height: Float[Array, " node"], face: Float[Array, "slice 1"]
+) -> Float[Array, "slice node"]:
+    """Value of a formula; raises `formula.FormulaError`."""
+    given = (float(tooth + 1), float(teeth), height, face)
+    return evaluated(formula, dict(zip(FORMULA_VARIABLES, given, strict=True))) + 0.0 * height

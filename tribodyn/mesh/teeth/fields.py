@@ -1,8 +1,8 @@
-"""What one tooth has of its own, over the roll of a pair and the face: missing material, compliance, friction.
+"""What a tooth has of its own over the roll of a pair and the face: missing material, compliance, friction.
 
 A tooth has two flanks: the *leading* one, which drives another gear as this one turns nominally, and the
-*trailing* one, which is driven. A planet between sun and ring is touched on both. Teeth are numbered from 0 in
-the order in which they come into contact; in scenarios and on pages from 1.
+*trailing* one, which is driven. A planet between sun and ring is touched on both. Teeth are numbered from 0
+in the order in which they come into contact; in scenarios and on pages from 1.
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ LEADING, TRAILING = range(2)
 
 
 class FlankPlaces(NamedTuple):
-    """Where the flank of one gear is touched in a mesh: nodes over the roll of a pair, slices over the face."""
+    """Where the flank of one gear is touched in a mesh: nodes over a pair's roll, slices over the face."""
 
     roll: Float[Array, " node"]  # of the mesh's driver from the pitch point, rad
     distance: Float[Array, " node"]  # signed distance r of the contact from the pitch point, m
@@ -69,6 +69,6 @@ OwnTeeth = Sequence[OwnFields]
 
 
 def height_share(places: FlankPlaces) -> Float[Array, " node"]:
-    """Place along the profile: 0 at the root's end of the path of contact, 1 at the tip's, over its length."""
+    """Place along the profile over the path's length: 0 at its end near the root, 1 at that near the tip."""
     low, high = int(np.argmin(np.abs(places.radius))), int(np.argmax(np.abs(places.radius)))
     return (places.distance - places.distance[low]) / (places.distance[high] - places.distance[low])

@@ -58,8 +58,8 @@ def _side(assembly: Assembly, mesh: MeshData, cycle: MeshCycle, side: int) -> Pa
     face = hand * np.asarray(cycle.face_position)
     late = np.asarray(roll_shift(assembly, face)) / pitch * np.ones(slices)  # mesh cycles
     # of a section, pitches from the beginning of its path of contact
-    low = (float(cycle.roll_start) - begin) / pitch if not assembly.drive.helix_angle else 0.0
-    high = (float(cycle.roll_end) - begin) / pitch if not assembly.drive.helix_angle else (end - begin) / pitch
+    reach = (begin, end) if assembly.drive.helix_angle else (float(cycle.roll_start), float(cycle.roll_end))
+    low, high = ((limit - begin) / pitch for limit in reach)
     nodes = np.linspace(low, high, CELLS + 1)
     per_pitch = CELLS / (high - low)
 
@@ -87,9 +87,7 @@ def _side(assembly: Assembly, mesh: MeshData, cycle: MeshCycle, side: int) -> Pa
     driver = FlankPlaces(roll, distance, reach, angle, lean, face, drawn - psi[0])
     # on the back side the driven tooth is one pitch behind that of the driver's number
     of_driven = psi[1] + ratio * (drawn if side > 0 else drawn - pitch)
-    driven = driver._replace(
-        radius=np.asarray(radius(assembly.path_of("gear"), -distance)), turned=of_driven
-    )
+    driven = driver._replace(radius=np.asarray(radius(assembly.path_of("gear"), -distance)), turned=of_driven)
     shape = start.shape[0], start.shape[1] * slices
     numbers = [np.repeat(each, slices, axis=1) for each in (driver_number, driven_number)]
     return PairPlaces(driver, driven, start.reshape(shape), side * per_pitch, *numbers)

@@ -71,15 +71,17 @@ def broken_slice_rules(face: Face) -> Iterator[InputError]:
         yield broken
 
 
-def broken_face_rules(face: Face, compliance: str) -> Iterator[InputError]:
-    """Go through the rules of a run that repeats one mesh cycle, in slices or with a face that is even."""
+def broken_face_rules(face: Face, compliance: str, *, every_tooth: bool = False) -> Iterator[InputError]:
+    """Go through the rules of a run in slices or with a face that is even; `every_tooth`: they may differ."""
     if compliance == "fem" or face.drive.helix_angle:
         yield from broken_slice_rules(face)
-        yield from uneven_teeth(modifications_of(face.drive, face.misalignment))
+        if not every_tooth:
+            yield from uneven_teeth(modifications_of(face.drive, face.misalignment))
     else:
         remedy = 'leave it out, or write compliance = "fem"'
         for key, value in (*_modified(face.drive), *_deviations(face)):
-            yield InputError(key, value, f'contradicts compliance = "{compliance}"', remedy)
+            if not (every_tooth and key.endswith(".pitch_errors")):
+                yield InputError(key, value, f'contradicts compliance = "{compliance}"', remedy)
 
 
 def _modified(drive: DriveTable) -> Iterator[tuple[str, str | None]]:

@@ -20,6 +20,25 @@ Shape = Literal["linear", "parabolic"]
 _EXPONENT = {"linear": 1.0, "parabolic": 2.0}
 
 
+class FlankErrors(quantity.Table):
+    """Errors of single teeth on the flank that drives or is driven, positive where material is missing.
+
+    Every tooth at the same heights (0 at the root's end of the path of contact, 1 at the tip's) and places on
+    the face, from its middle.
+    """
+
+    tooth: Annotated[quantity.Column, units.NUMBER]
+    height: Annotated[quantity.Column, units.NUMBER]
+    face: Annotated[quantity.Column, units.LENGTH]
+    error: Annotated[quantity.Column, units.DEVIATION]
+
+    def in_si(self) -> tuple[Any, ...]:
+        """Return all columns in SI units."""
+        return tuple(
+            getattr(self, name).in_si(field.metadata[0]) for name, field in type(self).model_fields.items()
+        )
+
+
 class Modification(quantity.Table):
     """What is missing on the flanks of a gear, along their normal: the driving flanks, or both."""
 
@@ -51,6 +70,12 @@ class Modification(quantity.Table):
         tuple[Annotated[float, quantity.InUnit(units.DEVIATION)], ...],
         quantity.csv_file("error", as_list=True),
     ] = Field((), description="one per tooth, positive where material is missing")
+    tooth_errors: Annotated[FlankErrors, quantity.csv_file("tooth", "height", "face", "error")] | None = (
+        Field(None, description="of single teeth over their flank; over time")
+    )
+    tooth_formula: quantity.Text | None = Field(
+        None, description="of every tooth, um, over i, z, h and f; over time"
+    )
     both_flanks: quantity.Switch = Field(
         False, description="whether reliefs, crowning and profile error are on the back flanks too"
     )
@@ -226,6 +251,18 @@ class Gear(quantity.Table):
     quality: Grade | None = Field(None, description="its tolerance class; default: the drive's")
     hand: Hand | None = Field(None, description="of its helix; default: by the drive's")
     modification: Modification = quantity.written({})
+    eccentricity: Amount = quantity.written(
+        "0 um", description="of its axis from that which it turns about; over time"
+    )
+    eccentricity_angle: Annotated[float, quantity.InUnit(units.ANGLE_KIND)] = quantity.written(
+        "0 deg", description="its direction from the axis of tooth 1, in the gear's sense of rotation"
+    )
+    wobble: Annotated[float, quantity.InUnit(units.not_negative(units.SMALL_ANGLE))] = quantity.written(
+        "0 arcmin", description="angle between both axes; over time"
+    )
+    wobble_angle: Annotated[float, quantity.InUnit(units.ANGLE_KIND)] = quantity.written(
+        "0 deg", description="direction in which the axis stands off at the +z end, likewise"
+    )
 
 
 #: Keys of a pair of gears, in a drive file and in a stage of a train.

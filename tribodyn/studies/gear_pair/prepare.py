@@ -7,7 +7,14 @@ import numpy as np
 from tribodyn.dynamics import parameters
 from tribodyn.dynamics.data import BearingData, matrices_in_space
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, tilting_inertia, varying_load
+from tribodyn.studies.gears.model import (
+    hand_of,
+    mesh_of,
+    options_of,
+    tilting_inertia,
+    varying_load,
+    with_own_teeth,
+)
 from tribodyn.studies.gears.prepare import PreparedGears, at_tooth_temperature
 from tribodyn.studies.gears.tabulated import Tabulated, quasi_static_loss, tables
 from tribodyn.train.structure import GROUND, IN_SPACE, Bodies, Links, layout_of
@@ -39,6 +46,8 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> PreparedPair:
     cycle, (pinion, gear), assembly = made.cycle, made.masses, made.assembly
     warm, thermal = at_tooth_temperature(case, assembly, quasi_static_loss(made))
     model = _model(case, made, closure_of(warm), (pinion, gear))
+    counts = round(float(case.drive.pinion.teeth)), round(float(case.drive.gear.teeth))
+    model = with_own_teeth(model, [(0, 0)], [counts], case.solver.cycles)
     masses, remark = (pinion, gear), made.slice_remark
     return PreparedPair(warm, assembly, cycle, thermal, model, masses, case, slice_remark=remark)
 

@@ -2,25 +2,28 @@
 
 from collections.abc import Iterator
 
-from tribodyn.errors import InputError, unknown_name
+from tribodyn.errors import InputError
 from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.tables.internal_gear import driving_internal
-from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_pair.scenario import Scenario
-from tribodyn.studies.gears.motion import broken_flank_rules, broken_mesh_rules, broken_source_rules
+from tribodyn.studies.gears.motion import (
+    broken_flank_rules,
+    broken_mesh_rules,
+    broken_solver_rules,
+    broken_source_rules,
+)
 from tribodyn.studies.gears.scenario import broken_gear_rules
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
     yield from driving_internal(scenario.drive)
-    yield from broken_gear_rules(scenario, internal=True)
+    yield from broken_gear_rules(scenario, internal=True, every_tooth=True)
     yield from broken_source_rules(scenario.operating, "pinion_torque")
     yield from broken_mesh_rules(scenario.mesh)
     yield from _load(scenario)
-    if scenario.solver.method not in SOLVERS:
-        yield unknown_name("solver.method", scenario.solver.method, SOLVERS, "solver")
+    yield from broken_solver_rules(scenario.solver)
 
 
 def _load(scenario: Scenario) -> Iterator[InputError]:

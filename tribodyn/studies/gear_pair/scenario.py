@@ -14,7 +14,7 @@ from tribodyn.scenario import fields
 from tribodyn.scenario.quantity import csv_file, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
-from tribodyn.solve.methods import SolverData
+from tribodyn.scenario.tables.own_teeth import own_teeth_of
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gears.case import OutputData
 from tribodyn.studies.gears.motion import (
@@ -25,6 +25,7 @@ from tribodyn.studies.gears.motion import (
     Solver,
     TorqueHarmonic,
     moving_mesh_of,
+    solver_data,
 )
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
@@ -99,12 +100,16 @@ Scenario = GearPairScenario
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
     """Return the case of a scenario that has passed schema and rules."""
-    own: dict[str, Any] = {"operating": _operating(scenario), "mesh": moving_mesh_of(scenario)}
+    own: dict[str, Any] = {
+        "operating": _operating(scenario),
+        "mesh": moving_mesh_of(scenario),
+        "teeth": own_teeth_of(scenario.drive, scenario.mesh.tooth_sample),
+    }
     case = Case(
         **gear_fields(scenario, toml, sha256) | own,
         **oil_fields(scenario),
         bearings=bearings_of(scenario),
-        solver=SolverData(**scenario.solver.model_dump()),
+        solver=solver_data(scenario.solver, scenario.drive.pinion.teeth),
         output=OutputData(**scenario.output.model_dump()),
     )
     return with_chosen_laws(case)

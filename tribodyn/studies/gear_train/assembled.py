@@ -15,7 +15,7 @@ from tribodyn.studies.gear_train.described.teeth import engagement
 from tribodyn.studies.gears.batch.same_table import table_key
 from tribodyn.studies.gears.model import tilting_inertia
 from tribodyn.studies.gears.prepare import assembled
-from tribodyn.train.phases import Phases, nominal_phases
+from tribodyn.train.phases import Engagement, Phases, nominal_phases
 
 
 class BodyInertia(NamedTuple):
@@ -71,13 +71,17 @@ def phases(case: TrainCase, pairs: Sequence[Assembly], entries: Sequence[float] 
     `entries` are the pinions' angles at which the meshes' cycles begin, `roll_start` of their tables; None:
     where their paths of contact begin. Raises InputError where the teeth of a loop do not meet.
     """
-    return nominal_phases(
-        case.toothed_shafts,
-        [
-            engagement(mesh.key, mesh.gears, mesh.azimuth, pair, entry)
-            for mesh, pair, entry in zip(case.meshes, pairs, entries or [None] * len(pairs), strict=True)
-        ],
-    )
+    return nominal_phases(case.toothed_shafts, engagements(case, pairs, entries))
+
+
+def engagements(
+    case: TrainCase, pairs: Sequence[Assembly], entries: Sequence[float] | None = None
+) -> list[Engagement]:
+    """How the teeth of every mesh touch; `entries` as of `phases`."""
+    return [
+        engagement(mesh.key, mesh.gears, mesh.azimuth, pair, entry)
+        for mesh, pair, entry in zip(case.meshes, pairs, entries or [None] * len(pairs), strict=True)
+    ]
 
 
 def link_damping(link: LinkData, bodies: Sequence[BodyInertia]) -> tuple[float, float, float]:

@@ -13,20 +13,20 @@ from tribodyn.solve.twist import static_twist
 from tribodyn.studies.gear_train.assembled import (
     BodyInertia,
     body_inertias,
+    engagements,
     in_space_of,
     link_damping,
-    phases,
     table_numbers,
 )
 from tribodyn.studies.gear_train.case import HOUSING, BodyData, LoadData, TrainCase
 from tribodyn.studies.gear_train.planetary.frames import carried_of, frames_of, pins_of, rolling_of
 from tribodyn.studies.gear_train.warmth import at_tooth_temperatures
 from tribodyn.studies.gears.case import LubricatedCase
-from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, varying_load
+from tribodyn.studies.gears.model import hand_of, mesh_of, options_of, varying_load, with_own_teeth
 from tribodyn.studies.gears.prepare import Thermal
 from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.train.links.chain import chain_of
-from tribodyn.train.phases import Phases
+from tribodyn.train.phases import Phases, entering_teeth, nominal_phases
 from tribodyn.train.planetary import CARRIER
 from tribodyn.train.positions import frame_of
 from tribodyn.train.schedule import schedule_of
@@ -85,9 +85,18 @@ def prepare(case: TrainCase, made: tuple[Tabulated, ...] | None = None) -> Prepa
     made = made or tabulated(case)
     inertias = body_inertias(case, [each.assembly for each in made])
     warm, thermal = zip(*at_tooth_temperatures(case, made), strict=True)
-    found = phases(case, [each.assembly for each in made], [float(each.cycle.roll_start) for each in made])
+    entries = [float(each.cycle.roll_start) for each in made]
+    engaged = engagements(case, [each.assembly for each in made], entries)
+    found = nominal_phases(case.toothed_shafts, engaged)
     order = _order(case)
-    model = _under_load(_model(case, made, warm, inertias, found, order), case)
+    model = _model(case, made, warm, inertias, found, order)
+    further = static_twist(model)
+    model = with_own_teeth(
+        _under_load(model, case, further),
+        entering_teeth(case.toothed_shafts, engaged, found, further.tolist()),
+        [(case.gears[one].teeth, case.gears[two].teeth) for one, two in (mesh.gears for mesh in case.meshes)],
+        case.solver.cycles,
+    )
     return PreparedTrain(case, model, made, tuple(warm), tuple(thermal), found, order, inertias, case)
 
 
@@ -209,9 +218,8 @@ def _in_space(
     return stiffness, losses
 
 
-def _under_load(model: parameters.Model, case: TrainCase) -> parameters.Model:
-    """The model with its meshes where the load at the start brings them, not those of the bare teeth."""
-    further = static_twist(model)
+def _under_load(model: parameters.Model, case: TrainCase, further: Float[Array, " mesh"]) -> parameters.Model:
+    """The model with its meshes where the load at the start brings them, so many cycles `further`."""
     if not np.any(further):
         return model
     schedule = schedule_of(

@@ -3,15 +3,19 @@
 from collections.abc import Iterator
 from typing import Any
 
-from tribodyn.errors import InputError, InputErrors, quoted, unknown_name
+from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.scenario.tables.bearings import broken_bearing
 from tribodyn.scenario.tables.drive_data import gives_backlash
-from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_train.described.drawn import Moving, drawn, in_terms_of_train, moving
 from tribodyn.studies.gear_train.described.duty import broken_duty_rules, duty_of
 from tribodyn.studies.gear_train.described.names import broken_names, broken_sort
 from tribodyn.studies.gear_train.scenario import Scenario, pair_view
-from tribodyn.studies.gears.motion import broken_flank_rules, broken_mesh_rules, broken_source_rules
+from tribodyn.studies.gears.motion import (
+    broken_flank_rules,
+    broken_mesh_rules,
+    broken_solver_rules,
+    broken_source_rules,
+)
 from tribodyn.studies.gears.scenario import broken_gear_rules
 from tribodyn.train.links.linear import LAW as LINEAR_LINK
 
@@ -33,8 +37,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         broken += broken_mesh_rules(scenario.mesh)
     else:
         broken += _bare_meshes(scenario.mesh)
-    if scenario.solver.method not in SOLVERS:
-        broken.append(unknown_name("solver.method", scenario.solver.method, SOLVERS, "solver"))
+    broken += broken_solver_rules(scenario.solver)
     yield from broken
     if not broken:
         yield from _of_train(scenario)
@@ -76,7 +79,7 @@ def _pairs(scenario: Scenario, train: Moving) -> Iterator[InputError]:
         view = pair_view(scenario, train, mesh)
         part = train.parts.meshes[train.motion.meshes[mesh]]
         back = view.mesh.backlash is not None or gives_backlash(view.drive)
-        for error in broken_gear_rules(view, every_duty=True, internal=True):
+        for error in broken_gear_rules(view, every_duty=True, internal=True, every_tooth=True):
             error = in_terms_of_train(error, train, mesh)
             if str(error) not in said:
                 said.add(str(error))

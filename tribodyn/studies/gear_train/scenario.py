@@ -13,8 +13,8 @@ from tribodyn.scenario.tables.bearings import bearing_of
 from tribodyn.scenario.tables.drive_data import masses_of, materials_of, teeth_of
 from tribodyn.scenario.tables.laws import law_values
 from tribodyn.scenario.tables.model_files import DriveTable, Grade, MaterialReference, Roughness
+from tribodyn.scenario.tables.own_teeth import own_teeth_of
 from tribodyn.scenario.tables.quality import grade_of, tolerances_of
-from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gear_train.case import (
     HOUSING,
     BodyData,
@@ -43,7 +43,7 @@ from tribodyn.studies.gear_train.described.tables import (
 from tribodyn.studies.gear_train.planetary.linked import links_of_set, set_data
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.studies.gears.case import LubricatedCase, OutputData
-from tribodyn.studies.gears.motion import Friction, Mesh, Output, Solver, moving_mesh_of
+from tribodyn.studies.gears.motion import Friction, Mesh, Output, Solver, moving_mesh_of, solver_data
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
 from tribodyn.train.links import LINK_LAWS
@@ -142,8 +142,6 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
     duty = duty_of(scenario, train)
     head = head_of(scenario, toml, sha256)
     gears = _gears(train, figure)
-    solver = scenario.solver.model_dump()
-    max_period = solver.pop("max_period")
     return TrainCase(
         **head,
         gears=gears,
@@ -153,8 +151,8 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
         source=_source(scenario, train, duty),
         loads=duty.loads,
         period=train.motion.period,
-        max_period=max_period,
-        solver=SolverData(**solver),
+        max_period=scenario.solver.max_period,
+        solver=solver_data(scenario.solver, train.parts.gears[train.motion.gears[0][0]].teeth),
         output=OutputData(**scenario.output.model_dump()),
         sets=tuple(set_data(own, train) for own in train.parts.sets),
     )
@@ -266,6 +264,7 @@ def _meshes(
             masses=masses_of(view.drive),
             operating=OperatingData("speed", speed, duty.torques.driven[mesh]),
             mesh=moving_mesh_of(view),
+            teeth=own_teeth_of(view.drive, view.mesh.tooth_sample, motion.gears[mesh]),
             quality=quality_of(
                 [grade_of(view.drive, gear) for gear in (view.drive.pinion, view.drive.gear)],
                 tolerances_of(view.drive),

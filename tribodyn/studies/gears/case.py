@@ -11,6 +11,7 @@ from tribodyn.geometry.body import GEOMETRY
 from tribodyn.geometry.drive import BodyMass, Drive, MaterialData
 from tribodyn.mesh.record_arrays import described
 from tribodyn.mesh.table import MeshData
+from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
@@ -76,6 +77,8 @@ class GearCase(CaseHead):
     operating: OperatingData
     mesh: MeshData
     quality: Quality | None  # deviations of the gears by ISO 1328-1; None: the drive has no tolerance class
+    #: what single teeth of both gears have of their own, in a study in which teeth differ
+    teeth: tuple[OwnTeeth, OwnTeeth] = ((), ())
     #: what holds the gears, where shafts are drawn or matrices given
     supports: GearSupports = field(default_factory=GearSupports)
 

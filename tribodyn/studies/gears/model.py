@@ -8,11 +8,14 @@ import numpy as np
 from tribodyn.dynamics import parameters
 from tribodyn.geometry.drive import Drive
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.teeth.table import teeth_of
 from tribodyn.numerics.curve import Table, monotone_slopes
-from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.gears.case import GearCase, LubricatedCase
 from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.train.positions import moves_of
+from tribodyn.train.schedule import with_teeth
 from tribodyn.train.structure import GearMesh, TrainLayout
+from tribodyn.train.teeth import ALIKE, Teeth
 from tribodyn.tribology.closure import Closure
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
@@ -56,7 +59,36 @@ def mesh_of(
         driver_sense=float(cycle.pinion_sense),
         driven_sense=float(cycle.gear_sense),
         moves=moves_of(frame, (radius_1, radius_2), places),
+        teeth=own_teeth(case, made),
     )
+
+
+def own_teeth(case: GearCase, made: Tabulated) -> Teeth:
+    """What single teeth of a case have of their own, as its tabulated mesh looks them up."""
+    if not any(case.teeth):
+        return ALIKE
+    drive = case.drive
+    counts = abs(round(float(drive.pinion.teeth))), abs(round(float(drive.gear.teeth)))
+    return teeth_of(made.assembly, case.mesh, made.cycle, case.teeth, counts)
+
+
+def with_own_teeth(
+    model: parameters.Model,
+    first: Sequence[tuple[int, int]],
+    teeth: Sequence[tuple[int, int]],
+    cycles: int,
+) -> parameters.Model:
+    """The model with the numbers of its teeth over so many cycles, where teeth differ.
+
+    `first` and `teeth` as of `schedule.with_teeth`.
+    """
+    if not any(len(mesh.teeth.rate) for mesh in model.meshes):
+        return model
+    options = model.options
+    if any(mesh.teeth.driver.channel.shape[3] > 1 for mesh in model.meshes) and options.sweeps > 1:
+        options = options._replace(sweeps=SWEEPS_NONLINEAR)  # the tabulated inverse is no more than a guess
+    schedule = with_teeth(model.schedule, first, teeth, cycles)
+    return model._replace(schedule=schedule, options=options)
 
 
 def hand_of(drive: Drive, clockwise: bool = True) -> float:

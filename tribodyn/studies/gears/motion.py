@@ -1,19 +1,32 @@
 """Tables of scenarios that run gears over time: mesh, friction, solver, output, what drives; their rules."""
 
 from collections.abc import Iterator
+from dataclasses import replace
+from math import ceil
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from tribodyn.compliance.foundation import Foundation
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, unknown_name
 from tribodyn.mesh.table import MeshData
 from tribodyn.scenario import fields, units
-from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, Text, csv_file, written
+from tribodyn.scenario.quantity import (
+    Count,
+    InUnit,
+    NotNegative,
+    Positive,
+    Table,
+    Text,
+    csv_file,
+    written,
+)
 from tribodyn.scenario.tables.bearings import Stiffness
 from tribodyn.scenario.tables.drive_data import backlash_of
 from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
+from tribodyn.scenario.tables.own_teeth import ToothSampleNumber, without_pitch_errors
+from tribodyn.solve.methods import SOLVERS, SolverData
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FoundationCoupling,
@@ -25,6 +38,9 @@ from tribodyn.studies.gears.scenario import (
 
 #: Cosines in a load or an error: a curve is given by points.
 MOST_HARMONICS = 1000
+
+#: Mesh cycles of a run that says nothing of its length.
+CYCLES = 20
 
 Smoothing = Annotated[float, InUnit(units.positive(units.LENGTH), "0.1 um")]
 
@@ -78,6 +94,7 @@ class Mesh(Table):
     points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
     transmission_error: TransmissionError = written({})
     deviation_sample: SampleNumber = None
+    tooth_sample: ToothSampleNumber = None
     misalignment: MisalignmentTable = written({})
     slices: FaceSlices = None
     slice_coupling: SliceCoupling = True
@@ -97,7 +114,10 @@ class Solver(Table):
 
     method: Text = "auto"
     rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
-    cycles: Count = Field(20, description="mesh cycles to run")
+    cycles: Count | None = Field(None, description="mesh cycles to run; default: 20, or by revolutions")
+    revolutions: Positive | None = Field(
+        None, description="of the gear that drives the first mesh, in place of cycles"
+    )
     max_steps: Annotated[int, Field(strict=True, gt=0, le=10**9)] = Field(
         1_000_000, description="steps allowed in one mesh cycle"
     )
@@ -113,7 +133,7 @@ class Output(Table):
 def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
     """Return what a scenario's `drive` and its table `mesh`, a `Mesh`, say of the mesh; see `mesh_of`."""
     mesh, error = scenario.mesh, scenario.mesh.transmission_error
-    return mesh_of(
+    found = mesh_of(
         scenario,
         error=error.table.in_si() if error.table else None,
         table=mesh.table.in_si() if mesh.table else None,
@@ -122,6 +142,25 @@ def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
         tilting=True,
         **own,
     )
+    return replace(found, modifications=without_pitch_errors(found.modifications))
+
+
+def solver_data(solver: Solver, teeth: int) -> SolverData:
+    """Return what a table [solver] says; `teeth` are those of the gear that drives the first mesh."""
+    cycles = solver.cycles
+    if solver.revolutions is not None:
+        cycles = max(1, ceil(solver.revolutions * teeth - 1e-9))
+    given = solver.model_dump(include={"method", "rtol", "max_steps", "initial"})
+    return SolverData(cycles=CYCLES if cycles is None else cycles, **given)
+
+
+def broken_solver_rules(solver: Solver) -> Iterator[InputError]:
+    """Go through what contradicts in a table [solver]."""
+    if solver.method not in SOLVERS:
+        yield unknown_name("solver.method", solver.method, SOLVERS, "solver")
+    if solver.cycles is not None and solver.revolutions is not None:
+        rule = "contradicts solver.cycles, which says how long it runs"
+        yield InputError("solver.revolutions", solver.revolutions, rule, "give the one or the other")
 
 
 def broken_source_rules(operating: Any, motor_torque: str) -> Iterator[InputError]:

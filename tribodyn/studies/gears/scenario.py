@@ -36,6 +36,7 @@ from tribodyn.scenario.tables.losses import (
 )
 from tribodyn.scenario.tables.lubricant import Lubricant, broken_lubricant_rules, lubricant_of
 from tribodyn.scenario.tables.model_files import DriveTable, MisalignmentTable
+from tribodyn.scenario.tables.own_teeth import broken_own_teeth, teeth_alike
 from tribodyn.scenario.tables.quality import (
     DeviationSample,
     broken_sample_rules,
@@ -193,13 +194,18 @@ def broken_matrix_keys(bearings: Bearings | None) -> Iterator[InputError]:
 
 
 def broken_gear_rules(
-    scenario: Any, *, every_duty: bool = False, oil: bool = True, internal: bool = False
+    scenario: Any,
+    *,
+    every_duty: bool = False,
+    oil: bool = True,
+    internal: bool = False,
+    every_tooth: bool = False,
 ) -> Iterator[InputError]:
     """Go through the broken rules of drive, duty, oil, temperatures, losses and mesh.
 
     Tables and keys that the scenario's kind does not have count as absent. `every_duty` says whether the
     study runs all duties of a load spectrum at a time, `oil` whether the lubricant is looked at, `internal`
-    whether it knows internal gears.
+    whether it knows internal gears, `every_tooth` whether teeth may differ.
     """
     drive, mesh, lubricant = scenario.drive, scenario.mesh, scenario.lubricant
     if drive.gear.internal or drive.pinion.internal:
@@ -223,7 +229,11 @@ def broken_gear_rules(
     if (compliance := getattr(mesh, "compliance", None)) is None:
         yield from broken_slice_rules(face)
     else:
-        yield from broken_face_rules(face, compliance)
+        yield from broken_face_rules(face, compliance, every_tooth=every_tooth)
+    if every_tooth:
+        yield from broken_own_teeth(drive, mesh.tooth_sample)
+    else:
+        yield from teeth_alike(drive)
     yield from broken_sample_rules(drive, getattr(mesh, "deviation_sample", None), misalignment)
     if hasattr(mesh, "hertz"):
         yield from broken_part_rules(mesh.hertz, mesh.foundation, mesh.compliance)

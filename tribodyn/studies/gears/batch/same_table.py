@@ -12,7 +12,7 @@ from tribodyn.studies.gears.case import GearCase
 _NOT_IN_TABLE = (
     *("title", "name", "toml", "sha256"),
     *("roughness", "mean_roughness", "asperities", "lubricant", "bearings", "operating"),
-    *("film", "friction", "temperature", "losses", "solver", "output", "quality", "supports"),
+    *("film", "friction", "temperature", "losses", "solver", "output", "quality", "supports", "teeth"),
 )
 _MESH_NOT_IN_TABLE = {"damping_ratio": 0.0, "formulation": "classical", "contact_width": 0.0}
 

@@ -1,0 +1,149 @@
+"""What single teeth of a drive have of their own, as its keys have it; studies that know none of it."""
+
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.flanks.modification import Limits, shown_count, shown_length
+from tribodyn.mesh.teeth.deviations import (
+    FormulaErrors,
+    MeasuredFlanks,
+    PitchErrors,
+    RunOut,
+    ToothSample,
+    formula_value,
+)
+from tribodyn.mesh.teeth.fields import OwnFields, OwnTeeth
+from tribodyn.numerics.formula import FormulaError
+from tribodyn.scenario.quantity import Draws
+from tribodyn.scenario.tables.model_files import DriveTable, FlankErrors, Gear
+from tribodyn.scenario.tables.quality import tolerances_of
+from tribodyn.standards.flank_tolerances import FlankTolerances
+
+ToothSampleNumber = Annotated[
+    Annotated[int, Field(strict=True, ge=0, le=2**31 - 1), Draws()] | None,
+    Field(
+        description="number of the sample of deviations of every tooth, drawn from the quality; default: none"
+    ),
+]
+
+
+def own_teeth_of(
+    drive: DriveTable, sample: int | None, numbers: tuple[int, int] = (0, 1)
+) -> tuple[OwnTeeth, OwnTeeth]:
+    """Return what teeth of pinion and gear have of their own; the drive has passed its rules.
+
+    `numbers` are those of the gears in a train, in all meshes of one the same: samples are drawn by them.
+    """
+    allowed = zip(SIDES, numbers, tolerances_of(drive), strict=True)
+    one, two = (tuple(_of_gear(drive, *each, sample)) for each in allowed)
+    return one, two
+
+
+def _of_gear(
+    drive: DriveTable, side: str, number: int, allowed: FlankTolerances | None, sample: int | None
+) -> Iterator[OwnFields]:
+    gear: Gear = getattr(drive, side)
+    table = gear.modification
+    if gear.eccentricity or gear.wobble:
+        angles = gear.eccentricity_angle, gear.wobble_angle
+        yield RunOut(gear.teeth, gear.eccentricity, angles[0], gear.wobble, angles[1])
+    if table.pitch_errors:
+        yield PitchErrors(tuple(table.pitch_errors))
+    if table.tooth_errors is not None:
+        yield measured(table.tooth_errors)
+    if table.tooth_formula is not None:
+        yield FormulaErrors(table.tooth_formula, gear.teeth, gear.face_width)
+    if sample is not None and allowed is not None:
+        limits = Limits(*(getattr(allowed, name) for name in Limits._fields))
+        yield ToothSample(limits, gear.teeth, sample, number, gear.face_width)
+
+
+def measured(table: FlankErrors) -> MeasuredFlanks:
+    """Return measured flanks of the rows of a table, which are complete."""
+    tooth, height, face, error = table.in_si()
+    teeth, heights, faces = (np.unique(column) for column in (tooth, height, face))
+    errors = np.empty((len(teeth), len(heights), len(faces)))
+    index = tuple(np.searchsorted(*pair) for pair in ((teeth, tooth), (heights, height), (faces, face)))
+    errors[index] = error
+    return MeasuredFlanks(tuple(int(number) - 1 for number in teeth), heights, faces, errors)
+
+
+def differing(drive: DriveTable) -> Iterator[tuple[str, str]]:
+    """Go through the keys by which teeth of a drive differ, pitch errors apart, and the values as shown."""
+    for side in SIDES:
+        gear = getattr(drive, side)
+        if gear.eccentricity:
+            yield f"drive.{side}.eccentricity", shown_length(gear.eccentricity)
+        if gear.wobble:
+            yield f"drive.{side}.wobble", f"{gear.wobble:.3g} rad"
+        if gear.modification.tooth_errors is not None:
+            yield f"drive.{side}.modification.tooth_errors", "a table"
+        if gear.modification.tooth_formula is not None:
+            yield f"drive.{side}.modification.tooth_formula", f'"{gear.modification.tooth_formula}"'
+
+
+def teeth_alike(drive: DriveTable) -> Iterator[InputError]:
+    """Refuse what makes teeth differ, in a study that takes all of them alike."""
+    for key, value in differing(drive):
+        rule = "the study takes all teeth of a gear alike"
+        yield InputError(key, value, rule, "leave it out, or run the pair over time")
+
+
+def broken_own_teeth(drive: DriveTable, sample: int | None) -> Iterator[InputError]:
+    """Go through what is wrong with what single teeth have of their own."""
+    for side in SIDES:
+        gear: Gear = getattr(drive, side)
+        table, key = gear.modification, f"drive.{side}.modification"
+        for angle, of in (("eccentricity_angle", "eccentricity"), ("wobble_angle", "wobble")):
+            if getattr(gear, angle) and not getattr(gear, of):
+                rule, remedy = f"has no effect without {of}", f"add {of}, or leave it out"
+                yield InputError(f"drive.{side}.{angle}", f"{getattr(gear, angle):.4g} rad", rule, remedy)
+        if gear.internal and gear.wobble:
+            yield InputError(
+                f"drive.{side}.wobble",
+                f"{gear.wobble:.3g} rad",
+                "internal pairs are even along the face",
+                "leave it out",
+            )
+        if table.tooth_errors is not None:
+            yield from _broken_table(f"{key}.tooth_errors", table.tooth_errors, gear)
+        if table.tooth_formula is not None:
+            try:
+                formula_value(table.tooth_formula, 0, gear.teeth, np.linspace(0.0, 1.0, 3), np.zeros((1, 1)))
+            except FormulaError as error:
+                remedy = 'write micrometres over i, z, h and f, such as "3*sin(2*pi*i/z)"'
+                yield InputError(f"{key}.tooth_formula", f'"{table.tooth_formula}"', str(error), remedy)
+    if sample is not None and None in tolerances_of(drive):
+        rule = "is taken from the tolerances of both gears, and they have no quality"
+        yield InputError("mesh.tooth_sample", sample, rule, "add quality = 6 to [drive]")
+
+
+def _broken_table(key: str, table: FlankErrors, gear: Gear) -> Iterator[InputError]:
+    tooth, height, face, _ = table.in_si()
+    sizes = [len(np.unique(column)) for column in (tooth, height, face)]
+    if not np.all((tooth >= 1) & (tooth <= gear.teeth) & (tooth == np.round(tooth))):
+        wrong = tooth[(tooth < 1) | (tooth > gear.teeth) | (tooth != np.round(tooth))][0]
+        rule = f"the gear has teeth 1 to {gear.teeth}"
+        yield InputError(key, f"tooth {wrong:g}", rule, "number the teeth in the order in which they mesh")
+    elif not np.all((height >= 0.0) & (height <= 1.0)):
+        rule = "height runs from 0 at the root's end of the path of contact to 1 at the tip's"
+        yield InputError(key, f"height {height[(height < 0.0) | (height > 1.0)][0]:g}", rule, "scale it")
+    elif not np.all(np.abs(face) <= gear.face_width / 2.0 * (1.0 + 1e-9)):
+        rule = f"face is the place from the middle of the face, which is {1e3 * gear.face_width:g} mm wide"
+        yield InputError(key, f"face {1e3 * np.max(np.abs(face)):g} mm", rule, "measure from the middle")
+    elif len(tooth) != int(np.prod(sizes)) or len(set(zip(tooth, height, face, strict=True))) != len(tooth):
+        rule = f"{len(tooth)} points, not one for each of {shown_count(sizes[0])} of tooth, " + (
+            f"{sizes[1]} of height and {sizes[2]} of face"
+        )
+        yield InputError(key, None, rule, "measure every tooth at the same heights and places on the face")
+
+
+def without_pitch_errors(modifications: Any) -> Any:
+    """Return modifications without pitch errors, which single teeth have then."""
+    pinion, gear = (getattr(modifications, side)._replace(pitch_error=()) for side in SIDES)
+    return modifications._replace(pinion=pinion, gear=gear)
