@@ -10,6 +10,7 @@ from tribodyn.studies.gear_pair.scenario import Scenario
 from tribodyn.studies.gears.motion import (
     broken_flank_rules,
     broken_mesh_rules,
+    broken_output_rules,
     broken_solver_rules,
     broken_source_rules,
 )
@@ -24,6 +25,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_mesh_rules(scenario.mesh)
     yield from _load(scenario)
     yield from broken_solver_rules(scenario.solver)
+    yield from broken_output_rules(scenario.output, scenario.solver, scenario.drive.pinion.teeth)
 
 
 def _load(scenario: Scenario) -> Iterator[InputError]:

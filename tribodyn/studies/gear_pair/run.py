@@ -16,6 +16,7 @@ from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.by_standard import rated
 from tribodyn.studies.gears.case import gears_layout
 from tribodyn.studies.gears.check import check_gears, oil_data
+from tribodyn.studies.gears.over_time import by_revolution
 from tribodyn.studies.gears.over_time.marched import record_motion, run_until_warm
 from tribodyn.studies.gears.over_time.recorded import scales_of
 from tribodyn.studies.gears.over_time.steady import at_rest, limits_in, warning_of
@@ -76,10 +77,10 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     }
     more = {
         "groups": {"mesh_cycle": as_arrays(cycle), "geometry": geometry_arrays(prepared.assembly)},
-        "scales": scales_of(cycle, in_space=in_space),
+        "scales": scales_of(cycle, in_space=in_space) | by_revolution.scale(case.output.revolutions(cycles)),
     }
     layout = gears_layout(cycle.slices, in_space=in_space)
-    with writer(case, path, layout, cycles * samples + 1, force=force, **more) as record:
+    with writer(case, path, layout, len(case.output.kept(cycles)), force=force, **more) as record:
         try:
             motion = record_motion(
                 case, model, [mesh_of_run(prepared)], window_of(cycles), record, recorded, progress

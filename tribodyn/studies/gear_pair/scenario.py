@@ -16,7 +16,6 @@ from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
 from tribodyn.scenario.tables.own_teeth import own_teeth_of
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gears.case import OutputData
 from tribodyn.studies.gears.motion import (
     MOST_HARMONICS,
     Friction,
@@ -25,6 +24,7 @@ from tribodyn.studies.gears.motion import (
     Solver,
     TorqueHarmonic,
     moving_mesh_of,
+    output_data,
     solver_data,
 )
 from tribodyn.studies.gears.prepare import with_chosen_laws
@@ -110,7 +110,9 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         **oil_fields(scenario),
         bearings=bearings_of(scenario),
         solver=solver_data(scenario.solver, scenario.drive.pinion.teeth),
-        output=OutputData(**scenario.output.model_dump()),
+        output=output_data(
+            scenario.output, scenario.solver, scenario.drive.pinion.teeth, differ=any(own["teeth"])
+        ),
     )
     return with_chosen_laws(case)
 

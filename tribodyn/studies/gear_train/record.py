@@ -12,6 +12,7 @@ from tribodyn.mesh.record_arrays import as_arrays, described
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.reader import MESHES
 from tribodyn.record.schema import TIME, Layout
+from tribodyn.studies.gears.over_time import by_revolution
 from tribodyn.studies.gears.over_time.recorded import PAIR
 from tribodyn.studies.gears.over_time.recorded import SAMPLES as OF_A_PAIR
 from tribodyn.studies.gears.over_time.running import MeshOfRun, mesh_pairs
@@ -164,10 +165,12 @@ def record_of(
     gears: Sequence[str],
     geometry: Mapping[str, Any],
     bearings: Sequence[str] = (),
+    revolutions: int = 0,
 ) -> TrainRecord:
     """The layout of a record of meshes, bodies and gears with these names, and what it holds from the start.
 
-    `geometry` are the values of `TRAIN_GEOMETRY`, `bearings` the names of what holds bodies in x and y.
+    `geometry` are the values of `TRAIN_GEOMETRY`, `bearings` the names of what holds bodies in x and y,
+    `revolutions` the number of those that statistics are kept of.
     """
     numbers = [number for mesh in meshes for number in mesh_pairs(mesh.cycle)]
     pairs = tuple(range(min(numbers), max(numbers) + 1))
@@ -189,4 +192,7 @@ def record_of(
     if bearings:
         samples, axes = samples | BEARINGS, SCALES | _BEARING
         scales["bearing"] = np.array(bearings)
-    return TrainRecord(Layout(TIME, samples, axes, groups=tables), scales, groups, pairs, meshes)
+    axes = axes | {"revolution": by_revolution.REVOLUTION}
+    others = by_revolution.described(of_train=True)
+    scales |= by_revolution.scale(revolutions)
+    return TrainRecord(Layout(TIME, samples, axes, others, tables), scales, groups, pairs, meshes)

@@ -9,10 +9,11 @@ from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.studies.gear_train.described.drawn import Moving, drawn, in_terms_of_train, moving
 from tribodyn.studies.gear_train.described.duty import broken_duty_rules, duty_of
 from tribodyn.studies.gear_train.described.names import broken_names, broken_sort
-from tribodyn.studies.gear_train.scenario import Scenario, pair_view
+from tribodyn.studies.gear_train.scenario import Scenario, pair_view, reference_teeth
 from tribodyn.studies.gears.motion import (
     broken_flank_rules,
     broken_mesh_rules,
+    broken_output_rules,
     broken_solver_rules,
     broken_source_rules,
 )
@@ -73,6 +74,7 @@ def _hands(train: Moving) -> Iterator[InputError]:
 def _pairs(scenario: Scenario, train: Moving) -> Iterator[InputError]:
     """Rules of every mesh as a pair of gears, and of its load; what all meshes share is said once."""
     said: set[str] = set()
+    yield from broken_output_rules(scenario.output, scenario.solver, reference_teeth(train))
     unloaded: set[str] = set()
     duty = duty_of(scenario, train)
     for mesh, torque in enumerate(duty.torques.driven):

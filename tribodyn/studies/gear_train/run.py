@@ -72,9 +72,10 @@ def _run(case: TrainCase, path: Path, force: bool, *, progress: Progress | None)
         [gear.name for gear in case.gears],
         geometry_of(prepared),
         [case.links[k].name for k in holding_links(model)],
+        case.output.revolutions(cycles),
     )
     more = {"groups": kept.groups, "scales": kept.scales}
-    with writer(case, path, kept.layout, cycles * samples + 1, force=force, **more) as record:
+    with writer(case, path, kept.layout, len(case.output.kept(cycles)), force=force, **more) as record:
         try:
             window = window_of(cycles, case.period, max(mesh.rate for mesh in meshes))
             motion = record_motion(case, model, meshes, window, record, kept.block, progress)

@@ -42,8 +42,16 @@ from tribodyn.studies.gear_train.described.tables import (
 )
 from tribodyn.studies.gear_train.planetary.linked import links_of_set, set_data
 from tribodyn.studies.gears.by_standard import quality_of
-from tribodyn.studies.gears.case import LubricatedCase, OutputData
-from tribodyn.studies.gears.motion import Friction, Mesh, Output, Solver, moving_mesh_of, solver_data
+from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.gears.motion import (
+    Friction,
+    Mesh,
+    Output,
+    Solver,
+    moving_mesh_of,
+    output_data,
+    solver_data,
+)
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import FilmKeys, Oil, TemperatureKeys, oil_fields
 from tribodyn.train.links import LINK_LAWS
@@ -142,20 +150,29 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
     duty = duty_of(scenario, train)
     head = head_of(scenario, toml, sha256)
     gears = _gears(train, figure)
+    teeth = reference_teeth(train)
+    meshes = _meshes(scenario, train, figure, duty, head)
     return TrainCase(
         **head,
         gears=gears,
         bodies=_bodies(scenario, train, figure, duty),
         links=_links(scenario, train, figure),
-        meshes=_meshes(scenario, train, figure, duty, head),
+        meshes=meshes,
         source=_source(scenario, train, duty),
         loads=duty.loads,
         period=train.motion.period,
         max_period=scenario.solver.max_period,
-        solver=solver_data(scenario.solver, train.parts.gears[train.motion.gears[0][0]].teeth),
-        output=OutputData(**scenario.output.model_dump()),
+        solver=solver_data(scenario.solver, teeth),
+        output=output_data(
+            scenario.output, scenario.solver, teeth, differ=any(any(mesh.pair.teeth) for mesh in meshes)
+        ),
         sets=tuple(set_data(own, train) for own in train.parts.sets),
     )
+
+
+def reference_teeth(train: Moving) -> int:
+    """Teeth of the gear that drives the first mesh: its cycles in a revolution against the mesh's frame."""
+    return abs(train.parts.gears[train.motion.gears[0][0]].teeth)
 
 
 def _gears(train: Moving, figure: Drawn) -> tuple[GearData, ...]:

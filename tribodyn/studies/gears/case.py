@@ -15,6 +15,7 @@ from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.gears.by_standard import Quality
+from tribodyn.studies.gears.over_time import by_revolution
 from tribodyn.studies.gears.over_time.recorded import DOF_SCALE, PAIR, SLICE, samples_of
 from tribodyn.studies.gears.supports import GearSupports
 from tribodyn.studies.protocol.recording import CaseHead
@@ -43,11 +44,13 @@ TEMPERATURE_SWEPT = quantities("bulk_temperature", "power_load_independent", "ef
 
 def gears_layout(slices: int, *, in_space: bool = False) -> Layout:
     """Of records over time of pairs with so many slices; see `recorded.samples_of`."""
-    scales = {"pair": PAIR, "dof": DOF_SCALE} | ({"slice": SLICE} if slices > 1 else {})
+    scales = {"pair": PAIR, "dof": DOF_SCALE, "revolution": by_revolution.REVOLUTION}
+    scales |= {"slice": SLICE} if slices > 1 else {}
     return Layout(
         TIME,
         samples_of(slices, in_space=in_space),
         scales,
+        others=by_revolution.described(of_train=False),
         groups={"mesh_cycle": described(slices), "geometry": GEOMETRY},
     )
 
@@ -61,6 +64,18 @@ class OutputData:
     """What is recorded of a motion over time."""
 
     samples_per_cycle: int = 200
+    #: cycles of the first mesh, from and to, of which samples are kept; None: all
+    window: tuple[int, int] | None = None
+    revolution: int = 0  # cycles of the first mesh that a row of statistics is of; 0: there are none
+
+    def kept(self, cycles: int) -> range:
+        """Numbers of the samples that are kept of so many cycles; one closes the last cycle."""
+        first, last = (0, cycles) if self.window is None else self.window
+        return range(first * self.samples_per_cycle, last * self.samples_per_cycle + 1)
+
+    def revolutions(self, cycles: int) -> int:
+        """Rows of statistics of so many cycles."""
+        return cycles // self.revolution if self.revolution else 0
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,6 +27,7 @@ from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.own_teeth import ToothSampleNumber, without_pitch_errors
 from tribodyn.solve.methods import SOLVERS, SolverData
+from tribodyn.studies.gears.case import OutputData
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FoundationCoupling,
@@ -38,9 +39,6 @@ from tribodyn.studies.gears.scenario import (
 
 #: Cosines in a load or an error: a curve is given by points.
 MOST_HARMONICS = 1000
-
-#: Mesh cycles of a run that says nothing of its length.
-CYCLES = 20
 
 Smoothing = Annotated[float, InUnit(units.positive(units.LENGTH), "0.1 um")]
 
@@ -114,9 +112,9 @@ class Solver(Table):
 
     method: Text = "auto"
     rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
-    cycles: Count | None = Field(None, description="mesh cycles to run; default: 20, or by revolutions")
+    cycles: Count = Field(20, description="mesh cycles to run")
     revolutions: Positive | None = Field(
-        None, description="of the gear that drives the first mesh, in place of cycles"
+        None, description="of the gear that drives the first mesh; takes the place of cycles"
     )
     max_steps: Annotated[int, Field(strict=True, gt=0, le=10**9)] = Field(
         1_000_000, description="steps allowed in one mesh cycle"
@@ -128,6 +126,11 @@ class Output(Table):
     """What is recorded."""
 
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
+    window: Literal["all"] | tuple[NotNegative, Positive] | None = Field(
+        None,
+        description="revolutions of the gear that drives the first mesh, from and to, of which samples are "
+        'kept, or "all"; default: all, with solver.revolutions the last one',
+    )
 
 
 def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
@@ -151,16 +154,44 @@ def solver_data(solver: Solver, teeth: int) -> SolverData:
     if solver.revolutions is not None:
         cycles = max(1, ceil(solver.revolutions * teeth - 1e-9))
     given = solver.model_dump(include={"method", "rtol", "max_steps", "initial"})
-    return SolverData(cycles=CYCLES if cycles is None else cycles, **given)
+    return SolverData(cycles=cycles, **given)
+
+
+def output_data(output: Output, solver: Solver, teeth: int, *, differ: bool) -> OutputData:
+    """Return what a table [output] says; `differ`: whether teeth differ."""
+    cycles = solver_data(solver, teeth).cycles
+    window = output.window
+    if window is None and solver.revolutions is not None:
+        window = max(0.0, cycles / teeth - 1.0), cycles / teeth
+    whole = window is None or window == "all"
+    kept = None
+    if not whole:
+        first, last = (min(cycles, round(revolutions * teeth)) for revolutions in window)
+        kept = min(first, cycles - 1), max(last, first + 1)
+    by_revolution = differ or solver.revolutions is not None or output.window is not None
+    return OutputData(output.samples_per_cycle, kept, teeth if by_revolution else 0)
+
+
+def broken_output_rules(output: Output, solver: Solver, teeth: int) -> Iterator[InputError]:
+    """Go through what contradicts in a table [output]."""
+    if not isinstance(output.window, tuple):
+        return
+    first, last = output.window
+    whole = solver_data(solver, teeth).cycles / teeth
+    shown = f"{first:g} to {last:g} revolutions"
+    if last <= first:
+        yield InputError("output.window", shown, "ends before it begins", "write it like [9, 10]")
+    elif first >= whole:
+        rule = f"begins behind the end of the run, which has {whole:.4g} revolutions"
+        yield InputError(
+            "output.window", shown, rule, "choose an earlier one, or run longer: solver.revolutions"
+        )
 
 
 def broken_solver_rules(solver: Solver) -> Iterator[InputError]:
     """Go through what contradicts in a table [solver]."""
     if solver.method not in SOLVERS:
         yield unknown_name("solver.method", solver.method, SOLVERS, "solver")
-    if solver.cycles is not None and solver.revolutions is not None:
-        rule = "contradicts solver.cycles, which says how long it runs"
-        yield InputError("solver.revolutions", solver.revolutions, rule, "give the one or the other")
 
 
 def broken_source_rules(operating: Any, motor_torque: str) -> Iterator[InputError]:

@@ -258,8 +258,10 @@ def _start(prepared: Any, settings: SweepSettings) -> np.ndarray:
     # the model, which is kept with the result, keeps another table from taking this one's identity
     still = frictionless(model._replace(operation=creeping))
     # of a mesh where it is and how it is damped: laws of its contacts have no part in this
-    places = (mesh._replace(table=(), surfaces=(), film=(), friction=()) for mesh in model.meshes)
-    meshes = (number for mesh in places for number in mesh)
+    places = (mesh._replace(table=(), surfaces=(), film=(), friction=(), teeth=()) for mesh in model.meshes)
+    own = (mesh.teeth for mesh in model.meshes)
+    teeth = (number for each in own for number in (*each.driver, *each.driven, *each[2:]))
+    meshes = (*(number for mesh in places for number in mesh), *teeth)
     links = (*model.links._replace(own=()), *numbers_of(model.links.own))
     numbers = (*creeping, *model.bodies, *links, *meshes, *model.schedule)
     tables = tuple(id(mesh.table) for mesh in model.meshes)

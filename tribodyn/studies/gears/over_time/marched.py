@@ -13,6 +13,7 @@ from tribodyn.record.writer import RecordWriter
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
+from tribodyn.studies.gears.over_time.by_revolution import ByRevolution
 from tribodyn.studies.gears.over_time.running import MeshOfRun, RunStatistics, judge_balance
 from tribodyn.studies.gears.over_time.sampled import Sampled, sampled_with_extremes
 from tribodyn.studies.gears.prepare import MOST_MOTIONS
@@ -51,6 +52,12 @@ def record_motion(
         choice.method, solver.rtol, cycles, solver.max_steps, samples, window, extremes=True
     )
     statistics = RunStatistics(window, cycles, meshes, model.layout)
+    kept, revolution = case.output.kept(cycles), case.output.revolution
+    by_revolution = None
+    if case.output.revolutions(cycles):
+        by_revolution = ByRevolution(
+            record, len(meshes), revolution, samples, of_train=meshes[0].number is not None
+        )
     stop = Stop(state, 0.0, 0, 0, "", 0.0)
     for part in transient(model, state, settings):
         if isinstance(part, Stop):
@@ -58,7 +65,13 @@ def record_motion(
         elif len(part.cycles):
             shares = statistics.averages(part.cycles)
             block, extreme = sampled_with_extremes(part.cycles, part.states, part.extremes, model, shares)
-            record.write(statistics.written, recorded(block))
+            inside = range(kept.start - statistics.written, kept.stop - statistics.written)
+            if (piece := slice(max(inside.start, 0), max(inside.stop, 0))).start < min(
+                piece.stop, len(part.cycles)
+            ):
+                record.write(record.written, recorded(block.part(piece)))
+            if by_revolution is not None:
+                by_revolution.add(block)
             statistics.add(part.states, block, extreme)
             if progress:
                 progress(min(1.0, statistics.written / (cycles * samples)))
