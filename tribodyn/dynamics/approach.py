@@ -6,11 +6,11 @@ Written for all compilers, see `contact_forces`, whose `work` it fills.
 from typing import Any, NamedTuple
 
 from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.mesh.teeth.lookup import COMPLIANCE as COMPLIANCE_OF_TEETH
+from tribodyn.mesh.teeth.lookup import FRICTION as FRICTION_OF_TEETH
+from tribodyn.mesh.teeth.lookup import GAP as GAP_OF_TEETH
+from tribodyn.mesh.teeth.lookup import deflect_apart, differ, own_and_slope, own_place
 from tribodyn.numerics.elementary import last_axis_of_four, law, skippable, sqrt
-from tribodyn.train.teeth import COMPLIANCE as COMPLIANCE_OF_TEETH
-from tribodyn.train.teeth import FRICTION as FRICTION_OF_TEETH
-from tribodyn.train.teeth import GAP as GAP_OF_TEETH
-from tribodyn.train.teeth import deflect_apart, differ, own_and_slope, own_place
 
 # Quantities of one contact, rows of `work`.
 DISTANCE = 0  # signed distance r from the pitch point, m

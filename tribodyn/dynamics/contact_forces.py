@@ -41,8 +41,8 @@ from tribodyn.dynamics.smooth import (
     sign,
 )
 from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.mesh.teeth.lookup import deflect_apart
 from tribodyn.numerics.elementary import law, maximum, skippable, sqrt, where
-from tribodyn.train.teeth import deflect_apart
 from tribodyn.tribology.contact import averaged_radius, local_contact
 from tribodyn.tribology.law import ActiveLaw
 

@@ -23,7 +23,6 @@ from tribodyn.numerics.elementary import law
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.static import Indices, StaticInt
 from tribodyn.train.links.chain import NoLinkParameters
-from tribodyn.train.teeth import ALIKE, Teeth
 from tribodyn.tribology.contact import Surfaces
 
 #: Works, counted from the first: those of the whole train, and from `OF_MESHES` on two of every mesh.
@@ -98,6 +97,7 @@ class GearMesh(NamedTuple):
     surfaces: Surfaces
     film: Any  # this and the next: parameters of the laws in use
     friction: Any
+    teeth: Any  # mesh.teeth.lookup.Teeth, what single teeth have of their own
     hand: Any = 1.0  # −1 where the +z side is early: left-hand driver that turns clockwise, or the reverse
     #: what x, y, z and the tilts of the driver and of the driven body move it by, see `positions.moves_of`
     moves: Float[Array, "end move direction"] = np.zeros((2, MOVES, IN_SPACE))
@@ -111,7 +111,6 @@ class GearMesh(NamedTuple):
     driven_sense: Any = 1.0
     #: what the rotation of its carrier moves the pitch point by along the tangent, m/rad
     carrier_arm: Any = 0.0
-    teeth: Teeth = ALIKE  # what single teeth have of their own
 
 
 class TrainLayout(NamedTuple):

@@ -13,9 +13,9 @@ from tribodyn.mesh.teeth.fields import (
     ToothFields,
     sound,
 )
+from tribodyn.mesh.teeth.lookup import CHANNELS, GAP, Teeth, ToothTable
 from tribodyn.mesh.teeth.places import places_of
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.teeth import CHANNELS, GAP, Teeth, ToothTable
 
 #: Cubics that never overshoot, see `mesh.cycle.slopes`.
 _MONOTONE = 2

@@ -8,6 +8,7 @@ import numpy as np
 from tribodyn.dynamics import parameters
 from tribodyn.geometry.drive import Drive
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.teeth.lookup import ALIKE, Teeth
 from tribodyn.mesh.teeth.table import teeth_of
 from tribodyn.numerics.curve import Table, monotone_slopes
 from tribodyn.studies.gears.case import GearCase, LubricatedCase
@@ -15,7 +16,6 @@ from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.train.positions import moves_of
 from tribodyn.train.schedule import with_teeth
 from tribodyn.train.structure import GearMesh, TrainLayout
-from tribodyn.train.teeth import ALIKE, Teeth
 from tribodyn.tribology.closure import Closure
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
@@ -55,11 +55,11 @@ def mesh_of(
         surfaces=closure.surfaces,
         film=closure.film.parameters,
         friction=closure.friction.parameters,
+        teeth=own_teeth(case, made),
         hand=hand,
         driver_sense=float(cycle.pinion_sense),
         driven_sense=float(cycle.gear_sense),
         moves=moves_of(frame, (radius_1, radius_2), places),
-        teeth=own_teeth(case, made),
     )
 
 

@@ -58,6 +58,7 @@ def described(**operating: Any) -> Any:
             **{"source": "torque", "pinion_speed": 130.0, "gear_torque": 410.0} | operating
         ),
         bearings=(BearingData(3e8, 5e8, 0.02, 0.03), BearingData(7e8, 11e8, 0.05, 0.07)),
+        teeth=((), ()),
         mesh=SimpleNamespace(damping_ratio=0.06, contact_width=2e-7, formulation="classical"),
         friction=SimpleNamespace(reversal_width=4e-5, sliding="dynamic"),
     )
