@@ -59,7 +59,7 @@ def tabulate_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, ba
         behind = back_flanks(front.modifications, float(assembly.path.pressure_angle(0.0)))
         # the phase of the mirrored world runs backwards: what is late there is early here
         sides.append(_with_helix(front, -float(assembly.drive.helix_angle))._replace(modifications=behind))
-    reaches = [reach(side, gear_torque) for side in sides]
+    reaches = [reach(side, gear_torque, early=mesh.early) for side in sides]
     limits = min(start for start, _ in reaches), max(end for _, end in reaches)
     nodes = slice_layout(assembly, mesh, front.slices).nodes
     places = _places(assembly, limits, front.face(), nodes, back)

@@ -46,6 +46,9 @@ class MeshData:
     #: where it is 1 (`slice_number.slices_needed`)
     slices: int = 1
     slice_coupling: bool = True  # whether slices of one tooth hold each other
+    #: by how much a tooth may stand out against the next, m: so much further out corners may touch, with
+    #: ``compliance = "fem"``
+    early: float = 0.0
 
     @property
     def at_load(self) -> bool:

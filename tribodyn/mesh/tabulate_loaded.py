@@ -68,7 +68,7 @@ def tabulate_loaded(
     if is_helical(assembly):
         return tabulate_slices(front, mesh, torque, back)
     # where the mesh vibrates by more than this reach, contact begins too late in the model
-    reaches = [reach(flanks, torque) for flanks in sides]
+    reaches = [reach(flanks, torque, early=mesh.early) for flanks in sides]
     limits = min(start for start, _ in reaches), max(end for _, end in reaches)
     pitch = assembly.pitch_angle
     kinks = [0.0] if assembly.family.corner else []

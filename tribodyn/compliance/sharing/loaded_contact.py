@@ -212,11 +212,14 @@ def _rolled(
     return phase, roll, gap, shared
 
 
-def reach(flanks: LoadedFlanks, gear_torque: float, factor: float = REACH) -> tuple[float, float]:
+def reach(
+    flanks: LoadedFlanks, gear_torque: float, factor: float = REACH, early: float = 0.0
+) -> tuple[float, float]:
     """Pinion angles (rad) between which a pair can touch: corners up to a gap of `factor` deflections.
 
     The deflection is that of a single pair at the pitch point, from first touch. Relief of the tips keeps the
-    corners that much further away.
+    corners that much further away; a tooth may be `early` by so much against the next (m), beside its pitch
+    errors.
     """
     assembly, modifications = flanks.flexible.assembly, flanks.modifications
     at_pitch_point = np.zeros((1, 1))
@@ -238,7 +241,7 @@ def reach(flanks: LoadedFlanks, gear_torque: float, factor: float = REACH) -> tu
         for flank in (modifications.pinion, modifications.gear)
         if len(flank.pitch_error)
     ]
-    most = factor * deflection + open_between + float(sum(errors))
+    most = factor * deflection + open_between + float(sum(errors)) + early
     before, beyond = _nearest(flanks, np.array([start, end]))
     return roll_at_gap(assembly, (most - float(before), most - float(beyond)))
 

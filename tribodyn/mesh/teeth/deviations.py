@@ -33,7 +33,13 @@ class RunOut:
     eccentricity_angle: float = 0.0  # rad
     wobble: float = 0.0  # angle between both axes, rad
     wobble_angle: float = 0.0  # rad
+    face_width: float = 0.0  # m
     of_gap_alone: bool = True
+
+    @property
+    def early(self) -> float:
+        """Of opposite teeth."""
+        return 2.0 * self.eccentricity + self.wobble * self.face_width
 
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""
@@ -57,6 +63,11 @@ class PitchErrors:
     errors: tuple[float, ...]  # m along the normal
     of_gap_alone: bool = True
 
+    @property
+    def early(self) -> float:
+        """Of all teeth."""
+        return float(np.ptp(self.errors))
+
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""
         error = self.errors[tooth]
@@ -77,6 +88,11 @@ class ToothSample:
     gear: int
     face_width: float  # over which the helix slope is, m
     of_gap_alone: bool = True
+
+    @property
+    def early(self) -> float:
+        """By the tolerances."""
+        return sum(self.limits) - self.limits.single_pitch
 
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""
@@ -109,6 +125,11 @@ class MeasuredFlanks:
     flank: int = LEADING
     of_gap_alone: bool = True
 
+    @property
+    def early(self) -> float:
+        """Of all teeth, those that were not measured included."""
+        return float(np.max(self.errors, initial=0.0) - np.min(self.errors, initial=0.0))
+
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""
         if tooth not in self.teeth or flank != self.flank:
@@ -130,6 +151,13 @@ class FormulaErrors:
     teeth: int
     face_width: float  # m
     of_gap_alone: bool = True
+
+    @property
+    def early(self) -> float:
+        """Of all teeth, at a few places of their flanks."""
+        height, face = np.linspace(0.0, 1.0, 9), np.array([-0.5, 0.0, 0.5])[:, None]
+        values = [formula_value(self.formula, n, self.teeth, height, face) for n in range(self.teeth)]
+        return 1e-6 * float(np.ptp(values))
 
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""

@@ -1,7 +1,8 @@
 """What single teeth of a drive have of their own, as its keys have it; studies that know none of it."""
 
 from collections.abc import Iterator
-from typing import Annotated, Any
+from dataclasses import replace
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
@@ -9,6 +10,7 @@ from pydantic import Field
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.flanks.modification import Limits, shown_count, shown_length
+from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.teeth.deviations import (
     FormulaErrors,
     MeasuredFlanks,
@@ -51,7 +53,7 @@ def _of_gear(
     table = gear.modification
     if gear.eccentricity or gear.wobble:
         angles = gear.eccentricity_angle, gear.wobble_angle
-        yield RunOut(gear.teeth, gear.eccentricity, angles[0], gear.wobble, angles[1])
+        yield RunOut(gear.teeth, gear.eccentricity, angles[0], gear.wobble, angles[1], gear.face_width)
     if table.pitch_errors:
         yield PitchErrors(tuple(table.pitch_errors))
     if table.tooth_errors is not None:
@@ -143,7 +145,9 @@ def _broken_table(key: str, table: FlankErrors, gear: Gear) -> Iterator[InputErr
         yield InputError(key, None, rule, "measure every tooth at the same heights and places on the face")
 
 
-def without_pitch_errors(modifications: Any) -> Any:
-    """Return modifications without pitch errors, which single teeth have then."""
+def with_own_teeth(mesh: MeshData, own: tuple[OwnTeeth, OwnTeeth]) -> MeshData:
+    """Return a mesh whose teeth differ by what they have of their own, and no longer by pitch errors."""
+    modifications = mesh.modifications
     pinion, gear = (getattr(modifications, side)._replace(pitch_error=()) for side in SIDES)
-    return modifications._replace(pinion=pinion, gear=gear)
+    early = sum(each.early for gear in own for each in gear)
+    return replace(mesh, modifications=modifications._replace(pinion=pinion, gear=gear), early=early)

@@ -14,7 +14,7 @@ from tribodyn.scenario import fields
 from tribodyn.scenario.quantity import csv_file, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
-from tribodyn.scenario.tables.own_teeth import own_teeth_of
+from tribodyn.scenario.tables.own_teeth import own_teeth_of, with_own_teeth
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gears.motion import (
     MOST_HARMONICS,
@@ -100,19 +100,18 @@ Scenario = GearPairScenario
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
     """Return the case of a scenario that has passed schema and rules."""
+    teeth = own_teeth_of(scenario.drive, scenario.mesh.tooth_sample)
     own: dict[str, Any] = {
         "operating": _operating(scenario),
-        "mesh": moving_mesh_of(scenario),
-        "teeth": own_teeth_of(scenario.drive, scenario.mesh.tooth_sample),
+        "mesh": with_own_teeth(moving_mesh_of(scenario), teeth),
+        "teeth": teeth,
     }
     case = Case(
         **gear_fields(scenario, toml, sha256) | own,
         **oil_fields(scenario),
         bearings=bearings_of(scenario),
         solver=solver_data(scenario.solver, scenario.drive.pinion.teeth),
-        output=output_data(
-            scenario.output, scenario.solver, scenario.drive.pinion.teeth, differ=any(own["teeth"])
-        ),
+        output=output_data(scenario.output, scenario.solver, scenario.drive.pinion.teeth, differ=any(teeth)),
     )
     return with_chosen_laws(case)
 

@@ -13,7 +13,7 @@ from tribodyn.scenario.tables.bearings import bearing_of
 from tribodyn.scenario.tables.drive_data import masses_of, materials_of, teeth_of
 from tribodyn.scenario.tables.laws import law_values
 from tribodyn.scenario.tables.model_files import DriveTable, Grade, MaterialReference, Roughness
-from tribodyn.scenario.tables.own_teeth import own_teeth_of
+from tribodyn.scenario.tables.own_teeth import own_teeth_of, with_own_teeth
 from tribodyn.scenario.tables.quality import grade_of, tolerances_of
 from tribodyn.studies.gear_train.case import (
     HOUSING,
@@ -274,14 +274,15 @@ def _meshes(
     for mesh, place in enumerate(motion.meshes):
         view = pair_view(scenario, train, mesh)
         driver, carrier = motion.driver[mesh], motion.carrier[mesh]
+        teeth = own_teeth_of(view.drive, view.mesh.tooth_sample, motion.gears[mesh])
         speed = duty.speed * float(motion.ratio[driver] - motion.carried(driver, carrier))
         pair = LubricatedCase(
             **head,
             **teeth_of(view.drive),
             masses=masses_of(view.drive),
             operating=OperatingData("speed", speed, duty.torques.driven[mesh]),
-            mesh=moving_mesh_of(view),
-            teeth=own_teeth_of(view.drive, view.mesh.tooth_sample, motion.gears[mesh]),
+            mesh=with_own_teeth(moving_mesh_of(view), teeth),
+            teeth=teeth,
             quality=quality_of(
                 [grade_of(view.drive, gear) for gear in (view.drive.pinion, view.drive.gear)],
                 tolerances_of(view.drive),

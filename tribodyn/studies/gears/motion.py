@@ -1,7 +1,6 @@
 """Tables of scenarios that run gears over time: mesh, friction, solver, output, what drives; their rules."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from math import ceil
 from typing import Annotated, Any, Literal
 
@@ -25,7 +24,7 @@ from tribodyn.scenario.tables.bearings import Stiffness
 from tribodyn.scenario.tables.drive_data import backlash_of
 from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
-from tribodyn.scenario.tables.own_teeth import ToothSampleNumber, without_pitch_errors
+from tribodyn.scenario.tables.own_teeth import ToothSampleNumber
 from tribodyn.solve.methods import SOLVERS, SolverData
 from tribodyn.studies.gears.case import OutputData
 from tribodyn.studies.gears.scenario import (
@@ -136,7 +135,7 @@ class Output(Table):
 def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
     """Return what a scenario's `drive` and its table `mesh`, a `Mesh`, say of the mesh; see `mesh_of`."""
     mesh, error = scenario.mesh, scenario.mesh.transmission_error
-    found = mesh_of(
+    return mesh_of(
         scenario,
         error=error.table.in_si() if error.table else None,
         table=mesh.table.in_si() if mesh.table else None,
@@ -145,7 +144,6 @@ def moving_mesh_of(scenario: Any, **own: Any) -> MeshData:
         tilting=True,
         **own,
     )
-    return replace(found, modifications=without_pitch_errors(found.modifications))
 
 
 def solver_data(solver: Solver, teeth: int) -> SolverData:
