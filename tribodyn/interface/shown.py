@@ -34,11 +34,12 @@ class Summary(dict[str, Any]):
 
 
 def of_run(record: Record) -> "Dataset":
-    """All datasets along a record's axis, which is their first dimension, in SI units."""
-    dimensions = {dim for name in record for dim in record.dims_of(name)}
+    """All datasets of a record, those along its axis, their first dimension, before others; in SI units."""
+    names = (*record, *record.others)
+    dimensions = {dim for name in names for dim in record.dims_of(name)}
     # a record has scales that it does not go through
     coordinates = {dim: _variable(record, dim, (dim,)) for dim in dimensions if dim in record}
-    return _dataset(record, record, coordinates)
+    return _dataset(record, names, coordinates)
 
 
 def of_sweep(record: SweepRecord) -> "Dataset":

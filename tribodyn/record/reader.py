@@ -49,6 +49,12 @@ class Record(OpenRecord):
         datasets = [name for name in names if self.axis in self.dims_of(name)[:1]]
         return self.axis, *(todays_name(name, self._file) for name in datasets if name != self.axis)
 
+    @cached_property
+    def others(self) -> tuple[str, ...]:
+        """The datasets along other axes, such as revolutions."""
+        names = str(self.attrs.get("datasets", "")).split()
+        return tuple(todays_name(n, self._file) for n in names if self.axis not in self.dims_of(n)[:1])
+
     @property
     def trust(self) -> str:
         """Whether the result lies within its model, see `record.trust`; "" where nothing was judged."""
