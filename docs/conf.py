@@ -61,6 +61,7 @@ CONTENTS = {
         "oil",
         "ehl",
         "solvers",
+        "teeth",
         "periodic",
         "sweep",
         "design",

@@ -24,24 +24,32 @@ class Case(LubricatedCase):
     output: OutputData
 
 
-def window_of(cycles: int) -> int:
-    """Mesh cycles at the end of a run that its means are of: a quarter of them, at most `WIDEST_WINDOW`."""
-    return max(1, min(cycles // 4, WIDEST_WINDOW))
+def window_of(cycles: int, revolution: int = 0) -> int:
+    """Mesh cycles at the end of a run that its means are of: a quarter of them, at most `WIDEST_WINDOW`.
+
+    Of a run by revolutions of so many cycles whole ones, one at least if it has that.
+    """
+    window = max(1, min(cycles // 4, WIDEST_WINDOW))
+    return max(window // revolution, 1) * revolution if 0 < revolution <= cycles else window
 
 
 def estimate(case: Case) -> cost.Estimate:
     """What a run of a case takes."""
     samples, cycles = float(case.output.samples_per_cycle), float(case.solver.cycles)
     sides = 1 if case.mesh.backlash is None else 2
-    sizes = {"time": int(samples * cycles) + 1, "pair": cost.PAIRS * sides, "dof": 6}
+    kept = len(case.output.kept(case.solver.cycles))
+    sizes = {"time": kept, "pair": cost.PAIRS * sides, "dof": 6}
     record = cost.recorded(LAYOUT, sizes, _READ)
-    block, window = min(max(cycles / 4.0, 1.0), 50.0) * samples, window_of(int(cycles)) * samples
+    block, window = (
+        min(max(cycles / 4.0, 1.0), 50.0) * samples,
+        window_of(int(cycles), case.output.revolution) * samples,
+    )
     return cost.total(
         drivers(case, case.mesh),
         record,
         table(case.mesh),
         cost.in_memory(block * sides, cost.SAMPLE_BYTES),
-        cost.in_memory(_WINDOW_HELD * window, record.record / (samples * cycles + 1.0)),
+        cost.in_memory(_WINDOW_HELD * window, record.record / kept),
         _marching(case, cycles),
     )
 

@@ -83,7 +83,13 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     with writer(case, path, layout, len(case.output.kept(cycles)), force=force, **more) as record:
         try:
             motion = record_motion(
-                case, model, [mesh_of_run(prepared)], window_of(cycles), record, recorded, progress
+                case,
+                model,
+                [mesh_of_run(prepared)],
+                window_of(cycles, case.output.revolution),
+                record,
+                recorded,
+                progress,
             )
         except SimulationError as error:
             return RunResult(record.fail(str(error), summary), "failed", str(error), summary)

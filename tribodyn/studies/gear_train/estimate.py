@@ -15,8 +15,9 @@ def estimate(case: TrainCase) -> cost.Estimate:
     samples, cycles = float(case.output.samples_per_cycle), float(case.solver.cycles)
     meshes = len(case.meshes)
     sides = 1 if case.meshes[0].pair.mesh.backlash is None else 2
+    kept = len(case.output.kept(case.solver.cycles))
     sizes = {
-        "time": int(samples * cycles) + 1,
+        "time": kept,
         "mesh": meshes,
         "pair": cost.PAIRS * sides,
         "body": len(case.bodies) + 1,
@@ -28,7 +29,7 @@ def estimate(case: TrainCase) -> cost.Estimate:
         record,
         *marching_of(case, cycles, together=False),
         cost.in_memory(block * sides * meshes, cost.SAMPLE_BYTES),
-        cost.in_memory(_WINDOW_HELD * window, record.record / (samples * cycles + 1.0)),
+        cost.in_memory(_WINDOW_HELD * window, record.record / kept),
     )
 
 

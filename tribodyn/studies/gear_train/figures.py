@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.post import style
 from tribodyn.post.cycles import last_cycles
-from tribodyn.post.figures import over_mesh
+from tribodyn.post.figures import by_revolution, over_mesh
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import (
     ORDER,
@@ -170,6 +170,7 @@ def _per_mesh(about: str, trace: Trace) -> Drawing:
 
 
 DRAWINGS: dict[str, Drawing] = {
+    **by_revolution.DRAWINGS,
     "overview": Drawing("the train, forces, errors, films and losses of its meshes", overview_figure),
     "train": Drawing("the train in its true positions, and the teeth in every mesh", train_figure),
     "transmission-error": Drawing(

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import partial
+from math import lcm
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +78,10 @@ def _run(case: TrainCase, path: Path, force: bool, *, progress: Progress | None)
     more = {"groups": kept.groups, "scales": kept.scales}
     with writer(case, path, kept.layout, len(case.output.kept(cycles)), force=force, **more) as record:
         try:
-            window = window_of(cycles, case.period, max(mesh.rate for mesh in meshes))
+            period = lcm(case.period, case.output.revolution or 1)
+            if period > cycles:
+                period = case.period
+            window = window_of(cycles, period, max(mesh.rate for mesh in meshes))
             motion = record_motion(case, model, meshes, window, record, kept.block, progress)
         except SimulationError as error:
             return RunResult(record.fail(str(error), summary), "failed", str(error), summary)
