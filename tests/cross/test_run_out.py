@@ -4,14 +4,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
+from scipy.special import jv
 
 import tribodyn as td
 from tests.support.linear_mesh import STIFFNESS, matrices
-from tribodyn.solve.initial import initial_state
+from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.solve.transient import Stop, TransientSettings, transient
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
-from tribodyn.train.structure import displacements
+from tribodyn.train.schedule import interval_of
+from tribodyn.train.structure import displacements, rotational_error
 
 #: Always two pairs in contact, of one stiffness.
 CONTACT_RATIO = 2.0
@@ -76,3 +79,46 @@ def test_run_out_at_speed_is_its_gap_by_the_transfer_function(speed: float):
     matrix = stiffness - speed**2 * mass + 1j * speed * damping
     expected = np.linalg.solve(matrix, h * (k + 1j * speed * c) * ECCENTRICITY)
     np.testing.assert_allclose(np.abs(order), np.abs(expected), rtol=2e-3)
+
+
+def test_sidebands_have_the_bessel_amplitudes_of_the_modulation():
+    """Of an order of the mesh, over the angle of a gear that runs out, as an encoder on it has it.
+
+    The error A cos(z_2 θ + …) of the mesh is one over θ = θ_1 z_1/z_2, and the gear itself stands at
+    θ_2 = θ − ε sin(θ + …), ε = e/(r_2 cos α): Kepler's equation. Over θ_2 the order m = z_2 + n has the
+    amplitude z_2/m J_n(m ε) A/cos α, the index of modulation m ε changing from line to line.
+    """
+    amplitude, eccentricity, per_cycle = 2e-6, 200e-6, 24
+    changes = {
+        "drive.gear.eccentricity": f"{1e6 * eccentricity} um",
+        "mesh.transmission_error.harmonics": [{"order": 1, "amplitude": f"{1e6 * amplitude} um"}],
+    }
+    case = prepared(changes)
+    model, plain = case.model, prepared({"drive.gear.eccentricity": changes["drive.gear.eccentricity"]}).model
+    at = np.arange(TEETH[1] * per_cycle) / per_cycle
+    both = []
+    for each in (model, plain):
+        still = each._replace(operation=each.operation._replace(nominal_speed=1e-3))
+        _, phases, intervals = interval_of(at, still.schedule)
+        places = zip(phases, intervals, strict=True)
+        states = [static_equilibrium(still, float(p), int(i)) for p, i in places]
+        both.append(rotational_error(np.array(states), 0, each))
+    error, of_mesh = both[0], both[0] - both[1]
+    radius = float(model.meshes[0].driven_radius)
+    turned = 2.0 * np.pi * at / TEETH[1]
+    angle = turned - (error - error.mean()) / radius
+    even = 2.0 * np.pi * np.arange(len(at)) / len(at)
+    order = np.argsort(angle % (2.0 * np.pi))
+    ring = CubicSpline(
+        np.append((angle % (2.0 * np.pi))[order], angle[order[0]] % (2.0 * np.pi) + 2.0 * np.pi),
+        np.append(of_mesh[order], of_mesh[order[0]]),
+        bc_type="periodic",
+    )
+    seen = ring(even)
+    lines = np.abs(np.fft.rfft(seen)) / len(seen) * 2.0
+    cosine = np.cos(float(case.cycle.pressure_angle[0, 0, 0]))
+    index = eccentricity / (radius * cosine)
+    for n in (-2, -1, 0, 1, 2):
+        line = TEETH[1] + n
+        expected = TEETH[1] / line * amplitude / cosine * abs(jv(n, line * index))
+        assert lines[line] == pytest.approx(expected, rel=0.005, abs=1e-5 * amplitude)

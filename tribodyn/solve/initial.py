@@ -1,6 +1,6 @@
 """Where a run starts: the static equilibrium under load, or the unloaded position."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -121,7 +121,7 @@ def static_equilibrium(model: Model, phase: float = 0.0, interval: int = 0) -> F
         for mesh, t in zip(model.meshes, loads, strict=True)
     ]
     # beyond the width over which contact sets in, where the stiffness vanishes like the load
-    gaps = [_maximum_gap(model, m, interval, side[m]) for m in range(layout.meshes)]
+    gaps = _maximum_gaps(model, phase, interval, side)
     clear = 3.0 * deflection + float(operation.contact_width) + np.array(gaps)
     values = _closed(model, np.array(side) * clear, torques)[unknown]
     scale = _scales(model, deflection)[unknown]
@@ -256,8 +256,34 @@ def _root(
     return values if np.linalg.norm(value) <= tolerance else None
 
 
+def _maximum_gaps(model: Model, phase: float, interval: int, side: Sequence[float]) -> list[float]:
+    """Largest distance between the flanks of a side (±1) of every mesh, as the error of the rotations, m.
+
+    Where teeth differ, of those that are in contact there: it may be negative.
+    """
+    if not any(len(mesh.teeth.rate) for mesh in model.meshes):
+        return [_maximum_gap(model, m, interval, side[m]) for m in range(model.layout.meshes)]
+    apart = _apart_unloaded(model, phase, interval)
+    return [max(by_side.get(side[m], [0.0])) for m, by_side in enumerate(apart)]
+
+
+def _apart_unloaded(model: Model, phase: float, interval: int) -> list[dict[float, list[float]]]:
+    """Distances of the flanks of every mesh while no bearing is loaded, by side, as rotational errors, m."""
+    work = contacts_of(model)
+    derivatives(phase, 0.0, interval, np.zeros(model.layout.states), model, work, {})
+    found = []
+    for m, mesh in enumerate(model.meshes):
+        by_side: dict[float, list[float]] = {}
+        for i, side in enumerate(np.asarray(mesh.table.side).tolist()):
+            if work[m][PRESENT, i] > 0.0:
+                gap = float(-work[m][APPROACH, i] / (work[m][COS, i] * work[m][LEAN_COS, i]))
+                by_side.setdefault(side, []).append(gap)
+        found.append(by_side)
+    return found
+
+
 def _maximum_gap(model: Model, m: int, interval: int, side: float) -> float:
-    """Largest distance between the flanks of a side (±1), as the error of the rotations, m."""
+    """The same of a mesh in which teeth are alike, over the whole segment of its table."""
     table = model.meshes[m].table
     segment = int(np.asarray(model.schedule.segment)[interval, m])
     there = (np.asarray(table.side) * side > 0) & (np.asarray(table.in_contact)[segment] > 0)
@@ -269,16 +295,8 @@ def _maximum_gap(model: Model, m: int, interval: int, side: float) -> float:
 
 def _first_touch(model: Model, phase: float, interval: int) -> Float[Array, " mesh"]:
     """Rotational errors at which the first of the driving flanks touches while no bearing is loaded, m."""
-    work = contacts_of(model)
-    derivatives(phase, 0.0, interval, np.zeros(model.layout.states), model, work, {})
-    found = []
-    for m, mesh in enumerate(model.meshes):
-        slots = [i for i in range(mesh.table.side.shape[0]) if mesh.table.side[i] > 0.0]
-        there = [i for i in slots if work[m][PRESENT, i] > 0.0]
-        gaps = [float(-work[m][APPROACH, i] / (work[m][COS, i] * work[m][LEAN_COS, i])) for i in there]
-        touch = min(gaps)
-        found.append(touch - _APART * abs(touch) + 0.0)  # not −0
-    return np.array(found)
+    touch = np.array([min(by_side[1.0]) for by_side in _apart_unloaded(model, phase, interval)])
+    return touch - _APART * np.abs(touch) + 0.0  # not −0
 
 
 def initial_state(model: Model, kind: str) -> Float[Array, " state"]:
