@@ -6,6 +6,7 @@ files are outside.
 
 import subprocess
 import sys
+from functools import partial
 from time import perf_counter, process_time
 
 import numpy as np
@@ -229,3 +230,18 @@ def test_a_derivative_costs_less_than_the_marches_of_its_differences(prepared, c
     with capsys.disabled():
         print(f"\na derivative takes {ratio:.2f} of the time of {1 + state.shape[1]} marches ({law})")
     assert ratio < 1.0
+
+
+def test_looking_up_single_teeth_costs_little(capsys):
+    """The same motion, of teeth that are alike and of such as are looked up, with a formula that is 0."""
+    changes = {"operating.pinion_speed": "300 rad/s", "solver.cycles": 1081}
+    calls = []
+    for own in ({"drive.pinion.modification.tooth_formula": "0*i"}, {}):
+        model = prepare(load_scenario("crc-23-47", changes | own)).model
+        state = static_equilibrium(model)
+        integrator = make_integrator("dopri5", model, 0, tolerances_from(model, state, RTOL, 10**6))
+        calls.append(partial(integrator.integrate, state, 0, 100))
+    single, alike = least(calls, 5, enough=1.15)
+    with capsys.disabled():
+        print(f"\nlooking up single teeth takes {single / alike:.2f} of the time of teeth that are alike")
+    assert single < 1.3 * alike
