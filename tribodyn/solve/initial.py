@@ -264,7 +264,9 @@ def _maximum_gaps(model: Model, phase: float, interval: int, side: Sequence[floa
     if not any(len(mesh.teeth.rate) for mesh in model.meshes):
         return [_maximum_gap(model, m, interval, side[m]) for m in range(model.layout.meshes)]
     apart = _apart_unloaded(model, phase, interval)
-    return [max(by_side.get(side[m], [0.0])) for m, by_side in enumerate(apart)]
+    gaps = [max(by_side.get(side[m], [0.0])) for m, by_side in enumerate(apart)]
+    # where planets close loops the smallest rotations are a mean: none of the meshes may be left open
+    return [max(gaps)] * len(gaps) if any(model.layout.pins) else gaps
 
 
 def _apart_unloaded(model: Model, phase: float, interval: int) -> list[dict[float, list[float]]]:
