@@ -161,9 +161,8 @@ def output_data(output: Output, solver: Solver, teeth: int, *, differ: bool) -> 
     window = output.window
     if window is None and solver.revolutions is not None:
         window = max(0.0, cycles / teeth - 1.0), cycles / teeth
-    whole = window is None or window == "all"
     kept = None
-    if not whole:
+    if isinstance(window, tuple):
         first, last = (min(cycles, round(revolutions * teeth)) for revolutions in window)
         kept = min(first, cycles - 1), max(last, first + 1)
     by_revolution = differ or solver.revolutions is not None or output.window is not None
