@@ -21,7 +21,7 @@ class FlankPlaces(NamedTuple):
 
     roll: Float[Array, " node"]  # of the mesh's driver from the pitch point, rad
     distance: Float[Array, " node"]  # signed distance r of the contact from the pitch point, m
-    radius: Float[Array, " node"]  # of the contact from this gear's axis, m
+    radius: Float[Array, " node"]  # of the contact from this gear's axis, m; < 0 of an internal gear
     pressure_angle: Float[Array, " node"]  # rad
     lean: Float[Array, " node"]  # cosine of the normal's angle out of the transverse plane
     face: Float[Array, " slice"]  # middles of the slices, m from the middle of the face
@@ -75,5 +75,5 @@ OwnTeeth = Sequence[OwnFields]
 
 def height_share(places: FlankPlaces) -> Float[Array, " node"]:
     """Place along the profile over the path's length: 0 at its end near the root, 1 at that near the tip."""
-    low, high = int(np.argmin(np.abs(places.radius))), int(np.argmax(np.abs(places.radius)))
+    low, high = int(np.argmin(places.radius)), int(np.argmax(places.radius))
     return (places.distance - places.distance[low]) / (places.distance[high] - places.distance[low])

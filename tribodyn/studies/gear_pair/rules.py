@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError
+from tribodyn.scenario.tables.damage import broken_damage
 from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.tables.internal_gear import driving_internal
-from tribodyn.studies.gear_pair.scenario import Scenario
+from tribodyn.studies.gear_pair.scenario import Scenario, gears_of_pair
 from tribodyn.studies.gears.motion import (
     broken_flank_rules,
     broken_mesh_rules,
@@ -19,8 +20,13 @@ from tribodyn.studies.gears.scenario import broken_gear_rules
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
-    yield from driving_internal(scenario.drive)
-    yield from broken_gear_rules(scenario, internal=True, every_tooth=True)
+    of_drive = [
+        *driving_internal(scenario.drive),
+        *broken_gear_rules(scenario, internal=True, every_tooth=True),
+    ]
+    yield from of_drive
+    if not of_drive:
+        yield from broken_damage(scenario.damage, gears_of_pair(scenario))
     yield from broken_source_rules(scenario.operating, "pinion_torque")
     yield from broken_mesh_rules(scenario.mesh)
     yield from _load(scenario)

@@ -10,9 +10,11 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.dynamics.data import OperatingData
+from tribodyn.geometry.drive import SIDES
 from tribodyn.scenario import fields
 from tribodyn.scenario.quantity import csv_file, model_file, written
 from tribodyn.scenario.tables.bearings import Bearings
+from tribodyn.scenario.tables.damage import Damages, GearPlace, damage_of
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
 from tribodyn.scenario.tables.own_teeth import own_teeth_of, with_own_teeth
 from tribodyn.studies.gear_pair.case import Case
@@ -93,6 +95,7 @@ class GearPairScenario(GearScenario):
     friction: Friction
     solver: Solver = written({})
     output: Output = written({})
+    damage: Damages = ()
 
 
 Scenario = GearPairScenario
@@ -101,6 +104,12 @@ Scenario = GearPairScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
     """Return the case of a scenario that has passed schema and rules."""
     teeth = own_teeth_of(scenario.drive, scenario.mesh.tooth_sample)
+    damaged = gears_of_pair(scenario)
+    one, two = (
+        (*each, *damage_of([one for one in scenario.damage if one.gear == side], damaged[side]))
+        for each, side in zip(teeth, SIDES, strict=True)
+    )
+    teeth = one, two
     own: dict[str, Any] = {
         "operating": _operating(scenario),
         "mesh": with_own_teeth(moving_mesh_of(scenario), teeth),
@@ -114,6 +123,11 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         output=output_data(scenario.output, scenario.solver, scenario.drive.pinion.teeth, differ=any(teeth)),
     )
     return with_chosen_laws(case)
+
+
+def gears_of_pair(scenario: Scenario) -> dict[str, GearPlace]:
+    """The gears that may be damaged."""
+    return {side: GearPlace(((scenario.drive, side),)) for side in SIDES}
 
 
 def _operating(scenario: Scenario) -> OperatingData:

@@ -5,9 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.compliance.energy import loaded_tooth
 from tribodyn.dynamics import parameters
-from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.drive import Drive, Side
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.teeth.damage.gear import DamagedGear, DamagedTeeth
+from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.mesh.teeth.lookup import ALIKE, Teeth
 from tribodyn.mesh.teeth.table import teeth_of
 from tribodyn.numerics.curve import Table, monotone_slopes
@@ -67,9 +70,22 @@ def own_teeth(case: GearCase, made: Tabulated) -> Teeth:
     """What single teeth of a case have of their own, as its tabulated mesh looks them up."""
     if not any(case.teeth):
         return ALIKE
-    drive = case.drive
+    drive, (one, two) = case.drive, case.teeth
+    own = _in_mesh(one, "pinion", case, made), _in_mesh(two, "gear", case, made)
     counts = abs(round(float(drive.pinion.teeth))), abs(round(float(drive.gear.teeth)))
-    return teeth_of(made.assembly, case.mesh, made.cycle, case.teeth, counts)
+    return teeth_of(made.assembly, case.mesh, made.cycle, own, counts)
+
+
+def _in_mesh(own: OwnTeeth, side: Side, case: GearCase, made: Tabulated) -> OwnTeeth:
+    """What teeth of one gear have of their own, where damage knows its mesh."""
+    materials = case.materials if side == "pinion" else case.materials[::-1]
+    gear = DamagedGear(
+        loaded_tooth(made.assembly, side),
+        (materials[0], materials[1]),
+        float(made.assembly.common_width),
+        case.mesh.at_load,
+    )
+    return tuple(each.in_mesh(gear) if isinstance(each, DamagedTeeth) else each for each in own)
 
 
 def with_own_teeth(

@@ -1,0 +1,1 @@
+"""Damage of single teeth: what each kind does to the flanks of its tooth; one kind a file."""
