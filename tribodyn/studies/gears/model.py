@@ -5,11 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.energy import loaded_tooth
 from tribodyn.dynamics import parameters
 from tribodyn.geometry.drive import Drive, Side
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.teeth.damage.gear import DamagedGear, DamagedTeeth
+from tribodyn.mesh.teeth.damage.gear import DamagedTeeth, damaged_gear
 from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.mesh.teeth.lookup import ALIKE, Teeth
 from tribodyn.mesh.teeth.table import teeth_of
@@ -78,13 +77,9 @@ def own_teeth(case: GearCase, made: Tabulated) -> Teeth:
 
 def _in_mesh(own: OwnTeeth, side: Side, case: GearCase, made: Tabulated) -> OwnTeeth:
     """What teeth of one gear have of their own, where damage knows its mesh."""
-    materials = case.materials if side == "pinion" else case.materials[::-1]
-    gear = DamagedGear(
-        loaded_tooth(made.assembly, side),
-        (materials[0], materials[1]),
-        float(made.assembly.common_width),
-        case.mesh.at_load,
-    )
+    if not any(isinstance(each, DamagedTeeth) for each in own):
+        return own
+    gear = damaged_gear(made.assembly, case.materials, side, case.mesh.at_load)
     return tuple(each.in_mesh(gear) if isinstance(each, DamagedTeeth) else each for each in own)
 
 

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribodyn.mesh.teeth.damage.gear import DamagedGear, arc, partly_touching, strips
+from tribodyn.mesh.teeth.damage.gear import DamagedGear, arc, strips
 from tribodyn.mesh.teeth.damage.patch import middle_of, smooth
+from tribodyn.mesh.teeth.damage.touching import partly_touching
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields
 
 
@@ -30,4 +31,4 @@ class BrokenTip:
         beyond = np.maximum(up - middle_of(self.height, self.radius, up, places), 0.0)
         gap = np.where(beyond < self.edge, beyond**2 / (2.0 * self.edge), beyond - self.edge / 2.0)
         across = np.abs(strips(gear, places) - self.face)[..., None]
-        return partly_touching(gear, gap * smooth((self.width / 2.0 - across) / self.edge))
+        return partly_touching(gear, places, gap * smooth((self.width / 2.0 - across) / self.edge))

@@ -5,8 +5,10 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from tribodyn.compliance.energy import LoadedTooth, hertz_linear
-from tribodyn.geometry.drive import MaterialData
+from tribodyn.compliance.energy import LoadedTooth, loaded_tooth
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES, MaterialData, Side
+from tribodyn.geometry.helix import normal_module
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields
 from tribodyn.numerics.shapes import Array, Float
 
@@ -17,11 +19,28 @@ _STRIPS, _STRIPS_OF_SLICE = 64, 8
 class DamagedGear(NamedTuple):
     """One gear of a mesh."""
 
-    loaded: LoadedTooth
-    #: of the gear and of its mate
+    #: teeth: of the gear and of its mate, as their materials
+    teeth: tuple[LoadedTooth, LoadedTooth]
     materials: tuple[MaterialData, MaterialData]
     width: float  # over which the teeth of both touch, m
+    module: float  # in the normal section, m
     solved: bool  # whether compliances are those of finite elements
+
+    @property
+    def loaded(self) -> LoadedTooth:
+        """The gear's own tooth."""
+        return self.teeth[0]
+
+
+def damaged_gear(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], side: Side, solved: bool
+) -> DamagedGear:
+    """One gear of a pair; `materials` are those of pinion and gear."""
+    sides = SIDES if side == "pinion" else SIDES[::-1]
+    one, two = (loaded_tooth(assembly, each) for each in sides)
+    first, second = (materials[SIDES.index(each)] for each in sides)
+    module = float(normal_module(assembly.drive))
+    return DamagedGear((one, two), (first, second), float(assembly.common_width), module, solved)
 
 
 class Damage(Protocol):
@@ -77,21 +96,3 @@ def arc(gear: DamagedGear, places: FlankPlaces) -> Float[Array, " node"]:
     steps = np.hypot(np.diff(x), np.diff(y)) * np.sign(np.diff(x))
     length = np.concatenate([[0.0], np.cumsum(steps)])
     return length - length.min()
-
-
-#: Depth below what touches from which a place of the face does not: more than teeth approach under load.
-CLEAR = 20e-6
-
-
-def partly_touching(gear: DamagedGear, missing: Float[Array, "slice strip node"]) -> ToothFields:
-    """Fields of flanks with so much material missing (m) in every strip of the slices.
-
-    Where a slice is damaged along its whole width, it is by the least of what is missing that it touches
-    later. Where a part λ of it lies deeper than `CLEAR` under that, it carries on the rest: of its compliance
-    the contact's, which no other part of the tooth shares, grows by λ/(1 − λ).
-    """
-    gap = missing.min(axis=1)
-    deeper = np.clip((missing - gap[:, None]) / CLEAR, 0.0, 1.0)
-    lost = np.mean(deeper**2 * (3.0 - 2.0 * deeper), axis=1)
-    contact = float(hertz_linear(*gear.materials, gear.width))
-    return ToothFields(gap, contact * lost / (1.0 - lost), np.ones_like(gap))

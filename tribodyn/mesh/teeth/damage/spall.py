@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribodyn.mesh.teeth.damage.gear import DamagedGear, partly_touching, strips
+from tribodyn.mesh.teeth.damage.gear import DamagedGear, strips
 from tribodyn.mesh.teeth.damage.patch import Patch
+from tribodyn.mesh.teeth.damage.touching import partly_touching
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields, height_share
 from tribodyn.numerics.shapes import Array, Float
 
@@ -27,7 +28,7 @@ class Spall:
         """See `gear.Damage`."""
         if flank != self.flank:
             return None
-        return partly_touching(gear, self.depth * self.patch.share(gear, places))
+        return partly_touching(gear, places, self.depth * self.patch.share(gear, places))
 
 
 @dataclass(frozen=True)
@@ -53,9 +54,9 @@ class MissingMap:
         )  # (face, node)
         at = strips(gear, places)
         if len(self.face) == 1:
-            return partly_touching(gear, np.broadcast_to(by_height[0], (*at.shape, len(up))))
+            return partly_touching(gear, places, np.broadcast_to(by_height[0], (*at.shape, len(up))))
         missing = [
             np.interp(at.ravel(), self.face, node, left=0.0, right=0.0).reshape(at.shape)
             for node in by_height.T
         ]
-        return partly_touching(gear, np.stack(missing, axis=-1))
+        return partly_touching(gear, places, np.stack(missing, axis=-1))
