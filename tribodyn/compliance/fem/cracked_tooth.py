@@ -6,6 +6,7 @@ is the same in both and cancels.
 
 import hashlib
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,7 +85,8 @@ def deflections(
     on_bore = facets[np.all(np.isin(used[basis.mesh.facets[:, facets]], mesh.held), axis=0)]
     nodes = basis.get_dofs(facets=on_bore).all()
     free = np.setdiff1d(np.arange(2 * basis.N), np.concatenate([2 * nodes, 2 * nodes + 1]))
-    at = np.asarray(basis.nodal_dofs)[0][np.searchsorted(used, loaded)]
+    of_vertices: Any = basis.nodal_dofs
+    at = of_vertices[0, np.searchsorted(used, loaded)]
     forces = np.zeros((2 * basis.N, len(loaded)))
     np.put_along_axis(forces, np.stack([2 * at, 2 * at + 1]), direction, axis=0)
     stiffness = csc_matrix(plane_stiffness(basis, poisson_ratio))[free][:, free]

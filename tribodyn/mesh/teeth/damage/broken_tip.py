@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribodyn.mesh.teeth.damage.gear import DamagedGear, arc, strips
+from tribodyn.mesh.teeth.damage.gear import CLEAR, DamagedGear, arc, strips
 from tribodyn.mesh.teeth.damage.patch import middle_of, smooth
 from tribodyn.mesh.teeth.damage.touching import partly_touching
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields
@@ -24,6 +24,11 @@ class BrokenTip:
     face: float  # middle of the broken part, m from the middle of the face
     width: float  # of the broken part, m; infinite: the whole face
     edge: float  # m
+
+    @property
+    def early(self) -> float:
+        """See `gear.Damage`."""
+        return CLEAR
 
     def on_flank(self, gear: DamagedGear, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `gear.Damage`."""

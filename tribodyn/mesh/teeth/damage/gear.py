@@ -12,6 +12,8 @@ from tribodyn.geometry.helix import normal_module
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields
 from tribodyn.numerics.shapes import Array, Float
 
+#: Depth below what touches from which a place of a flank does not: more than teeth approach under load.
+CLEAR = 20e-6
 #: Strips of the face among which damage is told from sound material: of the whole face, and of a slice.
 _STRIPS, _STRIPS_OF_SLICE = 64, 8
 
@@ -51,6 +53,11 @@ class Damage(Protocol):
         """Number of the tooth, from 0."""
         ...
 
+    @property
+    def early(self) -> float:
+        """By how much the other teeth may stand out against this one, m."""
+        ...
+
     def on_flank(self, gear: DamagedGear, flank: int, places: FlankPlaces) -> ToothFields | None:
         """What it does to a flank of the tooth; None: nothing."""
         ...
@@ -63,6 +70,11 @@ class DamagedTeeth:
     damage: tuple[Damage, ...]
     gear: DamagedGear | None = None
     of_gap_alone: bool = False
+
+    @property
+    def early(self) -> float:
+        """See `fields.OwnFields`."""
+        return max((each.early for each in self.damage), default=0.0)
 
     def in_mesh(self, gear: DamagedGear) -> "DamagedTeeth":
         """The same in a mesh."""

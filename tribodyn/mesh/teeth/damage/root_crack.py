@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.compliance.crack import Crack, crack_compliance
 from tribodyn.compliance.energy import tooth_compliance
-from tribodyn.mesh.teeth.damage.gear import DamagedGear, strips
+from tribodyn.mesh.teeth.damage.gear import CLEAR, DamagedGear, strips
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields, sound
 from tribodyn.numerics.shapes import Array, Float
 
@@ -31,6 +31,11 @@ class RootCrack:
     width: float  # of the cracked part, m; infinite: the whole face
     #: end at which it is deepest: 1 that at +z, −1 that at −z; 0: equally deep
     deepest: int = 0
+
+    @property
+    def early(self) -> float:
+        """See `gear.Damage`."""
+        return CLEAR
 
     def on_flank(self, gear: DamagedGear, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `gear.Damage`."""

@@ -16,6 +16,11 @@ class Scuffing:
     patch: Patch
     factor: float
 
+    @property
+    def early(self) -> float:
+        """See `gear.Damage`."""
+        return 0.0
+
     def on_flank(self, gear: DamagedGear, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `gear.Damage`."""
         if flank != self.flank:

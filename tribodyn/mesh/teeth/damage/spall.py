@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tribodyn.mesh.teeth.damage.gear import DamagedGear, strips
+from tribodyn.mesh.teeth.damage.gear import CLEAR, DamagedGear, strips
 from tribodyn.mesh.teeth.damage.patch import Patch
 from tribodyn.mesh.teeth.damage.touching import partly_touching
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields, height_share
@@ -23,6 +23,11 @@ class Spall:
     flank: int
     patch: Patch
     depth: float  # m along the normal
+
+    @property
+    def early(self) -> float:
+        """See `gear.Damage`."""
+        return min(self.depth, CLEAR)
 
     def on_flank(self, gear: DamagedGear, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `gear.Damage`."""
@@ -43,6 +48,11 @@ class MissingMap:
     height: Float[Array, " height"]  # share of the path of contact's length, increasing
     face: Float[Array, " face"]  # m from the middle of the face, increasing; a single one: even along it
     depth: Float[Array, "height face"]  # m along the normal
+
+    @property
+    def early(self) -> float:
+        """See `gear.Damage`."""
+        return min(float(np.max(self.depth)), CLEAR)
 
     def on_flank(self, gear: DamagedGear, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `gear.Damage`."""

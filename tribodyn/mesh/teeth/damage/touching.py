@@ -9,13 +9,11 @@ import numpy as np
 
 from tribodyn.compliance.energy import hertz_linear, tooth_compliance
 from tribodyn.mesh.coupled_slices import BODIES_LENGTH, TEETH_LENGTH, spread
-from tribodyn.mesh.teeth.damage.gear import DamagedGear
+from tribodyn.mesh.teeth.damage.gear import CLEAR, DamagedGear
 from tribodyn.mesh.teeth.damage.patch import smooth
 from tribodyn.mesh.teeth.fields import FlankPlaces, ToothFields
 from tribodyn.numerics.shapes import Array, Float
 
-#: Depth below what touches from which a place of the face does not: more than teeth approach under load.
-CLEAR = 20e-6
 #: Part of its width that a strip carries with, at least; it makes a strip that does not touch soft.
 _LEAST = 1e-6
 _WAVES = 3  # of the face, per strip
@@ -26,9 +24,9 @@ def partly_touching(
 ) -> ToothFields:
     """Fields of a flank with so much material missing (m) in every strip of its slices.
 
-    Against slices that hold each other by finite elements what a spall of 0.1 to 0.5 of the face adds is
-    0.7 to 0.85 of theirs (`test_touching`), for the contact here is linear. Of a face in several slices a slice that is damaged in part has
-    its contact's share alone.
+    What a spall over a part of the face adds is 0.7 to 0.85 of that by finite elements whose slices hold each
+    other (`test_touching`): here the contact is linear. Of a face in several slices, one that is damaged in
+    part has its contact's share alone.
     """
     gap = missing.min(axis=1)
     carries = np.clip(1.0 - smooth((missing - gap[:, None]) / CLEAR), _LEAST, 1.0)  # (slice, strip, node)
