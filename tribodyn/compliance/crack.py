@@ -84,6 +84,13 @@ def root_thickness(loaded: LoadedTooth, tangent: float) -> float:
     return 2.0 * float(mouth(loaded, tangent).place[1])
 
 
+def ligament_to_bore(loaded: LoadedTooth, crack: Crack) -> float:
+    """Distance (m) of the crack's tip from the bore; < 0 in it."""
+    along = np.array([-np.cos(crack.angle), -np.sin(crack.angle)])
+    tip = mouth(loaded, crack.tangent).place + crack.depth * along
+    return float(np.sign(tip[0]) * np.hypot(*tip) - loaded.body.bore_radius)
+
+
 def thinning(loaded: LoadedTooth) -> float:
     """Thickness of the section normal to the tooth over that of the transverse one."""
     return 1.0 if loaded.helix is None else float(loaded.helix[0])

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from tribodyn.compliance.crack import Crack, root_thickness, tangent_limits
+from tribodyn.compliance.crack import Crack, ligament_to_bore, root_thickness, tangent_limits
 from tribodyn.compliance.energy import LoadedTooth, loaded_tooth
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly, assemble
@@ -35,6 +35,8 @@ _ENDS = {"+z": 1, "-z": -1}
 #: Angle of a crack to the tooth's axis that the formula is for, and how far it leans to either side.
 _LEAST_ANGLE, _LARGEST_ANGLE = pi / 6, pi / 2
 _SLACK = 1e-9
+#: Thicknesses of the root by which a crack stays away from the bore.
+_NEAREST = 0.1
 
 
 class MissingTable(Table):
@@ -294,6 +296,10 @@ def _crack(key: str, table: DamageTable, tooth: LoadedTooth) -> Iterator[InputEr
     if crack.depth >= thickness:
         rule = f"the tooth is {1e3 * thickness:.3g} mm thick where the crack starts, and would be off"
         remedy = f'use at most "{1e3 * thickness / 2.0:.3g} mm", half of it, up to which it is known'
+        yield InputError(f"{key}.depth", f"{1e3 * crack.depth:.3g} mm", rule, remedy)
+    elif (left := ligament_to_bore(tooth, crack)) < _NEAREST * thickness:
+        rule = "the crack reaches the bore" if left < 0.0 else "the crack ends at the bore"
+        remedy = f'use at most "{1e3 * (crack.depth + left - _NEAREST * thickness):.3g} mm"'
         yield InputError(f"{key}.depth", f"{1e3 * crack.depth:.3g} mm", rule, remedy)
 
 
