@@ -62,6 +62,7 @@ CONTENTS = {
         "ehl",
         "solvers",
         "teeth",
+        "damage",
         "periodic",
         "sweep",
         "design",

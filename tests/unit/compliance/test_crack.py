@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from tests.support.cracked_pair import STEEL, WIDTH, body, pair
 from tribodyn.compliance.crack import (
     Crack,
     _bent,
@@ -20,26 +21,12 @@ from tribodyn.compliance.fem.crack_mesh import cracked_mesh
 from tribodyn.compliance.fem.cracked_tooth import added_compliance, solved_crack_compliance
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import SIDES, Drive, GearBody, MaterialData
+from tribodyn.geometry.drive import SIDES, Drive
 from tribodyn.geometry.families import involute
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
-STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
-WIDTH = 0.0267
 TANGENT = math.radians(30.0)
-
-
-def body(teeth, bore, shift=0.0):
-    return GearBody(float(teeth), shift, 1.0, 1.25, 0.25, WIDTH, bore)
-
-
-def pair(module=0.003, helix=0.0):
-    scale = module / 0.003
-    drive = Drive(
-        module, math.radians(20.0), body(18, 0.012 * scale), body(36, 0.025 * scale), helix_angle=helix
-    )
-    return assemble(involute.FAMILY, drive)
 
 
 def cracked(tooth, share, angle=60.0):

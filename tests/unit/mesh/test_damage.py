@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
-from tests.unit.mesh.test_teeth import errors, made
+from tests.support.own_teeth import errors, made
 from tribodyn.compliance.crack import crack_compliance
 from tribodyn.mesh.teeth.damage.gear import DamagedTeeth, damaged_gear
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING

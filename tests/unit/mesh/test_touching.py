@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.unit.compliance.test_crack import STEEL, pair
+from tests.support.cracked_pair import STEEL, pair
 from tribodyn.compliance.energy import hertz_linear, tooth_compliance
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.mesh.teeth.damage.gear import damaged_gear

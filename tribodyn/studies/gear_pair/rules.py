@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.tables.damage import broken_damage
 from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.tables.internal_gear import driving_internal
 from tribodyn.studies.gear_pair.scenario import Scenario, gears_of_pair
+from tribodyn.studies.gears.damage_rules import broken_damage
 from tribodyn.studies.gears.motion import (
     broken_flank_rules,
     broken_mesh_rules,

@@ -5,12 +5,13 @@ from typing import Any
 
 from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.scenario.tables.bearings import broken_bearing
-from tribodyn.scenario.tables.damage import broken_damage
 from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.studies.gear_train.described.drawn import Moving, drawn, in_terms_of_train, moving
 from tribodyn.studies.gear_train.described.duty import broken_duty_rules, duty_of
 from tribodyn.studies.gear_train.described.names import broken_names, broken_sort
-from tribodyn.studies.gear_train.scenario import Scenario, gears_of_train, pair_view, reference_teeth
+from tribodyn.studies.gear_train.own_teeth import gears_of_train
+from tribodyn.studies.gear_train.scenario import Scenario, pair_view, reference_teeth
+from tribodyn.studies.gears.damage_rules import broken_damage
 from tribodyn.studies.gears.motion import (
     broken_flank_rules,
     broken_mesh_rules,

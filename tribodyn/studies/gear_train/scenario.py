@@ -7,15 +7,14 @@ from pydantic import Discriminator, Field, Tag
 
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.geometry.drive import SIDES, BodyMass
-from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.scenario.fields import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Count, model_file, written
 from tribodyn.scenario.tables.bearings import bearing_of
-from tribodyn.scenario.tables.damage import Damages, GearPlace, damage_of
+from tribodyn.scenario.tables.damage import Damages
 from tribodyn.scenario.tables.drive_data import masses_of, materials_of, teeth_of
 from tribodyn.scenario.tables.laws import law_values
 from tribodyn.scenario.tables.model_files import DriveTable, Grade, MaterialReference, Roughness
-from tribodyn.scenario.tables.own_teeth import own_teeth_of, with_own_teeth
+from tribodyn.scenario.tables.own_teeth import with_own_teeth
 from tribodyn.scenario.tables.quality import grade_of, tolerances_of
 from tribodyn.studies.gear_train.case import (
     HOUSING,
@@ -42,6 +41,7 @@ from tribodyn.studies.gear_train.described.tables import (
     TrainGear,
     TrainOperating,
 )
+from tribodyn.studies.gear_train.own_teeth import own_teeth
 from tribodyn.studies.gear_train.planetary.linked import links_of_set, set_data
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.studies.gears.case import LubricatedCase
@@ -173,27 +173,6 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
     )
 
 
-def _own_teeth(scenario: Any, train: Moving, mesh: int, view: PairView) -> tuple[OwnTeeth, OwnTeeth]:
-    """What teeth of both gears of a mesh have of their own; damage is the gear's in all its meshes."""
-    numbers = train.motion.gears[mesh]
-    one, two = own_teeth_of(view.drive, view.mesh.tooth_sample, numbers)
-    damaged = gears_of_train(train)
-    found = []
-    for own, number in zip((one, two), numbers, strict=True):
-        name = train.parts.gears[number].name
-        tables = [table for table in scenario.damage if table.gear == name]
-        found.append((*own, *damage_of(tables, damaged[name])))
-    return found[0], found[1]
-
-
-def gears_of_train(train: Moving) -> dict[str, GearPlace]:
-    """The gears that may be damaged, by name."""
-    return {
-        gear.name: GearPlace(tuple((train.drives[mesh], side) for mesh, side in train.meshes_of(number)))
-        for number, gear in enumerate(train.parts.gears)
-    }
-
-
 def reference_teeth(train: Moving) -> int:
     """Teeth of the gear that drives the first mesh: its cycles in a revolution against the mesh's frame."""
     return abs(train.parts.gears[train.motion.gears[0][0]].teeth)
@@ -298,7 +277,7 @@ def _meshes(
     for mesh, place in enumerate(motion.meshes):
         view = pair_view(scenario, train, mesh)
         driver, carrier = motion.driver[mesh], motion.carrier[mesh]
-        teeth = _own_teeth(scenario, train, mesh, view)
+        teeth = own_teeth(scenario, train, mesh, view)
         speed = duty.speed * float(motion.ratio[driver] - motion.carried(driver, carrier))
         pair = LubricatedCase(
             **head,

@@ -26,11 +26,19 @@ class RootCrack:
 
     tooth: int
     flank: int
-    crack: Crack  # at its deepest
+    depth: float  # at its deepest, m
+    #: angle, tangent: as of `compliance.crack.Crack`
+    angle: float
+    tangent: float
     face: float  # middle of the cracked part, m from the middle of the face
     width: float  # of the cracked part, m; infinite: the whole face
     #: end at which it is deepest: 1 that at +z, −1 that at −z; 0: equally deep
     deepest: int = 0
+
+    @property
+    def crack(self) -> Crack:
+        """The crack at its deepest."""
+        return Crack(self.depth, self.angle, self.tangent)
 
     @property
     def early(self) -> float:
@@ -39,7 +47,7 @@ class RootCrack:
 
     def on_flank(self, gear: DamagedGear, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `gear.Damage`."""
-        if flank != self.flank or self.crack.depth == 0.0:
+        if flank != self.flank or self.depth == 0.0:
             return None
         share = self._depth_share(gear, places)  # (slice, strip)
         shares = np.linspace(0.0, 1.0, _DEPTHS + 1) if self.deepest else np.array([0.0, 1.0])
@@ -64,7 +72,7 @@ class RootCrack:
         self, gear: DamagedGear, places: FlankPlaces, shares: Float[Array, " share"]
     ) -> Float[Array, "share node"]:
         """Compliance (m/N) that a crack of so many shares of the depth adds over the whole width."""
-        material, depth = gear.materials[0], self.crack.depth
+        material, depth = gear.materials[0], self.depth
         if not gear.solved:
             return crack_compliance(
                 gear.loaded, material, gear.width, places.distance, self.crack, depth * shares
