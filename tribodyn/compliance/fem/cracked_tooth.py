@@ -81,8 +81,9 @@ def deflections(
     used, numbers = np.unique(cells, return_inverse=True)
     triangles = np.ascontiguousarray(numbers.reshape(cells.shape).T)
     basis = Basis(MeshTri(np.ascontiguousarray(mesh.points[used].T), triangles), ElementTriP2(), intorder=4)
-    facets = basis.mesh.boundary_facets()
-    on_bore = facets[np.all(np.isin(used[basis.mesh.facets[:, facets]], mesh.held), axis=0)]
+    whole: Any = basis.mesh
+    facets = whole.boundary_facets()
+    on_bore = facets[np.all(np.isin(used[whole.facets[:, facets]], mesh.held), axis=0)]
     nodes = basis.get_dofs(facets=on_bore).all()
     free = np.setdiff1d(np.arange(2 * basis.N), np.concatenate([2 * nodes, 2 * nodes + 1]))
     of_vertices: Any = basis.nodal_dofs
