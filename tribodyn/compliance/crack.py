@@ -8,7 +8,7 @@ A crack of depth a releases the energy dU/da = G b under a load F, so that the t
 The energy method with a limit line through the crack's tip leaves out the material behind that line instead
 (Chaari, Fakhfakh & Haddar, Eur. J. Mech. A 28 (2009) 461; Mohammed, Rantatalo & Aidanpää, Eng. Fail. Anal.
 34 (2013) 235, with a parabola): against finite elements with the crack in their mesh a line along the tooth
-gives 0.3 to 2 times the compliance, a parabola 0.3 to 4 times. No line knows where the tip's field ends.
+gives 0.3 to 2.5 times the compliance, a parabola 0.3 to 5 times. No line knows where the tip's field ends.
 
 At every depth the tooth is a strip cracked from its edge: crack a and ligament c, the shortest way from the
 tip to the other side's outline, together H wide, under the load's moment M, force N (tension > 0) and shear V
@@ -121,9 +121,9 @@ def crack_compliance(
     """Compliance (m/N) along the normal that a crack over the whole width adds, at some of its depths.
 
     `r` are distances of the mesh (m), `width` (m) that over which the teeth touch. To half the root's
-    thickness, for angles from the normal of the fillet to square to the tooth's axis, the drop of a pair's
-    stiffness lies within a tenth of that by finite elements, or 1.5 % of the stiffness, over the upper half
-    of the flank; near the foot of the flank, where the drop is small, it may be off by a third of it
+    thickness and over the upper half of the flank, the drop of a pair's stiffness lies within a tenth of that
+    by finite elements, or 1.5 % of the stiffness, for a crack normal to the fillet, and within a quarter for
+    one square to the tooth's axis; near the foot of the flank within 6 % of the stiffness
     (`tests/unit/compliance/test_crack.py`). Beyond that depth it is extrapolated.
     """
     start = mouth(loaded, crack.tangent)
