@@ -34,7 +34,16 @@ MAY_IMPORT["quantities"] = {"numerics"}
 MAY_IMPORT["record"] = {"numerics", "signals", "quantities"}
 MAY_IMPORT["post"] = {"numerics", "signals", "quantities", "record"}
 MAY_IMPORT["drawing"] = {"numerics", "geometry", "post"}
-MAY_IMPORT["scenario"] = {"numerics", "geometry", "tribology", "mesh", "dynamics", "solve", "standards"}
+MAY_IMPORT["scenario"] = {
+    "numerics",
+    "geometry",
+    "tribology",
+    "mesh",
+    "dynamics",
+    "solve",
+    "standards",
+    "sensing",
+}
 MAY_IMPORT["derivatives"] = {
     "numerics",
     "geometry",
