@@ -51,7 +51,6 @@ class Evaluated(NamedTuple):
     work: list[Any]  # contacts of every mesh
     powers: dict[str, Float[Array, " sample"]]  # by the names of `POWERS`
     model: Model  # with NumPy arrays
-    change: dict[int, Any]  # of the states by their places, per reference cycle
 
     @property
     def size(self) -> int:
@@ -78,12 +77,11 @@ def evaluated(
         whole, phase = whole - before, phase + before
     y = np.ascontiguousarray(states.T)
     work: list[Any] = [{} for _ in model.meshes]
-    change: dict[int, Any] = {}
     # rates with respect to the phase have no limit where the reference comes to rest; they are not recorded
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
-        powers = derivatives(phase, whole, interval, y, model, work, change)
+        powers = derivatives(phase, whole, interval, y, model, work, {})
     named = {name: np.broadcast_to(power, len(cycles)) for name, power in zip(POWERS, powers, strict=True)}
-    return Evaluated(cycles, phase, interval, y, work, named, model, change)
+    return Evaluated(cycles, phase, interval, y, work, named, model)
 
 
 def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, np.ndarray]:
