@@ -1,4 +1,4 @@
-"""What sensors see of a motion beside what is recorded: accelerations, bearing forces, torques of shafts.
+"""What sensors see of a motion beside what is recorded: velocities, bearing forces, torques of shafts.
 
 In the axes of the housing, also of bodies whose coordinates turn with a carrier.
 """
@@ -37,28 +37,22 @@ def _in_housing(x: np.ndarray, y: np.ndarray, body: int, samples: Evaluated) -> 
     return cosine * x - sine * y, sine * x + cosine * y
 
 
-def acceleration(body: int, direction: int, samples: Evaluated) -> Float[Array, " sample"]:
-    """Acceleration of a body in x, y or z (0, 1, 2), m/s², beside that of the point that carries it along."""
+def velocity(body: int, direction: int, samples: Evaluated) -> Float[Array, " sample"]:
+    """Velocity of a body in x, y or z (0, 1, 2), m/s, beside that of the point that carries it along.
+
+    What a sensor on it has is the slope of this over time: unlike accelerations, velocities do not jump where
+    the set of pairs in contact changes.
+    """
     model, y, layout = samples.model, samples.y, samples.model.layout
     half = layout.half
-    speed = model.operation.nominal_speed + slip_of(y, layout)
-    per_second = speed / model.operation.pitch_angle  # reference cycles
-
-    def rate_of(place: int) -> np.ndarray:
-        return np.broadcast_to(samples.change[half + place] * per_second, samples.size)
-
     if direction == AXIAL:
-        return rate_of(place_in_space(body, AXIAL, layout))
+        return y[half + place_in_space(body, AXIAL, layout)]
     place = shift_of(body)
-    along, across = rate_of(place), rate_of(place + 1)
+    along, across = y[half + place], y[half + place + 1]
     carried = np.asarray(model.bodies.carried)
     if body < len(carried) and carried[body] != 0.0:
-        turn = carried[body] * speed
-        moving = y[half + place], y[half + place + 1]
-        along, across = (
-            along - 2.0 * turn * moving[1] - turn**2 * y[place],
-            across + 2.0 * turn * moving[0] - turn**2 * y[place + 1],
-        )
+        turn = carried[body] * (model.operation.nominal_speed + slip_of(y, layout))
+        along, across = along - turn * y[place + 1], across + turn * y[place]
     return _in_housing(along, across, body, samples)[direction]
 
 

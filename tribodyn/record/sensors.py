@@ -63,7 +63,7 @@ class Sensed(NamedTuple):
         return found
 
 
-def write_sensed(file: h5py.File, sensed: Sensed) -> None:
+def write_sensed(sensed: Sensed, file: h5py.File) -> None:
     """Put signals into a record; nothing where there are none."""
     if not sensed.signals:
         return

@@ -83,8 +83,8 @@ class HousingTransfer:
     point: str
     at: str  # bearing, by its body
     direction: str
-    frequency: Float[Array, " line"]  # Hz, increasing
-    response: Complex[Array, " line"]  # 1/kg; nothing beyond its ends
+    frequency: tuple[float, ...]  # Hz, increasing
+    response: tuple[complex, ...]  # 1/kg; nothing beyond its ends
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,9 @@ class HousingData:
         measured = [(path.at, DIRECTIONS[path.direction]) for path in self.transfers if path.point == point]
         return tuple(dict.fromkeys([*of_modes, *measured]))
 
-    def transfer(self, point: str, force: tuple[str, int], frequency: np.ndarray) -> np.ndarray:
+    def transfer(
+        self, point: str, force: tuple[str, int], frequency: Float[Array, " line"]
+    ) -> Complex[Array, " line"]:
         """Acceleration of a point over a force, 1/kg, at frequencies in Hz.
 
         Of a mode −ω² φ_force φ_point/(m (ω_0² − ω² + 2 i ζ ω_0 ω)).

@@ -1,5 +1,7 @@
 """Samples at a sensor's rate of a motion that arrives in blocks; kept is what the filter still needs."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
@@ -7,10 +9,14 @@ from tribodyn.signals.resampling import REACH, at_places
 
 
 class Sampler:
-    """Takes blocks of a motion at smoothly uneven times and gives it at k/`rate`, see `signals.resampled`."""
+    """Takes blocks of a motion at smoothly uneven times and gives it at k/`rate`, see `signals.resampled`.
 
-    def __init__(self, rate: float, filtered: bool = True) -> None:
+    Of channels with `slopes` it gives the slope over time.
+    """
+
+    def __init__(self, rate: float, slopes: Sequence[bool] = (), filtered: bool = True) -> None:
         self.rate, self._filtered = rate, filtered
+        self._slopes = np.flatnonzero(np.asarray(slopes, dtype=bool))
         self._time, self._angle, self._values = np.empty(0), np.empty(0), np.empty((0, 0))
         self._next: int | None = None
         self._found: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
@@ -50,9 +56,13 @@ class Sampler:
         part = slice(int(ready[0]), int(ready[-1]) + 1)
         if self._filtered:
             values = at_places(self._values, places[part], cutoff[part])
+            steep = at_places(self._values[:, self._slopes], places[part], cutoff[part], slope=True)
+            interval = np.interp(at[part], time, np.gradient(time))
+            values[:, self._slopes] = steep / interval[:, None]
         else:
-            columns = [np.interp(at[part], time, column) for column in self._values.T]
-            values = np.stack(columns, axis=1) if columns else np.empty((len(at[part]), 0))
+            raw = self._values.copy()
+            raw[:, self._slopes] = np.gradient(raw[:, self._slopes], time, axis=0)
+            values = np.stack([np.interp(at[part], time, column) for column in raw.T], axis=1)
         self._found.append((at[part], np.interp(at[part], time, self._angle), values))
         self._next = int(number[part][-1]) + 1
         last = part.stop - 1

@@ -25,20 +25,32 @@ _BETWEEN = 256
 _TOGETHER = 1024
 
 
-def _weights(cutoff: float) -> tuple[np.ndarray, float]:
-    """Weights (between, tap) of the samples from half a length before a place on, and that half, samples."""
+def _weights(cutoff: float, slope: bool) -> tuple[np.ndarray, float]:
+    """Weights (between, tap) of the samples from half a length before a place on, and that half, samples.
+
+    Of the value there, or of its slope per sample.
+    """
     half = REACH / cutoff
     taps = 2 * int(np.ceil(half)) + 1
-    away = (np.arange(_BETWEEN + 1)[:, None] / _BETWEEN + np.arange(taps) - half) * cutoff
-    inside = 1.0 - (away / REACH) ** 2
-    found = np.sinc(2.0 * away) * np.where(
-        inside >= 0.0, np.i0(_BETA * np.sqrt(np.maximum(inside, 0.0))), 0.0
-    )
-    return found / np.sum(found, axis=1, keepdims=True), half
+    away = np.arange(_BETWEEN + 1)[:, None] / _BETWEEN + np.arange(taps) - half  # from the place, samples
+    root = np.sqrt(np.maximum(1.0 - (away * cutoff / REACH) ** 2, 0.0))
+    inside = np.abs(away) <= half
+    window, wave = np.where(inside, np.i0(_BETA * root), 0.0), np.sinc(2.0 * cutoff * away)
+    found = wave * window
+    whole = np.sum(found, axis=1, keepdims=True)
+    if not slope:
+        return found / whole, half
+    turn_rate = 2.0 * np.pi * cutoff
+    turn = turn_rate * away
+    near = np.abs(turn) < 1e-4
+    found = window * np.where(near, turn * turn_rate / 3.0, (wave - np.cos(turn)) / np.where(near, 1.0, away))
+    # none of a constant
+    found -= window * np.sum(found, axis=1, keepdims=True) / np.sum(window, axis=1, keepdims=True)
+    return found / whole, half
 
 
 def at_places(
-    values: Float[Array, "sample ..."], places: Float[Array, " place"], cutoff: Any
+    values: Float[Array, "sample ..."], places: Float[Array, " place"], cutoff: Any, slope: bool = False
 ) -> Float[Array, "place ..."]:
     """Values at places among even samples, low-passed.
 
@@ -47,6 +59,7 @@ def at_places(
     values : along their first axis; beyond its ends they go on as they end
     places : in samples, 0 the first one; fractions lie between
     cutoff : half the new rate over the rate of the samples, at most 0.5; a number, or one per place
+    slope : whether slopes per sample are returned in place of the values
     """
     values, places = np.asarray(values, dtype=float), np.asarray(places, dtype=float)
     flat = values.reshape(len(values), -1)
@@ -57,7 +70,7 @@ def at_places(
         part = slice(start, start + _TOGETHER)
         now = float(np.mean(cutoff[part] if np.ndim(cutoff) else cutoff))
         if abs(now - known) > 1e-6 * now:
-            known, (table, half) = now, _weights(now)
+            known, (table, half) = now, _weights(now, slope)
         first = np.ceil(places[part] - half)
         row = (first - (places[part] - half)) * _BETWEEN
         low = np.minimum(row.astype(int), _BETWEEN - 1)

@@ -95,12 +95,12 @@ class TransferTable(Table):
         if np.any(np.diff(self.frequency.values) <= 0.0):
             raise broken("frequency does not increase", "sort the points by frequency")
 
-    def in_si(self) -> tuple[np.ndarray, np.ndarray]:
+    def in_si(self) -> tuple[tuple[float, ...], tuple[complex, ...]]:
         """Frequencies in Hz, and the complex response in 1/kg."""
         frequency, real, imaginary = (
             getattr(self, name).in_si(field.metadata[0]) for name, field in type(self).model_fields.items()
         )
-        return frequency / (2.0 * math.pi), real + 1j * imaginary
+        return tuple((frequency / (2.0 * math.pi)).tolist()), tuple((real + 1j * imaginary).tolist())
 
 
 class Transfer(Table):

@@ -15,6 +15,7 @@ from tribodyn.scenario.tables.laws import law_values
 from tribodyn.scenario.tables.model_files import DriveTable, Grade, MaterialReference, Roughness
 from tribodyn.scenario.tables.own_teeth import own_teeth_of, with_own_teeth
 from tribodyn.scenario.tables.quality import grade_of, tolerances_of
+from tribodyn.scenario.tables.sensors import Housing, Sensors, housing_of, sensors_of
 from tribodyn.studies.gear_train.case import (
     HOUSING,
     BodyData,
@@ -102,6 +103,8 @@ class GearTrainScenario(ScenarioHead):
     friction: Friction
     solver: TrainSolver = written({})
     output: Output = written({})
+    sensor: Sensors = ()
+    housing: Housing | None = Field(None, description="that sensors sit on")
 
 
 Scenario = GearTrainScenario
@@ -166,6 +169,8 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
         output=output_data(
             scenario.output, scenario.solver, teeth, differ=any(any(mesh.pair.teeth) for mesh in meshes)
         ),
+        sensors=sensors_of(scenario.sensor),
+        housing=housing_of(scenario.housing),
         sets=tuple(set_data(own, train) for own in train.parts.sets),
     )
 

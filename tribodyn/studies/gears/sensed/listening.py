@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tribodyn.dynamics.outputs import Evaluated
-from tribodyn.dynamics.sensed import acceleration, force_on_bearing, output_torque, torque_of_link
+from tribodyn.dynamics.sensed import force_on_bearing, output_torque, torque_of_link, velocity
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.sensors import Sensed, SensorSignal
 from tribodyn.sensing.data import DIRECTIONS, KINDS, HousingData
@@ -30,7 +30,10 @@ class Listener:
         for one in sensors:
             wanted = self._channels.setdefault((one.sensor.rate, one.sensor.filter), [])
             wanted += [channel for channel in self._needed(one) if channel not in wanted]
-        self._samplers = {key: Sampler(key[0], filtered=key[1] != "none") for key in self._channels}
+        self._samplers = {
+            key: Sampler(key[0], [kind == "acceleration" for kind, *_ in channels], filtered=key[1] != "none")
+            for key, channels in self._channels.items()
+        }
 
     def _needed(self, one: Placed) -> list[_Channel]:
         sensor = one.sensor
@@ -63,7 +66,7 @@ class Listener:
         known = self._sensible
         match kind:
             case "acceleration":
-                return acceleration(known.bodies[at], direction, samples)
+                return velocity(known.bodies[at], direction, samples)
             case "force":
                 return force_on_bearing(known.bearings[at], direction, samples)
             case "encoder":
