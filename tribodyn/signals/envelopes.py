@@ -16,6 +16,9 @@ from tribodyn.signals.spectra import AmplitudeSpectrum, Taper, spectrum
 
 #: Samples of the complex envelope of the narrowest band, at least: its kurtosis scatters by 2/√n.
 FEWEST = 64
+#: Share of the envelope at either end that is left out, where the signal is cut off; bands with less than
+#: this share of the power have no kurtosis worth the name.
+_ENDS, _FAINT = 1.0 / 16.0, 1e-6
 
 Band = tuple[float, float]
 """Lower and upper frequency, Hz."""
@@ -66,7 +69,10 @@ def envelope_spectrum(
 
 
 class Kurtogram(NamedTuple):
-    """Kurtosis of the complex envelope over bands: ⟨|x|⁴⟩/⟨|x|²⟩² − 2, 0 of Gaussian noise, −1 of a tone."""
+    """Kurtosis of the complex envelope over bands: ⟨|x|⁴⟩/⟨|x|²⟩² − 2, 0 of Gaussian noise, −1 of a tone.
+
+    −1 too where a band holds next to nothing.
+    """
 
     widths: tuple[float, ...]  # of the bands of every level, Hz, falling
     values: tuple[Float[Array, " band"], ...]  # of every level, from 0 Hz on
@@ -84,18 +90,23 @@ def kurtogram(values: Float[Array, " sample"], rate: float, levels: int = 6) -> 
     Up to 2^`levels` bands, and no more than leave `FEWEST` samples of an envelope.
     """
     values = np.asarray(values, dtype=float)
+    values = values - np.linspace(values[0], values[-1], len(values))  # no jump from the end to the start
     lines = np.fft.rfft(values - np.mean(values))[1:]
+    least = _FAINT * float(np.sum(np.abs(lines) ** 2))
     parts = sorted({2**level for level in range(levels + 1)} | {3 * 2**level for level in range(levels - 1)})
     parts = [count for count in parts if len(lines) // count >= FEWEST] or [1]
     widths, found = [], []
     for count in parts:
         edges = np.round(np.linspace(0, len(lines), count + 1)).astype(int)
-        found.append(np.array([_of_band(lines[a:b]) for a, b in itertools.pairwise(edges)]))
+        found.append(np.array([_of_band(lines[a:b], least) for a, b in itertools.pairwise(edges)]))
         widths.append(rate / 2.0 / count)
     return Kurtogram(tuple(widths), tuple(found))
 
 
-def _of_band(lines: Complex[Array, " line"]) -> float:
+def _of_band(lines: Complex[Array, " line"], least: float) -> float:
     power = np.abs(np.fft.ifft(lines)) ** 2
+    ends = int(len(power) * _ENDS)
+    power = power[ends : len(power) - ends]
     mean = float(np.mean(power))
-    return float(np.mean(power**2)) / mean**2 - 2.0 if mean > 0.0 else -2.0
+    faint = mean == 0.0 or float(np.sum(np.abs(lines) ** 2)) < least
+    return -1.0 if faint else float(np.mean(power**2)) / mean**2 - 2.0

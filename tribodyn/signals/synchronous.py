@@ -11,7 +11,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.signals.resampling import by_angle
+from tribodyn.signals.resampling import PASSED, by_angle
 from tribodyn.signals.spectra import samples_per_turn
 
 #: Orders of the shaft itself that belong to the regular part: unbalance, and a coupling out of line.
@@ -28,12 +28,20 @@ class SynchronousAverage(NamedTuple):
 
 
 def synchronous_average(
-    values: Float[Array, " sample"], turns: Float[Array, " sample"], per_turn: int | None = None
+    values: Float[Array, " sample"],
+    turns: Float[Array, " sample"],
+    per_turn: int | None = None,
+    passed: float = PASSED,
 ) -> SynchronousAverage:
     """Average a signal at even times over the whole turns of a shaft.
 
-    `turns` are the revolutions of the shaft at the samples, `per_turn` samples of the average; default: as
-    many as the signal has where the shaft turns slowest. Raises InputError below one whole turn.
+    Parameters
+    ----------
+    turns : revolutions of the shaft at the samples
+    per_turn : samples of the average; default: as many as the signal has where the shaft turns slowest
+    passed : orders above this share of `per_turn` are left out: there a sampled signal may hold aliases
+
+    Raises InputError below one whole turn.
     """
     turns = np.asarray(turns, dtype=float)
     per_turn = samples_per_turn(turns) if per_turn is None else per_turn
@@ -43,7 +51,9 @@ def synchronous_average(
         rule = f"the signal has {turns[-1] - turns[0]:.3g} turns of the shaft, and no whole one"
         raise InputError("turns", None, rule, "run longer: solver.cycles, or solver.revolutions")
     _, even = by_angle(values, turns, per_turn, first, whole * per_turn)
-    each = even.reshape(whole, per_turn)
+    lines = np.fft.rfft(even.reshape(whole, per_turn), axis=1)
+    lines[:, int(passed * per_turn) + 1 :] = 0.0
+    each = np.fft.irfft(lines, per_turn, axis=1)
     return SynchronousAverage(np.arange(per_turn) / per_turn, np.mean(each, axis=0), whole, each)
 
 

@@ -39,6 +39,7 @@ def test_mean_and_tone_of_whole_periods():
 
 
 def test_an_average_over_turns_leaves_noise_as_one_over_the_root_of_their_number():
+    """Of that below 0.4 of the samples per turn, 0.8 of its power."""
     left = []
     for turns in (16, 64, 256):
         time = np.arange(turns * 400) / 20e3
@@ -46,7 +47,7 @@ def test_an_average_over_turns_leaves_noise_as_one_over_the_root_of_their_number
         found = signals.synchronous_average(clean + noise(3, len(time)), 50.0 * time, 400)
         assert found.turns == turns
         left.append(signals.rms(found.values - np.cos(2.0 * np.pi * 7.0 * found.turn)))
-    np.testing.assert_allclose(np.array(left) * np.sqrt([16, 64, 256]), 1.0, rtol=0.1)
+    np.testing.assert_allclose(np.array(left) * np.sqrt([16, 64, 256]), np.sqrt(0.8), rtol=0.1)
     np.testing.assert_allclose(np.divide(left[:-1], left[1:]), 2.0, rtol=0.1)
 
 
@@ -114,7 +115,8 @@ def test_the_kurtogram_finds_the_band_of_impacts():
     assert most > 5.0
     quiet = signals.kurtogram(noise(6, len(TIME)), RATE)
     assert quiet.best()[1] < 1.0
-    assert signals.kurtogram(np.cos(2.0 * np.pi * 3000.0 * TIME), RATE).values[0][0] == pytest.approx(-1.0)
+    tone = signals.kurtogram(np.cos(2.0 * np.pi * 3000.0 * TIME), RATE)
+    assert tone.values[0][0] == pytest.approx(-1.0, abs=0.05)
 
 
 def test_a_band_beyond_half_the_rate_is_refused():
