@@ -1,5 +1,6 @@
 """Numbers of a run's signals for its summary."""
 
+from math import isfinite
 from typing import Any
 
 from tribodyn.record.sensors import Sensed, SensorSignal
@@ -19,7 +20,8 @@ def signal_quantities(sensed: Sensed) -> dict[str, Any]:
         return {}
     return {
         SENSORS: {
-            signal.name: of_signal(signal.values) | _of_shafts(signal, sensed.lines)
+            signal.name: {n: v for n, v in of_signal(signal.values).items() if isfinite(v)}
+            | _of_shafts(signal, sensed.lines)
             for signal in sensed.signals
             if len(signal.values) > 1
         }
@@ -31,7 +33,8 @@ def _of_shafts(signal: SensorSignal, lines: tuple[SignalLine, ...]) -> dict[str,
     for shaft, teeth in toothed_shafts(lines):
         if turns_of(signal, shaft) >= FEWEST_TURNS:
             average = synchronous_average(signal.values, signal.turns * shaft.order)
-            found[shaft.name] = of_average(average.values, teeth) | {"turns": average.turns}
+            known = of_average(average.values, teeth) | {"turns": average.turns}
+            found[shaft.name] = {name: value for name, value in known.items() if isfinite(value)}
     return {SHAFTS: found} if found else {}
 
 
