@@ -38,7 +38,7 @@ KINDS: dict[str, SensorKind] = {
         "rad", "rotation of {at} less a uniform one at its nominal speed, in its own sense", "a body"
     ),
     "transmission-error": SensorKind(
-        "m", "transmission error of the mesh {at}, of the rotations of both gears", "a mesh"
+        "m", "transmission error of {at}, of the rotations of both gears", "a mesh"
     ),
     "torque": SensorKind("N*m", "torque at {at}", "drive, output or a shaft that gives way"),
 }

@@ -51,7 +51,7 @@ def _sound(signal: SensorSignal) -> str:
     said = f"{signal.about}; {heard.said(signal.units)}"
     return (
         f'<p class="sound"><b>{escape(signal.name)}</b> {escape(said)}<br>'
-        f'<audio controls preload="none" src="data:audio/wav;base64,{data}"></audio></p>'
+        f'<audio controls preload="metadata" src="data:audio/wav;base64,{data}"></audio></p>'
     )
 
 

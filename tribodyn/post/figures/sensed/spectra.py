@@ -27,17 +27,23 @@ _PERIODS, _PARTS = 24, 40
 
 
 def signal_figure(records: Sequence[Record], _view: View) -> Figure:
-    """Draw what every sensor of the first record gave, over time."""
-    _, shown = shown_signals(records)
-    figure, rows = _rows(len(shown), records)
-    for number, (axes, one) in enumerate(zip(rows, shown, strict=True)):
-        axes.plot(one.signal.time * 1e3, one.values, color=PALETTE[0], linewidth=0.5)
-        axes.set_ylabel(f"{one.name} ({one.unit})")
-        about = literal(one.signal.about)
-        shape = f"crest {crest_factor(one.values):.3g}, kurtosis {kurtosis(one.values):.3g}"
-        told = f"{about[:1].upper()}{about[1:]}; RMS {rms(one.values):.4g}, {shape}"
-        mark_panel(axes, _letter(number, len(shown)), told)
-    rows[-1].set_xlabel("Time (ms)")
+    """Draw what every sensor of the first record gave, over time; at the right a turn of the reference."""
+    sensed, shown = shown_signals(records)
+    figure = new_figure(1.35 * WIDTH, _HEIGHT * len(shown) + 0.5)
+    figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    rows = figure.subplots(len(shown), 2, squeeze=False, width_ratios=(3, 2))
+    for number, ((whole, last), one) in enumerate(zip(rows, shown, strict=True)):
+        time, turns = one.signal.time * 1e3, one.signal.turns
+        whole.plot(time, one.values, color=PALETTE[0], linewidth=0.5)
+        whole.set_ylabel(f"{one.name} ({one.unit})")
+        about = literal(one.signal.about).partition(",")[0]
+        mark_panel(whole, _letter(2 * number, 2 * len(shown)), f"{about[:1].upper()}{about[1:]}")
+        part = turns >= turns[-1] - 1.0
+        last.plot(time[part], one.values[part], color=PALETTE[0], linewidth=0.7)
+        shape = f"crest factor {crest_factor(one.values):.3g}, kurtosis {kurtosis(one.values):.3g}"
+        mark_panel(last, _letter(2 * number + 1, 2 * len(shown)), f"RMS {rms(one.values):.4g}, {shape}")
+    rows[-1][0].set_xlabel("Time (ms)")
+    rows[-1][1].set_xlabel(f"Time (ms), the last turn of {literal(sensed.reference)}")
     return figure
 
 
