@@ -65,6 +65,7 @@ CONTENTS = {
         "periodic",
         "sweep",
         "design",
+        "signals",
         "backlash-oscillator",
         "rolling-elements",
         "performance",

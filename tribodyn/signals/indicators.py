@@ -96,7 +96,8 @@ def energy_ratio(average: Float[Array, " sample"], teeth: Sequence[int]) -> floa
 def sideband_level_factor(average: Float[Array, " sample"], teeth: int) -> float:
     """Amplitudes of the first sidebands of the mesh frequency, both, over the RMS of the average.
 
-    One per shaft, by the average of its own turn: it rises where the gear runs out or its shaft is bent.
+    One per shaft, by the average of its own turn: it rises where the gear runs out or its shaft is bent
+    (Večeř, Kreidl & Šmíd, Acta Polytechnica 45 (2005) 35).
     """
     _, beside = next(mesh_harmonics(average, teeth, 1), (0.0, [0.0]))
     return _over(sum(beside), rms(average))
