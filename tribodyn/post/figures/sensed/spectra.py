@@ -40,8 +40,11 @@ def signal_figure(records: Sequence[Record], _view: View) -> Figure:
         mark_panel(whole, _letter(2 * number, 2 * len(shown)), f"{about[:1].upper()}{about[1:]}")
         part = turns >= turns[-1] - 1.0
         last.plot(time[part], one.values[part], color=PALETTE[0], linewidth=0.7)
-        shape = f"crest factor {crest_factor(one.values):.3g}, kurtosis {kurtosis(one.values):.3g}"
-        mark_panel(last, _letter(2 * number + 1, 2 * len(shown)), f"RMS {rms(one.values):.4g}, {shape}")
+        told = f"RMS {rms(one.values):.4g}"
+        if rms(one.values) > 0.0:
+            shape = f"crest factor {crest_factor(one.values):.3g}, kurtosis {kurtosis(one.values):.3g}"
+            told = f"{told}, {shape}"
+        mark_panel(last, _letter(2 * number + 1, 2 * len(shown)), told)
     rows[-1][0].set_xlabel("Time (ms)")
     rows[-1][1].set_xlabel(f"Time (ms), the last turn of {literal(sensed.reference)}")
     return figure
@@ -121,8 +124,8 @@ def _draw_sidebands(
 
 def _logarithmic(axes: Axes, amplitudes: np.ndarray) -> None:
     top = float(np.max(amplitudes, initial=0.0))
-    axes.set_yscale("log")
     if top > 0.0:
+        axes.set_yscale("log")
         axes.set_ylim(_FLOOR * top, 3.0 * top)
 
 
