@@ -157,7 +157,7 @@ class RecordWriter:
         if self.written != self.samples and not trim:
             raise ValueError(f"{self.written} of {self.samples} samples written")
         self._close()
-        change = partial(conclude, COMPLETE, STATUS_NOTES[COMPLETE], summary, beside)
+        change = partial(conclude, COMPLETE, STATUS_NOTES[COMPLETE], summary, beside=beside)
         try:
             with replacing(self.path, scratch_path(self.path)) as scratch:
                 if self.written == self.samples:
@@ -181,7 +181,7 @@ class RecordWriter:
         self._close()
         try:
             with replacing(self.partial, scratch_path(self.path)) as scratch:
-                self._write_trimmed(scratch, partial(conclude, FAILED, message, summary or {}, beside))
+                self._write_trimmed(scratch, partial(conclude, FAILED, message, summary or {}, beside=beside))
             remember_own(self.partial)
         except OSError as error:
             raise unwritable(self.partial, error, f"{self._so_far()}; {message}") from error
@@ -210,7 +210,9 @@ class RecordWriter:
         self._open = False
 
 
-def conclude(status: str, message: str, summary: Mapping[str, Any], beside: Beside, file: h5py.File) -> None:
+def conclude(
+    status: str, message: str, summary: Mapping[str, Any], file: h5py.File, beside: Beside = nothing
+) -> None:
     """Put into a record what ends it."""
     write_summary(file, summary)
     beside(file)
