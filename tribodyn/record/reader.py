@@ -123,7 +123,7 @@ class Record(OpenRecord):
         return self._group(f"{MESHES}/{mesh}/{part}")
 
     @contextmanager
-    def reading(self, name: str) -> Iterator[h5py.Group]:
+    def reading(self, name: str) -> Iterator[Any]:  # h5py types no item of a group
         """A group, to be read inside the block; what it lacks there is an InputError of the record."""
         try:
             yield self._file[name]

@@ -132,7 +132,7 @@ def _tables(listed: Any) -> Iterable[Mapping[str, Any]]:
     return [table for table in listed if isinstance(table, Mapping)]
 
 
-def _read_rate(part: h5py.Group) -> Iterable[SensorSignal]:
+def _read_rate(part: Any) -> Iterable[SensorSignal]:
     time, angle = (np.asarray(part[name][...], dtype=float) for name in ("time", "reference_angle"))
     rate = float(part.attrs["rate"])
     for name, dataset in part.items():
