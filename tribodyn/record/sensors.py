@@ -135,6 +135,8 @@ def _tables(listed: Any) -> Iterable[Mapping[str, Any]]:
 def _read_rate(part: Any) -> Iterable[SensorSignal]:
     time, angle = (np.asarray(part[name][...], dtype=float) for name in ("time", "reference_angle"))
     rate = float(part.attrs["rate"])
+    if not (rate > 0.0 and time.ndim == 1 and np.all(np.diff(time) > 0.0) and np.all(np.diff(angle) > 0.0)):
+        raise ValueError("time and rotation of sensors do not increase")
     for name, dataset in part.items():
         if name in ("time", "reference_angle"):
             continue
@@ -145,8 +147,8 @@ def _read_rate(part: Any) -> Iterable[SensorSignal]:
             if key not in ("units", "long_name", "kind") and key.islower()
         }
         values = np.asarray(dataset[...], dtype=float)
-        if values.shape != time.shape:
-            raise ValueError(f"{name} has not the length of its time")
+        if values.shape != time.shape or not np.all(np.isfinite(values)):
+            raise ValueError(f"{name} is not a finite number throughout its time")
         yield SensorSignal(
             harmless(name), str(own["kind"]), str(own["long_name"]), str(own["units"]), rate, time, angle,
             values, made,

@@ -5,6 +5,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 
@@ -222,6 +223,15 @@ def test_pictures_and_page_have_what_was_sensed(pair: Path, tmp_path: Path):
     assert "media-src data:" in page
     assert "Largest lines, orders per turn of pinion" in page
     assert ">2 × mesh<" in page
+
+
+def test_a_record_whose_signal_is_no_number_is_said_to_be_damaged(pair: Path, tmp_path: Path):
+    damaged = tmp_path / "damaged.h5"
+    damaged.write_bytes(pair.read_bytes())
+    with h5py.File(damaged, "r+") as file:
+        file["sensors/at_20000_Hz/top"][7] = np.inf  # pyright: ignore
+    with Record(damaged) as record, pytest.raises(InputError, match="damaged: top is not a finite number"):
+        read_sensed(record)
 
 
 @needs_browser
