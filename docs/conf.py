@@ -10,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import mathml
 
 import tribodyn
+import tribodyn.signals
 
 #: What the site's sidebar shows: heading -> pages. A test holds every page of this folder against it.
 CONTENTS = {
@@ -66,6 +67,7 @@ CONTENTS = {
         "periodic",
         "sweep",
         "design",
+        "signals",
         "backlash-oscillator",
         "rolling-elements",
         "performance",
@@ -84,6 +86,7 @@ html_static_path = ["_static", mathml.FONTS]
 html_css_files = ["site.css"]
 # the reference calls public names as users do, td.NAME
 sys.modules["td"] = tribodyn
+sys.modules["td.signals"] = tribodyn.signals
 exclude_patterns = ["_build"]
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]

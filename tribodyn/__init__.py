@@ -26,6 +26,7 @@ OWN_PROCESS = False
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from tribodyn import signals as signals
     from tribodyn.derivatives.differentiable import Differentiable
     from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.families import Family
@@ -77,6 +78,7 @@ __all__ = [
     "open",
     "run",
     "scenario",
+    "signals",
     "sweep",
     "validate",
 ]
@@ -117,6 +119,8 @@ def __getattr__(name: str) -> Any:
     if name in _PLACES:
         module, _, attribute = _PLACES[name].partition(":")
         return getattr(import_module(module), attribute or name)
+    if name == "signals":
+        return import_module("tribodyn.signals")
     if not name.startswith("_"):
         from tribodyn.interface.of_studies import offered
 

@@ -20,6 +20,8 @@ VERBS = (
     "show",
     "plot",
     "report",
+    "listen",
+    "signals",
     "compare",
     "list",
     "init",

@@ -27,12 +27,23 @@ MAY_IMPORT["dynamics"] = {"numerics", "tribology", "mesh", "train"}
 MAY_IMPORT["kernels"] = {"numerics"}
 MAY_IMPORT["solve"] = {"numerics", "tribology", "mesh", "train", "dynamics", "kernels"}
 MAY_IMPORT["standards"] = {"numerics"}
+MAY_IMPORT["signals"] = {"numerics"}
+MAY_IMPORT["sensing"] = {"numerics", "signals"}
 PHYSICS = tuple(MAY_IMPORT)
 MAY_IMPORT["quantities"] = {"numerics"}
-MAY_IMPORT["record"] = {"numerics", "quantities"}
-MAY_IMPORT["post"] = {"numerics", "quantities", "record"}
+MAY_IMPORT["record"] = {"numerics", "signals", "quantities"}
+MAY_IMPORT["post"] = {"numerics", "signals", "quantities", "record"}
 MAY_IMPORT["drawing"] = {"numerics", "geometry", "post"}
-MAY_IMPORT["scenario"] = {"numerics", "geometry", "tribology", "mesh", "dynamics", "solve", "standards"}
+MAY_IMPORT["scenario"] = {
+    "numerics",
+    "geometry",
+    "tribology",
+    "mesh",
+    "dynamics",
+    "solve",
+    "standards",
+    "sensing",
+}
 MAY_IMPORT["derivatives"] = {
     "numerics",
     "geometry",

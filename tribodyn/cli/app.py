@@ -7,7 +7,7 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from tribodyn.cli import assess, compare, gear, plot, report, run, scenario, show, sweep, validate
+from tribodyn.cli import assess, compare, gear, plot, report, run, scenario, show, signals, sweep, validate
 from tribodyn.cli import list as list_
 from tribodyn.cli.outcome import verb
 
@@ -64,6 +64,8 @@ for function, examples in (
     (show.show, show.EXAMPLES),
     (plot.plot, plot.EXAMPLES),
     (report.report, report.EXAMPLES),
+    (signals.listen, signals.LISTEN_EXAMPLES),
+    (signals.signals, signals.SIGNALS_EXAMPLES),
     (compare.compare, compare.EXAMPLES),
     (list_.list, list_.EXAMPLES),
     (scenario.init, scenario.INIT_EXAMPLES),

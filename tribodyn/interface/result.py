@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from tribodyn.record.sensors import SensorSignal
     from tribodyn.studies.measured import Source as Measured
 
 
@@ -64,6 +65,14 @@ class Run:
         """The table over a mesh cycle that the run was made from, by name; empty where there is none."""
         with Record(self.path) as record:
             return record.mesh_cycle if "mesh_cycle" in record.groups else {}
+
+    @cached_property
+    def sensors(self) -> "dict[str, SensorSignal]":
+        """What its sensors gave, by name: `time`, `values`, `rate`, `turns` of the reference, and more."""
+        from tribodyn.record.sensors import read_sensed
+
+        with Record(self.path) as record:
+            return {signal.name: signal for signal in read_sensed(record).signals}
 
     @property
     def plots(self) -> tuple[str, ...]:

@@ -26,7 +26,11 @@ MARKS = {
     ".toml": b"# The best of the search of tribodyn: ",
     ".csv": b"part,x [mm],y [mm],radius [mm],angle [deg]\n",
     ".dxf": b"\ntribodyn\n",
+    ".wav": b"ISFT\x0a\0\0\0tribodyn\0\0",
 }
+#: What else a file of such an ending may hold in its place: a signal.
+SIGNAL = b"# signal of a sensor, by tribodyn"
+_ALSO = {".csv": SIGNAL}
 #: Bytes at the beginning of a file, or at the end, among which its mark stands.
 _NEAR = 1000
 #: Flags of files that are not to be reached through a link.
@@ -132,11 +136,13 @@ def open_new(path: Path, mode: int = 0o666) -> BinaryIO:
 
 def _made_here(path: Path) -> bool:
     """Whether a regular file has the mark of its kind."""
-    mark = MARKS.get(path.suffix.lower())
+    ending = path.suffix.lower()
+    marks = [mark for mark in (MARKS.get(ending), _ALSO.get(ending)) if mark is not None]
     try:
         with path.open("rb") as stream:
-            if path.suffix.lower() == ".pdf":  # what stands before its end would move its parts
+            if ending == ".pdf":  # what stands before its end would move its parts
                 stream.seek(max(0, stream.seek(0, os.SEEK_END) - _NEAR))
-            return mark is not None and mark in stream.read(_NEAR)
+            head = stream.read(_NEAR)
+            return any(mark in head for mark in marks)
     except OSError:
         return False

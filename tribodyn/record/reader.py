@@ -1,6 +1,7 @@
 """Reads a record: arrays by name, units, scenario, summary, mesh cycle and geometry."""
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
 
@@ -11,6 +12,7 @@ from tribodyn.errors import InputError
 from tribodyn.record import schema, trust
 from tribodyn.record.layout import counted
 from tribodyn.record.opened import OpenRecord, attributes, stored_name, summary_of_today, todays_name
+from tribodyn.record.soundness import UNREADABLE
 from tribodyn.record.sweep_schema import SWEEP
 from tribodyn.record.withheld import withheld
 
@@ -119,6 +121,14 @@ class Record(OpenRecord):
     def of_mesh(self, mesh: str, part: str) -> dict[str, Any]:
         """`mesh_cycle` or `geometry` of a mesh of a train, by its name."""
         return self._group(f"{MESHES}/{mesh}/{part}")
+
+    @contextmanager
+    def reading(self, name: str) -> Iterator[Any]:  # h5py types no item of a group
+        """A group, to be read inside the block; what it lacks there is an InputError of the record."""
+        try:
+            yield self._file[name]
+        except UNREADABLE as error:
+            raise self._damaged(error) from error
 
     def _numbers(self, scale: str) -> tuple[int, ...]:
         return tuple(int(number) for number in self._file[scale][...]) if scale in self else ()

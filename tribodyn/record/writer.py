@@ -27,6 +27,13 @@ from tribodyn.record.soundness import remember_own
 from tribodyn.record.withheld import samples_withheld
 from tribodyn.record.writing_lock import locked, refuse_if_written, scratch_path
 
+Beside = Callable[[h5py.File], None]
+"""Adds groups to a record as it ends."""
+
+
+def nothing(file: h5py.File) -> None:
+    """Nothing is added."""
+
 
 def check_target(path: Path, force: bool = False, origin: Origin = Origin()) -> None:
     """Whether a record may be written to `path`; touches nothing, so it can be called before any work.
@@ -140,17 +147,17 @@ class RecordWriter:
             raise ValueError(f"{name}: shape {array.shape}, not {(*rows, *place.row)}")
         return place.offset + row * place.stride, array
 
-    def finish(self, summary: Mapping[str, Any], trim: bool = False) -> Path:
+    def finish(self, summary: Mapping[str, Any], trim: bool = False, beside: Beside = nothing) -> Path:
         """Add the summary, mark the record complete and give it its final name, which is returned.
 
-        With `trim` it may have fewer samples than it has room for. Raises ValueError if samples are missing,
-        OutputError if there is no room for the copy with the summary: the samples are kept under the
-        temporary name.
+        With `trim` it may have fewer samples than it has room for; `beside` adds what came of the whole run.
+        Raises ValueError if samples are missing, OutputError if there is no room for the copy with the
+        summary: the samples are kept under the temporary name.
         """
         if self.written != self.samples and not trim:
             raise ValueError(f"{self.written} of {self.samples} samples written")
         self._close()
-        change = partial(conclude, COMPLETE, STATUS_NOTES[COMPLETE], summary)
+        change = partial(conclude, COMPLETE, STATUS_NOTES[COMPLETE], summary, beside=beside)
         try:
             with replacing(self.path, scratch_path(self.path)) as scratch:
                 if self.written == self.samples:
@@ -166,7 +173,7 @@ class RecordWriter:
         self._lock.release()
         return self.path
 
-    def fail(self, message: str, summary: Mapping[str, Any] | None = None) -> Path:
+    def fail(self, message: str, summary: Mapping[str, Any] | None = None, beside: Beside = nothing) -> Path:
         """Trim the record to what was written and mark it failed; it keeps the name `<name>.partial.h5`.
 
         The message says when and why the run stopped, the summary what can be said of the part that was done.
@@ -174,7 +181,7 @@ class RecordWriter:
         self._close()
         try:
             with replacing(self.partial, scratch_path(self.path)) as scratch:
-                self._write_trimmed(scratch, partial(conclude, FAILED, message, summary or {}))
+                self._write_trimmed(scratch, partial(conclude, FAILED, message, summary or {}, beside=beside))
             remember_own(self.partial)
         except OSError as error:
             raise unwritable(self.partial, error, f"{self._so_far()}; {message}") from error
@@ -203,9 +210,12 @@ class RecordWriter:
         self._open = False
 
 
-def conclude(status: str, message: str, summary: Mapping[str, Any], file: h5py.File) -> None:
+def conclude(
+    status: str, message: str, summary: Mapping[str, Any], file: h5py.File, beside: Beside = nothing
+) -> None:
     """Put into a record what ends it."""
     write_summary(file, summary)
+    beside(file)
     file.attrs["status"] = status
     file.attrs["message"] = message
     for name, text in trust.attributes(summary).items():

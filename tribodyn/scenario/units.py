@@ -243,6 +243,7 @@ PER_KELVIN = Kind("temperature coefficient", "1/K", "0.045 1/K")
 TEMPERATURE_KIND = Kind(TEMPERATURE, "K", "80 degC")
 TEMPERATURE_DIFFERENCE = Kind("temperature difference", "K", "17.38 K")
 EXPANSION = Kind("thermal expansion", "1/K", "8.36e-4 1/K")
+ACCELERANCE = Kind("acceleration per force", "1/kg", "0.05 m/s**2/N")
 VELOCITY = Kind("velocity", "m/s", "2 m/s")
 
 #: Quantities that a tooth family or a law may have a key of, by name: `numerics.parameter.Parameter.kind`.

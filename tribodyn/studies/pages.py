@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from tribodyn.errors import InputError, SimulationError, near_name
 from tribodyn.numerics.output_files import check_output, write_output
 from tribodyn.record.reader import Record
+from tribodyn.record.sensors import SENSORS
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import Loaded, load
@@ -178,6 +179,7 @@ def report(
     record, one without samples, and records that share no quantities.
     """
     from tribodyn.post.page.page import PageContent, page
+    from tribodyn.post.page.sensed import SensedSection, sensed_section
 
     if not records:
         raise InputError("records", None, "there is nothing to report on", "name at least one record")
@@ -199,6 +201,8 @@ def report(
             verdict=study.verdict(record),
             mechanism=study.besides("mechanism", record) if record.samples else None,
             parts=study.besides("tables", record) or (),
+            sensed=sensed_section(record) if figures else SensedSection(),
+            pictures=_pictures_of_sensors(record) if figures and len(records) == 1 else (),
         )
         for study, record in zip(studies, records, strict=True)
     ]
@@ -206,8 +210,18 @@ def report(
         from tribodyn.studies.measured import measured_figure
 
         drawn = "measured", "the simulation beside it", measured_figure(records, measured, align)
-        contents[0] = contents[0]._replace(pictures=[drawn])
+        contents[0] = contents[0]._replace(pictures=[drawn, *contents[0].pictures])
     return page(records, contents, figures)
+
+
+def _pictures_of_sensors(record: Record) -> "list[tuple[str, str, Figure]]":
+    """Pictures of what a record's sensors gave: name, what it shows, figure."""
+    if SENSORS not in record.groups:
+        return []
+    from tribodyn.post.figures.sensed import DRAWINGS
+
+    known = drawable([record])
+    return [(name, known[name].about, figure(name, [record])) for name in DRAWINGS if name in known]
 
 
 def sheet(record: Record | SweepRecord) -> "Sequence[TextTable]":

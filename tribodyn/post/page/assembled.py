@@ -11,6 +11,7 @@ def assembled(title: str, payload: dict[str, Any], sections: dict[str, str], fig
     payload["figures"] = figures
     parts = {
         "RESULT": "",
+        "SENSED": "",
         **sections,
         "TITLE": escape(title),
         # no text of a record can end the element that holds it
@@ -21,6 +22,7 @@ def assembled(title: str, payload: dict[str, Any], sections: dict[str, str], fig
     # every other piece is a name: what stands in for one is not looked through again
     body = "".join(parts.get(piece, piece) for piece in _file("page.html").split("@"))
     policy = "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:"
+    policy += "; media-src data:"
     return document(title, _file("page.css"), body, policy)
 
 

@@ -26,6 +26,7 @@ from tribodyn.post.page.data import (
 )
 from tribodyn.post.page.mechanism import Mechanism, mechanism_data
 from tribodyn.post.page.rolling_teeth import LOAD, rolling_teeth
+from tribodyn.post.page.sensed import SensedSection
 from tribodyn.post.report import EXCEEDED
 from tribodyn.post.style import inline
 from tribodyn.quantities.quantity import Quantity, Reported
@@ -55,6 +56,7 @@ class PageContent(NamedTuple):
     found: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
     titles: Mapping[str, str] = MappingProxyType({})  # of datasets, in place of those of the record
     mechanism: Mechanism | None = None  # what moves, where it is no pair of gears
+    sensed: SensedSection = SensedSection()  # what its sensors gave
     #: tables as above of parts of what the summary is about, below it
     parts: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
 
@@ -87,7 +89,7 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
     names = [series["name"] for series in data[0]["series"]]
     panels = [name for name in contents[0].panels if name in names] or names[:FIGURES]
     axis = with_unit(records[0].axis.replace("_", " ").capitalize(), units[0])
-    several = len(records) > 1
+    several, both = len(records) > 1, list(zip(records, contents, strict=True))
     sections = {
         "WARNINGS": "".join(
             warnings_of(record, several) + _verdict(record, content, several)
@@ -106,6 +108,7 @@ def page(records: Sequence[Record], contents: Sequence[PageContent], figures: bo
         "PICTURES": "".join(
             picture(*drawn) for content in contents if not content.found for drawn in content.pictures
         ),
+        "SENSED": "".join(_sensed(record, content, several) for record, content in both),
         "ORIGIN": "".join(map(origin, records)) if figures else "",
         "OVER": "Over the run",
     }
@@ -152,6 +155,16 @@ def _result(content: PageContent) -> str:
     tables = "".join(table(*part) for part in content.found)
     drawn = "".join(picture(*part) for part in content.pictures)
     return f'<section><h2>Result</h2><div class="tables">{tables}</div></section>{drawn}'
+
+
+def _sensed(record: Record, content: PageContent, named: bool) -> str:
+    """What the sensors of a record gave, to be heard, and the lines of their spectra."""
+    found = content.sensed
+    if not found.sounds:
+        return ""
+    lines = f'<div class="tables">{table(*found.lines)}</div>' if found.lines else ""
+    heading = f"Sensors of {record.label}" if named else "Sensors"
+    return f"<section><h2>{escape(heading)}</h2>{found.sounds}{lines}</section>"
 
 
 def warnings_of(record: Record, named: bool) -> str:

@@ -1,8 +1,9 @@
 """A case of the dynamics of a gear pair: everything one simulation needs to know, in SI units."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tribodyn.dynamics.data import BearingData
+from tribodyn.sensing.data import HousingData, SensorData
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gears.case import LAYOUT, LubricatedCase, OutputData
 from tribodyn.studies.gears.taken import drivers, radians_of, table
@@ -22,6 +23,8 @@ class Case(LubricatedCase):
     bearings: tuple[BearingData, BearingData]
     solver: SolverData
     output: OutputData
+    sensors: tuple[SensorData, ...] = ()
+    housing: HousingData = field(default_factory=HousingData)  # that they sit on
 
 
 def window_of(cycles: int, revolution: int = 0) -> int:

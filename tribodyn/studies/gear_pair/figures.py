@@ -1,6 +1,6 @@
 """Figures of the dynamics of a gear pair."""
 
-from tribodyn.post.figures import by_revolution, over_face, over_mesh, spectrum
+from tribodyn.post.figures import by_revolution, over_face, over_mesh, sensed, spectrum
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.studies.gears.batch.sweep_figures import SWEEP_DRAWINGS as SWEEP_DRAWINGS
 
@@ -13,4 +13,5 @@ DRAWINGS: dict[str, Drawing] = {
         spectrum.orders_figure,
         spectrum.worth_tracking,
     ),
+    **sensed.DRAWINGS,
 }

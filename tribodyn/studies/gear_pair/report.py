@@ -6,6 +6,7 @@ from tribodyn.quantities.quantity import Reported
 from tribodyn.record.reader import Record
 from tribodyn.studies.gears.case import ENERGY, TEMPERATURE, TEMPERATURE_SWEPT, TRIBOLOGY
 from tribodyn.studies.gears.over_time.extremes_said import on_extremes
+from tribodyn.studies.gears.sensed.tables import sensor_tables
 
 #: One number per case, from its steady window.
 SWEPT = (
@@ -53,6 +54,10 @@ PANELS = (
     *("transmission_error_rotational", "normal_load", "central_film_thickness"),
     *("friction_coefficient", "power_friction"),
 )
+
+
+#: Of its sensors.
+tables = sensor_tables
 
 
 def sentences(record: Record) -> list[str]:

@@ -6,6 +6,7 @@ from tribodyn.errors import InputError
 from tribodyn.scenario.tables.drive_data import gives_backlash
 from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.tables.internal_gear import driving_internal
+from tribodyn.scenario.tables.sensors import broken_sensor_rules
 from tribodyn.studies.gear_pair.scenario import Scenario, gears_of_pair
 from tribodyn.studies.gears.damage_rules import broken_damage
 from tribodyn.studies.gears.motion import (
@@ -32,6 +33,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from _load(scenario)
     yield from broken_solver_rules(scenario.solver)
     yield from broken_output_rules(scenario.output, scenario.solver, scenario.drive.pinion.teeth)
+    yield from broken_sensor_rules(scenario.sensor, scenario.housing)
 
 
 def _load(scenario: Scenario) -> Iterator[InputError]:

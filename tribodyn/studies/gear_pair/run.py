@@ -8,10 +8,12 @@ from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.mesh.record_arrays import as_arrays
+from tribodyn.record.sensors import write_sensed
 from tribodyn.record.trust import judge_tribology
 from tribodyn.studies.gear_pair.case import Case, window_of
 from tribodyn.studies.gear_pair.outputs import MESH, recorded
 from tribodyn.studies.gear_pair.prepare import PreparedPair, prepare
+from tribodyn.studies.gear_pair.sensed import listener_of
 from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.by_standard import rated
 from tribodyn.studies.gears.case import gears_layout
@@ -25,6 +27,7 @@ from tribodyn.studies.gears.prepare import (
     contact_quantities,
     thermal_quantities,
 )
+from tribodyn.studies.gears.sensed.numbers import signal_quantities
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 
@@ -54,6 +57,7 @@ def run(
 def check(case: Case) -> CheckResult:
     """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
     prepared = prepare(case)
+    listener_of(prepared)
     return check_gears(prepared, prepared.model.closure(MESH), prepared.masses)
 
 
@@ -62,6 +66,7 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     prepared = prepare(case)
     case = prepared.case
     model, cycle = prepared.model, prepared.cycle
+    listener = listener_of(prepared)
     in_space = model.layout.spatial > 0
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
     summary: dict[str, Any] = {
@@ -82,14 +87,16 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
     layout = gears_layout(cycle.slices, in_space=in_space)
     with writer(case, path, layout, len(case.output.kept(cycles)), force=force, **more) as record:
         try:
+            meshes = [mesh_of_run(prepared)]
             motion = record_motion(
                 case,
                 model,
-                [mesh_of_run(prepared)],
+                meshes,
                 window_of(cycles, case.output.revolution),
                 record,
                 recorded,
                 progress,
+                listener,
             )
         except SimulationError as error:
             return RunResult(record.fail(str(error), summary), "failed", str(error), summary)
@@ -97,7 +104,8 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
         summary |= motion.solver | statistics.of_mesh(MESH, complete=not motion.stopped) | motion.done
         if motion.stopped:
             summary |= statistics.judge.summary()
-            return RunResult(record.fail(motion.stopped, summary), "failed", motion.stopped, summary)
+            kept = record.fail(motion.stopped, summary, partial(write_sensed, listener.sensed()))
+            return RunResult(kept, "failed", motion.stopped, summary)
         last, work = statistics.window_of_mesh(MESH), statistics.window_work()
         summary |= limits_in(last, case)
         speed = case.operating.pinion_speed
@@ -107,8 +115,10 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
         statistics.judge.take({"efficiency": summary["efficiency"]})
         judge_tribology(statistics.judge, summary)
-        summary |= statistics.judge.summary()
-        return RunResult(record.finish(summary), "complete", "", summary)
+        sensed = listener.sensed()
+        summary |= statistics.judge.summary() | signal_quantities(sensed)
+        kept = record.finish(summary, beside=partial(write_sensed, sensed))
+        return RunResult(kept, "complete", "", summary)
 
 
 def _by_standard(prepared: PreparedPair) -> dict[str, float]:

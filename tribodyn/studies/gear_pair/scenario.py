@@ -17,6 +17,7 @@ from tribodyn.scenario.tables.bearings import Bearings
 from tribodyn.scenario.tables.damage import Damages, GearPlace, damage_of
 from tribodyn.scenario.tables.duty import DutyTable, OiledOperatingTable, duty_of
 from tribodyn.scenario.tables.own_teeth import own_teeth_of, with_own_teeth
+from tribodyn.scenario.tables.sensors import Housing, Sensors, housing_of, sensors_of
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gears.motion import (
     MOST_HARMONICS,
@@ -96,6 +97,8 @@ class GearPairScenario(GearScenario):
     solver: Solver = written({})
     output: Output = written({})
     damage: Damages = ()
+    sensor: Sensors = ()
+    housing: Housing | None = Field(None, description="that sensors sit on")
 
 
 Scenario = GearPairScenario
@@ -121,6 +124,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         bearings=bearings_of(scenario),
         solver=solver_data(scenario.solver, scenario.drive.pinion.teeth),
         output=output_data(scenario.output, scenario.solver, scenario.drive.pinion.teeth, differ=any(teeth)),
+        sensors=sensors_of(scenario.sensor),
+        housing=housing_of(scenario.housing),
     )
     return with_chosen_laws(case)
 

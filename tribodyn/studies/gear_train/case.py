@@ -13,6 +13,7 @@ from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import BodyMass, Side
 from tribodyn.numerics.curve import Table
+from tribodyn.sensing.data import HousingData, SensorData
 from tribodyn.solve.methods import SolverData
 from tribodyn.studies.gears.case import LubricatedCase, OutputData
 from tribodyn.studies.protocol.recording import CaseHead
@@ -164,6 +165,8 @@ class TrainCase(CaseHead):
     solver: SolverData
     output: OutputData
     sets: tuple[SetData, ...] = ()
+    sensors: tuple[SensorData, ...] = ()
+    housing: HousingData = field(default_factory=HousingData)  # that they sit on
 
     @property
     def helical(self) -> bool:

@@ -9,14 +9,20 @@ import numpy as np
 from tribodyn.dynamics.modes import Modes, modes
 from tribodyn.studies.gear_train.case import TrainCase
 from tribodyn.studies.gear_train.described.alike import together
+from tribodyn.studies.gear_train.frequencies import (
+    distinct_meshes,
+    mesh_frequencies,
+    of_sets,
+    passes,
+)
 from tribodyn.studies.gear_train.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare
+from tribodyn.studies.gear_train.sensed import listener_of
 from tribodyn.studies.gears.check import check_gears
 from tribodyn.studies.gears.prepare import PreparedGears
 from tribodyn.studies.gears.usual import with_duty
 from tribodyn.studies.protocol.recording import CheckResult, TextTable
 from tribodyn.train.flow import flow
-from tribodyn.train.planetary import CARRIER, RING, SUN
 
 #: Share of a mode's energy below which a body is left out of a table.
 LITTLE = 0.005
@@ -27,6 +33,7 @@ HARMONICS = 3
 def check(case: TrainCase) -> CheckResult:
     """Check a case, tabulate its meshes, and say what train it describes."""
     prepared = prepare(case)
+    listener_of(prepared)
     found = modes(prepared.model, [made.cycle for made in prepared.made])
     kinds = kinds_of(prepared, found)
     of_meshes = [_of_mesh(prepared, m) for m in range(len(case.meshes))]
@@ -37,14 +44,20 @@ def check(case: TrainCase) -> CheckResult:
         "natural_frequencies": found.frequency,
         **({"mode_kinds": list(kinds)} if kinds else {}),
         **({"planet_pass_frequencies": planet_pass(prepared)} if case.sets else {}),
+        **(
+            {"set_frequencies": {name: own._asdict() for name, own in of_sets(prepared).items()}}
+            if case.sets
+            else {}
+        ),
         "mode_shares": [
             dict(zip(prepared.names, row, strict=True)) for row in np.round(found.share, 6).tolist()
         ],
-        "mesh_frequencies": dict(zip(names, _mesh_frequencies(prepared), strict=True)),
+        "mesh_frequencies": dict(zip(names, mesh_frequencies(prepared), strict=True)),
         "meshes": {name: checked.data for name, checked in zip(names, of_meshes, strict=True)},
     }
     tables = [
         *_train_tables(prepared, train),
+        *_set_tables(prepared),
         _mode_table(prepared, found, kinds),
         _campbell_table(prepared, found),
         *_once(names, [checked.tables for checked in of_meshes]),
@@ -92,13 +105,6 @@ def _speeds(prepared: PreparedTrain) -> np.ndarray:
     return np.asarray(prepared.model.bodies.ratio) * prepared.model.operation.nominal_speed
 
 
-def _mesh_frequencies(prepared: PreparedTrain) -> list[float]:
-    """Of the meshes at nominal speed, Hz."""
-    operation = prepared.model.operation
-    first = float(operation.nominal_speed / operation.pitch_angle)
-    return [float(mesh.rate) * first for mesh in prepared.case.meshes]
-
-
 def _train(prepared: PreparedTrain) -> dict[str, Any]:
     """The train for programs, SI."""
     case, model = prepared.case, prepared.model
@@ -135,7 +141,7 @@ def _train_tables(prepared: PreparedTrain, found: dict[str, Any]) -> list[TextTa
     whole = [
         ("ratio of input to output speed", f"{found['train_ratio']:.6g}"),
         ("common period of the meshes", f"{cycles} of mesh {case.meshes[0].name}"),
-        ("repeats every", f"{case.period / _mesh_frequencies(prepared)[0] * 1e3:.4g} ms"),
+        ("repeats every", f"{case.period / mesh_frequencies(prepared)[0] * 1e3:.4g} ms"),
     ]
     bodies = [
         (
@@ -160,7 +166,7 @@ def _train_tables(prepared: PreparedTrain, found: dict[str, Any]) -> list[TextTa
             f"{mesh['phase']:.4f}",
         )
         for (name, mesh), frequency, made in zip(
-            found["train_meshes"].items(), _mesh_frequencies(prepared), prepared.made, strict=True
+            found["train_meshes"].items(), mesh_frequencies(prepared), prepared.made, strict=True
         )
     ]
     return [
@@ -176,6 +182,16 @@ def _train_tables(prepared: PreparedTrain, found: dict[str, Any]) -> list[TextTa
     ]
 
 
+def _set_tables(prepared: PreparedTrain) -> list[TextTable]:
+    """How often teeth of planetary sets meet their mates."""
+    rows = [
+        (name, *(f"{value:.5g}" for value in (own.mesh, own.planet_pass, *own[3:])))
+        for name, own in of_sets(prepared).items()
+    ]
+    head = ("stage", "mesh (Hz)", "planets pass ring", "sun tooth", "planet tooth", "ring tooth")
+    return [TextTable("Planetary stages: how often a tooth meets a mate", head, rows)] if rows else []
+
+
 def _mode_table(prepared: PreparedTrain, found: Modes, kinds: Sequence[str]) -> TextTable:
     """Natural frequencies, kinds of modes where there are planets, and the bodies that move in each."""
     rows = []
@@ -187,35 +203,15 @@ def _mode_table(prepared: PreparedTrain, found: Modes, kinds: Sequence[str]) -> 
     return TextTable(title, ("Hz", *(("kind",) if kinds else ()), "bodies"), rows)
 
 
-def _distinct(prepared: PreparedTrain) -> Iterator[tuple[str, float]]:
-    """Frequencies of the meshes, Hz, equal ones once; those of a planetary set by its name."""
-    case, of_rate = prepared.case, {}
-    sets = {own.members[CARRIER]: own.name for own in case.sets}
-    for mesh, frequency in zip(case.meshes, _mesh_frequencies(prepared), strict=True):
-        of_rate.setdefault(mesh.rate, (frequency, []))[1].append(sets.get(mesh.carrier, mesh.name))
-    for frequency, names in of_rate.values():
-        yield together(names), frequency
-
-
-def _passes(prepared: PreparedTrain) -> Iterator[tuple[str, float]]:
-    """Frequencies at which planets pass a tooth of the ring and of the sun, N |n_c − n|, Hz."""
-    turning = [body.sense * float(body.ratio) for body in prepared.case.bodies]
-    shaft = float(prepared.model.operation.nominal_speed) / (2.0 * pi)
-    for own in prepared.case.sets:
-        for member in (RING, SUN):
-            passing = turning[own.members[CARRIER]] - turning[own.members[member]]
-            yield f"{own.name}: planets pass {member}", len(own.planets) * shaft * abs(passing)
-
-
 def _campbell_table(prepared: PreparedTrain, found: Modes) -> TextTable:
     """Speeds of the input at which harmonics of the meshes meet the modes."""
     speed = float(_speeds(prepared)[prepared.model.layout.input]) * 30.0 / pi
     own: dict[str, tuple[float, int]] = {}
-    for name, frequency in _distinct(prepared):
+    for name, frequency in distinct_meshes(prepared):
         own |= {
             f"{name} ×{order}" if order > 1 else name: (frequency, order) for order in range(1, HARMONICS + 1)
         }
-    own |= {name: (frequency, 1) for name, frequency in _passes(prepared) if frequency}
+    own |= {name: (frequency, 1) for name, frequency in passes(prepared) if frequency}
     rows = [
         (f"{mode:.5g}", *(f"{mode / (order * frequency) * speed:.4g}" for frequency, order in own.values()))
         for mode in found.frequency

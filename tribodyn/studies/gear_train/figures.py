@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.post import style
 from tribodyn.post.cycles import last_cycles
-from tribodyn.post.figures import by_revolution, over_mesh
+from tribodyn.post.figures import by_revolution, over_mesh, sensed
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import (
     ORDER,
@@ -212,4 +212,5 @@ DRAWINGS: dict[str, Drawing] = {
     "film-parameter": _per_mesh("film thickness over roughness", over_mesh.FILM_PARAMETER),
     "pressure": _per_mesh("Hertz pressure of every pair", PRESSURE),
     "mesh-stiffness": _per_mesh("stiffness of every pair", over_mesh.STIFFNESS),
+    **sensed.DRAWINGS,
 }

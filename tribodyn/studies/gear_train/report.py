@@ -14,6 +14,7 @@ from tribodyn.studies.gear_train.pictures.rolling_train import mechanism as mech
 from tribodyn.studies.gear_train.planetary.results import STAGES
 from tribodyn.studies.gears.case import TEMPERATURE
 from tribodyn.studies.gears.over_time.extremes_said import on_extremes
+from tribodyn.studies.gears.sensed.tables import sensor_tables
 from tribodyn.studies.protocol.recording import TextTable
 
 #: The worst of all meshes where it is not said of the train.
@@ -78,7 +79,7 @@ def meshes_of(record: Record) -> dict[str, Mapping[str, Any]]:
 
 
 def tables(record: Record) -> list[TextTable]:
-    """Quantities of each mesh, a column for each; one for those of a member of a set with its planets."""
+    """Quantities of each mesh, a column for each, one for those of a member of a set; and of its sensors."""
     meshes, withheld = meshes_of(record), reasons(record.summary)
     groups = groups_of(meshes)
     return [
@@ -87,6 +88,7 @@ def tables(record: Record) -> list[TextTable]:
             _table(groups[start : start + ACROSS], meshes, withheld)
             for start in range(0, len(groups), ACROSS)
         ),
+        *sensor_tables(record),
     ]
 
 

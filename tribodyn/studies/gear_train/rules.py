@@ -6,6 +6,7 @@ from typing import Any
 from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.scenario.tables.bearings import broken_bearing
 from tribodyn.scenario.tables.drive_data import gives_backlash
+from tribodyn.scenario.tables.sensors import broken_sensor_rules
 from tribodyn.studies.gear_train.described.drawn import Moving, drawn, in_terms_of_train, moving
 from tribodyn.studies.gear_train.described.duty import broken_duty_rules, duty_of
 from tribodyn.studies.gear_train.described.names import broken_names, broken_sort
@@ -41,6 +42,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     else:
         broken += _bare_meshes(scenario.mesh)
     broken += broken_solver_rules(scenario.solver)
+    broken += broken_sensor_rules(scenario.sensor, scenario.housing)
     yield from broken
     if not broken:
         yield from _of_train(scenario)

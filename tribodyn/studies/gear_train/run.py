@@ -12,11 +12,13 @@ from tribodyn.dynamics.modes import modes
 from tribodyn.dynamics.outputs import holding_links
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import MESHES
+from tribodyn.record.sensors import write_sensed
 from tribodyn.record.trust import judge_tribology
 from tribodyn.studies.gear_train.case import TrainCase
 from tribodyn.studies.gear_train.planetary.results import STAGES, stage_quantities
 from tribodyn.studies.gear_train.prepare import PreparedTrain, geometry_of, prepare
 from tribodyn.studies.gear_train.record import TrainRecord, record_of
+from tribodyn.studies.gear_train.sensed import listener_of
 from tribodyn.studies.gear_train.summary import (
     mesh_at_rest,
     meshes_of_run,
@@ -29,6 +31,7 @@ from tribodyn.studies.gears.check import oil_data
 from tribodyn.studies.gears.over_time.marched import record_motion, run_until_warm
 from tribodyn.studies.gears.over_time.running import RunStatistics
 from tribodyn.studies.gears.over_time.steady import limits_in, warning_of
+from tribodyn.studies.gears.sensed.numbers import signal_quantities
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
 
@@ -57,6 +60,7 @@ def _run(case: TrainCase, path: Path, force: bool, *, progress: Progress | None)
     """Run a case once."""
     prepared = prepare(case)
     model, meshes = prepared.model, meshes_of_run(prepared)
+    listener = listener_of(prepared)
     names = [mesh.name for mesh in case.meshes]
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
     rests = [mesh_at_rest(prepared, m) for m in range(len(meshes))]
@@ -82,7 +86,7 @@ def _run(case: TrainCase, path: Path, force: bool, *, progress: Progress | None)
             if period > cycles:
                 period = case.period
             window = window_of(cycles, period, max(mesh.rate for mesh in meshes))
-            motion = record_motion(case, model, meshes, window, record, kept.block, progress)
+            motion = record_motion(case, model, meshes, window, record, kept.block, progress, listener)
         except SimulationError as error:
             return RunResult(record.fail(str(error), summary), "failed", str(error), summary)
         statistics = motion.statistics
@@ -90,9 +94,12 @@ def _run(case: TrainCase, path: Path, force: bool, *, progress: Progress | None)
         summary |= motion.solver | motion.done | {MESHES: dict(zip(names, each, strict=True))}
         if motion.stopped:
             summary |= worst_of(each) | statistics.judge.summary()
-            return RunResult(record.fail(motion.stopped, summary), "failed", motion.stopped, summary)
-        summary |= _concluded(prepared, statistics, each, samples)
-        return RunResult(record.finish(summary), "complete", "", summary)
+            failed = record.fail(motion.stopped, summary, partial(write_sensed, listener.sensed()))
+            return RunResult(failed, "failed", motion.stopped, summary)
+        sensed = listener.sensed()
+        summary |= _concluded(prepared, statistics, each, samples) | signal_quantities(sensed)
+        done = record.finish(summary, beside=partial(write_sensed, sensed))
+        return RunResult(done, "complete", "", summary)
 
 
 def constants_of(prepared: PreparedTrain) -> dict[str, Any]:

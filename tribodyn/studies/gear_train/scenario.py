@@ -16,6 +16,7 @@ from tribodyn.scenario.tables.laws import law_values
 from tribodyn.scenario.tables.model_files import DriveTable, Grade, MaterialReference, Roughness
 from tribodyn.scenario.tables.own_teeth import with_own_teeth
 from tribodyn.scenario.tables.quality import grade_of, tolerances_of
+from tribodyn.scenario.tables.sensors import Housing, Sensors, housing_of, sensors_of
 from tribodyn.studies.gear_train.case import (
     HOUSING,
     BodyData,
@@ -105,6 +106,8 @@ class GearTrainScenario(ScenarioHead):
     solver: TrainSolver = written({})
     output: Output = written({})
     damage: Damages = ()
+    sensor: Sensors = ()
+    housing: Housing | None = Field(None, description="that sensors sit on")
 
 
 Scenario = GearTrainScenario
@@ -169,6 +172,8 @@ def case_of(scenario: Any, toml: str, sha256: str) -> TrainCase:
         output=output_data(
             scenario.output, scenario.solver, teeth, differ=any(any(mesh.pair.teeth) for mesh in meshes)
         ),
+        sensors=sensors_of(scenario.sensor),
+        housing=housing_of(scenario.housing),
         sets=tuple(set_data(own, train) for own in train.parts.sets),
     )
 

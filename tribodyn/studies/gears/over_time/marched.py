@@ -15,8 +15,9 @@ from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
 from tribodyn.studies.gears.over_time.by_revolution import ByRevolution
 from tribodyn.studies.gears.over_time.running import MeshOfRun, RunStatistics, judge_balance
-from tribodyn.studies.gears.over_time.sampled import Sampled, sampled_with_extremes
+from tribodyn.studies.gears.over_time.sampled import Sampled, evaluated_with_extremes
 from tribodyn.studies.gears.prepare import MOST_MOTIONS
+from tribodyn.studies.gears.sensed.listening import Listener
 from tribodyn.studies.protocol.recording import RunResult
 from tribodyn.studies.protocol.study import Progress
 
@@ -38,11 +39,12 @@ def record_motion(
     record: RecordWriter,
     recorded: Callable[[Sampled], Mapping[str, np.ndarray]],
     progress: Progress | None,
+    listener: Listener | None = None,
 ) -> RecordedMotion:
     """Integrate a case, its `solver` and `output`, from its start, and write it to a record as it comes.
 
-    `window` are the cycles at the end that means are of, `recorded` what the record takes of samples. Raises
-    SimulationError where there is no start.
+    `window` are the cycles at the end that means are of, `recorded` what the record takes of samples,
+    `listener` the sensors, which take all of them. Raises SimulationError where there is no start.
     """
     begun, solver = perf_counter(), case.solver
     samples, cycles = case.output.samples_per_cycle, solver.cycles
@@ -64,7 +66,11 @@ def record_motion(
             stop = part
         elif len(part.cycles):
             shares = statistics.averages(part.cycles)
-            block, extreme = sampled_with_extremes(part.cycles, part.states, part.extremes, model, shares)
+            states, block, extreme = evaluated_with_extremes(
+                part.cycles, part.states, part.extremes, model, shares
+            )
+            if listener is not None:
+                listener.add(states, block)
             inside = range(kept.start - statistics.written, kept.stop - statistics.written)
             if (piece := slice(max(inside.start, 0), max(inside.stop, 0))).start < min(
                 piece.stop, len(part.cycles)

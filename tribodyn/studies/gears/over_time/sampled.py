@@ -39,5 +39,17 @@ def sampled_with_extremes(
     shares: bool = False,
 ) -> tuple[Sampled, Sampled]:
     """Datasets at samples, and where the motion between them is extreme."""
-    found, count = sampled(at_extremes(cycles, states, extremes, model), shares), len(cycles)
-    return found.part(slice(count)), found.part(slice(count, None))
+    return evaluated_with_extremes(cycles, states, extremes, model, shares)[1:]
+
+
+def evaluated_with_extremes(
+    cycles: Float[Array, " sample"],
+    states: Float[Array, "sample state"],
+    extremes: Extremes | None,
+    model: Model,
+    shares: bool = False,
+) -> tuple[Evaluated, Sampled, Sampled]:
+    """States at samples and where the motion between them is extreme, evaluated; datasets of either."""
+    samples, count = at_extremes(cycles, states, extremes, model), len(cycles)
+    found = sampled(samples, shares)
+    return samples, found.part(slice(count)), found.part(slice(count, None))

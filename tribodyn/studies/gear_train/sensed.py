@@ -1,0 +1,51 @@
+"""Sensors on a train: its places, and what listens to its run."""
+
+import numpy as np
+
+from tribodyn.dynamics.outputs import holding_links
+from tribodyn.studies.gear_train.frequencies import lines_of_train
+from tribodyn.studies.gear_train.planetary.results import meshes_of_member
+from tribodyn.studies.gear_train.prepare import PreparedTrain
+from tribodyn.studies.gears.sensed.listening import Listener
+from tribodyn.studies.gears.sensed.places import RingPlaces, Sensible, placed
+from tribodyn.train.planetary import CARRIER, RING
+from tribodyn.train.structure import TURN
+
+
+def sensible(prepared: PreparedTrain) -> Sensible:
+    """What of the train can be sensed."""
+    case, model, names = prepared.case, prepared.model, prepared.names
+    layout = model.layout
+    stiffness = np.asarray(model.links.stiffness)
+    numbers = {body: place for place, body in enumerate(prepared.order)}
+    shafts = {
+        case.links[k].name if k < len(case.links) else "motor": k
+        for k in range(layout.links)
+        if layout.second[k] >= 0 and stiffness[k, TURN] > 0.0
+    }
+    rings = {
+        own.name: RingPlaces(
+            numbers[own.members[CARRIER]],
+            case.bodies[own.members[CARRIER]].sense,
+            own.angles,
+            tuple(meshes_of_member(case, own, RING)),
+        )
+        for own in case.sets
+    }
+    return Sensible(
+        bodies={name: number for number, name in enumerate(names)},
+        bearings={names[layout.first[k]]: k for k in holding_links(model) if layout.second[k] < 0},
+        meshes={mesh.name: number for number, mesh in enumerate(case.meshes)},
+        shafts=shafts,
+        lines=lines_of_train(prepared),
+        reference=names[0],
+        rings=rings,
+    )
+
+
+def listener_of(prepared: PreparedTrain) -> Listener:
+    """What listens to a run of the train; raises InputError where a sensor cannot."""
+    case, known = prepared.case, sensible(prepared)
+    samples, cycles = case.output.samples_per_cycle, case.solver.cycles
+    at = placed(case.sensors, case.housing, known, prepared.model, samples, cycles)
+    return Listener(at, case.housing, known)
