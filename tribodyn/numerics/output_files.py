@@ -27,6 +27,8 @@ MARKS = {
     ".csv": b"part,x [mm],y [mm],radius [mm],angle [deg]\n",
     ".dxf": b"\ntribodyn\n",
 }
+#: The same of files that may hold something else than what stands in `MARKS`.
+WRITTEN = {".csv": b"# written by tribodyn"}
 #: Bytes at the beginning of a file, or at the end, among which its mark stands.
 _NEAR = 1000
 #: Flags of files that are not to be reached through a link.
@@ -132,11 +134,13 @@ def open_new(path: Path, mode: int = 0o666) -> BinaryIO:
 
 def _made_here(path: Path) -> bool:
     """Whether a regular file has the mark of its kind."""
-    mark = MARKS.get(path.suffix.lower())
+    ending = path.suffix.lower()
+    marks = [marks[ending] for marks in (MARKS, WRITTEN) if ending in marks]
     try:
         with path.open("rb") as stream:
             if path.suffix.lower() == ".pdf":  # what stands before its end would move its parts
                 stream.seek(max(0, stream.seek(0, os.SEEK_END) - _NEAR))
-            return mark is not None and mark in stream.read(_NEAR)
+            near = stream.read(_NEAR)
+            return any(mark in near for mark in marks)
     except OSError:
         return False

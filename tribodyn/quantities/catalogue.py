@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.quantities import bearings, load, losses, motion, single_studies
+from tribodyn.quantities import bearings, load, losses, motion, single_studies, wear
 from tribodyn.quantities.quantity import Quantity
 
 QUANTITIES: Mapping[str, Quantity] = {
     quantity.name: quantity
-    for module in (motion, losses, load, single_studies, bearings)
+    for module in (motion, losses, load, single_studies, bearings, wear)
     for quantity in module.QUANTITIES
 }
 

@@ -1,9 +1,10 @@
 """Archard's law with a constant coefficient, k, of the whole load or of what asperities carry of it.
 
-The default of k is the coefficient that P. Bajpai, A. Kahraman, N. E. Anderson, J. Tribol. 126 (2004) 597, fitted
-to measured flanks of case-hardened gears, 9.65e-19 m²/N, and that most of the later literature on gears takes
-over. A. Flodin, S. Andersson, Wear 207 (1997) 16, take 5e-16 m²/N for slow gears in boundary lubrication. Both
-from memory, not checked against the papers: between oils, steels and speeds k differs by three orders.
+The default of k is the coefficient that P. Bajpai, A. Kahraman, N. E. Anderson, J. Tribol. 126 (2004) 597,
+fitted to measured flanks of case-hardened gears, 9.65e-19 m²/N, and that much of the later literature on
+gears takes over. A. Flodin, S. Andersson, Wear 207 (1997) 16, take 5e-16 m²/N for slow gears in boundary
+lubrication. Both from memory, not checked against the papers: between oils, steels and speeds k differs by
+three orders.
 """
 
 from tribodyn.numerics.elementary import law

@@ -1,9 +1,9 @@
 """Wear by the energy that friction dissipates.
 
 V = k_E ∫ μ p |v_s| dA dt: S. Fouvry, P. Kapsa, L. Vincent, Wear 200 (1996) 186; S. Fouvry, T. Liskiewicz,
-P. Kapsa, S. Hannel, E. Sauger, Wear 255 (2003) 287. Their coefficients, of dry steel in fretting, are orders of
-magnitude above those of lubricated gears: there is no default. A film counts as in `priest_taylor`; without a
-lubricant there is none.
+P. Kapsa, S. Hannel, E. Sauger, Wear 255 (2003) 287. Their coefficients, of dry steel in fretting, are
+orders of magnitude above those of lubricated gears: there is no default. A film counts as in
+`priest_taylor`; without a lubricant there is none.
 """
 
 from tribodyn.numerics.elementary import law

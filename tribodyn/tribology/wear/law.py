@@ -1,9 +1,9 @@
 """What a wear law is: volume worn off a flank per load and sliding distance, at one contact.
 
-In a line contact that passes a place of a flank, the flank slides by |v_1 − v_2| dt under the pressure p and
-loses the depth dh = K p |v_1 − v_2| dt (J. F. Archard, J. Appl. Phys. 24 (1953) 981; as a local law M. Priest,
-C. M. Taylor, Wear 241 (2000) 193). The contact goes by with the speed |v_own| along that flank, so that with a
-K that is one number for the whole contact
+In a line contact that passes a place of a flank, the flank slides by |v_1 − v_2| dt under the pressure p
+and loses the depth dh = K p |v_1 − v_2| dt (J. F. Archard, J. Appl. Phys. 24 (1953) 981; as a local law M.
+Priest, C. M. Taylor, Wear 241 (2000) 193). The contact goes by with the speed |v_own| along that flank, so
+that with a K that is one number for the whole contact
 
     h = K |v_1 − v_2|/|v_own| ∫ p dx = K w' |v_1 − v_2|/|v_own|,
 
