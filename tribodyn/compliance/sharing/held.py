@@ -7,7 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, SharedLoad, in_batches, press_slices
+from tribodyn.compliance.sharing.load_sharing import (
+    ENTRIES,
+    LoadedFlanks,
+    SharedLoad,
+    in_batches,
+    press_slices,
+)
 from tribodyn.compliance.sharing.loaded_contact import slice_contacts
 from tribodyn.compliance.sharing.oblique import oblique_compliance
 from tribodyn.compliance.sharing.oblique_faces import ObliqueFaces
@@ -69,35 +75,51 @@ class HeldFlanks:
     def share(
         self,
         gear_torque: float,
-        gap: Float[Array, "position pair slice"],
-        friction_coefficient: Float[Array, "position pair"] | float = 0.0,
+        gap: Float[Array, "cycle position pair slice"],
+        friction_coefficient: Float[Array, "cycle position pair"],
     ) -> SharedLoad:
-        """Share the gear's torque T_g > 0 (N m) with the gaps (m) added to `gap`; raises as `press`.
+        """Share the gear's torque T_g > 0 (N m) in mesh cycles that differ by their gaps and friction.
 
-        `friction_coefficient` is μ of the pairs.
+        The gaps (m) add to `gap`; `friction_coefficient` is μ of the pairs. Arrays of the result have the
+        cycles in front. Raises as `press`.
         """
+        positions, pairs, slices = self.shape
+        most = max(1, ENTRIES // (positions * (pairs * slices) ** 2))
+        parts = [
+            self._share(gear_torque, gap[first : first + most], friction_coefficient[first : first + most])
+            for first in range(0, len(gap), most)
+        ]
+        return SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
+
+    def _share(
+        self,
+        gear_torque: float,
+        gap: Float[Array, "cycle position pair slice"],
+        friction_coefficient: Float[Array, "cycle position pair"],
+    ) -> SharedLoad:
+        """Share it in a few mesh cycles, all positions of which are solved together."""
         flexible, faces = self.flanks.flexible, self.faces
-        motion = faces.geometry.motion
-        friction = np.asarray(friction_coefficient, dtype=float)
-        friction = friction[..., None] if friction.ndim == 2 else friction
+        motion, cycles = faces.geometry.motion, len(gap)
         own = sense(flexible.assembly.path.gear_pitch_radius)
-        side = np.sign(motion.signed_distance)
-        lever = own * (faces.lever + side * friction * motion.gear_friction_arm)
-        curvature, arm, lever = (
-            np.broadcast_to(field, self.shape) for field in (faces.curvature, faces.arm, lever)
-        )
-        whole = self.gap + gap
+        side = np.sign(motion.signed_distance) * friction_coefficient[..., None]
+        lever = own * (faces.lever + side * motion.gear_friction_arm)
+        rows = (cycles * self.shape[0], *self.shape[1:])
+
+        def every(values: Float[Array, "..."], shape: tuple[int, ...] = self.shape) -> Float[Array, "..."]:
+            return np.broadcast_to(values, (cycles, *shape)).reshape(-1, *shape[1:])
+
         parts = [
             press_slices(
                 flexible,
-                curvature[rows],
-                self.length[rows],
-                self._compliance[rows],
-                arm[rows],
-                lever[rows],
-                whole[rows],
-                np.full(len(whole[rows]), float(gear_torque)),
+                every(faces.curvature)[part],
+                every(self.length)[part],
+                every(self._compliance, self._compliance.shape)[part],
+                every(faces.arm)[part],
+                every(lever)[part],
+                every(self.gap + gap)[part],
+                np.full(len(range(*part.indices(rows[0]))), float(gear_torque)),
             )
-            for rows in in_batches(self.shape)
+            for part in in_batches(rows)
         ]
-        return SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
+        found = SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
+        return SharedLoad(*(field.reshape(cycles, -1, *field.shape[1:]) for field in found))

@@ -104,7 +104,7 @@ class WearCase(GearCase):
     @property
     def teeth(self) -> tuple[int, int]:
         """Teeth of pinion and gear."""
-        return round(float(self.drive.pinion.teeth)), round(float(self.drive.gear.teeth))
+        return round(abs(float(self.drive.pinion.teeth))), round(abs(float(self.drive.gear.teeth)))
 
     @property
     def cycles(self) -> int:

@@ -82,11 +82,8 @@ def passage(
     gap = _gap(study, depths)
     mu = np.full(gap.shape[:3], case.friction_coefficient) if friction is None else friction
     for _ in range(_ROUNDS):
-        shared = [
-            places.held.share(case.operating.gear_torque, own, of_pairs)
-            for own, of_pairs in zip(gap, mu, strict=True)
-        ]
-        load = np.stack([one.slice_load for one in shared])
+        shared = places.held.share(case.operating.gear_torque, gap, mu)
+        load = shared.slice_load
         contacts = _contacts(study, load)
         before, mu = mu, _of_pairs(load, contacts.friction_coefficient, mu)
         if np.max(np.abs(mu - before)) < _TOLERANCE:
@@ -146,7 +143,7 @@ def _of_pairs(
 
 
 def _worn(
-    study: Wearing, depths: Depths, shared: list[SharedLoad], load: Any, contacts: Contacts, friction: Any
+    study: Wearing, depths: Depths, shared: SharedLoad, load: Any, contacts: Contacts, friction: Any
 ) -> Passage:
     case, places = study.case, study.places
     held, sliding = places.held, places.sliding
@@ -171,8 +168,8 @@ def _worn(
     return Passage(
         depths,
         load,
-        np.stack([one.deflection for one in shared]),
-        float(max(np.max(one.overlap) for one in shared)),
+        shared.deflection,
+        float(np.max(shared.overlap)),
         line_load,
         pressure,
         contacts,

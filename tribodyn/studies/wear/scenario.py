@@ -10,6 +10,7 @@ from tribodyn.geometry.flanks.modification import uneven_teeth
 from tribodyn.scenario.quantity import Positive, Table, Text, written
 from tribodyn.scenario.tables.drive_rules import modifications_of
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
+from tribodyn.scenario.tables.internal_gear import driving_internal
 from tribodyn.scenario.tables.laws import FrictionTable, LawTable, law_values
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.studies.gears.case import LubricatedCase
@@ -123,7 +124,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> WearCase:
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
-    yield from broken_gear_rules(scenario)
+    yield from driving_internal(scenario.drive)
+    yield from broken_gear_rules(scenario, internal=True)
     yield from broken_matrix_keys(scenario.bearings)
     drive, wear = scenario.drive, scenario.wear
     yield from broken_driving_rules(scenario.operating, (drive.pinion.teeth, drive.gear.teeth))
