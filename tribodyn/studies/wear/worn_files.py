@@ -23,7 +23,8 @@ def check_profiles(record: Path, force: bool = False) -> None:
 
 def profile_text(roll: Any, depth: Any, about: str) -> str:
     """Depth (m) over roll angle (rad) as a table, with a comment before it."""
-    lines = [f"{np.degrees(float(at))!r},{1e6 * float(worn)!r}" for at, worn in zip(roll, depth, strict=True)]
+    columns = np.degrees(roll).tolist(), (1e6 * np.asarray(depth)).tolist()
+    lines = [f"{angle!r},{worn!r}" for angle, worn in zip(*columns, strict=True)]
     return "\n".join([f"{WRITTEN['.csv'].decode()}: {about}", "roll_angle [deg],error [um]", *lines, ""])
 
 
