@@ -102,14 +102,14 @@ class WearCase(GearCase):
     lubricated: LubricatedCase | None = None
 
     @property
-    def teeth(self) -> tuple[int, int]:
-        """Teeth of pinion and gear."""
+    def counts(self) -> tuple[int, int]:
+        """Numbers of teeth of pinion and gear."""
         return round(abs(float(self.drive.pinion.teeth))), round(abs(float(self.drive.gear.teeth)))
 
     @property
     def cycles(self) -> int:
         """Mesh cycles until the same teeth meet again; 1 where all wear alike."""
-        return math.lcm(*self.teeth) if self.each_tooth else 1
+        return math.lcm(*self.counts) if self.each_tooth else 1
 
 
 def layout_of(case: WearCase) -> Layout:
@@ -135,7 +135,7 @@ def estimate(case: WearCase) -> Estimate:
     positions, slices = float(case.positions_per_cycle * case.cycles), case.mesh.slices
     rows = len(recorded_at(case))
     nodes = round(2.0 * case.positions_per_cycle)
-    pinion, gear = case.teeth
+    pinion, gear = case.counts
     sizes = {
         "revolutions": rows,
         "body": 2,

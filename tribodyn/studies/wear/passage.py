@@ -33,6 +33,8 @@ class Wearing(NamedTuple):
     closure: Closure | None  # None: without a lubricant
     law: Any  # `tribology.wear.law.WearLaw`
     parameters: Any  # of the law
+    #: what teeth lack from the beginning, each by itself; None: they are alike, but for their pitch errors
+    own: Depths | None = None
 
 
 class Contacts(NamedTuple):
@@ -94,13 +96,14 @@ def passage(
 
 
 def _gap(study: Wearing, depths: Depths) -> Float[Array, "cycle position pair slice"]:
-    """What is worn off both flanks at all positions, and the pitch errors of the teeth, m."""
+    """What both flanks lack at all positions, worn off and from the beginning, m."""
     case, places = study.case, study.places
     shape = places.held.shape
     number = np.arange(case.cycles)[:, None] - places.ages  # of the pair, (cycle, pair)
     total = np.zeros((case.cycles, *shape))
     position, pair = np.arange(shape[0])[:, None], np.arange(shape[1])
-    for matrix, depth in zip(places.to_position, depths, strict=True):
+    missing = depths if study.own is None else [a + b for a, b in zip(depths, study.own, strict=True)]
+    for matrix, depth in zip(places.to_position, missing, strict=True):
         at = np.matmul(matrix, np.moveaxis(depth, -1, 1)[..., None])[..., 0]  # (tooth, slice, sample)
         by_tooth = np.moveaxis(at, 1, -1).reshape(len(depth), *shape)
         total += by_tooth[(number % len(depth))[:, None, :], position, pair]
@@ -154,7 +157,7 @@ def _worn(
     seen = WearContact(pressure, contacts.friction_coefficient, ratio, contacts.asperity_load_ratio)
     coefficient = study.law.functions.coefficient(seen, study.parameters) * np.ones(load.shape)
     on_path = places.on_path * coefficient * line_load
-    pinion, gear = case.teeth
+    pinion, gear = case.counts
     # a tooth of the gear passes z_1/z_2 times in a revolution of the pinion
     rates = (
         by_teeth(places, on_path * sliding.pinion_slip, len(depths[0])),

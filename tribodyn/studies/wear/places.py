@@ -62,12 +62,15 @@ class Places(NamedTuple):
     vanishing: tuple[float, float]
 
 
-def places_of(flanks: LoadedFlanks, gear_torque: float, positions: int) -> Places:
-    """Lay out about so many positions in a mesh cycle, under the torque T_g > 0 (N m)."""
+def places_of(flanks: LoadedFlanks, gear_torque: float, positions: int, early: float = 0.0) -> Places:
+    """Lay out about so many positions in a mesh cycle, under the torque T_g > 0 (N m).
+
+    A tooth may be `early` by so much against the next, m, beside its pitch error.
+    """
     assembly = flanks.flexible.assembly
     (start, end), pitch = assembly.roll_limits, assembly.pitch_angle
     phase, weight = _phases((end - start) / pitch, positions)
-    low, high = reach(flanks, gear_torque, _REACH)
+    low, high = reach(flanks, gear_torque, _REACH, early)
     late = face_shift(flanks)
     first = math.floor((low - late - start) / pitch)
     last = math.ceil((high + late - start) / pitch) - 1

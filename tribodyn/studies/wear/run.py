@@ -16,6 +16,9 @@ from tribodyn.compliance.sharing.loaded_contact import check_contact
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.helix import pitch_slope
+from tribodyn.mesh.teeth.fields import LEADING, TRAILING
+from tribodyn.mesh.teeth.places import flank_places
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.sources import computing_digest
 from tribodyn.record.previous import Origin, keep_previous
 from tribodyn.record.reader import Record
@@ -27,7 +30,7 @@ from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.studies.wear.case import BODIES, WearCase, layout_of, recorded_at
 from tribodyn.studies.wear.outcome import row_of, state_of, summary_of
-from tribodyn.studies.wear.passage import Passage, Wearing
+from tribodyn.studies.wear.passage import Depths, Passage, Wearing
 from tribodyn.studies.wear.places import places_of
 from tribodyn.studies.wear.steps import march, unworn
 from tribodyn.studies.wear.worn_files import check_profiles, write_profiles
@@ -44,8 +47,23 @@ def prepare(case: WearCase) -> Wearing:
     check_contact(flanks, case.operating.gear_torque)
     closure = closure_of(case.lubricated) if case.lubricated else None
     law = WEAR_LAWS[case.law]
-    places = places_of(flanks, case.operating.gear_torque, case.positions_per_cycle)
-    return Wearing(case, places, closure, law, law.made(None, dict(case.values)))
+    places = places_of(flanks, case.operating.gear_torque, case.positions_per_cycle, case.mesh.early)
+    own = own_gaps(flanks, places.node, case) if any(case.teeth) else None
+    return Wearing(case, places, closure, law, law.made(None, dict(case.values)), own)
+
+
+def own_gaps(flanks: LoadedFlanks, node: Float[Array, " node"], case: WearCase) -> Depths:
+    """What is missing at the nodes of every tooth from the beginning, m, pitch errors apart."""
+    found = []
+    faces = flank_places(flanks.flexible.assembly, node, np.asarray(flanks.face()))
+    for own, flank, at, count in zip(case.teeth, (LEADING, TRAILING), faces, case.counts, strict=True):
+        gaps = np.zeros((count, len(node), flanks.slices))
+        for tooth in range(count):
+            for each in own:
+                if (more := each.fields(tooth, flank, at)) is not None:
+                    gaps[tooth] += more.gap.T
+        found.append(gaps)
+    return found[0], found[1]
 
 
 def flanks_of(case: WearCase) -> LoadedFlanks:
@@ -149,7 +167,7 @@ def _beside(study: Wearing) -> dict[str, Any]:
     """Scales and groups of a record."""
     case, places, assembly = study.case, study.places, study.places.held.flanks.flexible.assembly
     path, (start, end) = assembly.path, assembly.roll_limits
-    pinion, gear = case.teeth
+    pinion, gear = case.counts
     numbers = {
         "pinion_pitch_radius": float(path.pinion_pitch_radius),
         "gear_pitch_radius": float(path.gear_pitch_radius),

@@ -1,18 +1,22 @@
 """The tables of a scenario of ``kind = "wear"``: a gear pair whose flanks wear over many revolutions."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.flanks.modification import uneven_teeth
+from tribodyn.mesh.teeth.deviations import PitchErrors
+from tribodyn.mesh.teeth.fields import OwnTeeth
 from tribodyn.scenario.quantity import Positive, Table, Text, written
 from tribodyn.scenario.tables.drive_rules import modifications_of
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.scenario.tables.internal_gear import driving_internal
 from tribodyn.scenario.tables.laws import FrictionTable, LawTable, law_values
 from tribodyn.scenario.tables.model_files import MisalignmentTable
+from tribodyn.scenario.tables.own_teeth import ToothSampleNumber, own_teeth_of
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
@@ -37,6 +41,7 @@ from tribodyn.tribology.wear import WEAR_LAWS
 ROWS = 20
 #: Rows of a record at most.
 MOST_ROWS = 100_000
+_NOT_ALIKE, _EACH = 'contradicts wear.teeth = "alike"', 'leave it out, or write wear.teeth = "each"'
 #: Friction laws that need no lubricant.
 DRY = ("coulomb", "none")
 
@@ -67,6 +72,7 @@ class WearMesh(Table):
     slices: FaceSlices = None
     slice_coupling: SliceCoupling = True
     deviation_sample: SampleNumber = None
+    tooth_sample: ToothSampleNumber = None
     misalignment: MisalignmentTable = written({})
 
 
@@ -100,9 +106,10 @@ Scenario = WearScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> WearCase:
     """Return the case of a scenario that has passed schema and rules."""
     wear = scenario.wear
-    gears: dict[str, Any] = gear_fields(scenario, toml, sha256) | {
-        "mesh": mesh_of(scenario, every_tooth=wear.teeth == EACH)
-    }
+    mesh, own = mesh_of(scenario, every_tooth=wear.teeth == EACH), _own_teeth(scenario)
+    early = sum(each.early for gear in own for each in gear)
+    gears: dict[str, Any] = gear_fields(scenario, toml, sha256)
+    gears |= {"mesh": replace(mesh, early=early), "teeth": own}
     oiled, friction = None, 0.0
     if scenario.lubricant is not None:
         oiled = with_chosen_laws(LubricatedCase(**gears, **oil_fields(scenario)))
@@ -122,10 +129,19 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> WearCase:
     )
 
 
+def _own_teeth(scenario: Scenario) -> tuple[OwnTeeth, OwnTeeth]:
+    """What teeth have of their own, where each wears by itself; pitch errors are modifications here."""
+    if scenario.wear.teeth == ALIKE:
+        return (), ()
+    every = own_teeth_of(scenario.drive, scenario.mesh.tooth_sample)
+    pinion, gear = (tuple(own for own in of if not isinstance(own, PitchErrors)) for of in every)
+    return pinion, gear
+
+
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     yield from driving_internal(scenario.drive)
-    yield from broken_gear_rules(scenario, internal=True)
+    yield from broken_gear_rules(scenario, internal=True, every_tooth=scenario.wear.teeth == EACH)
     yield from broken_matrix_keys(scenario.bearings)
     drive, wear = scenario.drive, scenario.wear
     yield from broken_driving_rules(scenario.operating, (drive.pinion.teeth, drive.gear.teeth))
@@ -134,8 +150,9 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         yield from _without_oil(scenario)
     if wear.teeth == ALIKE:
         for uneven in uneven_teeth(modifications_of(drive, scenario.mesh.misalignment)):
-            remedy = 'leave it out, or write wear.teeth = "each"'
-            yield InputError(uneven.key, uneven.value, 'contradicts wear.teeth = "alike"', remedy)
+            yield InputError(uneven.key, uneven.value, _NOT_ALIKE, _EACH)
+        if (sample := scenario.mesh.tooth_sample) is not None:
+            yield InputError("mesh.tooth_sample", sample, _NOT_ALIKE, _EACH)
     every = scenario.output.every
     if every is not None and wear.revolutions / every > MOST_ROWS:
         rule = f"makes more than {MOST_ROWS} records of {wear.revolutions:g} revolutions"

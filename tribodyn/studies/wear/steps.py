@@ -35,7 +35,7 @@ class Worn(NamedTuple):
 def unworn(study: Wearing) -> Worn:
     """New flanks."""
     nodes, slices = len(study.places.node), study.places.held.shape[-1]
-    counts = study.case.teeth if study.case.each_tooth else (1, 1)
+    counts = study.case.counts if study.case.each_tooth else (1, 1)
     pinion, gear = (np.zeros((count, nodes, slices)) for count in counts)
     return Worn(0.0, (pinion, gear), 0.0, 0.0, 0, 0)
 
