@@ -35,7 +35,7 @@ def study_of(table: dict[str, Any] = DRY, **overrides: Any) -> Wearing:
 
 def new(study: Wearing) -> Passage:
     """Loads and rates of new flanks."""
-    return passage(study, unworn(study).depths)
+    return passage(study, unworn(study).depths, 0.0)
 
 
 def worn(study: Wearing, revolutions: float | Sequence[float] | None = None) -> tuple[Worn, Passage]:

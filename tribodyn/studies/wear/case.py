@@ -1,10 +1,8 @@
 """A case of the wear study: what one run needs to know, records and takes; SI units."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -22,6 +20,8 @@ from tribodyn.studies.protocol.cost import (
     recorded,
     total,
 )
+from tribodyn.tribology.wear.law import WearData
+from tribodyn.tribology.wear.running_in import RunningIn
 
 BODIES = ("pinion", "gear")
 #: Teeth that wear alike, or each by itself.
@@ -70,6 +70,7 @@ SAMPLES: dict[str, Variable] = {
     "central_film_thickness": _path("m", "film thickness by the film law; NaN where nothing is carried"),
     "power_friction": _along("W", "mean power of tooth friction"),
     "film_min": _along("m", "minimum of the film over mesh cycle and face"),
+    "roughness": _along("m", "composite rms roughness of the flanks"),
     "hertz_pressure_max": _along("Pa", "maximum of the Hertz pressure over mesh cycle and face"),
     "worn_volume_by_time": _along(
         "m3", "integral over time of coefficient, load and sliding speed: the volume worn off either gear"
@@ -80,7 +81,7 @@ SAMPLES: dict[str, Variable] = {
 }
 LAYOUT = Layout(REVOLUTIONS, SAMPLES, _SCALES, groups={"mesh_cycle": MESH_CYCLE, "geometry": GEOMETRY})
 #: Those of a study with a lubricant.
-OF_FILM = ("central_film_thickness", "film_min")
+OF_FILM = ("central_film_thickness", "film_min", "roughness")
 #: Those of teeth that wear each by itself.
 OF_TEETH = ("pinion_tooth_depth", "gear_tooth_depth")
 
@@ -89,13 +90,13 @@ OF_TEETH = ("pinion_tooth_depth", "gear_tooth_depth")
 class WearCase(GearCase):
     """One study of wear, complete."""
 
-    law: str  # its name in `tribodyn.tribology.wear.WEAR_LAWS`
-    values: Mapping[str, Any] = field(default_factory=dict)  # of the law's own keys, SI
+    wear: WearData  # by which law
     revolutions: float  # of the pinion, > 0
     every: float  # revolutions between two records, > 0
     load_change: float = 0.02  # share of the largest load by which a step may move that of any place
     each_tooth: bool = False  # whether every tooth has a history of its own
     positions_per_cycle: int = 60  # positions of the pinion in one mesh cycle
+    running_in: RunningIn | None = None  # how the roughness falls; None: it stays
     #: friction coefficient without a lubricant, ≥ 0
     friction_coefficient: float = 0.0
     #: the same gears with oil; None: they run without

@@ -55,11 +55,16 @@ def row_of(study: Wearing, state: Worn, at: Passage) -> dict[str, Any]:
         "steps_rejected": float(state.rejected),
     }
     if case.lubricated is not None:
-        film = over_path(at.contacts.film)
-        found |= dict(zip(OF_FILM, (film, float(np.min(at.contacts.film[at.load > 0.0]))), strict=True))
+        least = float(np.min(at.contacts.film[at.load > 0.0]))
+        of_film = over_path(at.contacts.film), least, _roughness(at)
+        found |= dict(zip(OF_FILM, of_film, strict=True))
     if case.each_tooth:
         found |= dict(zip(OF_TEETH, state.depths, strict=True))
     return {name: np.asarray(value, dtype=float)[None] for name, value in found.items()}
+
+
+def _roughness(at: Passage) -> float:
+    return np.nan if at.closure is None else float(at.closure.surfaces.roughness)
 
 
 def state_of(study: Wearing, row: dict[str, Any]) -> Worn:
@@ -103,7 +108,7 @@ def summary_of(study: Wearing, first: dict[str, Any], last: dict[str, Any], at: 
         "contact_ratio": float(assembly.contact_ratio),
         "gear_torque": case.operating.gear_torque,
         "slices": case.mesh.slices,
-        "wear_law": case.law,
+        "wear_law": study.law.name,
         "wear_revolutions": float(last["revolutions"]),
         "wear_time": float(last["time"]),
         "pinion_worn_depth_max": float(depth[0]),
@@ -120,7 +125,7 @@ def summary_of(study: Wearing, first: dict[str, Any], last: dict[str, Any], at: 
     for name, dataset in _ENDS.items():
         if dataset in last:
             summary |= {name: float(last[dataset]), f"{name}_unworn": float(first[dataset])}
-    return summary | _of_laws(study, summary, at)
+    return summary | _of_laws(study, summary, (first, last), at)
 
 
 def balance(row: dict[str, Any]) -> float:
@@ -129,18 +134,20 @@ def balance(row: dict[str, Any]) -> float:
     return float(np.max(np.abs(volume / by_time - 1.0))) if by_time > 0.0 else 0.0
 
 
-def _of_laws(study: Wearing, summary: dict[str, Any], at: Passage) -> dict[str, Any]:
+def _of_laws(
+    study: Wearing, summary: dict[str, Any], rows: tuple[dict[str, Any], dict[str, Any]], at: Passage
+) -> dict[str, Any]:
     """What the laws of film and friction say of themselves, and whether the contact lies within its model."""
     case, judge, found = study.case, Judge(), dict[str, Any]()
-    oiled, closure, seen = case.lubricated, study.closure, at.contacts.seen
+    first, last = rows
+    oiled, closure, seen = case.lubricated, at.closure, at.contacts.seen
     if oiled is not None and closure is not None and seen is not None:
-        roughness = closure.surfaces.roughness
         carried = at.load > 0.0
         loss = (at.load * at.contacts.friction_coefficient * study.places.sliding.sliding)[carried]
         inside = fraction_in_range(seen.surface.friction_in_range)
         found = {
-            "film_parameter_min": summary["film_min"] / roughness,
-            "film_parameter_min_unworn": summary["film_min_unworn"] / roughness,
+            "film_parameter_min": summary["film_min"] / float(last["roughness"]),
+            "film_parameter_min_unworn": summary["film_min_unworn"] / float(first["roughness"]),
             "closure_in_range_fraction": fraction_in_range(seen.surface.closure_in_range),
             **({} if inside is None else {"friction_in_range_fraction": inside}),
             **law_quantities(oiled),

@@ -4,6 +4,7 @@ Pair n is tooth n of the pinion on tooth n of the gear, modulo their numbers, an
 It opens by what is worn off both. Loads, friction and film are solved together.
 """
 
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.wear.case import WearCase
 from tribodyn.studies.wear.places import Places
+from tribodyn.tribology.closure import closure_of
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
 from tribodyn.tribology.wear.law import WearContact
@@ -30,11 +32,21 @@ class Wearing(NamedTuple):
 
     case: WearCase
     places: Places
-    closure: Closure | None  # None: without a lubricant
     law: Any  # `tribology.wear.law.WearLaw`
     parameters: Any  # of the law
     #: what teeth lack from the beginning, each by itself; None: they are alike, but for their pitch errors
     own: Depths | None = None
+
+    def closure_at(self, revolutions: float) -> Closure | None:
+        """Laws of film and friction on flanks that have run so far; None: without a lubricant."""
+        oiled, running_in = self.case.lubricated, self.case.running_in
+        if oiled is None:
+            return None
+        share = 1.0 if running_in is None else running_in.share_at(revolutions)
+        if share == 1.0:
+            return closure_of(oiled)
+        roughness = share * oiled.roughness, share * oiled.mean_roughness
+        return closure_of(replace(oiled, roughness=roughness[0], mean_roughness=roughness[1]))
 
 
 class Contacts(NamedTuple):
@@ -50,6 +62,7 @@ class Passage(NamedTuple):
     """Loads of a hunting period, and what they wear."""
 
     depths: Depths
+    closure: Closure | None  # None: without a lubricant
     load: Float[Array, "cycle position pair slice"]  # N
     deflection: Float[Array, "cycle position"]  # r_p θ_p − r_g θ_g, m
     approach: float  # the largest of what a slice's own load takes up, m
@@ -74,25 +87,28 @@ class Passage(NamedTuple):
 
 
 def passage(
-    study: Wearing, depths: Depths, friction: Float[Array, "cycle position pair"] | None = None
+    study: Wearing,
+    depths: Depths,
+    revolutions: float,
+    friction: Float[Array, "cycle position pair"] | None = None,
 ) -> Passage:
-    """Find loads and rates with the depths; `friction` begins the search for that of the pairs.
+    """Find loads and rates after so many revolutions; `friction` begins the search for that of the pairs.
 
     Raises SimulationError if no state of contact is found, or load and friction do not settle.
     """
-    case, places = study.case, study.places
+    case, places, closure = study.case, study.places, study.closure_at(revolutions)
     gap = _gap(study, depths)
     mu = np.full(gap.shape[:3], case.friction_coefficient) if friction is None else friction
     for _ in range(_ROUNDS):
         shared = places.held.share(case.operating.gear_torque, gap, mu)
         load = shared.slice_load
-        contacts = _contacts(study, load)
+        contacts = _contacts(study, closure, load)
         before, mu = mu, _of_pairs(load, contacts.friction_coefficient, mu)
         if np.max(np.abs(mu - before)) < _TOLERANCE:
             break
     else:
         raise SimulationError("load and friction coefficient do not settle")
-    return _worn(study, depths, shared, load, contacts, mu)
+    return _worn(study, closure, depths, shared, contacts, mu)
 
 
 def _gap(study: Wearing, depths: Depths) -> Float[Array, "cycle position pair slice"]:
@@ -110,19 +126,21 @@ def _gap(study: Wearing, depths: Depths) -> Float[Array, "cycle position pair sl
     return total + pitch_gap(case.mesh.modifications, number)[:, None, :, None]
 
 
-def _contacts(study: Wearing, load: Float[Array, "cycle position pair slice"]) -> Contacts:
+def _contacts(
+    study: Wearing, closure: Closure | None, load: Float[Array, "cycle position pair slice"]
+) -> Contacts:
     """Evaluate the laws where anything is carried."""
     places, case = study.places, study.case
     friction = np.full(load.shape, case.friction_coefficient)
     film, share = np.zeros(load.shape), np.ones(load.shape)
-    if study.closure is None:
+    if closure is None:
         return Contacts(friction, film, share, None)
     carries, speed = load > 0.0, case.operating.pinion_speed
     line_load = load / places.held.length
     whole = np.ones(load.shape)
     length, rate = places.vanishing
     seen = contact_friction(
-        study.closure,
+        closure,
         line_load[carries],
         1.0 / (places.held.faces.curvature * whole)[carries],
         speed * (places.sliding.pinion_speed * whole)[carries],
@@ -146,14 +164,21 @@ def _of_pairs(
 
 
 def _worn(
-    study: Wearing, depths: Depths, shared: SharedLoad, load: Any, contacts: Contacts, friction: Any
+    study: Wearing,
+    closure: Closure | None,
+    depths: Depths,
+    shared: SharedLoad,
+    contacts: Contacts,
+    friction: Float[Array, "cycle position pair"],
 ) -> Passage:
+    """Rates and powers of loads that have settled."""
+    load = shared.slice_load
     case, places = study.case, study.places
     held, sliding = places.held, places.sliding
     line_load = load / held.length
     half = half_width(held.flanks.flexible, held.faces.curvature, line_load)
     pressure = np.where(load > 0.0, 2.0 * line_load / (np.pi * np.where(load > 0.0, half, 1.0)), 0.0)
-    ratio = 0.0 if study.closure is None else contacts.film / study.closure.surfaces.roughness
+    ratio = 0.0 if closure is None else contacts.film / closure.surfaces.roughness
     seen = WearContact(pressure, contacts.friction_coefficient, ratio, contacts.asperity_load_ratio)
     coefficient = study.law.functions.coefficient(seen, study.parameters) * np.ones(load.shape)
     on_path = places.on_path * coefficient * line_load
@@ -170,6 +195,7 @@ def _worn(
     lost = np.sum(contacts.friction_coefficient * work * weight, axis=(1, 2, 3))
     return Passage(
         depths,
+        closure,
         load,
         shared.deflection,
         float(np.max(shared.overlap)),

@@ -34,8 +34,7 @@ from tribodyn.studies.wear.passage import Depths, Passage, Wearing
 from tribodyn.studies.wear.places import places_of
 from tribodyn.studies.wear.steps import march, unworn
 from tribodyn.studies.wear.worn_files import check_profiles, write_profiles
-from tribodyn.tribology.closure import closure_of
-from tribodyn.tribology.wear import WEAR_LAWS
+from tribodyn.tribology.wear import wear_law_of
 
 #: Keys in which the scenario of a run that goes on may differ from that of the record.
 _MAY_DIFFER = (("wear", "revolutions"), ("output", "every"))
@@ -45,11 +44,10 @@ def prepare(case: WearCase) -> Wearing:
     """Check geometry, modifications and load, and lay out positions and nodes; raises InputError."""
     flanks = flanks_of(case)
     check_contact(flanks, case.operating.gear_torque)
-    closure = closure_of(case.lubricated) if case.lubricated else None
-    law = WEAR_LAWS[case.law]
+    law = wear_law_of(case.wear)
     places = places_of(flanks, case.operating.gear_torque, case.positions_per_cycle, case.mesh.early)
     own = own_gaps(flanks, places.node, case) if any(case.teeth) else None
-    return Wearing(case, places, closure, law, law.made(None, dict(case.values)), own)
+    return Wearing(case, places, law, law.made(None, dict(case.wear.values)), own)
 
 
 def own_gaps(flanks: LoadedFlanks, node: Float[Array, " node"], case: WearCase) -> Depths:
@@ -92,9 +90,9 @@ def check(case: WearCase) -> CheckResult:
         "",
         case.operating.gear_torque,
     )
-    law = WEAR_LAWS[case.law]
-    values = law.made(None, dict(case.values))._asdict()
-    return checked._replace(data={**checked.data, "wear": {"law": case.law, **values}})
+    law = wear_law_of(case.wear)
+    values = law.made(None, dict(case.wear.values))._asdict()
+    return checked._replace(data={**checked.data, "wear": {"law": law.name, **values}})
 
 
 def run(

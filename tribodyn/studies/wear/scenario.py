@@ -36,11 +36,14 @@ from tribodyn.studies.gears.scenario import (
 )
 from tribodyn.studies.wear.case import ALIKE, EACH, WearCase
 from tribodyn.tribology.wear import WEAR_LAWS
+from tribodyn.tribology.wear.law import WearData
+from tribodyn.tribology.wear.running_in import RunningIn
 
 #: Rows of a record where the scenario says nothing, beside the unworn flanks.
 ROWS = 20
 #: Rows of a record at most.
 MOST_ROWS = 100_000
+_TABULATED = "solved"
 _NOT_ALIKE, _EACH = 'contradicts wear.teeth = "alike"', 'leave it out, or write wear.teeth = "each"'
 #: Friction laws that need no lubricant.
 DRY = ("coulomb", "none")
@@ -64,6 +67,15 @@ class WearTable(LawTable):
 
 class WearFriction(FrictionTable):
     """Which law acts between the flanks, and the law's own keys."""
+
+
+class RunningInTable(Table):
+    """How the roughness of new flanks falls in running in."""
+
+    roughness_share: Annotated[float, Field(strict=True, gt=0.0, le=1.0)] = Field(
+        description="roughness after running in over that of new flanks"
+    )
+    revolutions: Positive = Field(description="of the pinion, in which all but 1/e of it happens")
 
 
 class WearMesh(Table):
@@ -92,6 +104,7 @@ class WearScenario(GearScenario):
     lubricant: Oil | None = Field(None, description="default: the flanks run without a film")
     operating: OiledOperatingTable
     wear: WearTable
+    running_in: RunningInTable | None = Field(None, description="default: the roughness stays")
     bearings: MatrixKeys = None
     shaft: ShaftKeys = None
     mesh: WearMesh = written({})
@@ -117,13 +130,13 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> WearCase:
         friction = law_values(scenario.friction).get("coefficient", 0.0)
     return WearCase(
         **gears,
-        law=wear.law,
-        values=law_values(wear),
+        wear=WearData(wear.law, law_values(wear)),
         revolutions=wear.revolutions,
         every=scenario.output.every or wear.revolutions / ROWS,
         load_change=wear.load_change,
         each_tooth=wear.teeth == EACH,
         positions_per_cycle=scenario.output.positions_per_cycle,
+        running_in=scenario.running_in and RunningIn(**scenario.running_in.model_dump()),
         friction_coefficient=friction,
         lubricated=oiled,
     )
@@ -148,6 +161,10 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from _broken_law(scenario)
     if scenario.lubricant is None:
         yield from _without_oil(scenario)
+    for table in (scenario.film, scenario.friction):
+        if scenario.running_in is not None and table is not None and table.law == _TABULATED:
+            rule = f'contradicts {table.place}.law = "{_TABULATED}", a table of contacts of one roughness'
+            yield InputError("running_in", None, rule, "use another law, or leave it out")
     if wear.teeth == ALIKE:
         for uneven in uneven_teeth(modifications_of(drive, scenario.mesh.misalignment)):
             yield InputError(uneven.key, uneven.value, _NOT_ALIKE, _EACH)
@@ -177,7 +194,11 @@ def _broken_law(scenario: Scenario) -> Iterator[InputError]:
 def _without_oil(scenario: Scenario) -> Iterator[InputError]:
     """Refuse what says something of a film that is not there."""
     remedy = 'add lubricant = "iso-vg-220-mineral", or leave it out'
-    given = {"operating.oil_temperature": scenario.operating.oil_temperature, "film": scenario.film}
+    given = {
+        "operating.oil_temperature": scenario.operating.oil_temperature,
+        "film": scenario.film,
+        "running_in": scenario.running_in,
+    }
     for key, value in given.items():
         if value is not None:
             yield InputError(key, rule="without a lubricant there is no film", remedy=remedy)

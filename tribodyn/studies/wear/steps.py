@@ -48,10 +48,10 @@ def march(study: Wearing, start: Worn, rows: np.ndarray) -> Iterator[tuple[Worn,
     """
     state, at = start, None
     for row in rows:
-        at = at or passage(study, state.depths)
+        at = at or passage(study, state.depths, state.revolutions)
         while state.revolutions < row:
             state, at = _step(study, state, at, float(row))
-        at = passage(study, state.depths)
+        at = passage(study, state.depths, state.revolutions)
         yield state, at
 
 
@@ -59,16 +59,18 @@ def _step(study: Wearing, state: Worn, at: Passage, row: float) -> tuple[Worn, P
     """Take one step, to a row at most."""
     limit, left = study.case.load_change, row - state.revolutions
     wished = state.next_step or _first(study, at)
-    rejected = state.rejected
+    rejected, running_in = state.rejected, study.case.running_in
+    longest = np.inf if running_in is None else running_in.step_at(state.revolutions)
     while True:
-        step = min(wished, left)
+        step = min(wished, left, longest)
         there = _ahead(state.depths, at.rates, step)
-        trial = passage(study, there, at.friction)
+        ahead = row if step == left else state.revolutions + step
+        trial = passage(study, there, ahead, at.friction)
         moved, found = trial.moved_from(at), None
         if moved <= limit:
             rates = tuple((a + b) / 2.0 for a, b in zip(at.rates, trial.rates, strict=True))
             depths = _ahead(state.depths, (rates[0], rates[1]), step)
-            found = passage(study, depths, trial.friction)
+            found = passage(study, depths, ahead, trial.friction)
             moved = max(moved, found.moved_from(at))
         if found is not None and moved <= limit:
             break
@@ -87,9 +89,8 @@ def _step(study: Wearing, state: Worn, at: Passage, row: float) -> tuple[Worn, P
     growth = min(_GROWTH, _AIM * limit / max(moved, 1e-12))
     # a step that was cut short at a row says little of the next one
     next_step = min(step * growth if step == wished else max(wished, step * growth), _ANY)
-    end = row if step == left else state.revolutions + step
     volume = state.volume + step * (at.volume_rate + trial.volume_rate) / 2.0
-    return Worn(end, found.depths, next_step, volume, state.steps + 1, rejected), found
+    return Worn(ahead, found.depths, next_step, volume, state.steps + 1, rejected), found
 
 
 def _first(study: Wearing, at: Passage) -> float:

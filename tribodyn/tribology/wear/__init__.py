@@ -1,7 +1,7 @@
 """The wear laws: one per file, and their registry."""
 
 from tribodyn.numerics.registry import Registry
-from tribodyn.tribology.wear.law import WearLaw
+from tribodyn.tribology.wear.law import WearData, WearLaw
 
 WEAR_LAWS: Registry[WearLaw] = Registry(
     "wear.law",
@@ -15,3 +15,8 @@ WEAR_LAWS: Registry[WearLaw] = Registry(
     "tribodyn.wear_laws",
     WearLaw,
 )
+
+
+def wear_law_of(data: WearData) -> WearLaw:
+    """Return the law of a case."""
+    return WEAR_LAWS[data.law] if isinstance(data.law, str) else data.law

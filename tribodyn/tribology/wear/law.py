@@ -10,8 +10,8 @@ that with a K that is one number for the whole contact
 w' the line load: 2a |v_1 − v_2|/|v_own| is the slip path of the place, w'/2a the mean pressure.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, ClassVar, NamedTuple
 
 from tribodyn.tribology.law import KeyedLaw
@@ -34,7 +34,7 @@ class WearFunctions(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class WearLaw(KeyedLaw):
-    """A law of wear: a plain object, chosen by ``[wear] law``.
+    """A law of wear: a plain object, chosen by ``[wear] law`` or handed over from Python.
 
     `function` is (contact: WearContact, parameters) -> K ≥ 0, volume worn off either flank per load and
     sliding distance, m²/N. It receives arrays, and is written with arithmetic and the functions of
@@ -49,3 +49,12 @@ class WearLaw(KeyedLaw):
     def functions(self) -> WearFunctions:
         """The functions that a study holds."""
         return WearFunctions(self.function)
+
+
+@dataclass(frozen=True)
+class WearData:
+    """By which wear law the flanks of a case wear."""
+
+    law: str | WearLaw  # its name in `tribodyn.tribology.wear.WEAR_LAWS`, or the law itself
+    #: values of the law's own keys, by name, in SI units
+    values: Mapping[str, Any] = field(default_factory=dict)

@@ -133,7 +133,7 @@ def test_a_film_above_the_separating_one_wears_nothing():
     keys = {"wear__boundary_film_parameter": 0.01, "wear__separating_film_parameter": 0.1}
     study = study_of(OILED, wear__law="priest-taylor", **keys)
     state, at = worn(study)
-    ratio = at.contacts.film[at.load > 0.0] / study.closure.surfaces.roughness
+    ratio = at.contacts.film[at.load > 0.0] / at.closure.surfaces.roughness
     assert np.min(ratio) > 0.1
     assert all(np.all(depth == 0.0) for depth in state.depths)
     assert (state.volume, state.steps, state.rejected) == (0.0, 1, 0)
@@ -173,6 +173,32 @@ def test_a_step_that_moves_a_load_too_far_is_halved():
     assert state.rejected > 2
     steady, _ = worn(study)
     np.testing.assert_allclose(state.depths[0], steady.depths[0], atol=2e-3 * np.max(steady.depths[0]))
+
+
+def test_running_in_lifts_the_film_over_the_roughness_off_the_wear():
+    """σ [s + (1 − s) e^(−N/N_0)]: at first as if nothing ran in, in the end as with smoother flanks."""
+    table = {**OILED, "running_in": {"roughness_share": 0.5, "revolutions": 1e5}}
+    keys = {"wear__law": "priest-taylor", "wear__revolutions": 4e6, "operating__pinion_speed": "3000 rpm"}
+    study, stays = study_of(table, **keys), study_of(OILED, **keys)
+    first, last = new(study), worn(study)[1]
+    share = last.closure.surfaces.roughness / first.closure.surfaces.roughness
+    assert share == pytest.approx(0.5, rel=1e-12)
+    middle = worn(study, 1e5)[1].closure.surfaces.roughness / first.closure.surfaces.roughness
+    assert middle == pytest.approx(0.5 + 0.5 * np.exp(-1.0), rel=1e-12)
+    np.testing.assert_array_equal(first.rates[0], new(stays).rates[0])
+    assert volumes(study, last.depths)[0] < 0.97 * volumes(stays, worn(stays)[0].depths)[0]
+
+
+def test_an_eccentric_pinion_shows_in_the_error_once_per_revolution():
+    """e sin(θ + α_w) along the normal: e/cos α_w of the gears' rotations."""
+    drive = {"like": DRY["drive"], "pinion": {"eccentricity": "10 um"}}
+    study = study_of({**DRY, "drive": drive}, wear__teeth="each")
+    error, centred = (new(each).deflection for each in (study, study_of(wear__teeth="each")))
+    cycles = np.arange(36)[:, None] + study.places.phase
+    turned = 2.0 * np.pi * cycles / 18.0
+    weight = study.places.weight / 36.0
+    once = 2.0 * np.abs(np.sum(weight * (error - centred) * np.exp(-1j * turned)))
+    assert once == pytest.approx(10e-6 / np.cos(np.radians(20.0)), rel=5e-3)
 
 
 def test_teeth_that_are_alike_wear_like_their_mean():
