@@ -56,6 +56,7 @@ CONTENTS = {
         "families",
         "mesh-stiffness",
         "load-contact",
+        "wear",
         "quality",
         "efficiency",
         "oil",

@@ -38,6 +38,7 @@ SHORTER = {
     "gear-train": ("solver.cycles=2",),
     "efficiency": ("output.samples_per_cycle=40",),
     "load-contact": ("output.positions_per_cycle=8",),
+    "wear": ("output.positions_per_cycle=12",),
     "ehl": ("output.positions=4", "contact.step=0.25"),
     "irefc": ("output.samples_per_cycle=8",),
     "backlash-oscillator": ("frequency.step=0.1",),

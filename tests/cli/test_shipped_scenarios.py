@@ -55,6 +55,7 @@ ALIKE = {
 SHORTER = {
     "gear-pair": ("solver.cycles=2",),
     "load-contact": ("output.positions_per_cycle=8",),
+    "wear": ("output.positions_per_cycle=12",),
     "ehl": ("output.positions=4", "contact.step=0.25"),
     "assessment": (
         *("assessment.speeds=8", "assessment.samples=0", "assessment.torque_shares=[0.5, 1.0]"),

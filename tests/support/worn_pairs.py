@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.studies.protocol.load import load_data
-from tribodyn.studies.wear.passage import Passage, Wearing, passage
+from tribodyn.studies.wear.passage import Wearing, WearPassage, passage
 from tribodyn.studies.wear.run import prepare
 from tribodyn.studies.wear.steps import Worn, march, unworn
 
@@ -33,12 +33,12 @@ def study_of(table: dict[str, Any] = DRY, **overrides: Any) -> Wearing:
     return prepare(load_data(table, "worn", keys).case)
 
 
-def new(study: Wearing) -> Passage:
+def new(study: Wearing) -> WearPassage:
     """Loads and rates of new flanks."""
     return passage(study, unworn(study).depths, 0.0)
 
 
-def worn(study: Wearing, revolutions: float | Sequence[float] | None = None) -> tuple[Worn, Passage]:
+def worn(study: Wearing, revolutions: float | Sequence[float] | None = None) -> tuple[Worn, WearPassage]:
     """State and loads at the end, or after so many revolutions."""
     rows = np.atleast_1d(study.case.revolutions if revolutions is None else revolutions)
     *_, last = march(study, unworn(study), rows)

@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.studies.wear.case import OF_FILM, OF_TEETH
-from tribodyn.studies.wear.passage import Depths, Passage, Wearing, by_teeth
+from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, by_teeth
 from tribodyn.studies.wear.steps import Worn
 from tribodyn.tribology.closure import exceeded_limits, law_quantities
 from tribodyn.tribology.surface_state import fraction_in_range, range_shares
@@ -21,7 +21,7 @@ _ENDS = {
 }
 
 
-def row_of(study: Wearing, state: Worn, at: Passage) -> dict[str, Any]:
+def row_of(study: Wearing, state: Worn, at: WearPassage) -> dict[str, Any]:
     """Datasets of one row, each with an axis of length 1 before its own."""
     case, places = study.case, study.places
     mean = [np.mean(depth, axis=0) for depth in state.depths]
@@ -63,7 +63,7 @@ def row_of(study: Wearing, state: Worn, at: Passage) -> dict[str, Any]:
     return {name: np.asarray(value, dtype=float)[None] for name, value in found.items()}
 
 
-def _roughness(at: Passage) -> float:
+def _roughness(at: WearPassage) -> float:
     return np.nan if at.closure is None else float(at.closure.surfaces.roughness)
 
 
@@ -83,7 +83,7 @@ def state_of(study: Wearing, row: dict[str, Any]) -> Worn:
     )
 
 
-def _loaded_mean(study: Wearing, at: Passage, values: Any) -> Any:
+def _loaded_mean(study: Wearing, at: WearPassage, values: Any) -> Any:
     """Mean over teeth of what has a meaning under load only."""
     loaded = at.load > 0.0
     share = by_teeth(study.places, loaded.astype(float))[0]
@@ -100,7 +100,9 @@ def volumes(study: Wearing, depths: Depths) -> np.ndarray:
     )
 
 
-def summary_of(study: Wearing, first: dict[str, Any], last: dict[str, Any], at: Passage) -> dict[str, Any]:
+def summary_of(
+    study: Wearing, first: dict[str, Any], last: dict[str, Any], at: WearPassage
+) -> dict[str, Any]:
     """Quantities of a run, from the rows (without their first axis) of new and of worn flanks."""
     case, assembly = study.case, study.places.held.flanks.flexible.assembly
     depth, volume = np.max(last["worn_depth"], axis=(1, 2)), last["worn_volume"]
@@ -135,7 +137,7 @@ def balance(row: dict[str, Any]) -> float:
 
 
 def _of_laws(
-    study: Wearing, summary: dict[str, Any], rows: tuple[dict[str, Any], dict[str, Any]], at: Passage
+    study: Wearing, summary: dict[str, Any], rows: tuple[dict[str, Any], dict[str, Any]], at: WearPassage
 ) -> dict[str, Any]:
     """What the laws of film and friction say of themselves, and whether the contact lies within its model."""
     case, judge, found = study.case, Judge(), dict[str, Any]()

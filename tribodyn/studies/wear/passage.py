@@ -14,7 +14,7 @@ from tribodyn.compliance.sharing.load_sharing import SharedLoad, half_width
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.wear.case import WearCase
-from tribodyn.studies.wear.places import Places
+from tribodyn.studies.wear.places import WearPlaces
 from tribodyn.tribology.closure import closure_of
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import ContactFriction, contact_friction
@@ -31,7 +31,7 @@ class Wearing(NamedTuple):
     """What a study needs to know beside the depths."""
 
     case: WearCase
-    places: Places
+    places: WearPlaces
     law: Any  # `tribology.wear.law.WearLaw`
     parameters: Any  # of the law
     #: what teeth lack from the beginning, each by itself; None: they are alike, but for their pitch errors
@@ -49,7 +49,7 @@ class Wearing(NamedTuple):
         return closure_of(replace(oiled, roughness=roughness[0], mean_roughness=roughness[1]))
 
 
-class Contacts(NamedTuple):
+class ContactLaws(NamedTuple):
     """The laws at all positions (cycle, position, pair, slice); without a load they mean nothing."""
 
     friction_coefficient: Float[Array, "cycle position pair slice"]
@@ -58,7 +58,7 @@ class Contacts(NamedTuple):
     seen: ContactFriction | None  # of the loaded ones (contact,)
 
 
-class Passage(NamedTuple):
+class WearPassage(NamedTuple):
     """Loads of a hunting period, and what they wear."""
 
     depths: Depths
@@ -68,7 +68,7 @@ class Passage(NamedTuple):
     approach: float  # the largest of what a slice's own load takes up, m
     line_load: Float[Array, "cycle position pair slice"]  # N/m
     pressure: Float[Array, "cycle position pair slice"]  # maximum Hertz pressure, Pa
-    contacts: Contacts
+    contacts: ContactLaws
     friction: Float[Array, "cycle position pair"]  # of the pairs
     coefficient: Float[Array, "cycle position pair slice"]  # K of the wear law, m²/N
     rates: Depths  # per revolution of the pinion, m
@@ -81,7 +81,7 @@ class Passage(NamedTuple):
         """Largest line load, N/m."""
         return float(np.max(self.line_load))
 
-    def moved_from(self, other: "Passage") -> float:
+    def moved_from(self, other: "WearPassage") -> float:
         """Largest change of the load of a place over the largest load of the other."""
         return float(np.max(np.abs(self.line_load - other.line_load))) / other.largest
 
@@ -91,7 +91,7 @@ def passage(
     depths: Depths,
     revolutions: float,
     friction: Float[Array, "cycle position pair"] | None = None,
-) -> Passage:
+) -> WearPassage:
     """Find loads and rates after so many revolutions; `friction` begins the search for that of the pairs.
 
     Raises SimulationError if no state of contact is found, or load and friction do not settle.
@@ -128,13 +128,13 @@ def _gap(study: Wearing, depths: Depths) -> Float[Array, "cycle position pair sl
 
 def _contacts(
     study: Wearing, closure: Closure | None, load: Float[Array, "cycle position pair slice"]
-) -> Contacts:
+) -> ContactLaws:
     """Evaluate the laws where anything is carried."""
     places, case = study.places, study.case
     friction = np.full(load.shape, case.friction_coefficient)
     film, share = np.zeros(load.shape), np.ones(load.shape)
     if closure is None:
-        return Contacts(friction, film, share, None)
+        return ContactLaws(friction, film, share, None)
     carries, speed = load > 0.0, case.operating.pinion_speed
     line_load = load / places.held.length
     whole = np.ones(load.shape)
@@ -151,7 +151,7 @@ def _contacts(
     friction[carries] = seen.surface.friction_coefficient
     film[carries] = seen.surface.central_film_thickness
     share[carries] = seen.surface.asperity_load_ratio
-    return Contacts(friction, film, share, seen)
+    return ContactLaws(friction, film, share, seen)
 
 
 def _of_pairs(
@@ -168,9 +168,9 @@ def _worn(
     closure: Closure | None,
     depths: Depths,
     shared: SharedLoad,
-    contacts: Contacts,
+    contacts: ContactLaws,
     friction: Float[Array, "cycle position pair"],
-) -> Passage:
+) -> WearPassage:
     """Rates and powers of loads that have settled."""
     load = shared.slice_load
     case, places = study.case, study.places
@@ -193,7 +193,7 @@ def _worn(
     through = np.sum(work * weight, axis=(1, 2, 3))
     corners = np.sum(work * weight * ~places.on_path, axis=(1, 2, 3))
     lost = np.sum(contacts.friction_coefficient * work * weight, axis=(1, 2, 3))
-    return Passage(
+    return WearPassage(
         depths,
         closure,
         load,
@@ -212,7 +212,7 @@ def _worn(
 
 
 def by_teeth(
-    places: Places, values: Float[Array, "cycle position pair slice"], teeth: int = 1
+    places: WearPlaces, values: Float[Array, "cycle position pair slice"], teeth: int = 1
 ) -> Float[Array, "tooth node slice"]:
     """Values at the nodes of each of so many teeth, the mean over the mates that a tooth meets."""
     cycles, slices = values.shape[0], values.shape[-1]

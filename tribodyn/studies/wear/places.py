@@ -40,7 +40,7 @@ class Sliding(NamedTuple):
     gear_slip: Float[Array, "position pair slice"]
 
 
-class Places(NamedTuple):
+class WearPlaces(NamedTuple):
     """Positions of a mesh cycle, the pairs there, and the nodes of a flank."""
 
     held: HeldFlanks
@@ -62,7 +62,7 @@ class Places(NamedTuple):
     vanishing: tuple[float, float]
 
 
-def places_of(flanks: LoadedFlanks, gear_torque: float, positions: int, early: float = 0.0) -> Places:
+def places_of(flanks: LoadedFlanks, gear_torque: float, positions: int, early: float = 0.0) -> WearPlaces:
     """Lay out about so many positions in a mesh cycle, under the torque T_g > 0 (N m).
 
     A tooth may be `early` by so much against the next, m, beside its pitch error.
@@ -91,7 +91,7 @@ def places_of(flanks: LoadedFlanks, gear_torque: float, positions: int, early: f
     to_position = [_interpolation(node, _by_slice(rotation)) for rotation in rotations]
     to_node, along = _back(node, at, on_path)
     vanishing = pitch_point(assembly.path)
-    return Places(
+    return WearPlaces(
         held,
         phase,
         weight,
@@ -141,7 +141,7 @@ def _interpolation(
 def _back(
     node: Float[Array, " node"], roll: Float[Array, "position pair slice"], on_path: Bool[Array, "..."]
 ) -> tuple[Float[Array, "slice node sample"], Float[Array, "position pair slice"]]:
-    """Matrices from positions on the path to nodes, linear beyond the last ones, and `Places.along`."""
+    """Matrices from positions on the path to nodes, linear beyond the last ones, and `WearPlaces.along`."""
     every, inside = _by_slice(roll), _by_slice(on_path)
     matrix, along = np.zeros((len(every), len(node), every.shape[1])), np.zeros(every.shape)
     for number, (at, mask) in enumerate(zip(every, inside, strict=True)):

@@ -30,7 +30,7 @@ from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.studies.wear.case import BODIES, WearCase, layout_of, recorded_at
 from tribodyn.studies.wear.outcome import row_of, state_of, summary_of
-from tribodyn.studies.wear.passage import Depths, Passage, Wearing
+from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage
 from tribodyn.studies.wear.places import places_of
 from tribodyn.studies.wear.steps import march, unworn
 from tribodyn.studies.wear.worn_files import check_profiles, write_profiles
@@ -152,7 +152,7 @@ def quantities_of(case: WearCase) -> dict[str, Any]:
 
 
 def _summary(
-    study: Wearing, first: Mapping[str, Any], last: Mapping[str, Any], at: Passage | None, begun: float
+    study: Wearing, first: Mapping[str, Any], last: Mapping[str, Any], at: WearPassage | None, begun: float
 ) -> dict[str, Any]:
     if at is None:
         return {"wall_time": perf_counter() - begun}

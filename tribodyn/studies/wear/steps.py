@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.studies.wear.passage import Depths, Passage, Wearing, passage
+from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, passage
 
 #: Depth over the module at which a flank is no flank any more, as of modifications.
 DEEPEST = 0.1
@@ -40,7 +40,7 @@ def unworn(study: Wearing) -> Worn:
     return Worn(0.0, (pinion, gear), 0.0, 0.0, 0, 0)
 
 
-def march(study: Wearing, start: Worn, rows: np.ndarray) -> Iterator[tuple[Worn, Passage]]:
+def march(study: Wearing, start: Worn, rows: np.ndarray) -> Iterator[tuple[Worn, WearPassage]]:
     """Go on from a state; yield the state and its loads at every row, in revolutions, increasing.
 
     The loads at a row do not depend on the way there: who goes on from it takes the same steps. Raises
@@ -55,7 +55,7 @@ def march(study: Wearing, start: Worn, rows: np.ndarray) -> Iterator[tuple[Worn,
         yield state, at
 
 
-def _step(study: Wearing, state: Worn, at: Passage, row: float) -> tuple[Worn, Passage]:
+def _step(study: Wearing, state: Worn, at: WearPassage, row: float) -> tuple[Worn, WearPassage]:
     """Take one step, to a row at most."""
     limit, left = study.case.load_change, row - state.revolutions
     wished = state.next_step or _first(study, at)
@@ -93,7 +93,7 @@ def _step(study: Wearing, state: Worn, at: Passage, row: float) -> tuple[Worn, P
     return Worn(ahead, found.depths, next_step, volume, state.steps + 1, rejected), found
 
 
-def _first(study: Wearing, at: Passage) -> float:
+def _first(study: Wearing, at: WearPassage) -> float:
     """A step that moves the flanks by a share of how far the load brings them together."""
     rate = float(np.max(at.rates[0])) + float(np.max(at.rates[1]))
     return study.case.load_change * at.approach / rate if rate > 0.0 else _ANY
