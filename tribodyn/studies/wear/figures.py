@@ -49,6 +49,12 @@ def draw_over_roll(
     axes.set_ylim(bottom=0.0)
 
 
+def _legend(axes: Axes, records: Sequence[Record]) -> None:
+    """Name the curves, right of the panel: they fill it."""
+    title = "Revolutions" if len(records) == 1 else None
+    axes.legend(title=title, fontsize=6.5, title_fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
 def _over_revolutions(axes: Axes, records: Sequence[Record], name: str, factor: float, label: str) -> None:
     for number, record in enumerate(records):
         values = factor * record[name]
@@ -76,7 +82,7 @@ def _flanks(records: Sequence[Record], _view: View) -> Figure:
         axes.set_ylabel("Depth worn off (µm)")
         mark_panel(axes, "ab"[place], f"Flank of the {BODIES[place]}, from new to worn; mean over the face")
     panels[0].set_xlabel("")
-    panels[0].legend(title="revolutions" if len(records) == 1 else None, fontsize=6.5)
+    _legend(panels[0], records)
     return _titled(drawn, records)
 
 
@@ -124,7 +130,7 @@ def _loads(records: Sequence[Record], _view: View) -> Figure:
         axes.set_ylabel(label)
         mark_panel(axes, "ab"[axes is panels[1]], title)
     panels[0].set_xlabel("")
-    panels[0].legend(title="revolutions" if len(records) == 1 else None, fontsize=6.5)
+    _legend(panels[0], records)
     return _titled(drawn, records)
 
 
@@ -152,7 +158,7 @@ def _errors(records: Sequence[Record], _view: View) -> Figure:
     drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT)
     panels = drawn.subplots(2, 1)
     draw_errors(panels[0], records)
-    panels[0].legend(title="revolutions" if len(records) == 1 else None, fontsize=6.5)
+    _legend(panels[0], records)
     _over_revolutions(panels[1], records, "transmission_error_peak_to_peak", 1e6, "Peak to peak (µm)")
     mark_panel(panels[0], "a", "Transmission error under load over the mesh cycle, from new to worn")
     mark_panel(panels[1], "b", "Its peak to peak")
@@ -189,7 +195,7 @@ def _overview(records: Sequence[Record], _view: View) -> Figure:
     for place in (0, 1):
         draw_over_roll(panels[place], [record], "worn_depth", 1e6, place)
         panels[place].set_ylabel("Depth worn off (µm)")
-    panels[0].legend(title="revolutions", fontsize=6.5)
+    _legend(panels[0], [record])
     draw_over_roll(panels[2], [record], "line_load", 1e-3)
     panels[2].set_ylabel("Line load (N/mm)")
     draw_errors(panels[3], [record])

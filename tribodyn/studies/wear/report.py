@@ -47,7 +47,10 @@ def maps(record: Record) -> list[PageMap]:
     if record.samples < 2 or len(record["slice"]) < 2:
         return []
     depth, roll, face = record["worn_depth"][-1], record["roll"], record["slice"]
-    return [PageMap("worn_depth", roll, face, depth[place], 100.0) for place in range(len(record["body"]))]
+    return [
+        PageMap("worn_depth", roll, face, depth[place], title=f"Depth worn off the {body}")
+        for place, body in enumerate(record["body"])
+    ]
 
 
 def verdict(record: Record) -> list[str]:
