@@ -57,6 +57,7 @@ CONTENTS = {
         "families",
         "mesh-stiffness",
         "load-contact",
+        "wear",
         "quality",
         "efficiency",
         "oil",

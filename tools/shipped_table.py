@@ -14,6 +14,7 @@ from tribodyn.studies import STUDIES
 from tribodyn.train.links import LINK_LAWS
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
+from tribodyn.tribology.wear import WEAR_LAWS
 from tribodyn.validation import PAPERS
 
 PAGES = (ROOT / "README.md", DOCS / "start.md")
@@ -28,6 +29,7 @@ def counts() -> str:
         ("film laws", *_named(FILM_LAWS), "`tribodyn list film-laws`"),
         ("friction laws", *_named(FRICTION_LAWS), "`tribodyn list laws`"),
         ("laws of links", *_named(LINK_LAWS), "`tribodyn list link-laws`"),
+        ("wear laws", *_named(WEAR_LAWS), "`tribodyn list wear-laws`"),
         ("scenarios", len(names(shipped("scenarios"))), "by what they show", "`tribodyn list scenarios`"),
         ("papers", len(papers), ", ".join(papers), "`tribodyn list papers`"),
     ]

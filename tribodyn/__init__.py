@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from tribodyn.studies.protocol.verb import Finding
     from tribodyn.train.links.law import LinkLaw
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
+    from tribodyn.tribology.wear.law import WearLaw
 
     Design: type[Run]
     design: Callable[..., Run]
@@ -66,6 +67,7 @@ __all__ = [
     "SimulationError",
     "Study",
     "Sweep",
+    "WearLaw",
     "__version__",
     "check",
     "constraints",
@@ -99,6 +101,7 @@ _PLACES = {
     "SimulationError": "tribodyn.errors",
     "Study": "tribodyn.studies.protocol.study",
     "Sweep": "tribodyn.interface.sweep",
+    "WearLaw": "tribodyn.tribology.wear.law",
     "check": "tribodyn.interface.check",
     "constraints": "tribodyn.interface.drive",
     "differentiable": "tribodyn.interface.gradient",

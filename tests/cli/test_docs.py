@@ -39,6 +39,7 @@ SHORTER = {
     "sensors-18-36": ("solver.revolutions=3", "output.window=[2.0, 3.0]"),  # a signal has to be as long
     "efficiency": ("output.samples_per_cycle=40",),
     "load-contact": ("output.positions_per_cycle=8",),
+    "wear": ("output.positions_per_cycle=12",),
     "ehl": ("output.positions=4", "contact.step=0.25"),
     "irefc": ("output.samples_per_cycle=8",),
     "backlash-oscillator": ("frequency.step=0.1",),

@@ -56,6 +56,7 @@ SHORTER = {
     "gear-pair": ("solver.cycles=2",),
     "sensors-18-36": ("solver.revolutions=3", "output.window=[2.0, 3.0]"),  # a signal has to be as long
     "load-contact": ("output.positions_per_cycle=8",),
+    "wear": ("output.positions_per_cycle=12",),
     "ehl": ("output.positions=4", "contact.step=0.25"),
     "assessment": (
         *("assessment.speeds=8", "assessment.samples=0", "assessment.torque_shares=[0.5, 1.0]"),
@@ -94,7 +95,7 @@ def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     assert all("warning: outside the model: Hertz pressure" in line for line in said)
     result = json.loads(ended.stdout)
     assert result["status"] == "complete"
-    residuals = ("torque_residual", "energy_residual", "residual_max")
+    residuals = ("torque_residual", "energy_residual", "residual_max", "wear_balance")
     # an assessment has those of its parts
     balance = next((result["summary"][name] for name in residuals if name in result["summary"]), 0.0)
     assert abs(balance) < 1e-5  # 10 × rtol
@@ -104,7 +105,7 @@ def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     with Record(tmp_path / result["record"]) as record:
         assert record.status == "complete"
         assert record.scenario["name"] == name
-        loads = ("normal_load", "rms_displacement", "dynamic_factor")
+        loads = ("normal_load", "rms_displacement", "dynamic_factor", "line_load")
         assert np.nanmax(record[next(name for name in loads if name in record)]) > 0
 
 

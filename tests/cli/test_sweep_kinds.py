@@ -23,6 +23,7 @@ from tribodyn.sweep.run import run, settings_of
 VARIED = {
     "efficiency": ("operating.gear_torque", ("200 N*m", "300 N*m")),
     "load-contact": ("drive.pinion.modification.tip_relief", ("0 um", "10 um")),
+    "wear": ("operating.gear_torque", ("300 N*m", "350 N*m")),
     "ehl": ("operating.gear_torque", ("300 N*m", "350 N*m")),
     "irefc": ("friction.sliding_coefficient", ("0.05", "0.1")),
     "backlash-oscillator": ("damping", ("0.05", "0.1")),

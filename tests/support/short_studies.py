@@ -18,6 +18,12 @@ SHORT: dict[str, dict[str, Any]] = {
     "gear-train": {"solver.cycles": 4, "output.samples_per_cycle": 40, "friction.law": "xu"},
     "efficiency": {"output.samples_per_cycle": 40},
     "load-contact": {"output.positions_per_cycle": 12, "mesh.slices": 7},
+    "wear": {
+        "output.positions_per_cycle": 16,
+        "output.every": 4e7,
+        "friction.law": "coulomb",
+        "friction.coefficient": 0.05,
+    },
     "ehl": {"output.positions": 4, "contact.step": 0.25},
     "irefc": {"output.samples_per_cycle": 8},
     "backlash-oscillator": {"frequency.step": 0.2},

@@ -14,6 +14,7 @@ from tools.soak.other_records import (
     load_contact_faults,
     search_faults,
     solved_contact_faults,
+    wear_faults,
 )
 from tools.soak.refusals import untrue
 from tribodyn.errors import InputError
@@ -124,6 +125,7 @@ def test_what_is_wrong_is_noticed(record, tmp_path, name, factor, expected):
         ("ehl", solved_contact_faults, "minimum_film_thickness", 2.0, "a film is not above zero"),
         ("ehl", solved_contact_faults, "asperity_load_ratio", -1.0, "asperities carry"),
         ("ehl", solved_contact_faults, "central_film_thickness", np.nan, "0 positions have a film"),
+        ("wear", wear_faults, "worn_depth", -1.0, "worn_depth falls to"),
         ("load-contact", load_contact_faults, "root_tension", 1.01, "root_tension of a pair that carries"),
         ("assessment", assessment_faults, "contact_temperature", 1.01, "the contact temperature is not"),
         ("assessment", assessment_faults, "film_thickness", -1.0, "film_thickness falls to"),

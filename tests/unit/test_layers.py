@@ -69,7 +69,7 @@ KINDS = {
     if STUDIES[kind].package.startswith("tribodyn.")
 }
 #: Kinds whose names are also words of their own: these strings say nothing.
-WORDS = {"efficiency", "design", "ehl"}
+WORDS = {"efficiency", "design", "ehl", "wear"}
 #: Style: a file is one idea; lines.
 LONGEST_FILE = 340
 

@@ -24,6 +24,8 @@ TORQUE_RESIDUAL = 1e-6
 SAME = 1e-6
 #: Largest imbalance of flow and force in a solved contact.
 IMBALANCE = 1e-4
+#: By which the volume missing on worn flanks may differ from that of load and sliding, of helical pairs.
+BALANCE = 0.02
 #: By which an efficiency without losses may miss 1.
 ROUNDING = 1e-12
 
@@ -98,6 +100,19 @@ def _root_faults(record: Record) -> Iterator[str]:
     recorded = np.moveaxis(record["root_tension"], 1, 0)
     if not np.allclose(recorded[:, single], own[:, single[carrying]], rtol=SAME):
         yield "root_tension of a pair that carries alone is not that of its load"
+
+
+def wear_faults(record: Record) -> Iterator[str]:
+    """Say what is wrong with the record of a wear study; films are NaN where nothing is carried."""
+    yield from _negative(record, "worn_depth", "wear_rate", "worn_volume", "line_load", "hertz_pressure")
+    yield from _negative(record, "debris_rate", "power_friction")
+    depth, steps = record["worn_depth"], np.diff(record["revolutions"])
+    if not np.all(steps > 0) or not np.all(np.diff(depth, axis=0) >= 0):
+        yield "revolutions or depths fall"
+    if not np.all(depth[0] == 0):
+        yield "new flanks are worn"
+    if not record.summary["wear_balance"] <= BALANCE:
+        yield f"the volume worn off misses that of load and sliding by {record.summary['wear_balance']:.3g}"
 
 
 def solved_contact_faults(record: Record) -> Iterator[str]:
@@ -218,6 +233,7 @@ FAULTS = {
     "efficiency": efficiency_faults,
     "load-contact": load_contact_faults,
     "ehl": solved_contact_faults,
+    "wear": wear_faults,
     "assessment": assessment_faults,
     "train-assessment": train_assessment_faults,
     "design": search_faults,

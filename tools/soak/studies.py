@@ -1,5 +1,6 @@
 """Random scenarios of the studies beside a gear pair's dynamics."""
 
+import math
 from typing import Any
 
 from tools.soak.draw import Draw, quantity
@@ -62,6 +63,46 @@ def load_contact(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
         "operating": operating,
         "mesh": mesh,
         "output": {"positions_per_cycle": draw.choice((8, 20)), "cycles": draw.choice((1, 1, 2))},
+    }
+
+
+def wear(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
+    """Return the scenario of a wear study: flanks worn by a few micrometres, on few positions."""
+    found, speed = load_contact(draw, drive), draw.decades(0.1, 300.0)
+    gears = [found["drive"][name] for name in ("pinion", "gear")]
+    each = math.lcm(*(int(gear["teeth"]) for gear in gears)) <= 200 and draw.chance(0.5)
+    if not each:
+        for gear in gears:
+            gear.get("modification", {}).pop("pitch_errors", None)
+    oiled, coefficient = draw.chance(0.7), draw.decades(1e-19, 1e-16)
+    law = draw.choice(("priest-taylor", "archard-asperities", "archard", "energy") if oiled else ("archard",))
+    own = {"energy_coefficient" if law == "energy" else "coefficient": quantity(coefficient, "m**2/N")}
+    load = abs(float(found["operating"]["gear_torque"].split()[0]))
+    module, *_, width = size_of(drive)
+    line_load = load / (0.5 * module * int(gears[1]["teeth"]) * width)
+    depth = draw.decades(1e-9, 3e-6)
+    operating: dict[str, Any] = {
+        "gear_torque": found["operating"]["gear_torque"],
+        "pinion_speed": quantity(speed, "rad/s"),
+    }
+    friction: dict[str, Any] = {"friction": {"law": "coulomb", "coefficient": draw.between(0.01, 0.1)}}
+    if oiled:
+        friction = laws(draw) if law != "energy" else friction
+    return {
+        "title": "A random wear study",
+        "kind": "wear",
+        "drive": found["drive"],
+        **({"lubricant": lubricant(draw)} if oiled else {}),
+        "operating": operating,
+        "wear": {
+            "law": law,
+            **own,
+            "revolutions": max(1.0, depth / coefficient / line_load),
+            "teeth": "each" if each else "alike",
+        },
+        "mesh": {key: value for key, value in found["mesh"].items() if key != "friction_coefficient"},
+        **friction,
+        "output": {"positions_per_cycle": draw.choice((12, 30))},
     }
 
 

@@ -27,6 +27,7 @@ class What(StrEnum):
     laws = "laws"
     film_laws = "film-laws"
     link_laws = "link-laws"
+    wear_laws = "wear-laws"
     families = "families"
     solvers = "solvers"
     plots = "plots"
@@ -74,6 +75,7 @@ def _about(what: What) -> dict[str, str]:
     from tribodyn.train.links import LINK_LAWS
     from tribodyn.tribology.film import FILM_LAWS
     from tribodyn.tribology.friction import FRICTION_LAWS
+    from tribodyn.tribology.wear import WEAR_LAWS
     from tribodyn.validation import PAPERS
 
     named: dict[What, Any] = {
@@ -81,6 +83,7 @@ def _about(what: What) -> dict[str, str]:
         What.laws: FRICTION_LAWS,
         What.film_laws: FILM_LAWS,
         What.link_laws: LINK_LAWS,
+        What.wear_laws: WEAR_LAWS,
         What.families: FAMILIES,
         What.papers: PAPERS,
     }

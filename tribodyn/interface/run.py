@@ -18,6 +18,7 @@ from tribodyn.studies.protocol.study import CaseHead, Progress
 if TYPE_CHECKING:
     from tribodyn.train.links.law import LinkLaw
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
+    from tribodyn.tribology.wear.law import WearLaw
 
 
 @in_python()
@@ -29,9 +30,11 @@ def run(
     force: bool = False,
     film: "FilmLaw | Callable[..., Any] | None" = None,
     friction: "FrictionLaw | Callable[..., Any] | None" = None,
+    wear: "WearLaw | Callable[..., Any] | None" = None,
     links: "Mapping[str, LinkLaw | Callable[..., Any]] | None" = None,
     progress: Progress | bool | None = None,
     allow_large: bool = False,
+    resume: bool = False,
 ) -> Run:
     """Run a scenario.
 
@@ -43,7 +46,7 @@ def run(
         Keep the record in this file; default: in a temporary folder, as long as the result is in use.
     force : bool
         Replace a record of that name.
-    film, friction : FilmLaw, FrictionLaw or function, optional
+    film, friction, wear : FilmLaw, FrictionLaw, WearLaw or function, optional
         Take the place of the scenario's laws.
     links : LinkLaw or function by name, optional
         Take the places of the laws of a train's links and compliant shafts of these names.
@@ -51,6 +54,8 @@ def run(
         Called with the share done, 0 … 1; default: a bar on a terminal or in a notebook; False: none.
     allow_large : bool
         Allow runs above the resource limits (memory, disk, time).
+    resume : bool
+        Go on from what an earlier run left in `output`, where the kind of study can.
 
     Returns
     -------
@@ -65,8 +70,8 @@ def run(
     OutputError
         If the record cannot be written.
     """
-    laws: dict[str, Any] = {"film": film, "friction": friction, "links": links}
-    how: dict[str, Any] = {**laws, "force": force, "progress": progress}
+    laws: dict[str, Any] = {"film": film, "friction": friction, "wear": wear, "links": links}
+    how: dict[str, Any] = {**laws, "force": force, "progress": progress, "resume": resume}
     return recorded(scenario(source, overrides), output, allow_large=allow_large, **how)
 
 

@@ -28,9 +28,8 @@ MARKS = {
     ".dxf": b"\ntribodyn\n",
     ".wav": b"ISFT\x0a\0\0\0tribodyn\0\0",
 }
-#: What else a file of such an ending may hold in its place: a signal.
-SIGNAL = b"# signal of a sensor, by tribodyn"
-_ALSO = {".csv": SIGNAL}
+#: The same of files that may hold something else than what stands in `MARKS`.
+WRITTEN = {".csv": b"# written by tribodyn"}
 #: Bytes at the beginning of a file, or at the end, among which its mark stands.
 _NEAR = 1000
 #: Flags of files that are not to be reached through a link.
@@ -137,12 +136,12 @@ def open_new(path: Path, mode: int = 0o666) -> BinaryIO:
 def _made_here(path: Path) -> bool:
     """Whether a regular file has the mark of its kind."""
     ending = path.suffix.lower()
-    marks = [mark for mark in (MARKS.get(ending), _ALSO.get(ending)) if mark is not None]
+    marks = [marks[ending] for marks in (MARKS, WRITTEN) if ending in marks]
     try:
         with path.open("rb") as stream:
             if ending == ".pdf":  # what stands before its end would move its parts
                 stream.seek(max(0, stream.seek(0, os.SEEK_END) - _NEAR))
-            head = stream.read(_NEAR)
-            return any(mark in head for mark in marks)
+            near = stream.read(_NEAR)
+            return any(mark in near for mark in marks)
     except OSError:
         return False

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from tribodyn.errors import InputError, unknown_name
-from tribodyn.numerics.output_files import SIGNAL, check_output, make_folder, write_output
+from tribodyn.numerics.output_files import WRITTEN, check_output, make_folder, write_output
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import SensorSignal, read_sensed
 from tribodyn.signals.sound import LEVEL, SOUND_RATES, Hearable, hearable, wav
@@ -48,7 +48,7 @@ def write_signals(
 
 def as_csv(signal: SensorSignal) -> str:
     """A signal as a CSV file: time, rotation of the reference, values, each with its unit."""
-    about = f"{SIGNAL.decode()}: {signal.name}, {signal.about}, {signal.rate:.12g} Hz"
+    about = f"{WRITTEN['.csv'].decode()}: signal of the sensor {signal.name}, {signal.about}, {signal.rate:.12g} Hz"
     name = signal.name.replace(",", " ")
     lines = [about, f"time [s],reference_angle [rad],{name} [{signal.units}]"]
     rows = zip(signal.time.tolist(), signal.angle.tolist(), signal.values.tolist(), strict=True)

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.quantities import bearings, load, losses, motion, signals, single_studies
+from tribodyn.quantities import bearings, load, losses, motion, signals, single_studies, wear
 from tribodyn.quantities.quantity import Quantity
 
 QUANTITIES: Mapping[str, Quantity] = {
     quantity.name: quantity
-    for module in (motion, losses, load, single_studies, bearings, signals)
+    for module in (motion, losses, load, single_studies, bearings, signals, wear)
     for quantity in module.QUANTITIES
 }
 

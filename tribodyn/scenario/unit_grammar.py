@@ -90,6 +90,7 @@ COMMON_UNITS: dict[str, dict[str, float]] = {
     "dynamic viscosity": {"Pa*s": 1.0, "mPa*s": 0.001},
     "pressure-viscosity coefficient": {"1/Pa": 1.0, "1/GPa": 1e-09, "1/MPa": 1e-06},
     "temperature coefficient": {"1/K": 1.0},
+    "wear coefficient": {"m**2/N": 1.0, "m^2/N": 1.0, "mm**3/(N*m)": 1e-09, "mm**3/J": 1e-09},
 }
 
 _COMMA = re.compile(r"\s*(?P<before>[+-]?\d+),(?P<after>\d+)(?P<rest>[^,]*)", re.ASCII)

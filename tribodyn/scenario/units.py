@@ -245,6 +245,7 @@ TEMPERATURE_DIFFERENCE = Kind("temperature difference", "K", "17.38 K")
 EXPANSION = Kind("thermal expansion", "1/K", "8.36e-4 1/K")
 ACCELERANCE = Kind("acceleration per force", "1/kg", "0.05 m/s**2/N")
 VELOCITY = Kind("velocity", "m/s", "2 m/s")
+WEAR_COEFFICIENT = Kind("wear coefficient", "m**2/N", "1e-18 m**2/N")
 
 #: Quantities that a tooth family or a law may have a key of, by name: `numerics.parameter.Parameter.kind`.
 QUANTITIES = {
@@ -270,5 +271,6 @@ QUANTITIES = {
         VISCOSITY,
         PRESSURE_VISCOSITY,
         PER_KELVIN,
+        WEAR_COEFFICIENT,
     )
 }

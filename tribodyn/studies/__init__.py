@@ -14,6 +14,7 @@ STUDIES: Registry[Study] = Registry(
         "gear-train": "tribodyn.studies.gear_train:STUDY",
         "efficiency": "tribodyn.studies.efficiency:STUDY",
         "load-contact": "tribodyn.studies.load_contact:STUDY",
+        "wear": "tribodyn.studies.wear:STUDY",
         "ehl": "tribodyn.studies.ehl:STUDY",
         "irefc": "tribodyn.studies.rolling:STUDY",
         "backlash-oscillator": "tribodyn.studies.backlash_oscillator:STUDY",

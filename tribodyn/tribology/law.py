@@ -133,6 +133,11 @@ def _values_type(names: tuple[str, ...]) -> Any:
     return namedtuple("Values", names)
 
 
+def values_of(values: Mapping[str, Any]) -> Any:
+    """The parameters of a law that has no other than its own keys."""
+    return _values_type(tuple(values))(**values)
+
+
 @dataclass(frozen=True, eq=False)
 class KeyedLaw:
     """What laws have in common that a scenario chooses by name, with keys of their own."""
@@ -204,7 +209,7 @@ class KeyedLaw:
                 raise InputError(f"{self.table}.{key.name}", None, rule, f"give it: {key.about}")
         if self.parameters is not None:
             return self.parameters(given, **full)
-        return _values_type(tuple(full))(**full)
+        return values_of(full)
 
     def with_values(self, **values: float) -> Self:
         """Return the law with other values of its keys, in SI units, where none are given."""

@@ -106,7 +106,7 @@ def test_torques_balance_with_the_friction_s_arm(pair, friction):
 def test_loads_do_not_know_of_batches(monkeypatch, pair):
     roll = extended_rolls(pair.assembly, (-0.3, 0.4), 5)
     whole = LoadedFlanks(pair, slices=3).share(roll, 200.0, 0.05, 2e-6 * np.cos(9.0 * roll))
-    monkeypatch.setattr(load_sharing, "_ENTRIES", 300)
+    monkeypatch.setattr(load_sharing, "ENTRIES", 300)
     for first, second in zip(
         whole, LoadedFlanks(pair, slices=3).share(roll, 200.0, 0.05, 2e-6 * np.cos(9.0 * roll)), strict=True
     ):

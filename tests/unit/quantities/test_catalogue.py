@@ -7,7 +7,7 @@ import pytest
 from pint import UnitRegistry
 
 from tools.summary_table import tables
-from tribodyn.quantities import bearings, load, losses, motion, signals, single_studies
+from tribodyn.quantities import bearings, load, losses, motion, signals, single_studies, wear
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.quantities.quantity import SHOWN, Quantity
 from tribodyn.studies import STUDIES
@@ -17,7 +17,7 @@ STANDARDS = {quantity.name for quantity in load.STANDARDS}
 
 
 def test_no_name_means_two_things():
-    modules = (bearings, load, losses, motion, signals, single_studies)
+    modules = (bearings, load, losses, motion, signals, single_studies, wear)
     names = [quantity.name for module in modules for quantity in module.QUANTITIES]
     assert len(names) == len(set(names)) == len(QUANTITIES)
 
@@ -39,7 +39,9 @@ def test_studies_report_what_the_catalogue_defines(kind: str):
 @pytest.mark.parametrize("unit", [unit for unit in SHOWN if unit not in ("", "%")])
 def test_numbers_are_shown_in_their_unit(unit: str):
     quantity, units = Quantity("length", "Length", unit), UnitRegistry(autoconvert_offset_to_baseunit=True)
-    value = units.Quantity(300.0, quantity.si.replace("m2", "m**2")).to(unit.replace("mm µm", "mm*µm"))
+    value = units.Quantity(300.0, quantity.si.replace("m2", "m**2").replace("m3", "m**3")).to(
+        unit.replace("mm µm", "mm*µm")
+    )
     assert quantity.in_unit(np.array([300.0])) == pytest.approx(value.magnitude, rel=1e-12)
 
 

@@ -109,6 +109,7 @@ LARGE = {
     "efficiency": [("output.samples_per_cycle", 10**9)],
     "load-contact": [("output.positions_per_cycle", 10**9), ("output.cycles", 10**9)],
     "ehl": [("output.positions", 10**9)],
+    "wear": [("output.positions_per_cycle", 10**9)],
     "irefc": [("output.samples_per_cycle", 10**9)],
     "backlash-oscillator": [("frequency.from", 1e-29)],
     "assessment": [("assessment.speeds", 10**9)],

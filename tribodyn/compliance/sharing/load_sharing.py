@@ -43,8 +43,8 @@ from tribodyn.tribology.contact import averaged_radius
 DEPTH = 0.25
 LEVEL = 2
 
-# Entries of the systems solved at a time: 16 MB, and a few times that while they are solved.
-_ENTRIES = 2_000_000
+#: Entries of the systems solved at a time: 16 MB, and a few times that while they are solved.
+ENTRIES = 2_000_000
 
 
 class SharedLoad(NamedTuple):
@@ -132,7 +132,7 @@ def half_width(
 def in_batches(shape: tuple[int, ...]) -> list[slice]:
     """Part positions of arrays (position, pair, slice) so that the systems of a part bound the memory."""
     positions, pairs, slices = shape
-    most = max(1, _ENTRIES // (pairs * slices) ** 2)
+    most = max(1, ENTRIES // (pairs * slices) ** 2)
     return [slice(first, min(positions, first + most)) for first in range(0, positions, most)]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.helix import normal_slope, overlap_ratio, roll_shift
+from tribodyn.geometry.helix import normal_slope, overlap_ratio, pitch_slope, roll_shift
 from tribodyn.geometry.path import radius
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.mesh.cycle import MeshCycle
@@ -50,6 +50,30 @@ def places_of(assembly: Assembly, mesh: MeshData, cycle: MeshCycle) -> tuple[Pai
     return tuple(_side(assembly, mesh, cycle, side) for side in sides)
 
 
+def flank_places(
+    assembly: Assembly, roll: Float[Array, " node"], face: Float[Array, " slice"], side: int = 1
+) -> tuple[FlankPlaces, FlankPlaces]:
+    """Places of pinion and gear at roll angles (rad) of a pair in its own section, in sections `face` (m).
+
+    Of the driving flanks (`side` 1), or of the back flanks (−1).
+    """
+    (begin, end), pitch = assembly.roll_limits, float(assembly.pitch_angle)
+    distance = np.asarray(assembly.path.signed_distance(np.clip(roll, min(begin, end), max(begin, end))))
+    angle = np.asarray(assembly.path.pressure_angle(distance)) * np.ones(len(roll))
+    late = np.asarray(roll_shift(assembly, face)) * np.ones(len(face))
+    # of the tooth that its driving flank would touch now in mid-face
+    drawn = (roll if side > 0 else pitch / 2.0 - roll) + late[:, None]
+    psi = half_angles(assembly)
+    ratio = float(assembly.path.pinion_pitch_radius / assembly.path.gear_pitch_radius)
+    lean = 1.0 / np.sqrt(1.0 + normal_slope(float(pitch_slope(assembly)), angle) ** 2)
+    reach = np.asarray(radius(assembly.path, distance))
+    driver = FlankPlaces(roll, distance, reach, angle, lean, face, drawn - psi[0])
+    # on the back side the driven tooth is one pitch behind that of the driver's number
+    of_driven = psi[1] + ratio * (drawn if side > 0 else drawn - pitch)
+    driven = driver._replace(radius=np.asarray(radius(assembly.path_of("gear"), -distance)), turned=of_driven)
+    return driver, driven
+
+
 def _side(assembly: Assembly, mesh: MeshData, cycle: MeshCycle, side: int) -> PairPlaces:
     begin, end = (float(limit) for limit in assembly.roll_limits)
     pitch, slices = float(assembly.pitch_angle), cycle.slices
@@ -75,19 +99,7 @@ def _side(assembly: Assembly, mesh: MeshData, cycle: MeshCycle, side: int) -> Pa
         driven_number = driver_number + 1.0
     start = (at[..., None] - side * late - low) * per_pitch
 
-    roll = begin + pitch * nodes
-    distance = np.asarray(assembly.path.signed_distance(np.clip(roll, min(begin, end), max(begin, end))))
-    angle = np.asarray(assembly.path.pressure_angle(distance)) * np.ones(len(nodes))
-    # of the tooth that its driving flank would touch now in mid-face
-    drawn = (roll if side > 0 else pitch / 2.0 - roll) + pitch * late[:, None]
-    psi = half_angles(assembly)
-    ratio = float(assembly.path.pinion_pitch_radius / assembly.path.gear_pitch_radius)
-    lean = 1.0 / np.sqrt(1.0 + normal_slope(float(cycle.pitch_slope), angle) ** 2)
-    reach = np.asarray(radius(assembly.path, distance))
-    driver = FlankPlaces(roll, distance, reach, angle, lean, face, drawn - psi[0])
-    # on the back side the driven tooth is one pitch behind that of the driver's number
-    of_driven = psi[1] + ratio * (drawn if side > 0 else drawn - pitch)
-    driven = driver._replace(radius=np.asarray(radius(assembly.path_of("gear"), -distance)), turned=of_driven)
+    driver, driven = flank_places(assembly, begin + pitch * nodes, face, side)
     shape = start.shape[0], start.shape[1] * slices
     numbers = [np.repeat(each, slices, axis=1) for each in (driver_number, driven_number)]
     return PairPlaces(driver, driven, start.reshape(shape), side * per_pitch, *numbers)

@@ -201,6 +201,7 @@ class PageMap(NamedTuple):
     face: np.ndarray  # (slices,); place on the face from its middle, m
     values: np.ndarray  # (positions, slices); SI; NaN: left blank
     top: float = 100.0  # percentile of the values at the top of the scale of colours
+    title: str = ""  # default: the dataset's, of one pair
 
 
 def map_data(record: Record, found: PageMap) -> dict[str, Any]:
@@ -208,7 +209,7 @@ def map_data(record: Record, found: PageMap) -> dict[str, Any]:
     values, unit = in_engineers_units(found.values, record.units(found.name))
     return {
         "name": found.name,
-        "title": f"{_title(record, found.name)}, of one pair from entry to exit",
+        "title": found.title or f"{_title(record, found.name)}, of one pair from entry to exit",
         "unit": unit,
         "x": packed(np.degrees(found.roll)),
         "y": packed(found.face * 1e3),

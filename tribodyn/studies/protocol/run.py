@@ -18,6 +18,7 @@ from tribodyn.studies.protocol.study import CaseHead, Progress, RunResult
 from tribodyn.train.links.law import LinkLaw
 from tribodyn.tribology.closure import with_laws
 from tribodyn.tribology.law import FilmData, FilmLaw, FrictionData, FrictionLaw, KeyedLaw
+from tribodyn.tribology.wear.law import WearData, WearLaw
 
 
 def run(
@@ -26,6 +27,7 @@ def run(
     *,
     film: FilmLaw | Callable[..., Any] | None = None,
     friction: FrictionLaw | Callable[..., Any] | None = None,
+    wear: WearLaw | Callable[..., Any] | None = None,
     links: Mapping[str, LinkLaw | Callable[..., Any]] | None = None,
     force: bool = False,
     progress: Progress | None = None,
@@ -46,6 +48,8 @@ def run(
     friction : FrictionLaw or function, optional
         Takes the place of the scenario's friction law; keys of its own have the values of
         `FrictionLaw.with_values`. The keys ``sliding`` and ``reversal_width`` of the scenario stay.
+    wear : WearLaw or function, optional
+        Takes the place of the scenario's wear law, in the same way.
     links : LinkLaw or function by name, optional
         Take the places of the laws of a train's links and compliant shafts of these names.
     force : replace an existing record
@@ -66,7 +70,7 @@ def run(
     InputError
         Before anything is written; also for a law that the case has no place for.
     """
-    for table, law in (("film", film), ("friction", friction)):
+    for table, law in (("film", film), ("friction", friction), ("wear", wear)):
         if law is not None:
             case = with_law(case, table, law)
     for name, link_law in (links or {}).items():
@@ -75,19 +79,23 @@ def run(
     return STUDIES[case.kind].run(case, output, progress=progress, **how)
 
 
-def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw | Callable[..., Any]) -> CaseHead:
-    """Return the case under a law from Python in place of its law in `table`, "film" or "friction".
+def with_law(
+    case: CaseHead, table: str, law: FilmLaw | FrictionLaw | WearLaw | Callable[..., Any]
+) -> CaseHead:
+    """Return the case under a law from Python in place of its law in `table`: "film", "friction", "wear".
 
     Its scenario, which the record of a run holds, names the law as one from Python: it cannot be loaded
     again. Raises InputError if the case has no such law, or what is given is none.
     """
-    own = _from_python(table, law, FilmLaw if table == "film" else FrictionLaw)
+    own = _from_python(table, law, {"film": FilmLaw, "friction": FrictionLaw, "wear": WearLaw}[table])
     old: Any = getattr(case, table, None)
-    if not isinstance(old, FilmData | FrictionData):
+    if not isinstance(old, FilmData | FrictionData | WearData):
         rule = f'a case of kind "{case.kind}" has no {table} law'
         raise InputError(table, quoted(own.name.removeprefix(FROM_PYTHON)), rule, "omit it")
     data = tomllib.loads(case.toml)
     data[table] = _naming(data.get(table, {}), own, old.values)
+    if table == "wear":
+        return replace(_written(case, data), wear=WearData(own))  # pyright: ignore[reportCallIssue]
     laws: dict[str, Any] = {table: own}
     return with_laws(cast(Any, _written(case, data)), **laws)
 

@@ -1,0 +1,220 @@
+"""From a case of the wear study to its record; a run that goes on from what another one left."""
+
+import math
+import tomllib
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from tribodyn.compliance.sharing.flank_gap import check_modifications
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
+from tribodyn.compliance.sharing.loaded_contact import check_contact
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.geometry.body import geometry_arrays
+from tribodyn.geometry.helix import pitch_slope
+from tribodyn.mesh.teeth.fields import LEADING, TRAILING
+from tribodyn.mesh.teeth.places import flank_places
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.sources import computing_digest
+from tribodyn.record.previous import Origin, keep_previous
+from tribodyn.record.reader import Record
+from tribodyn.record.schema import partial_path, require_same_code
+from tribodyn.record.writer import check_target
+from tribodyn.studies.gears.check import oil_data, sheet_and_stiffness
+from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
+from tribodyn.studies.wear.case import BODIES, WearCase, layout_of, recorded_at
+from tribodyn.studies.wear.outcome import row_of, state_of, summary_of
+from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage
+from tribodyn.studies.wear.places import places_of
+from tribodyn.studies.wear.steps import march, unworn
+from tribodyn.studies.wear.worn_files import check_profiles, write_profiles
+from tribodyn.tribology.wear import wear_law_of
+
+#: Keys in which the scenario of a run that goes on may differ from that of the record.
+_MAY_DIFFER = (("wear", "revolutions"), ("output", "every"))
+
+
+def prepare(case: WearCase) -> Wearing:
+    """Check geometry, modifications and load, and lay out positions and nodes; raises InputError."""
+    flanks = flanks_of(case)
+    check_contact(flanks, case.operating.gear_torque)
+    law = wear_law_of(case.wear)
+    places = places_of(flanks, case.operating.gear_torque, case.positions_per_cycle, case.mesh.early)
+    own = own_gaps(flanks, places.node, case) if any(case.teeth) else None
+    return Wearing(case, places, law, law.made(None, dict(case.wear.values)), own)
+
+
+def own_gaps(flanks: LoadedFlanks, node: Float[Array, " node"], case: WearCase) -> Depths:
+    """What is missing at the nodes of every tooth from the beginning, m, pitch errors apart."""
+    found = []
+    faces = flank_places(flanks.flexible.assembly, node, np.asarray(flanks.face()))
+    for own, flank, at, count in zip(case.teeth, (LEADING, TRAILING), faces, case.counts, strict=True):
+        gaps = np.zeros((count, len(node), flanks.slices))
+        for tooth in range(count):
+            for each in own:
+                if (more := each.fields(tooth, flank, at)) is not None:
+                    gaps[tooth] += more.gap.T
+        found.append(gaps)
+    return found[0], found[1]
+
+
+def flanks_of(case: WearCase) -> LoadedFlanks:
+    """The flanks as they are made, and their elasticity by finite elements."""
+    assembly, mesh = assembled(case), case.mesh
+    check_modifications(assembly, mesh.modifications)
+    flexible = flexibility(assembly, case.materials, lead=mesh.slice_coupling and mesh.slices > 1)
+    return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
+
+
+def check(case: WearCase) -> CheckResult:
+    """Check a case, and say what gears it describes and how stiff they are."""
+    flanks = prepare(case).places.held.flanks
+    alone, unmodified, assembly = np.zeros((1, 1)), LoadedFlanks(flanks.flexible), flanks.flexible.assembly
+    shared = unmodified.share(alone, case.operating.gear_torque)
+    angle = float(assembly.path.pressure_angle(0.0))
+    cosine = 1.0 / math.hypot(1.0, float(pitch_slope(assembly)) * math.cos(angle))
+    load = float(shared.normal_load[0, 0])
+    stiffness = load / float(shared.deflection[0]) / math.cos(angle)  # both along the path of contact
+    checked = sheet_and_stiffness(
+        assembly,
+        case.materials,
+        "finite elements",
+        (load * cosine, stiffness * cosine),
+        None,
+        "",
+        case.operating.gear_torque,
+    )
+    law = wear_law_of(case.wear)
+    values = law.made(None, dict(case.wear.values))._asdict()
+    return checked._replace(data={**checked.data, "wear": {"law": law.name, **values}})
+
+
+def run(
+    case: WearCase,
+    output: str | Path | None = None,
+    *,
+    force: bool = False,
+    progress: Progress | None = None,
+    resume: bool = False,
+    client: Any = None,
+) -> RunResult:
+    """Run a case and write its record, and the worn profiles beside it; see `study.Study.run`.
+
+    With `resume` it goes on from the record of a run of the same scenario with fewer revolutions, which it
+    then replaces, or from what an interrupted run left.
+    """
+    path = Path(output) if output is not None else Path(f"{case.name}.h5")
+    before = _recorded(case, path) if resume and not force else {}
+    replace = force or bool(before)
+    check_profiles(path, force)
+    path = target(case, path, replace)
+    if replace and not force:
+        keep_previous(path, Origin(case.kind, case.scenario_file))
+    begun = perf_counter()
+    study = prepare(case)
+    known = len(before.get("revolutions", ()))
+    rows = recorded_at(case, float(before["revolutions"][-1])) if known else recorded_at(case)
+    start = state_of(study, {name: values[-1] for name, values in before.items()}) if known else unworn(study)
+    how: dict[str, Any] = {"force": replace, "code": computing_digest(), **_beside(study)}
+    with writer(case, path, layout_of(case), known + len(rows), **how) as record:
+        if known:
+            record.write(0, before)
+        first = {name: values[0] for name, values in before.items()}
+        row, at = {name: values[-1] for name, values in before.items()}, None
+        try:
+            for state, at in march(study, start, rows):
+                block = row_of(study, state, at)
+                record.write(record.written, block)
+                row = {name: values[0] for name, values in block.items()}
+                first = first or row
+                if progress:
+                    progress(state.revolutions / case.revolutions)
+        except SimulationError as error:
+            summary = _summary(study, first, row, at, begun)
+            return RunResult(record.fail(error.reason, summary), "failed", error.reason, summary)
+        summary = _summary(study, first, row, at, begun)
+        summary["files"] = dict(zip(BODIES, map(str, write_profiles(study, row, path, force)), strict=True))
+        return RunResult(record.finish(summary), "complete", "", summary)
+
+
+def quantities_of(case: WearCase) -> dict[str, Any]:
+    """Quantities of a case without a record; raises InputError or SimulationError."""
+    study, begun = prepare(case), perf_counter()
+    every = list(march(study, unworn(study), recorded_at(case)))
+    ends = [{name: values[0] for name, values in row_of(study, *every[i]).items()} for i in (0, -1)]
+    return _summary(study, ends[0], ends[1], every[-1][1], begun)
+
+
+def _summary(
+    study: Wearing, first: Mapping[str, Any], last: Mapping[str, Any], at: WearPassage | None, begun: float
+) -> dict[str, Any]:
+    if at is None:
+        return {"wall_time": perf_counter() - begun}
+    found = summary_of(study, dict(first), dict(last), at)
+    oil = {} if study.case.lubricated is None else {"lubricant": oil_data(study.case.lubricated.lubricant)}
+    return found | oil | {"wall_time": perf_counter() - begun}
+
+
+def _beside(study: Wearing) -> dict[str, Any]:
+    """Scales and groups of a record."""
+    case, places, assembly = study.case, study.places, study.places.held.flanks.flexible.assembly
+    path, (start, end) = assembly.path, assembly.roll_limits
+    pinion, gear = case.counts
+    numbers = {
+        "pinion_pitch_radius": float(path.pinion_pitch_radius),
+        "gear_pitch_radius": float(path.gear_pitch_radius),
+        "pinion_teeth": float(pinion),
+        "face_width": places.held.flanks.flexible.width,
+        "contact_ratio": float(assembly.contact_ratio),
+        "roll_start": start,
+        "roll_end": end,
+        "pitch_slope": float(pitch_slope(assembly)),
+    }
+    scales = {
+        "body": np.array(BODIES),
+        "roll": places.node,
+        "slice": np.asarray(places.held.flanks.face()),
+        "cycle": np.arange(case.cycles),
+        "phase": places.phase,
+    }
+    if case.each_tooth:
+        scales |= {"pinion_tooth": np.arange(pinion), "gear_tooth": np.arange(gear)}
+    return {"groups": {"mesh_cycle": numbers, "geometry": geometry_arrays(assembly)}, "scales": scales}
+
+
+def _recorded(case: WearCase, path: Path) -> dict[str, np.ndarray]:
+    """Rows of the run that this one goes on from, all its datasets; none where there is no such run.
+
+    Raises InputError if there is one of another scenario or of other code, or one that is longer.
+    """
+    partial = partial_path(path)
+    found = partial if partial.exists() else path
+    if not found.exists():
+        return {}
+    check_target(path, force=True)
+    with Record(found) as record:
+        remedy = "move it away, or --force to begin anew"
+        if record.kind != case.kind or _kept(record.attrs["scenario"]) != _kept(case.toml):
+            raise InputError("--resume", str(found), "made from another scenario", remedy)
+        require_same_code(record.attrs, found)
+        rows = {name: record[name] for name in record}
+    done = float(rows["revolutions"][-1]) if len(rows["revolutions"]) else 0.0
+    if found == path and done >= case.revolutions:
+        rule = f"the record reaches {done:g} revolutions already"
+        raise InputError("wear.revolutions", f"{case.revolutions:g}", rule, "write a larger number")
+    return {name: values[rows["revolutions"] <= case.revolutions] for name, values in rows.items()}
+
+
+def _kept(toml: str) -> dict[str, Any]:
+    """A scenario without the keys that a run which goes on may change, and without its names."""
+    data = tomllib.loads(toml)
+    for table, key in _MAY_DIFFER:
+        with suppress(KeyError):
+            del data[table][key]
+    return {key: value for key, value in data.items() if key not in ("title", "name")}
