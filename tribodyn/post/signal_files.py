@@ -48,7 +48,8 @@ def write_signals(
 
 def as_csv(signal: SensorSignal) -> str:
     """A signal as a CSV file: time, rotation of the reference, values, each with its unit."""
-    about = f"{WRITTEN['.csv'].decode()}: signal of the sensor {signal.name}, {signal.about}, {signal.rate:.12g} Hz"
+    mark = WRITTEN[".csv"].decode()
+    about = f"{mark}: {signal.name}, {signal.about}, {signal.rate:.12g} Hz"
     name = signal.name.replace(",", " ")
     lines = [about, f"time [s],reference_angle [rad],{name} [{signal.units}]"]
     rows = zip(signal.time.tolist(), signal.angle.tolist(), signal.values.tolist(), strict=True)
