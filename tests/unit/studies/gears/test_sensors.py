@@ -168,6 +168,51 @@ def test_a_pinion_that_runs_out_shows_once_per_turn(tmp_path: Path):
     assert found.at(2.0, 0) < 0.01 * found.at(1.0, 0)
 
 
+def cracked(folder: Path, tooth: int | None) -> np.ndarray:
+    """Difference signal of the pinion, of an accelerometer with noise, where one of its teeth is cracked."""
+    scenario = tomllib.loads(load_scenario("crack-18-36", {"solver.revolutions": 12}).toml)
+    scenario["sensor"] = [sensor("moved", "acceleration", at="pinion", snr=20.0) | {"rate": "15 kHz"}]
+    if tooth is None:
+        scenario.pop("damage")
+    else:
+        scenario["damage"][0]["tooth"] = tooth
+    with Record(written(folder, scenario, f"tooth-{tooth}")) as record:
+        moved = read_sensed(record)["moved"]
+    return signals.difference(signals.synchronous_average(moved.values, moved.turns, 1500).values, [18])
+
+
+def test_a_cracked_tooth_shows_once_per_revolution_where_it_is(tmp_path: Path):
+    """Nearly all that is left is at the place of that tooth; of sound teeth only noise is left."""
+    sound, fifth, eleventh = (cracked(tmp_path, tooth) for tooth in (None, 5, 11))
+    assert signals.fm4(sound) == pytest.approx(3.0, abs=0.5)
+    for found in (fifth, eleventh):
+        assert signals.fm4(found) > 10.0
+        peak = int(np.argmax(np.abs(found)))
+        near = np.roll(found, len(found) // 2 - peak)[len(found) // 2 - 160 : len(found) // 2 + 160]
+        assert np.sum(near**2) > 0.75 * np.sum(found**2)
+    apart = (np.argmax(np.abs(eleventh)) - np.argmax(np.abs(fifth))) / len(fifth) * 18.0
+    assert apart == pytest.approx(6.0, abs=0.1)
+
+
+def test_orders_follow_a_shaft_that_speeds_up(tmp_path: Path):
+    """While the speed rises by a fifth, lines stay at whole orders of the mesh; over frequency they smear."""
+    scenario = tomllib.loads(load_scenario("run-up", {"solver.cycles": 200}).toml)
+    scenario["sensor"] = [sensor("moved", "acceleration", at="pinion") | {"rate": "4 kHz"}]
+    with Record(written(tmp_path, scenario, "run-up")) as record:
+        moved = read_sensed(record)["moved"]
+    speed = np.gradient(moved.turns, moved.time)
+    assert speed[-1] > 1.2 * speed[0]
+    found = signals.order_spectrum(moved.values, moved.turns)
+    for k in (1, 2):
+        around = np.abs(found.frequencies - 23.0 * k) < 1.0
+        line = found.frequencies[around][np.argmax(found.amplitudes[around])]
+        assert line == pytest.approx(23.0 * k, abs=1.5 * found.step)
+    smeared = signals.spectrum(moved.values, moved.rate)
+    mesh = 23.0 * np.array([speed[0], speed[-1]])
+    between = (smeared.frequencies > mesh[0]) & (smeared.frequencies < mesh[1])
+    assert found.at(23.0) > 1.5 * np.max(smeared.amplitudes[between])
+
+
 def test_planets_that_pass_modulate_what_a_ring_hears(tmp_path: Path):
     """Lines at the mesh ± planets passing; without weights (a sum of all planets' forces) there are none."""
     overrides = {"solver.cycles": 100, "output.samples_per_cycle": 40}
