@@ -40,6 +40,7 @@ SIZES = [
     Size("gear-pair", {"mesh__points": 1501}),
     Size("efficiency", {"output__samples_per_cycle": 2500}),
     Size("load-contact", {"output__positions_per_cycle": 800, "mesh__slices": 3}),
+    Size("wear", {"output__positions_per_cycle": 400}),
     Size("irefc", {"output__samples_per_cycle": 2000}),
     Size("backlash-oscillator", {}),
 ]
