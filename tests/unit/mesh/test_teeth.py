@@ -129,6 +129,9 @@ def test_bad_input_is_one_message():
     wrong = {
         "drive.pinion.eccentricity_angle": "10 deg",
         "drive.gear.modification.tooth_formula": "open('x')",
+        "drive.pinion.modification.tooth_formula": "i**i**i**i",
+        "drive.pinion.eccentricity": "3 mm",
+        "drive.gear.wobble": "5 deg",
     }
     for key, value in wrong.items():
         with pytest.raises(td.InputError) as caught:

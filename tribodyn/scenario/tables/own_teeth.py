@@ -26,6 +26,9 @@ from tribodyn.scenario.tables.model_files import DriveTable, FlankErrors, Gear
 from tribodyn.scenario.tables.quality import tolerances_of
 from tribodyn.standards.flank_tolerances import FlankTolerances
 
+#: Error of a tooth over the module, at most.
+LARGEST = 0.25
+
 ToothSampleNumber = Annotated[
     Annotated[int, Field(strict=True, ge=0, le=2**31 - 1), Draws()] | None,
     Field(
@@ -115,14 +118,41 @@ def broken_own_teeth(drive: DriveTable, sample: int | None) -> Iterator[InputErr
         if table.tooth_errors is not None:
             yield from _broken_table(f"{key}.tooth_errors", table.tooth_errors, gear)
         if table.tooth_formula is not None:
-            try:
-                formula_value(table.tooth_formula, 0, gear.teeth, np.linspace(0.0, 1.0, 3), np.zeros((1, 1)))
-            except FormulaError as error:
-                remedy = 'write micrometres over i, z, h and f, such as "3*sin(2*pi*i/z)"'
-                yield InputError(f"{key}.tooth_formula", f'"{table.tooth_formula}"', str(error), remedy)
+            yield from _broken_formula(f"{key}.tooth_formula", table.tooth_formula, gear, drive.module)
+        for name, size in _sizes(gear):
+            if size > LARGEST * drive.module:
+                rule = (
+                    f"more than a quarter of the module, {shown_length(LARGEST * drive.module)}, is no error"
+                )
+                yield InputError(f"drive.{side}.{name}", shown_length(size), rule, "check the unit")
     if sample is not None and None in tolerances_of(drive):
         rule = "is taken from the tolerances of both gears, and they have no quality"
         yield InputError("mesh.tooth_sample", sample, rule, "add quality = 6 to [drive]")
+
+
+def _sizes(gear: Gear) -> Iterator[tuple[str, float]]:
+    """Keys of errors that are lengths, and how large these are, m."""
+    table = gear.modification
+    yield "eccentricity", gear.eccentricity
+    yield "wobble", gear.wobble * gear.face_width / 2.0
+    yield "modification.pitch_errors", max(map(abs, table.pitch_errors), default=0.0)
+    if table.tooth_errors is not None:
+        yield "modification.tooth_errors", float(np.max(np.abs(table.tooth_errors.in_si()[3])))
+
+
+def _broken_formula(key: str, formula: str, gear: Gear, module: float) -> Iterator[InputError]:
+    """Refuse what is no formula of every tooth, or of errors that are none."""
+    height, face = np.linspace(0.0, 1.0, 9), np.array([[-0.5], [0.0], [0.5]])
+    try:
+        values = [formula_value(formula, tooth, gear.teeth, height, face) for tooth in range(gear.teeth)]
+    except FormulaError as error:
+        remedy = 'write micrometres over i, z, h and f, such as "3*sin(2*pi*i/z)"'
+        yield InputError(key, f'"{formula}"', str(error), remedy)
+        return
+    size = 1e-6 * float(np.max(np.abs(values)))
+    if size > LARGEST * module:
+        rule = f"reaches {1e3 * size:.3g} mm: more than a quarter of the module is no error"
+        yield InputError(key, f'"{formula}"', rule, "write micrometres")
 
 
 def _broken_table(key: str, table: FlankErrors, gear: Gear) -> Iterator[InputError]:
