@@ -12,10 +12,12 @@ from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
 from tribodyn.studies.gears.batch.evaluate import evaluate
 from tribodyn.studies.gears.batch.kind import SweptKind
+from tribodyn.studies.gears.batch.signals import SignalBatch, SignalSettings
 from tribodyn.studies.gears.batch.swept import SweepSettings, layout_of, row_bytes
 from tribodyn.studies.protocol import cost
 from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.studies.sweeping.signals import SignalRequest
 
 #: Mesh cycles that the search for a steady state may take, and points of the section of a motion that has no
 #: period.
@@ -113,6 +115,12 @@ class MotionBatch:
             self.kind.refuse(case)
             refuse_time_dependent(model)
 
-    def evaluate(self, chunk: Chunk, settings: SweepSettings, workers: int | None) -> dict[str, np.ndarray]:
+    def hearing(self, request: SignalRequest) -> SignalBatch:
+        """What gives the signals of the cases' sensors in place of motions."""
+        return SignalBatch(self.kind, request)
+
+    def evaluate(self, chunk: Chunk, settings: Any, workers: int | None) -> dict[str, np.ndarray]:
         """Return a row for every case of a chunk, for all datasets of its layout; by default by all cores."""
+        if isinstance(settings, SignalSettings):  # of a worker that was given no more than the settings
+            return SignalBatch(self.kind).evaluate(chunk, settings, workers)
         return evaluate(self.kind, self.layout(settings), chunk, settings, workers)

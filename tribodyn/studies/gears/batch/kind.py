@@ -14,6 +14,7 @@ from tribodyn.studies.gears.batch.swept import SweepSettings
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.running import MeshOfRun
 from tribodyn.studies.gears.over_time.sampled import Sampled
+from tribodyn.studies.gears.sensed.listening import Listener
 from tribodyn.studies.protocol.cost import Driver, Estimate
 
 #: The mesh whose transmission error a sweep samples.
@@ -33,6 +34,13 @@ class MadeOnce:
 
 
 _tables = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
+
+
+class Pace(NamedTuple):
+    """How fast a case goes."""
+
+    speed: float  # of the reference body, rad/s
+    cycles: float  # of the reference mesh in a turn of it
 
 
 class Form(NamedTuple):
@@ -76,6 +84,14 @@ class SweptKind:
 
     def meshes(self, prepared: Any) -> list[MeshOfRun]:
         """The meshes, as the summary of a run sees them."""
+        raise NotImplementedError
+
+    def pace(self, case: Any) -> Pace:
+        """How fast it goes."""
+        raise NotImplementedError
+
+    def listener(self, prepared: Any) -> Listener:
+        """What listens to its sensors; raises InputError where one cannot."""
         raise NotImplementedError
 
     def frequencies(self, prepared: Any) -> np.ndarray:
