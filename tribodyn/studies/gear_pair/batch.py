@@ -89,7 +89,12 @@ class GearPairs(SweptKind):
 
     def pace(self, case: Case) -> Pace:
         """That of its pinion."""
-        return Pace(case.operating.pinion_speed, abs(float(case.drive.pinion.teeth)))
+        teeth = [abs(float(gear.teeth)) for gear in (case.drive.pinion, case.drive.gear)]
+        return Pace(case.operating.pinion_speed, teeth[0], max(teeth))
+
+    def differ(self, case: Case) -> bool:
+        """Whether one of its gears has teeth that do."""
+        return any(case.teeth)
 
     def listener(self, prepared: PreparedPair) -> Listener:
         """See `sensed.listener_of`."""

@@ -77,7 +77,13 @@ class Trains(SweptKind):
     def pace(self, case: TrainCase) -> Pace:
         """That of the body that drives the first mesh."""
         speed = case.source.speed / float(case.bodies[case.source.body].ratio)
-        return Pace(speed, abs(float(case.meshes[0].pair.drive.pinion.teeth)) * rolling_of(case))
+        cycles = abs(float(case.meshes[0].pair.drive.pinion.teeth)) * rolling_of(case)
+        slowest = min(float(body.ratio) for body in case.bodies if body.gears and body.ratio)
+        return Pace(speed, cycles, cycles / slowest)
+
+    def differ(self, case: TrainCase) -> bool:
+        """Whether one of its gears has teeth that do."""
+        return any(any(mesh.pair.teeth) for mesh in case.meshes)
 
     def listener(self, prepared: PreparedTrain) -> Listener:
         """See `sensed.listener_of`."""

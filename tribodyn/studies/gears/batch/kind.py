@@ -3,11 +3,13 @@
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from math import ceil
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Variable
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.studies.gears.batch.swept import SweepSettings
@@ -41,6 +43,7 @@ class Pace(NamedTuple):
 
     speed: float  # of the reference body, rad/s
     cycles: float  # of the reference mesh in a turn of it
+    slowest: float  # and in a turn of the gear that turns slowest
 
 
 class Form(NamedTuple):
@@ -79,11 +82,27 @@ class SweptKind:
         """Prepare a case with tables of its `table_key`; raises InputError."""
         raise NotImplementedError
 
-    def refuse(self, case: Any) -> None:
+    def refuse_steady(self, case: Any) -> None:
         """Raise InputError for a case that has no steady state that could be sought."""
+        if self.differ(case):
+            turn = ceil(self.pace(case).slowest)
+            rule = "teeth of a gear differ: no steady state repeats with the mesh, and none is sought"
+            remedy = (
+                f"march: --transient {10 * turn} ({turn} mesh cycles are a turn of the slowest gear), or "
+            )
+            remedy += "keep what sensors hear: --signals 1s"
+            raise InputError("--steady", None, rule, remedy)
+        self.refuse(case)
+
+    def refuse(self, case: Any) -> None:
+        """Raise InputError for a case that has none for a reason of the kind's own."""
 
     def meshes(self, prepared: Any) -> list[MeshOfRun]:
         """The meshes, as the summary of a run sees them."""
+        raise NotImplementedError
+
+    def differ(self, case: Any) -> bool:
+        """Whether teeth of one gear differ, so that no mesh cycle is like the one before."""
         raise NotImplementedError
 
     def pace(self, case: Any) -> Pace:

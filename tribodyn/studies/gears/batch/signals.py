@@ -18,7 +18,7 @@ from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.withheld import remarked, warned
 from tribodyn.sensing.data import KINDS
 from tribodyn.signals.resampling import REACH
-from tribodyn.studies.gears.batch.kind import SweptKind
+from tribodyn.studies.gears.batch.kind import Pace, SweptKind
 from tribodyn.studies.gears.check import remarks_in_brief
 from tribodyn.studies.gears.sensed.heard import BLOCK, Heard, listen
 from tribodyn.studies.protocol import cost
@@ -91,11 +91,8 @@ class SignalBatch:
             raise InputError("sensor", None, "missing: what a data set holds is what sensors hear", remedy)
         rates = [sensor.rate for sensor in base.sensors]
         paces = [self.kind.pace(case) for case in cases]
-        slowest = min(pace.speed * pace.cycles for pace in paces) / (2.0 * pi)  # reference cycles per second
-        samples = max(FEWEST_SAMPLES, ceil(OVERSAMPLED * max(rates) / slowest))
-        plain = SignalSettings(
-            duration, run_in, seed, samples, (), (), (), tuple(rates), (), base.solver.cycles
-        )
+        samples = _samples(rates, paces)
+        plain = SignalSettings(duration, run_in, seed, samples, (), (), (), tuple(rates), (), 0)
         longest = max(stretch_of(case, 0, plain, self.kind).blocks for case in cases)
         plain = plain._replace(cycles=round(run_in * max(p.cycles for p in paces)) + BLOCK * (longest + 1))
         prepared = self._prepared(base, plain)
@@ -203,13 +200,46 @@ class SignalBatch:
             _fill(rows, i, sensed, stretches[i].start, settings, chunk.cases[i].toml)
         return rows
 
-    def _prepared(self, case: Any, settings: SignalSettings, noise_seed: int = 0) -> Any:
-        """The case, sampled and as long as the settings say, its sensors with noise of their own."""
-        sensors = tuple(dataclasses.replace(sensor, seed=noise_seed) for sensor in case.sensors)
+    def heard(
+        self, cases: Sequence[Any], run_in: float, last: float, workers: int | None = None
+    ) -> list[Sensed | str]:
+        """Signals of cases from a turn of the reference body on to a time, s; a text where one fails: why.
+
+        The motion is sampled for the first of the cases. Raises InputError where a sensor cannot listen.
+        """
+        rates = [sensor.rate for sensor in cases[0].sensors]
+        plain = SignalSettings(last, run_in, 0, _samples(rates, [self.kind.pace(cases[0])]), *_NOBODY, 0)
+        paces = [self.kind.pace(case) for case in cases]
+        reach = _AROUND * REACH / min(rates)
+        rate = max(pace.speed * pace.cycles for pace in paces) / (2.0 * pi)  # reference cycles per second
+        first = max(0, floor(run_in * paces[0].cycles - reach * rate))
+        turns = (last + reach) * rate
+        blocks = ceil((turns - first) / BLOCK)
+        ready = []
+        for case in cases:
+            own = self._prepared(case, plain._replace(cycles=first + BLOCK * blocks), None)
+            ready.append(Heard(own.model, self.kind.listener(own), own.case.solver, first, blocks))
+        return listen(ready, plain.samples, workers)
+
+    def _prepared(self, case: Any, settings: SignalSettings, noise_seed: int | None = None) -> Any:
+        """The case, sampled and as long as the settings say, its sensors with noise of a seed."""
+        sensors = case.sensors
+        if noise_seed is not None:
+            sensors = tuple(dataclasses.replace(sensor, seed=noise_seed) for sensor in sensors)
         output = dataclasses.replace(case.output, samples_per_cycle=settings.samples)
         solver = dataclasses.replace(case.solver, cycles=settings.cycles)
         own = dataclasses.replace(case, sensors=sensors, output=output, solver=solver)
         return self.kind.prepare(own, self.kind.tabulated(case))
+
+
+#: Sensors and lines of settings that need none.
+_NOBODY = (), (), (), (), ()
+
+
+def _samples(rates: Sequence[float], paces: Sequence[Pace]) -> int:
+    """Samples of a reference cycle that the fastest sensor asks of the slowest case."""
+    slowest = min(pace.speed * pace.cycles for pace in paces) / (2.0 * pi)  # reference cycles per second
+    return max(FEWEST_SAMPLES, ceil(OVERSAMPLED * max(rates) / slowest))
 
 
 def samples_of(settings: SignalSettings, rate: float) -> int:
