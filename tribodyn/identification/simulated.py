@@ -49,6 +49,8 @@ class Comparison:
         self._last = max((one.first + len(one.values)) / self._sensors[one.sensor].rate for one in measured)
         self.scales = [max(float(np.std(one.values)), 1e-300) for one in measured]
         self.failure = ""
+        base = replace(case, sensors=tuple(self._sensors.values()))
+        self._batch.check(base, self._batch.settings([base], None, "native"))  # what no values will mend
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -43,7 +43,9 @@ def unknowns_of(case: Any, wanted: Mapping[Any, Any]) -> tuple[Unknown, ...]:
         raise InputError("unknowns", len(wanted), "too many at once", f"seek at most {MOST}")
     data = tomllib.loads(case.toml)
     table = study_of(data).table(data)
-    return tuple(_unknown(key, limits, data, table) for key, limits in wanted.items())
+    found = tuple(_unknown(key, limits, data, table) for key, limits in wanted.items())
+    case_at(case, found, shares_of(found))  # raises where the scenario does not know a key
+    return found
 
 
 def _unknown(key: Any, limits: Any, data: Mapping[str, Any], table: Any) -> Unknown:

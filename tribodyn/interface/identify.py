@@ -206,7 +206,7 @@ def _search(method: str, seed: int) -> Any:
 def _identified(case: Any, sought: Sequence[Unknown], compare: Comparison, fit: Fit) -> Identified:
     half = fit.half_width(LEVEL)
     deviations = np.sqrt(np.diag(fit.covariance))
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore"):
         correlation = fit.covariance / np.outer(deviations, deviations)
     parts = dict(zip(compare.names, compare.apart(fit.shares[None])[0], strict=True))
     white = {name: whiteness(part) for name, part in parts.items()}

@@ -177,7 +177,7 @@ def data_set_lines(record: SweepRecord) -> list[str]:
         time = record[shape[name]]
         rate = 1.0 / (time[1] - time[0]) if len(time) > 1 else float("nan")
         lines.append(
-            f"signal {name}: {record.long_name(name)}, {shown_unit(record.units(name))[0]}, "
+            f"signal {name}: {record.long_name(name)}, {record.units(name)}, "
             f"{len(time)} samples at {rate:.6g} Hz"
         )
     told = record.listed

@@ -15,10 +15,10 @@ from tribodyn.scenario.units import NotAQuantity, to_si
 from tribodyn.studies.sweeping.signals import RUN_IN, SignalRequest
 from tribodyn.sweep.grid import Grid
 
-#: Tables of a scenario that labels are made of, and the label of a case that has none with a size.
+#: Tables of a scenario that labels are made of, and the label of a case that has none.
 DAMAGE, SOUND = "damage", "none"
-#: Keys of a damage that say how large it is, the first that it has; a drive's own, where no seed draws it.
-_SIZES = ("depth", "length", "width")
+#: Keys of a damage that say how large it is, the first that it has; keys of a drive, where no seed draws it.
+_SIZES = ("depth", "diameter", "length", "width")
 _OF_A_DRIVE = ("drive.", "bearings.", "gears.", "gear.", "shaft.", "mesh.")
 _DURATION = units.positive(units.TIME)._replace(example="1 s")
 TRAIN, TEST = "train", "test"
@@ -75,7 +75,11 @@ def listed_of(grid: Grid, asked: DataSet, layout: SweepLayout) -> dict[str, List
         "label": (np.array(kind), "1", f"kind of the damage; {SOUND}: the gears are sound"),
         "damage_gear": (np.array(gear), "1", "gear with the damaged tooth; empty: none"),
         "damage_tooth": (np.array(tooth), "1", "number of the damaged tooth, from 1 on; 0: none"),
-        "damage_size": (np.array(size), "m", f"{', else '.join(_SIZES)} of the damage; 0: none"),
+        "damage_size": (
+            np.array(size),
+            "m",
+            f"{', else '.join(_SIZES)} of the damage; 0: none, NaN: no such size",
+        ),
         "drive": (drive, "1", "number of the drive: cases of one drive are the same gears"),
         "split": (split_of(drive, asked), "1", f"{TRAIN} or {TEST}; all cases of a drive on one side"),
     }
@@ -89,32 +93,21 @@ def listed_of(grid: Grid, asked: DataSet, layout: SweepLayout) -> dict[str, List
 
 
 def labels(data: Mapping[str, Any]) -> tuple[str, str, int, float]:
-    """Kind, gear, tooth and size (m) of the damage of a scenario; of several the kinds, and the largest."""
-    known = [_one(table) for table in data.get(DAMAGE, ()) if isinstance(table, Mapping)]
-    known = [each for each in known if each[3] > 0.0]
+    """Kind, gear, tooth and size (m) of the damage of a scenario; of several all kinds, and the first."""
+    known = [table for table in data.get(DAMAGE, ()) if isinstance(table, Mapping)]
     if not known:
         return SOUND, "", 0, 0.0
-    largest = max(known, key=lambda each: each[3])
-    return ("+".join(dict.fromkeys(each[0] for each in known)), *largest[1:])
-
-
-def _one(table: Mapping[str, Any]) -> tuple[str, str, int, float]:
-    size = next((_length(table[key]) for key in _SIZES if key in table), np.inf)
-    gear = str(table.get("gear", ""))
-    number = table.get("planet")
-    return (
-        str(table.get("kind", "")),
-        gear if number is None else f"{gear} {number}",
-        int(table["tooth"]),
-        size,
-    )
+    first = known[0]
+    size = next((_length(first[key]) for key in _SIZES if key in first), float("nan"))
+    kinds = dict.fromkeys(str(table.get("kind", "")) for table in known)
+    return "+".join(kinds), str(first.get("gear", "")), int(first["tooth"]), size
 
 
 def _length(value: Any) -> float:
     try:
         return to_si(value, units.LENGTH)
     except NotAQuantity:  # the scenario's own message is better
-        return np.inf
+        return float("nan")
 
 
 def drives_of(grid: Grid, places: list[np.ndarray]) -> np.ndarray:

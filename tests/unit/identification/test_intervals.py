@@ -47,7 +47,7 @@ def heard():
 
 
 def estimate(heard, seed: int):
-    """Estimates, half widths of their intervals and the truth, as shares of their ranges; and the residual."""
+    """Estimates, half widths of their intervals and the truth, as shares of the ranges; the residual."""
     signal, case = heard
     sought = unknowns_of(case, UNKNOWNS)
     noise = NOISE * np.random.default_rng(seed).standard_normal(len(signal.values))
