@@ -15,7 +15,7 @@ from tribodyn.record.sensors import Sensed, read_sensed
 _ASIDE = 1e-3
 
 
-class Measured(NamedTuple):
+class MeasuredSignal(NamedTuple):
     """Samples of one sensor."""
 
     sensor: str
@@ -23,7 +23,7 @@ class Measured(NamedTuple):
     values: Float[Array, " sample"]
 
 
-def measured_of(given: Any, case: Any, start: float, earliest: float) -> tuple[Measured, ...]:
+def measured_of(given: Any, case: Any, start: float, earliest: float) -> tuple[MeasuredSignal, ...]:
     """Read what was measured: a record with sensors, or arrays by the names of the scenario's sensors.
 
     Arrays begin `start` seconds after the start of the run. What lies before `earliest`, s, is left out.
@@ -50,9 +50,9 @@ def measured_of(given: Any, case: Any, start: float, earliest: float) -> tuple[M
     return cut
 
 
-def _of_record(sensed: Sensed, rates: Mapping[str, float], path: str) -> list[Measured]:
+def _of_record(sensed: Sensed, rates: Mapping[str, float], path: str) -> list[MeasuredSignal]:
     found = [
-        Measured(signal.name, round(float(signal.time[0]) * signal.rate), signal.values)
+        MeasuredSignal(signal.name, round(float(signal.time[0]) * signal.rate), signal.values)
         for signal in sensed.signals
         if signal.name in rates and len(signal.time) and signal.rate == rates[signal.name]
     ]
@@ -62,7 +62,7 @@ def _of_record(sensed: Sensed, rates: Mapping[str, float], path: str) -> list[Me
     return found
 
 
-def _of_array(name: str, values: Any, rates: Mapping[str, float], start: float) -> Measured:
+def _of_array(name: str, values: Any, rates: Mapping[str, float], start: float) -> MeasuredSignal:
     if name not in rates:
         raise unknown_name("measured", name, rates, "sensor")
     try:
@@ -80,9 +80,9 @@ def _of_array(name: str, values: Any, rates: Mapping[str, float], start: float) 
             f"is no moment at which {name} has a sample: these are at multiples of {1.0 / rates[name]:.6g} s"
         )
         raise InputError("start", f"{start:.9g} s", rule, f"write {round(place) / rates[name]:.9g} s")
-    return Measured(name, round(place), array)
+    return MeasuredSignal(name, round(place), array)
 
 
-def _from(found: Measured, earliest: float) -> Measured:
+def _from(found: MeasuredSignal, earliest: float) -> MeasuredSignal:
     left_out = max(0, int(np.ceil(earliest - 1e-6)) - found.first)
-    return Measured(found.sensor, found.first + left_out, found.values[left_out:])
+    return MeasuredSignal(found.sensor, found.first + left_out, found.values[left_out:])

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.identification.measured import Measured
+from tribodyn.identification.measured import MeasuredSignal
 from tribodyn.identification.unknowns import Unknown, case_at
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.sensors import Sensed
@@ -25,14 +25,14 @@ def turn_of(case: Any) -> float:
 FAR = 100.0
 
 
-class Comparison:
+class SignalComparison:
     """Compares a scenario with what was measured, at several places side by side."""
 
     def __init__(
         self,
         case: Any,
         unknowns: Sequence[Unknown],
-        measured: Sequence[Measured],
+        measured: Sequence[MeasuredSignal],
         run_in: float,
         without_mean: bool,
         workers: int | None,

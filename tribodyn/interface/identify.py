@@ -10,7 +10,7 @@ import numpy as np
 from tribodyn.errors import InputError, quoted
 from tribodyn.identification.fit import WHITE, Fit, evolution, fitted, sobol, whiteness
 from tribodyn.identification.measured import measured_of
-from tribodyn.identification.simulated import Comparison, turn_of
+from tribodyn.identification.simulated import SignalComparison, turn_of
 from tribodyn.identification.unknowns import Unknown, case_at, shares_of, unknowns_of
 from tribodyn.interface import shown
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
@@ -160,13 +160,13 @@ def identify(
     if count <= len(sought) + len(data):
         rule = f"{count} samples for {len(sought)} unknowns"
         raise InputError("measured", count, rule, "measure longer, or seek less")
-    compare = Comparison(case, sought, data, run_in, without_mean, workers)
+    compare = SignalComparison(case, sought, data, run_in, without_mean, workers)
     with progress_of(progress, case.name) as report:
         fit = _fit(compare, sought, method, seed, report)
     return _identified(case, sought, compare, fit)
 
 
-def _fit(compare: Comparison, sought: Sequence[Unknown], method: str, seed: int, report: Report) -> Fit:
+def _fit(compare: SignalComparison, sought: Sequence[Unknown], method: str, seed: int, report: Report) -> Fit:
     most = 16.0 * len(sought) + STARTS * len(sought) + 40.0
     done = 0
 
@@ -203,7 +203,7 @@ def _search(method: str, seed: int) -> Any:
         raise InputError("method", '"cma-es"', "needs the package cma", remedy) from None
 
 
-def _identified(case: Any, sought: Sequence[Unknown], compare: Comparison, fit: Fit) -> Identified:
+def _identified(case: Any, sought: Sequence[Unknown], compare: SignalComparison, fit: Fit) -> Identified:
     half = fit.half_width(LEVEL)
     deviations = np.sqrt(np.diag(fit.covariance))
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -6,7 +6,7 @@ import pytest
 import tribodyn as td
 from tribodyn.identification.fit import fitted, whiteness
 from tribodyn.identification.measured import measured_of
-from tribodyn.identification.simulated import Comparison, turn_of
+from tribodyn.identification.simulated import SignalComparison, turn_of
 from tribodyn.identification.unknowns import shares_of, unknowns_of
 
 SCENARIO = {
@@ -52,7 +52,7 @@ def estimate(heard, seed: int):
     sought = unknowns_of(case, UNKNOWNS)
     noise = NOISE * np.random.default_rng(seed).standard_normal(len(signal.values))
     data = measured_of({"te": signal.values + noise}, case, float(signal.time[0]), RUN_IN * turn_of(case))
-    compare = Comparison(case, sought, data, RUN_IN, False, None)
+    compare = SignalComparison(case, sought, data, RUN_IN, False, None)
     found = fitted(compare, [shares_of(sought)])
     truth = shares_of(unknowns_of(td.scenario(SCENARIO, TRUTH), UNKNOWNS))
     return found.shares, found.half_width(0.95), truth, compare.apart(found.shares[None])[0][0]

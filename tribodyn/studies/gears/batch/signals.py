@@ -61,7 +61,7 @@ class SignalSettings(NamedTuple):
     cycles: int  # of the longest run, at the ends of the axes
 
 
-class Stretch(NamedTuple):
+class ListenedStretch(NamedTuple):
     """When a case is listened to."""
 
     first: int  # cycles before
@@ -168,7 +168,7 @@ class SignalBatch:
         """Return a row for every case of a chunk, for all datasets of its layout; by default by all cores."""
         rows = self.layout(settings).empty_rows(len(chunk.cases))
         ready: dict[int, Heard] = {}
-        stretches: dict[int, Stretch] = {}
+        stretches: dict[int, ListenedStretch] = {}
         made = {i: case for i, case in enumerate(chunk.cases) if not isinstance(case, str)}
         for i, case in made.items():
             stretches[i] = stretch_of(case, int(chunk.numbers[i]), settings, self.kind)
@@ -254,7 +254,7 @@ def samples_of(settings: SignalSettings, rate: float) -> int:
     return max(1, round(settings.duration * rate))
 
 
-def stretch_of(case: Any, number: int, settings: SignalSettings, kind: SweptKind) -> Stretch:
+def stretch_of(case: Any, number: int, settings: SignalSettings, kind: SweptKind) -> ListenedStretch:
     """When the case of a number is listened to: from the moment drawn for it, as long as signals are."""
     random = np.random.default_rng([settings.seed, number])
     pace = kind.pace(case)
@@ -263,7 +263,7 @@ def stretch_of(case: Any, number: int, settings: SignalSettings, kind: SweptKind
     start = (settings.run_in + random.random()) * turn + reach
     first = floor(settings.run_in * pace.cycles)
     cycles = ceil((start + settings.duration + reach) / turn * pace.cycles) - first
-    return Stretch(first, ceil(cycles / BLOCK), start, int(random.integers(2**31)))
+    return ListenedStretch(first, ceil(cycles / BLOCK), start, int(random.integers(2**31)))
 
 
 def _angle_name(settings: SignalSettings, rate: float) -> str:
