@@ -128,12 +128,12 @@ def test_it_goes_on_to_the_same_bits(made: Path, tmp_path: Path):
     asked = data_set_of("0.05 s", run_in=1.0, seed=3)
     assert asked
     grid = Grid(str(made / "pair.toml"), list(VARY[1::2]), {}).hearing(asked.signals)
-    output, how = tmp_path / "set.h5", {"data_set": asked}
+    output = tmp_path / "set.h5"
     with pytest.raises(StoppedError):
-        run(grid, settings_of(grid), Stopping(), output, **how)
+        run(grid, settings_of(grid), Stopping(), output, data_set=asked)
     with h5py.File(tmp_path / "set.partial.h5") as file:
         assert np.sum(file["status"][...] == DONE) == 5  # pyright: ignore
-    run(grid, settings_of(grid), LocalEngine(1), output, resume=True, **how)
+    run(grid, settings_of(grid), LocalEngine(1), output, resume=True, data_set=asked)
     assert differences(made / "set.h5", output) == []
 
 

@@ -213,7 +213,7 @@ class SweepWriter:
         target = self.partial if none else self.path
         try:
             with replacing(target, scratch_path(self.path)) as scratch:
-                change = partial(conclude, FAILED if none else COMPLETE, message, summary, lambda _: None)
+                change = partial(conclude, FAILED if none else COMPLETE, message, summary)
                 disk.write_amended(self.partial, scratch, change)
                 if not none:
                     keep_previous(self.path, self._kept)

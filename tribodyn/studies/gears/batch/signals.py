@@ -66,7 +66,7 @@ class ListenedStretch(NamedTuple):
 
     first: int  # cycles before
     blocks: int
-    start: float  # s, at which its signals begin at the earliest
+    start: float  # s, at which its signals begin: the slowest sensor has a sample there
     noise_seed: int
 
 
@@ -261,6 +261,7 @@ def stretch_of(case: Any, number: int, settings: SignalSettings, kind: SweptKind
     turn = 2.0 * pi / pace.speed
     reach = _AROUND * REACH / min(settings.rates)
     start = (settings.run_in + random.random()) * turn + reach
+    start = ceil(start * min(settings.rates)) / min(settings.rates)
     first = floor(settings.run_in * pace.cycles)
     cycles = ceil((start + settings.duration + reach) / turn * pace.cycles) - first
     return ListenedStretch(first, ceil(cycles / BLOCK), start, int(random.integers(2**31)))
@@ -277,7 +278,7 @@ def _fill(
     for signal in sensed.signals:
         count = samples_of(settings, signal.rate)
         time = signal.time
-        first = int(np.searchsorted(time, start - 1e-9 / signal.rate))
+        first = int(np.searchsorted(time, start - 1e-6 / signal.rate))
         if len(time) < first + count or (first == 0 and time[0] > start + 1.0 / signal.rate):
             end = f"{time[-1]:.4g} s" if len(time) else "none"
             _fail(
@@ -289,7 +290,7 @@ def _fill(
         part = slice(first, first + count)
         rows[signal.name][i] = signal.values[part]
         rows[_angle_name(settings, signal.rate)][i] = signal.angle[part] - signal.angle[first]
-        rows["start_time"][i] = time[first]
+    rows["start_time"][i] = start
     rows["message"][i] = remarked(*map(warned, remarks_in_brief(toml)))
     rows["status"][i] = DONE
 
