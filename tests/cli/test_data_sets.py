@@ -167,6 +167,7 @@ def test_the_signal_is_that_of_a_run(tmp_path: Path):
         (("--direction", "up"), "contradicts --signals"),
         (("--test", "1.5"), "a share"),
         (("--run-in", "-1"), "turns"),
+        (("--signals", "1ms"), "too short"),
         (("--vary", "damage=none,3"), "there are 2 [[damage]]"),
         (("--set", "sensor.0.rate=500Hz"), "mesh frequency"),
     ],
@@ -175,6 +176,15 @@ def test_what_is_no_data_set_is_refused(made: Path, words: tuple[str, ...], said
     begun = ["sweep", str(made / "pair.toml"), "--signals", "0.05s", "-o", str(made / "x.h5")]
     message = complaint(*begun, *words, "--vary", "mesh.tooth_sample=1,2")
     assert said in message
+
+
+def test_a_slow_case_between_fast_ones_is_sampled_as_finely(made: Path):
+    """The ends of the axis are 1500 and 1600 rpm: what a cycle of 300 rpm needs is five times as much."""
+    speeds = {"operating.pinion_speed": "1500,300,1600rpm"}
+    how = {"signals": "0.05 s", "run_in": 1, "progress": False}
+    several = td.sweep(made / "pair.toml", speeds, {"damage": []}, **how)
+    assert several["status"].values.tolist() == [1, 1, 1]
+    assert np.all(np.isfinite(several["a"]))
 
 
 def test_a_set_needs_sensors_and_a_motion():

@@ -21,6 +21,7 @@ EXAMPLES = (
     "  100:6000:200rpm    from 100 rpm to at most 6000 rpm in steps of 200 rpm\n"
     "  100:6000/60rpm     60 values from 100 rpm to 6000 rpm\n"
     "  100,200,500rpm     these; also names: friction.law=none,masjedi-khonsari\n"
+    "  damage=none,1,2    of a list of tables none, or the one of that number\n"
     "\b\nExamples:\n"
     "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=1000:6000:100rpm\n"
     "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=100:6000/60rpm "

@@ -21,6 +21,7 @@ from tribodyn.signals.resampling import REACH
 from tribodyn.studies.gears.batch.kind import Pace, SweptKind
 from tribodyn.studies.gears.check import remarks_in_brief
 from tribodyn.studies.gears.sensed.heard import BLOCK, Heard, listen
+from tribodyn.studies.gears.sensed.places import FEWEST
 from tribodyn.studies.protocol import cost
 from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Chunk
@@ -51,7 +52,7 @@ class SignalSettings(NamedTuple):
     duration: float  # s
     run_in: float  # turns of the reference body
     seed: int
-    samples: int  # of a reference cycle
+    samples: int  # of a reference cycle, by the slowest case at the ends of the axes
     #: sensors: names, units, meanings and rates, Hz
     names: tuple[str, ...]
     units: tuple[str, ...]
@@ -98,6 +99,11 @@ class SignalBatch:
         plain = plain._replace(cycles=round(run_in * max(p.cycles for p in paces)) + BLOCK * (longest + 1))
         prepared = self._prepared(base, plain)
         listener = self.kind.listener(prepared)
+        if duration * min(rates) < FEWEST:
+            rule = f"too short for {FEWEST} samples of the slowest sensor, {min(rates):g} in a second"
+            raise InputError(
+                "--signals", f"{duration:g} s", rule, f"use at least {FEWEST / min(rates):.3g} s"
+            )
         placed = listener.sensors
         return plain._replace(
             names=tuple(one.sensor.name for one in placed),
@@ -180,16 +186,18 @@ class SignalBatch:
                 continue
             stretch = stretches[i]
             try:
-                prepared = self._prepared(case, settings._replace(cycles=max(ends)), stretch.noise_seed)
+                finer = self._finer(case, settings)
+                own = settings._replace(cycles=max(ends), samples=finer)
+                prepared = self._prepared(case, own, stretch.noise_seed)
                 listener = self.kind.listener(prepared)
                 if tuple(one.sensor.name for one in listener.sensors) != settings.names:
                     rule = "the sensors are not those of the first case"
                     raise InputError("sensor", None, rule, "give all cases the same")
                 solver = prepared.case.solver
-                ready[i] = Heard(prepared.model, listener, solver, stretch.first, stretch.blocks)
+                ready[i] = Heard(prepared.model, listener, solver, stretch.first, stretch.blocks, finer)
             except (InputError, SimulationError) as error:
                 _fail(rows, i, str(error))
-        heard = listen(list(ready.values()), settings.samples, workers)
+        heard = listen(list(ready.values()), workers)
         for i, sensed in zip(ready, heard, strict=True):
             if isinstance(sensed, str):
                 _fail(rows, i, sensed)
@@ -221,12 +229,20 @@ class SignalBatch:
         for i, case in enumerate(cases):
             try:
                 own = self._prepared(case, plain._replace(cycles=first + BLOCK * blocks))
-                ready[i] = Heard(own.model, self.kind.listener(own), own.case.solver, first, blocks)
+                listener = self.kind.listener(own)
+                ready[i] = Heard(own.model, listener, own.case.solver, first, blocks, samples)
             except (InputError, SimulationError) as error:
                 found[i] = str(error)
-        for i, sensed in zip(ready, listen(list(ready.values()), samples, workers), strict=True):
+        for i, sensed in zip(ready, listen(list(ready.values()), workers), strict=True):
             found[i] = sensed
         return found
+
+    def _finer(self, case: Any, settings: SignalSettings) -> int:
+        """Samples of a cycle of a case: those of the settings, doubled while it is too slow for so few."""
+        needed, samples = _samples(settings.rates, [self.kind.pace(case)]), settings.samples
+        while samples < needed:
+            samples *= 2
+        return samples
 
     def _prepared(self, case: Any, settings: SignalSettings, noise_seed: int | None = None) -> Any:
         """The case, sampled and as long as the settings say, its sensors with noise of a seed."""

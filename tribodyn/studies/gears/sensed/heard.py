@@ -34,19 +34,20 @@ class Heard(NamedTuple):
     solver: Any  # a `methods.SolverData`
     first: int  # reference cycles before it is listened to
     blocks: int  # of `BLOCK` cycles, in which it is
+    samples: int  # of a reference cycle
 
 
-def listen(cases: Sequence[Heard], samples: int, workers: int | None = None) -> list[Sensed | str]:
+def listen(cases: Sequence[Heard], workers: int | None = None) -> list[Sensed | str]:
     """March cases from their starts and listen to them; a text where one fails: why.
 
-    `samples` are those of a reference cycle. What a case gives does not depend on those beside it.
+    What a case gives does not depend on those beside it.
     """
     found: list[Sensed | str] = [""] * len(cases)
     groups: dict[tuple[Any, ...], list[int]] = {}
     for i, case in enumerate(cases):
-        key = case.first, case.solver.rtol, case.solver.method, case.solver.max_steps
+        key = case.first, case.samples, case.solver.rtol, case.solver.method, case.solver.max_steps
         groups.setdefault(key, []).append(i)
-    for (first, rtol, method, max_steps), places in groups.items():
+    for (first, samples, rtol, method, max_steps), places in groups.items():
         how = {"rtol": rtol, "method": method, "max_steps": max_steps, "workers": workers}
         for place, result in zip(
             places, _listen([cases[i] for i in places], first, samples, how), strict=True
