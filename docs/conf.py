@@ -22,6 +22,7 @@ CONTENTS = {
         "notebooks/load-contact-and-relief",
         "notebooks/your-own-law",
         "notebooks/rating-by-hand",
+        "notebooks/find-a-crack",
     ],
     "How to": [
         "how-to/own-gears",
@@ -30,6 +31,8 @@ CONTENTS = {
         "how-to/own-law",
         "how-to/measured",
         "how-to/scripts",
+        "data-sets",
+        "identify",
         "assessment",
         "compare",
         "report",

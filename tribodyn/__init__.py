@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from tribodyn.interface.check import check
     from tribodyn.interface.drive import GearPair, constraints, drive
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
+    from tribodyn.interface.identify import Identified, identify
     from tribodyn.interface.line_contact import line_contact
     from tribodyn.interface.result import Run
     from tribodyn.interface.run import run
@@ -59,6 +60,7 @@ __all__ = [
     "FrictionLaw",
     "GearPair",
     "Gradient",
+    "Identified",
     "InputError",
     "LinkLaw",
     "OutputError",
@@ -75,6 +77,7 @@ __all__ = [
     "differentiable",
     "drive",
     "gradient",
+    "identify",
     "judge",
     "line_contact",
     "open",
@@ -93,6 +96,7 @@ _PLACES = {
     "FrictionLaw": "tribodyn.tribology.law",
     "GearPair": "tribodyn.interface.drive",
     "Gradient": "tribodyn.interface.gradient",
+    "Identified": "tribodyn.interface.identify",
     "InputError": "tribodyn.errors",
     "LinkLaw": "tribodyn.train.links.law",
     "OutputError": "tribodyn.errors",
@@ -107,6 +111,7 @@ _PLACES = {
     "differentiable": "tribodyn.interface.gradient",
     "drive": "tribodyn.interface.drive",
     "gradient": "tribodyn.interface.gradient",
+    "identify": "tribodyn.interface.identify",
     "line_contact": "tribodyn.interface.line_contact",
     "open": "tribodyn.interface.sweep:open_result",
     "run": "tribodyn.interface.run",

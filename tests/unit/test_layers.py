@@ -56,6 +56,7 @@ MAY_IMPORT["derivatives"] = {
 }
 MAY_IMPORT["studies"] = set(MAY_IMPORT) - {"studies"}
 MAY_IMPORT["sweep"] = set(MAY_IMPORT) - {"sweep"}
+MAY_IMPORT["identification"] = set(MAY_IMPORT) - {"identification"}
 MAY_IMPORT["validation"] = set(MAY_IMPORT) - {"validation"}
 MAY_IMPORT["interface"] = set(MAY_IMPORT) - {"interface"}
 MAY_IMPORT["cli"] = set(MAY_IMPORT) - {"cli", "interface"}

@@ -21,6 +21,7 @@ EXAMPLES = (
     "  100:6000:200rpm    from 100 rpm to at most 6000 rpm in steps of 200 rpm\n"
     "  100:6000/60rpm     60 values from 100 rpm to 6000 rpm\n"
     "  100,200,500rpm     these; also names: friction.law=none,masjedi-khonsari\n"
+    "  damage=none,1,2    of a list of tables none, or the one of that number\n"
     "\b\nExamples:\n"
     "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=1000:6000:100rpm\n"
     "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=100:6000/60rpm "
@@ -28,6 +29,8 @@ EXAMPLES = (
     "  tribodyn sweep jump-involute-23-47 --vary operating.pinion_speed=380:620:10rad/s --direction both\n"
     "  tribodyn sweep crc-23-47 --vary drive.pinion.profile_shift=0:0.4:0.1 --transient 40 --resume\n"
     "  tribodyn sweep crc-23-47-300 --vary operating.pinion_speed=500:6000:250rpm --refine 60\n"
+    "  tribodyn sweep my-sensors.toml --signals 1s --vary mesh.tooth_sample=1:20:1 --vary damage=none,1,2 "
+    "-o set.h5\n"
     "then: tribodyn plot map.h5 response waterfall"
 )
 
@@ -101,6 +104,25 @@ def sweep(
             help="What --refine watches; several may be given. Default: the first quantity that is printed.",
         ),
     ] = None,
+    signals: Annotated[
+        str | None,
+        typer.Option(
+            metavar="TIME",
+            help="A data set: signals of the scenario's sensors, so long (1s), in place of quantities.",
+        ),
+    ] = None,
+    run_in: Annotated[
+        float, typer.Option(metavar="TURNS", help="With --signals: turns of the first gear before them.")
+    ] = 3.0,
+    seed: Annotated[
+        int, typer.Option(help="With --signals: of where they begin, of noise, and of the test's drives.")
+    ] = 0,
+    test: Annotated[
+        float, typer.Option(metavar="SHARE", help="With --signals: share of the drives left for the test.")
+    ] = 0.25,
+    licence: Annotated[
+        str | None, typer.Option(metavar="TEXT", help="With --signals: licence that the set states.")
+    ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped sweep of that name.")] = False,
     engine: Annotated[
         EngineName,
@@ -134,6 +156,7 @@ def sweep(
     from tribodyn.record.sweep_schema import DIRECTIONS
     from tribodyn.scenario.sources import file_name
     from tribodyn.studies.pages import sweep_table
+    from tribodyn.sweep.data_set import LICENCE, data_set_of
     from tribodyn.sweep.engines import engine_of
     from tribodyn.sweep.grid import Grid, default_output
     from tribodyn.sweep.refinement import refinement_of
@@ -142,7 +165,9 @@ def sweep(
     if steady and transient is not None:
         raise InputError("--steady", None, "contradicts --transient", "give one of them")
     require_one_way(resume=resume, force=force)
+    asked = data_set_of(signals, run_in, seed, test, licence or LICENCE)
     grid = Grid(scenario, vary or [], overrides(settings))
+    grid = grid.hearing(asked.signals) if asked else grid
     refinement = refinement_of(grid, refine, refine_by or ())
     record = output or default_output(grid)
     kept = watched(record)
@@ -164,6 +189,7 @@ def sweep(
             resume=resume,
             follow=lambda done, total: progress(1.0 - (total - done) / most),
             allow_large=allow_large,
+            data_set=asked,
             scenario_file="" if output else file_name(grid.path, record.parent),
         )
     with SweepRecord(result.path) as written:

@@ -48,6 +48,14 @@ def of_sweep(record: SweepRecord) -> "Dataset":
         parameter.name: (parameter.name, parameter.values, {"units": parameter.units, "key": parameter.key})
         for parameter in record.parameters
     }
+    for name, values in record.listed.items():
+        named = {"units": record.units(name), "long_name": record.long_name(name)}
+        coordinates[name] = ("case", values, named)
+    beside = (
+        {dim for name in record for dim in record.dims_of(name)} - {*record.dims} if record.listed else ()
+    )
+    for name in beside:
+        coordinates[name] = (name, record[name], {"units": record.units(name)})
     if record.directions:
         coordinates["direction"] = ("direction", np.array(record.directions))
     return _dataset(record, dict.fromkeys((*record, "status", "message")), coordinates)

@@ -18,6 +18,8 @@ from tribodyn.record import trust
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
 from tribodyn.studies import study_of
+from tribodyn.studies.sweeping.signals import RUN_IN
+from tribodyn.sweep.data_set import LICENCE, TEST_SHARE, data_set_of
 from tribodyn.sweep.engines import engine_of
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.refinement import refinement_of
@@ -132,6 +134,11 @@ def sweep(
     direction: Literal["up", "down", "both"] | None = None,
     refine: int | None = None,
     refine_by: str | Sequence[str] = (),
+    signals: Any = None,
+    run_in: float = RUN_IN,
+    seed: int = 0,
+    test: float = TEST_SHARE,
+    licence: str = LICENCE,
     engine: Literal["native", "jax", "dask"] = "native",
     workers: int | None = None,
     scheduler: str | None = None,
@@ -157,6 +164,12 @@ def sweep(
         Add at most so many further values of the first key where the response bends: shows peaks.
     refine_by : str or list of str, optional
         Quantities of the sweep that `refine` watches; default: the first that the command line prints.
+    signals : str or quantity, optional
+        Duration: the cases give the signals of the scenario's sensors, a labelled data set; see
+        `docs/data-sets.md`.
+    run_in, seed, test, licence : optional
+        Of a data set: turns of the reference body before signals begin, seed of where they begin and of the
+        sensors' noise, share of the drives that are left for the test, text that the set has as its licence.
     engine, workers, scheduler
         Where the cases are evaluated: compiled on all cores, by JAX on its device, by Dask.
     output, force, resume
@@ -183,6 +196,9 @@ def sweep(
         grid = _grid(source, vary, overrides, Path(folder))
         watched = [refine_by] if isinstance(refine_by, str) else refine_by
         refinement = refinement_of(grid, refine, watched)
+        asked = data_set_of(in_toml(signals), run_in, seed, test, licence)
+        if asked:
+            grid = grid.hearing(asked.signals)
         record = Path(output) if output is not None else Path(folder) / "sweep.h5"
         most = cases_at_most(grid, refinement, len(chosen))
         with (
@@ -200,6 +216,7 @@ def sweep(
                 resume=resume,
                 follow=lambda count, total: report(1.0 - (total - count) / most),
                 allow_large=allow_large,
+                data_set=asked,
             )
         with SweepRecord(done.path) as written:
             return shown.of_sweep(written).load()

@@ -36,6 +36,9 @@ def sweep_table(record: SweepRecord, quantities: Sequence[Quantity]) -> Group:
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
     parts += map(Text, sweep_verdict(record))
     parts += map(Text, _head(record))
+    if record.listed:
+        parts += map(Text, (*data_set_lines(record), *_tail(record)))
+        return Group(*parts)
     titles = ("", "minimum", "at", "maximum", "at", "")
     parts.append(_table(titles, (1, 3), sweep_rows(record, shown_ones)))
     parts += _tables_over_all(record, shown_ones)
@@ -142,7 +145,10 @@ def sweep_rows(record: SweepRecord, quantities: Sequence[Quantity]) -> list[list
 
 def _head(record: SweepRecord) -> list[str]:
     count = record.count()
-    axes = ", ".join(f"{len(parameter.values)} of {parameter.key}" for parameter in record.parameters)
+    sizes = {parameter.key: len(parameter.values) for parameter in record.parameters}
+    if record.listed:
+        sizes = {key: len(values) for key, values in record.settings["vary"].items()}
+    axes = ", ".join(f"{size} of {key}" for key, size in sizes.items())
     both = f", {' and '.join(record.directions)}" if record.directions else ""
     states = ", ".join(f"{count[name]} {name}" for name in ("done", "failed", "waiting") if count[name])
     lines = [f"{count['cases']} cases ({axes}{both}): {states}"]
@@ -159,6 +165,26 @@ def _head(record: SweepRecord) -> list[str]:
         )
         lines += [f"motion: {motions}"] if motions else []
     lines += [f"{key} = {taken}" for key, taken in record.settings.get("chosen", {}).items()]
+    return lines
+
+
+def data_set_lines(record: SweepRecord) -> list[str]:
+    """What a data set holds: signals, labels, drives for training and test."""
+    sensors = str(record.attrs["sensors"]).split()
+    shape = {name: record.dims_of(name)[-1] for name in sensors}
+    lines = []
+    for name in sensors:
+        time = record[shape[name]]
+        rate = 1.0 / (time[1] - time[0]) if len(time) > 1 else float("nan")
+        lines.append(
+            f"signal {name}: {record.long_name(name)}, {record.units(name)}, "
+            f"{len(time)} samples at {rate:.6g} Hz"
+        )
+    told = record.listed
+    for name in ("label", "split"):
+        found = zip(*np.unique(told[name].astype(str), return_counts=True), strict=True)
+        lines.append(f"{name}: " + ", ".join(f"{number} {value}" for value, number in found))
+    lines[-1] += f", by drive: {len(np.unique(told['drive']))} of them"
     return lines
 
 

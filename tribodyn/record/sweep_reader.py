@@ -98,6 +98,11 @@ class SweepRecord(OpenRecord):
         )
 
     @cached_property
+    def listed(self) -> dict[str, np.ndarray]:
+        """What is told of every case where these stand in a list, as in a data set; else nothing."""
+        return {name: self._read(name) for name in str(self.attrs.get("coordinates", "")).split()}
+
+    @cached_property
     def directions(self) -> tuple[str, ...]:
         """Senses in which the first parameter was followed; none where every case began by itself."""
         return tuple(self._read("direction")) if "direction" in self.dims else ()

@@ -58,6 +58,19 @@ class VariedKey(NamedTuple):
     values: Any  # numbers or texts; an array where a record is read
 
 
+#: Dimension of cases that stand in a list and not over a grid.
+CASE = "case"
+CASE_SCALE = Variable((CASE,), "1", "number of the case")
+
+
+class Listed(NamedTuple):
+    """What is told of every case in a list: numbers or texts over the cases."""
+
+    variable: Variable
+    values: Any
+    key: str = ""  # in the scenario; empty: it is none that was varied
+
+
 class SweepLayout(NamedTuple):
     """What a sweep records of every case of a study."""
 

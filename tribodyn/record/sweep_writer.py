@@ -4,10 +4,12 @@ As with a run (`writer`), the whole file is laid out before the first case and c
 bytes put in their place, its `status` last. A sweep that was killed is taken up again by reading `status`.
 """
 
+import math
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple, Self
 
 import h5py
@@ -29,7 +31,7 @@ from tribodyn.record.schema import (
     require_same_code,
 )
 from tribodyn.record.soundness import UNREADABLE, check_sound, remember_own
-from tribodyn.record.sweep_schema import SWEEP, SweepLayout, VariedKey
+from tribodyn.record.sweep_schema import CASE, SWEEP, Listed, SweepLayout, VariedKey
 from tribodyn.record.withheld import cases_withheld
 from tribodyn.record.writer import check_target, conclude
 from tribodyn.record.writing_lock import locked, scratch_path
@@ -60,6 +62,8 @@ class SweepHead(NamedTuple):
     directions: tuple[str, ...]  # "up", "down"; none where every case is on its own
     layout: SweepLayout  # what is recorded of every case
     scenario_file: str = ""  # see `previous.Origin`
+    #: what is told of every case; where there is anything, the cases stand in a list, in the grid's order
+    listed: Mapping[str, Listed] = MappingProxyType({})
 
     @property
     def origin(self) -> Origin:
@@ -69,12 +73,16 @@ class SweepHead(NamedTuple):
     @property
     def dims(self) -> tuple[str, ...]:
         """Dimensions of the cases."""
+        if self.listed:
+            return (CASE,)
         return (*(axis.name for axis in self.parameters), *(("direction",) if self.directions else ()))
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Their lengths."""
         sizes = [len(parameter.values) for parameter in self.parameters]
+        if self.listed:
+            return (math.prod(sizes),)
         return (*sizes, len(self.directions)) if self.directions else tuple(sizes)
 
 
@@ -241,6 +249,9 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
             places[name] = layout.place_of(dataset, len(head.dims))
             blanks.append(layout.blank_of(dataset, full))
         file.attrs["datasets"] = " ".join(places)
+        if head.listed:
+            file.attrs["coordinates"] = " ".join(head.listed)  # xarray takes them for such
+            _write_listed(file, head, scales[CASE])
         file.create_group("summary")
     return layout.LaidOut(content, blanks, places)
 
@@ -248,7 +259,11 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
 def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, h5py.Dataset]:
     """Write the scales of all dimensions."""
     scales = {}
-    for parameter in head.parameters:
+    if head.listed:
+        numbers = np.arange(head.shape[0])
+        scales[CASE] = layout.scale(file, CASE, sweep_schema.CASE_SCALE, numbers)
+        scales[CASE].attrs["key"] = CASE
+    for parameter in () if head.listed else head.parameters:
         variable = Variable((parameter.name,), parameter.units or "1", f"varied parameter {parameter.key}")
         scales[parameter.name] = layout.scale(file, parameter.name, variable, parameter.values)
         scales[parameter.name].attrs["key"] = parameter.key
@@ -257,6 +272,23 @@ def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, h5py.Dataset]:
     for name, (variable, values) in head.layout.scales.items():
         scales[name] = layout.scale(file, name, variable, values)
     return scales
+
+
+def _write_listed(file: h5py.File, head: SweepHead, cases: h5py.Dataset) -> None:
+    """Write what is told of every case."""
+    for name, (variable, values, key) in head.listed.items():
+        given = np.asarray(values)
+        text = given.dtype.kind == "U"
+        data = np.char.encode(np.char.add(given, ""), "utf-8") if text else given
+        dataset = file.create_dataset(
+            name, data=data.astype(f"S{max(1, data.dtype.itemsize)}") if text else data
+        )
+        layout.describe(dataset, variable)
+        if text:
+            dataset.attrs["_Encoding"] = "utf-8"
+        if key:
+            dataset.attrs["key"] = key
+        dataset.dims[0].attach_scale(cases)
 
 
 def _places_of(path: Path, head: SweepHead) -> dict[str, layout.DataPlace]:

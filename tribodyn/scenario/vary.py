@@ -24,6 +24,8 @@ VARY = "--vary"
 MOST_VALUES = 100_000
 #: Varied keys: a dataset's dimensions are limited, and their values multiply.
 MOST_AXES = 12
+#: Value of an axis that picks tables: none of them.
+NO_TABLE = "none"
 GRAMMAR = "write start:stop:step, start:stop/count or value,value,… with the unit once, at the end"
 
 # of bounded length, because ranges are worked out in whole decimals
@@ -50,6 +52,7 @@ class Axis(NamedTuple):
     units: str  # SI unit, "1" for plain numbers, "" for texts
     drawn: bool = False  # whether the values number samples drawn at random
     weighed: Weighed | None = None  # where the weights stand of tables that the values number
+    picks: bool = False  # whether the values are numbers of tables in a list, of which a case has one or none
 
     @property
     def numeric(self) -> bool:
@@ -85,6 +88,11 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
     leaf = kind_at(table, key)
     if key in ("title", "name", "kind") or key.startswith("output."):
         raise _refusal(option, f"{key} cannot be varied", "vary what the physics depends on")
+    if _is_table(leaf) and _is_list(table, key):
+        values = tuple(value.strip() for value in text.split(","))
+        if len(set(values)) < len(values):
+            raise _refusal(option, "a value comes twice", "list every value once")
+        return Axis(key, key, values, values, "", picks=True)
     if _is_table(leaf):
         first = next(iter(leaf.model_fields))
         raise _refusal(option, f"{key} is a table", f"vary a key in it, such as {key}.{first}")
@@ -214,6 +222,12 @@ def _marks(table: type[BaseModel], key: str) -> list[Any]:
     holder = table_at(table, parts[: named[-1]])
     field = holder.model_fields.get(str(parts[named[-1]])) if holder else None
     return list(parts_of(field)) if field else []
+
+
+def _is_list(table: type[BaseModel], key: str) -> bool:
+    """Whether a list of tables stands at a key of the scenario."""
+    found = table.model_fields.get(key)
+    return found is not None and "tuple[" in str(found.annotation)
 
 
 def _is_table(mark: Any) -> bool:

@@ -133,6 +133,10 @@ def drawable_of_sweep(records: Sequence[SweepRecord]) -> "Mapping[str, SweepDraw
         if study_of_record(record) is not study:
             rule = f"of kind {record.kind_of_study}, the first of {study.kind}"
             raise InputError("record", str(record.path), rule, "draw them apart")
+    if any(record.listed for record in records):
+        from tribodyn.post.figures.sweep.signals import DATA_SET_DRAWINGS
+
+        return DATA_SET_DRAWINGS
     return study.sweep_drawings()
 
 
@@ -248,6 +252,10 @@ def sweep_report(record: SweepRecord) -> str:
     """Write the page of a sweep: its quantities over the first varied key, its teeth, its pictures."""
     from tribodyn.post.figures.sweep.response import more_than_curves
     from tribodyn.post.page.sweep_page import sweep_page
+
+    if record.listed:
+        remedy = "draw its signals: tribodyn plot FILE signals"
+        raise InputError("record", str(record.path), "a data set has no page", remedy)
 
     study = study_of_record(record)
     pictures = []

@@ -9,11 +9,12 @@ from typing import Any
 from tribodyn.errors import InputError, InputErrors
 from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.scenario.sources import find_scenario, read_toml
-from tribodyn.scenario.vary import VARY, Axis, axes_of, in_si
+from tribodyn.scenario.vary import NO_TABLE, VARY, Axis, axes_of, in_si
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import OneByOne
 from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.sweeping.batch import Batch
+from tribodyn.studies.sweeping.signals import SignalRequest
 
 
 class Grid:
@@ -49,14 +50,29 @@ class Grid:
         """Name of the scenario, which names the record."""
         return self.base.name
 
-    def case(self, place: Sequence[int]) -> Any:
-        """Return the case at a place of the grid; InputError where its values contradict each other."""
-        chosen = tuple(place[i] for i in self._texts)
-        kept = self._resolved(chosen)
+    def hearing(self, request: SignalRequest) -> "Grid":
+        """The same, whose cases give the signals of their sensors; InputError where they have none."""
+        found = copy.copy(self)
+        found.batch = self.batch.hearing(request)
+        return found
+
+    def data(self, place: Sequence[int]) -> dict[str, Any]:
+        """The scenario's tables at a place of the grid."""
+        return self._at(place)[0]
+
+    def _at(self, place: Sequence[int]) -> tuple[dict[str, Any], Resolved]:
+        kept = self._resolved(tuple(place[i] for i in self._texts))
         data = copy.deepcopy(kept.data)
         for axis, index in zip(self.axes, place, strict=True):
             if axis.numeric:
                 _put(data, axis.key, axis.written[index])
+            elif axis.picks:
+                data[axis.key] = _picked(data, axis, axis.written[index])
+        return data, kept
+
+    def case(self, place: Sequence[int]) -> Any:
+        """Return the case at a place of the grid; InputError where its values contradict each other."""
+        data, kept = self._at(place)
         try:
             case = loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
         except InputError as error:
@@ -91,6 +107,7 @@ class Grid:
         texts = {
             self.axes[i].key: self.axes[i].written[index]
             for i, index in zip(self._texts, chosen, strict=True)
+            if not self.axes[i].picks
         }
         # numbers too, so that the tables that they stand in are there
         numbers = {axis.key: axis.written[0] for axis in self.axes if axis.numeric}
@@ -128,6 +145,17 @@ def _put(data: dict[str, Any], key: str, value: Any) -> None:
     for part in above:
         place = place[int(part) if isinstance(place, list) else part]
     place[int(last) if isinstance(place, list) else last] = value
+
+
+def _picked(data: Mapping[str, Any], axis: Axis, value: str) -> list[Any]:
+    """Of a list of tables the one of a number, or none."""
+    known = data.get(axis.key, [])
+    if value == NO_TABLE:
+        return []
+    if not value.isdecimal() or not 1 <= int(value) <= len(known):
+        rule = f"there {'is' if len(known) == 1 else 'are'} {len(known) or 'no'} [[{axis.key}]]"
+        raise InputError(axis.key, f'"{value}"', rule, f"number them from 1, or write {NO_TABLE}", VARY)
+    return [known[int(value) - 1]]
 
 
 def default_output(grid: Grid) -> Path:

@@ -16,6 +16,7 @@ from tribodyn.record.sweep_writer import SweepHead, SweepWriter, values_left
 from tribodyn.record.writer import check_target
 from tribodyn.scenario.vary import Axis
 from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.sweep.data_set import DataSet, listed_of
 from tribodyn.sweep.engines import Block, Engine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.plan import chained_steps, estimate_of, refuse_large, single_steps
@@ -60,14 +61,19 @@ def run(
     follow: Follow | None = None,
     allow_large: bool = False,
     scenario_file: str = "",
+    data_set: DataSet | None = None,
 ) -> SweepResult:
     """Evaluate every case of a grid and write the record; InputError before anything is computed.
 
     The `settings` are from `settings_of`, the `refinement` from `refinement_of`. `directions` are senses to
     follow the first parameter in, none: every case begins by itself; `unstable` continues branches beyond the
     ends of their stable parts. `force` replaces a record, `resume` goes on with what an unfinished sweep
-    left; `allow_large`: see `sweep.plan`; `scenario_file`: see `record.previous.Origin`.
+    left; `allow_large`: see `sweep.plan`; `scenario_file`: see `record.previous.Origin`; of a `data_set` the
+    grid is `grid.hearing`.
     """
+    if data_set and (directions or unstable or refinement):
+        option = "--refine" if refinement else "--direction"
+        raise InputError(option, None, "contradicts --signals", "omit one")
     if directions or unstable:
         _can_be_followed(grid, directions, unstable)
         settings = grid.batch.following(settings, unstable)
@@ -78,7 +84,8 @@ def run(
         grid = grid_of(grid, refinement, values_left(output, grid.axes[0].name))
 
     def head_of(grid: Grid) -> SweepHead:
-        return _head(grid, first, settings, directions, refinement)._replace(scenario_file=scenario_file)
+        found = _head(grid, first, settings, directions, refinement, data_set)
+        return found._replace(scenario_file=scenario_file)
 
     head = head_of(grid)
     if not resume:
@@ -155,7 +162,12 @@ def _can_be_followed(grid: Grid, directions: Sequence[str], unstable: bool) -> N
 
 
 def _head(
-    grid: Grid, first: Grid, settings: Any, directions: Sequence[str], refinement: Refinement | None
+    grid: Grid,
+    first: Grid,
+    settings: Any,
+    directions: Sequence[str],
+    refinement: Refinement | None,
+    data_set: DataSet | None,
 ) -> SweepHead:
     """What is known of the sweep over a grid, the first one or one with further values."""
     scales = tuple(VariedKey(axis.name, axis.key, axis.units, axis.values) for axis in grid.axes)
@@ -166,15 +178,27 @@ def _head(
         "directions": [direction for direction in DIRECTIONS if direction in directions],
         "chosen": grid.base.chosen(),
         **({"refine": refinement._asdict()} if refinement else {}),
+        **({"test": data_set.test} if data_set else {}),
         **settings._asdict(),
     }
-    return SweepHead(
+    head = SweepHead(
         scenario=grid.base.toml,
         sha256=grid.base.sha256,
         parameters=scales,
         settings=tomli_w.dumps(described),
         directions=tuple(directions),
         layout=grid.batch.layout(settings),
+    )
+    return _of_data_set(head, grid, data_set) if data_set else head
+
+
+def _of_data_set(head: SweepHead, grid: Grid, asked: DataSet) -> SweepHead:
+    """The head of a data set: its cases in a list, with what is told of each."""
+    told = {"title": str(tomllib.loads(head.scenario).get("title", "")), "license": asked.licence}
+    attributes = {**told, **head.layout.attributes}
+    return head._replace(
+        listed=listed_of(grid, asked, head.layout),
+        layout=head.layout._replace(attributes=attributes),
     )
 
 

@@ -10,15 +10,17 @@ from tribodyn.studies.gear_pair.case import Case, drivers_of, marching_of
 from tribodyn.studies.gear_pair.outputs import MESH
 from tribodyn.studies.gear_pair.prepare import PreparedPair, moves_in_space, prepare
 from tribodyn.studies.gear_pair.report import SWEPT
+from tribodyn.studies.gear_pair.sensed import listener_of
 from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.batch import MotionBatch
-from tribodyn.studies.gears.batch.kind import Form, SweptKind
+from tribodyn.studies.gears.batch.kind import Form, Pace, SweptKind
 from tribodyn.studies.gears.batch.same_table import table_key
 from tribodyn.studies.gears.batch.swept import SweepSettings
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.running import MeshOfRun
 from tribodyn.studies.gears.over_time.sampled import Sampled
 from tribodyn.studies.gears.prepare import at_own_temperature, thermal_quantities
+from tribodyn.studies.gears.sensed.listening import Listener
 from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.studies.protocol.cost import Driver, Estimate
 from tribodyn.studies.sweeping.batch import Batch
@@ -84,6 +86,19 @@ class GearPairs(SweptKind):
     def meshes(self, prepared: PreparedPair) -> list[MeshOfRun]:
         """Its mesh."""
         return [mesh_of_run(prepared)]
+
+    def pace(self, case: Case) -> Pace:
+        """That of its pinion."""
+        teeth = [abs(float(gear.teeth)) for gear in (case.drive.pinion, case.drive.gear)]
+        return Pace(case.operating.pinion_speed, teeth[0], max(teeth))
+
+    def differ(self, case: Case) -> bool:
+        """Whether one of its gears has teeth that do."""
+        return any(case.teeth)
+
+    def listener(self, prepared: PreparedPair) -> Listener:
+        """See `sensed.listener_of`."""
+        return listener_of(prepared)
 
     def frequencies(self, prepared: PreparedPair) -> np.ndarray:
         """Its natural frequencies."""

@@ -10,17 +10,20 @@ from tribodyn.errors import InputError
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.studies.gear_train.case import TrainCase, refuse_long_period
 from tribodyn.studies.gear_train.estimate import drivers_of, marching_of
+from tribodyn.studies.gear_train.planetary.frames import rolling_of
 from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare, tabulated
 from tribodyn.studies.gear_train.report import SWEPT
+from tribodyn.studies.gear_train.sensed import listener_of
 from tribodyn.studies.gear_train.summary import meshes_of_run, steady_quantities, worst_of
 from tribodyn.studies.gear_train.warmth import at_own_temperatures
 from tribodyn.studies.gears.batch import MotionBatch
-from tribodyn.studies.gears.batch.kind import Form, SweptKind
+from tribodyn.studies.gears.batch.kind import Form, Pace, SweptKind
 from tribodyn.studies.gears.batch.same_table import table_key
 from tribodyn.studies.gears.batch.swept import SweepSettings, state_names
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.running import MeshOfRun
 from tribodyn.studies.gears.over_time.sampled import Sampled
+from tribodyn.studies.gears.sensed.listening import Listener
 from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.studies.protocol.cost import Driver, Estimate
 from tribodyn.studies.sweeping.batch import Batch
@@ -70,6 +73,21 @@ class Trains(SweptKind):
     def meshes(self, prepared: PreparedTrain) -> list[MeshOfRun]:
         """Its meshes."""
         return meshes_of_run(prepared)
+
+    def pace(self, case: TrainCase) -> Pace:
+        """That of the body that drives the first mesh."""
+        speed = case.source.speed / float(case.bodies[case.source.body].ratio)
+        cycles = abs(float(case.meshes[0].pair.drive.pinion.teeth)) * rolling_of(case)
+        slowest = min(float(body.ratio) for body in case.bodies if body.gears and body.ratio)
+        return Pace(speed, cycles, cycles / slowest)
+
+    def differ(self, case: TrainCase) -> bool:
+        """Whether one of its gears has teeth that do."""
+        return any(any(mesh.pair.teeth) for mesh in case.meshes)
+
+    def listener(self, prepared: PreparedTrain) -> Listener:
+        """See `sensed.listener_of`."""
+        return listener_of(prepared)
 
     def frequencies(self, prepared: PreparedTrain) -> np.ndarray:
         """Its natural frequencies."""

@@ -19,6 +19,7 @@ from tribodyn.studies.gears.check import remarks_in_brief
 from tribodyn.studies.protocol.cost import Estimate, variable_bytes
 from tribodyn.studies.protocol.study import Study
 from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.studies.sweeping.signals import SignalRequest, no_signals
 
 if TYPE_CHECKING:
     from tribodyn.studies.sweeping.batch import Batch
@@ -119,6 +120,10 @@ class OneByOne:
     def following(self, settings: NoSettings, unstable: bool) -> NoSettings:
         """The same: such cases do not go on from each other."""
         return settings
+
+    def hearing(self, request: SignalRequest) -> "Batch":
+        """Refused: sensors belong to motions."""
+        raise no_signals(self.study.about)
 
     def layout(self, settings: NoSettings) -> SweepLayout:
         """The quantities that the study names."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.studies.protocol.cost import Estimate
+from tribodyn.studies.sweeping.signals import SignalRequest
 
 
 class NeighbourWay(NamedTuple):
@@ -55,6 +56,10 @@ class Batch(Protocol):
 
         Raises InputError where there are no such branches.
         """
+        ...
+
+    def hearing(self, request: SignalRequest) -> "Batch":
+        """The batch whose cases give the signals of their sensors; InputError where they have none."""
         ...
 
     def layout(self, settings: Any) -> SweepLayout:

@@ -1,6 +1,7 @@
 """Many cases of the dynamics of gears, evaluated together: steady states, or marches of a given length."""
 
 from collections.abc import Hashable, Sequence
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -10,19 +11,22 @@ from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
-from tribodyn.studies.gears.batch.evaluate import evaluate
+from tribodyn.studies.gears.batch.evaluate import at_length, evaluate
 from tribodyn.studies.gears.batch.kind import SweptKind
+from tribodyn.studies.gears.batch.signals import SignalBatch, SignalSettings
 from tribodyn.studies.gears.batch.swept import SweepSettings, layout_of, row_bytes
 from tribodyn.studies.protocol import cost
 from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.studies.sweeping.signals import SignalRequest
 
 #: Mesh cycles that the search for a steady state may take, and points of the section of a motion that has no
 #: period.
 MOST_CYCLES, STEADY_POINTS = 2000, 256
 #: Mesh cycles until most steady states are found.
 STEADY_CYCLES = 60
-#: Cycles of the window of a transient: a quarter of its own, at most this many; points of its section, half.
+#: Cycles of the window of a transient: a quarter of its own, at most this many (of gears whose teeth differ a
+#: turn of the slowest); points of its section, half.
 TRANSIENT_WINDOW, TRANSIENT_POINTS = 16, 256
 #: Bytes of states that the cases of a chunk may fill: what bounds the memory of a sweep.
 CHUNK_BYTES = 64 * 2**20
@@ -59,7 +63,9 @@ class MotionBatch:
             window, points = max(1, min(MAX_PERIOD, MOST_SAMPLED // common)) * common, STEADY_POINTS
             cycles = max(MOST_CYCLES, 20 * common)
         else:
-            window = max(1, min(TRANSIENT_WINDOW, transient // 4))
+            differ = any(map(self.kind.differ, cases))
+            widest = max(ceil(self.kind.pace(case).slowest) for case in cases) if differ else TRANSIENT_WINDOW
+            window = max(1, min(widest, transient // 4))
             window = max(1, window // common) * common if common <= transient else window
             points, cycles = max(window, min(TRANSIENT_POINTS, transient // 2)), transient
             points = max(1, points // common)
@@ -108,11 +114,17 @@ class MotionBatch:
 
     def check(self, case: Any, settings: SweepSettings) -> None:
         """Prepare a case; a steady state needs a load that does not change with time."""
-        model = self.kind.prepare(case, self.kind.tabulated(case)).model
+        model = self.kind.prepare(at_length(case, settings), self.kind.tabulated(case)).model
         if settings.steady:
-            self.kind.refuse(case)
+            self.kind.refuse_steady(case)
             refuse_time_dependent(model)
 
-    def evaluate(self, chunk: Chunk, settings: SweepSettings, workers: int | None) -> dict[str, np.ndarray]:
+    def hearing(self, request: SignalRequest) -> SignalBatch:
+        """What gives the signals of the cases' sensors in place of motions."""
+        return SignalBatch(self.kind, request)
+
+    def evaluate(self, chunk: Chunk, settings: Any, workers: int | None) -> dict[str, np.ndarray]:
         """Return a row for every case of a chunk, for all datasets of its layout; by default by all cores."""
+        if isinstance(settings, SignalSettings):  # of a worker that was given no more than the settings
+            return SignalBatch(self.kind).evaluate(chunk, settings, workers)
         return evaluate(self.kind, self.layout(settings), chunk, settings, workers)

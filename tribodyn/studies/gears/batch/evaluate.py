@@ -4,6 +4,7 @@ A pure function of plain data, so that it runs in this process or in another one
 the same numbers in both. Nothing of a case depends on the others that it is evaluated with.
 """
 
+import dataclasses
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
@@ -149,8 +150,8 @@ def _evaluate(
             continue
         try:
             if settings.steady:
-                kind.refuse(case)
-            prepared = kind.prepare(case, kind.tabulated(case))
+                kind.refuse_steady(case)
+            prepared = kind.prepare(at_length(case, settings), kind.tabulated(case))
             places = kind.places(prepared, settings)
             given = None if chunk.states is None or np.isnan(chunk.states[i, 0]) else chunk.states[i]
             ready[i] = prepared, _start(prepared, settings) if given is None else given[places]
@@ -169,6 +170,13 @@ def _evaluate(
                 at = partial(prepared_at, line)
                 fill_unstable(kind, rows, i, outcome.continued, at, settings.samples)
     return rows
+
+
+def at_length(case: Any, settings: SweepSettings) -> Any:
+    """The case as long as it is marched, over which the numbers of teeth that differ are tabulated."""
+    if settings.steady:
+        return case
+    return dataclasses.replace(case, solver=dataclasses.replace(case.solver, cycles=settings.cycles))
 
 
 def _alike(cases: dict[int, Any]) -> list[list[int]]:

@@ -3,17 +3,20 @@
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from math import ceil
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Variable
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.studies.gears.batch.swept import SweepSettings
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.running import MeshOfRun
 from tribodyn.studies.gears.over_time.sampled import Sampled
+from tribodyn.studies.gears.sensed.listening import Listener
 from tribodyn.studies.protocol.cost import Driver, Estimate
 
 #: The mesh whose transmission error a sweep samples.
@@ -33,6 +36,14 @@ class MadeOnce:
 
 
 _tables = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
+
+
+class Pace(NamedTuple):
+    """How fast a case goes."""
+
+    speed: float  # of the reference body, rad/s
+    cycles: float  # of the reference mesh in a turn of it
+    slowest: float  # and in a turn of the gear that turns slowest
 
 
 class Form(NamedTuple):
@@ -71,11 +82,35 @@ class SweptKind:
         """Prepare a case with tables of its `table_key`; raises InputError."""
         raise NotImplementedError
 
-    def refuse(self, case: Any) -> None:
+    def refuse_steady(self, case: Any) -> None:
         """Raise InputError for a case that has no steady state that could be sought."""
+        if self.differ(case):
+            turn = ceil(self.pace(case).slowest)
+            rule = "teeth of a gear differ: no steady state repeats with the mesh, and none is sought"
+            remedy = (
+                f"march: --transient {10 * turn} ({turn} mesh cycles are a turn of the slowest gear), or "
+            )
+            remedy += "keep what sensors hear: --signals 1s"
+            raise InputError("--steady", None, rule, remedy)
+        self.refuse(case)
+
+    def refuse(self, case: Any) -> None:
+        """Raise InputError for a case that has none for a reason of the kind's own."""
 
     def meshes(self, prepared: Any) -> list[MeshOfRun]:
         """The meshes, as the summary of a run sees them."""
+        raise NotImplementedError
+
+    def differ(self, case: Any) -> bool:
+        """Whether teeth of one gear differ, so that no mesh cycle is like the one before."""
+        raise NotImplementedError
+
+    def pace(self, case: Any) -> Pace:
+        """How fast it goes."""
+        raise NotImplementedError
+
+    def listener(self, prepared: Any) -> Listener:
+        """What listens to its sensors; raises InputError where one cannot."""
         raise NotImplementedError
 
     def frequencies(self, prepared: Any) -> np.ndarray:

@@ -13,6 +13,7 @@ from tribodyn.sensing.electronics import as_measured
 from tribodyn.sensing.housing import housing_acceleration
 from tribodyn.sensing.passing import heard
 from tribodyn.sensing.sampler import Sampler
+from tribodyn.signals.lines import SignalLine
 from tribodyn.studies.gears.over_time.sampled import Sampled
 from tribodyn.studies.gears.sensed.places import DRIVE, OUTPUT, Placed, Sensible
 from tribodyn.train.structure import turned
@@ -34,6 +35,21 @@ class Listener:
             key: Sampler(key[0], [kind == "acceleration" for kind, *_ in channels], filtered=key[1] != "none")
             for key, channels in self._channels.items()
         }
+
+    @property
+    def sensors(self) -> Sequence[Placed]:
+        """The sensors at their places."""
+        return self._sensors
+
+    @property
+    def lines(self) -> tuple[SignalLine, ...]:
+        """Orders of meshes and shafts, per turn of body 0."""
+        return self._sensible.lines
+
+    @property
+    def kinds(self) -> set[str]:
+        """Kinds of what is sampled."""
+        return {channel[0] for channels in self._channels.values() for channel in channels}
 
     def _needed(self, one: Placed) -> list[_Channel]:
         sensor = one.sensor

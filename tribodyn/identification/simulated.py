@@ -1,0 +1,100 @@
+"""Residuals: what was measured less what the sensors of the scenario hear, at shares of the ranges."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.identification.measured import MeasuredSignal
+from tribodyn.identification.unknowns import Unknown, case_at
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.record.sensors import Sensed
+from tribodyn.studies import study_of
+from tribodyn.studies.sweeping.signals import SignalRequest
+
+
+def turn_of(case: Any) -> float:
+    """Time of a turn of the body that drives the first mesh, s."""
+    batch: Any = study_of({"kind": case.kind}).batch()
+    return 2.0 * np.pi / batch.kind.pace(case).speed
+
+
+#: Residual of a place at which there is no run, over the deviation of what was measured.
+FAR = 100.0
+
+
+class SignalComparison:
+    """Compares a scenario with what was measured, at several places side by side."""
+
+    def __init__(
+        self,
+        case: Any,
+        unknowns: Sequence[Unknown],
+        measured: Sequence[MeasuredSignal],
+        run_in: float,
+        without_mean: bool,
+        workers: int | None,
+    ) -> None:
+        # noise and steps of a converter belong to what was measured
+        clean = (replace(each, noise=0.0, snr=None, bits=None, full_scale=None) for each in case.sensors)
+        self._sensors = {each.name: each for each in clean}
+        self._case, self._unknowns, self._measured = case, unknowns, measured
+        self._run_in, self._without_mean, self._workers = run_in, without_mean, workers
+        batch = study_of({"kind": case.kind}).batch()
+        if batch is None:
+            raise InputError("kind", f'"{case.kind}"', "such a study has no sensors", "use gear-pair")
+        self._batch: Any = batch.hearing(SignalRequest(1.0, run_in))
+        self._last = max((one.first + len(one.values)) / self._sensors[one.sensor].rate for one in measured)
+        self.scales = [max(float(np.std(one.values)), 1e-300) for one in measured]
+        self.failure = ""
+        base = replace(case, sensors=tuple(self._sensors.values()))
+        self._batch.check(base, self._batch.settings([base], None, "native"))  # what no values will mend
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Sensors that are compared."""
+        return tuple(one.sensor for one in self._measured)
+
+    def apart(self, shares: Float[Array, "place unknown"]) -> list[list[Float[Array, " sample"]]]:
+        """Residuals of each sensor at places, in its own unit."""
+        cases: list[Any] = []
+        for place in shares:
+            try:
+                case = case_at(self._case, self._unknowns, place)
+                cases.append(
+                    replace(case, sensors=tuple(self._sensors[one.sensor] for one in self._measured))
+                )
+            except InputError as error:
+                cases.append(str(error))
+        sound = [i for i, case in enumerate(cases) if not isinstance(case, str)]
+        heard: dict[int, Sensed | str] = dict(enumerate(cases)) if len(sound) < len(cases) else {}
+        if sound:
+            found = self._batch.heard([cases[i] for i in sound], self._run_in, self._last, self._workers)
+            heard |= dict(zip(sound, found, strict=True))
+        return [self._residuals(heard[i]) for i in range(len(cases))]
+
+    def __call__(self, shares: Float[Array, "place unknown"]) -> list[Float[Array, " residual"]]:
+        """Residuals at places over the scales of their sensors, one after the other."""
+        every = self.apart(shares)
+        return [
+            np.concatenate([part / scale for part, scale in zip(parts, self.scales, strict=True)])
+            for parts in every
+        ]
+
+    def _residuals(self, sensed: Sensed | str) -> list[np.ndarray]:
+        if isinstance(sensed, str):
+            self.failure = sensed
+            pairs = zip(self._measured, self.scales, strict=True)
+            return [np.full(len(one.values), FAR * scale) for one, scale in pairs]
+        found = []
+        for one in self._measured:
+            signal = sensed[one.sensor]
+            first = one.first - round(float(signal.time[0]) * signal.rate)
+            values = signal.values[first : first + len(one.values)]
+            if first < 0 or len(values) < len(one.values):
+                raise SimulationError("the run ends before what was measured", float(signal.time[-1]))
+            rest = one.values - values
+            found.append(rest - np.mean(rest) if self._without_mean else rest)
+        return found

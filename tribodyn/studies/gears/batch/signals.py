@@ -1,0 +1,316 @@
+"""Many cases whose sensors are listened to: a row of signals for each, for data sets.
+
+A case runs in from its start, and its signals begin at a moment of their own within the turn behind: what a
+damaged tooth does is then not at the same place of every signal.
+"""
+
+import dataclasses
+from collections.abc import Hashable, Sequence
+from math import ceil, floor, pi
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.numerics.parameter import Variable
+from tribodyn.record.sensors import Sensed
+from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
+from tribodyn.record.withheld import remarked, warned
+from tribodyn.sensing.data import KINDS
+from tribodyn.signals.resampling import REACH
+from tribodyn.studies.gears.batch.kind import Pace, SweptKind
+from tribodyn.studies.gears.check import remarks_in_brief
+from tribodyn.studies.gears.sensed.heard import BLOCK, Heard, listen
+from tribodyn.studies.gears.sensed.places import FEWEST
+from tribodyn.studies.protocol import cost
+from tribodyn.studies.protocol.cost import Estimate
+from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.studies.sweeping.signals import SignalRequest
+
+#: Cases that are marched together, and samples of the motion for each of a sensor's. What the motion has
+#: above half of them folds back; of accelerations at 20 kHz 0.2 % of the signal, 6 % with 1.5 samples.
+TOGETHER, OVERSAMPLED = 32, 6.0
+FEWEST_SAMPLES = 16
+#: What filters take before and behind a sample, in their `REACH` over the rate; half as much again to spare.
+_AROUND = 3.0
+#: Seconds of one core in which a second of a sensor's signal is filtered, per sample.
+_FILTERED = 8e-6
+
+ANGLE = "reference_angle"
+#: What is recorded of every case beside its signals.
+OF_CASES: dict[str, Variable] = {
+    "start_time": Variable((), "s", "time from the start of the run to the first sample"),
+    "noise_seed": Variable((), "1", "seed of the noise of the case's sensors", "<i8", -1),
+    "line_frequency": Variable(("line",), "Hz", "nominal frequency of a line: meshes, shafts, planets"),
+}
+_LINE = Variable(("line",), "1", "name of a line")
+
+
+class SignalSettings(NamedTuple):
+    """How the cases of a data set are listened to; plain data."""
+
+    duration: float  # s
+    run_in: float  # turns of the reference body
+    seed: int
+    samples: int  # of a reference cycle, by the slowest case at the ends of the axes
+    #: sensors: names, units, meanings and rates, Hz
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    about: tuple[str, ...]
+    rates: tuple[float, ...]
+    lines: tuple[str, ...]  # names
+    cycles: int  # of the longest run, at the ends of the axes
+
+
+class ListenedStretch(NamedTuple):
+    """When a case is listened to."""
+
+    first: int  # cycles before
+    blocks: int
+    start: float  # s, at which its signals begin: the slowest sensor has a sample there
+    noise_seed: int
+
+
+class SignalBatch:
+    """See `sweeping.batch.Batch`."""
+
+    states = 0
+
+    def __init__(self, kind: SweptKind, request: SignalRequest | None = None) -> None:
+        self.kind, self.request = kind, request
+
+    def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> SignalSettings:
+        """How the cases are listened to; the sensors are those of the first."""
+        assert self.request is not None
+        duration, run_in, seed = self.request
+        base = cases[0]
+        if transient is not None:
+            raise InputError("--transient", transient, "contradicts --signals", "give one of them")
+        if engine == "jax":
+            raise InputError("--engine", "jax", "signals come from the native solver", "omit it")
+        if not base.sensors:
+            remedy = 'add [[sensor]] with name = "a", kind = "acceleration", at = "gear" and rate = "20 kHz"'
+            raise InputError("sensor", None, "missing: what a data set holds is what sensors hear", remedy)
+        rates = [sensor.rate for sensor in base.sensors]
+        paces = [self.kind.pace(case) for case in cases]
+        samples = _samples(rates, paces)
+        plain = SignalSettings(duration, run_in, seed, samples, (), (), (), tuple(rates), (), 0)
+        longest = max(stretch_of(case, 0, plain, self.kind).blocks for case in cases)
+        plain = plain._replace(cycles=round(run_in * max(p.cycles for p in paces)) + BLOCK * (longest + 1))
+        prepared = self._prepared(base, plain)
+        listener = self.kind.listener(prepared)
+        if duration * min(rates) < FEWEST:
+            rule = f"too short for {FEWEST} samples of the slowest sensor, {min(rates):g} in a second"
+            raise InputError(
+                "--signals", f"{duration:g} s", rule, f"use at least {FEWEST / min(rates):.3g} s"
+            )
+        placed = listener.sensors
+        return plain._replace(
+            names=tuple(one.sensor.name for one in placed),
+            units=tuple(KINDS[one.sensor.kind].units for one in placed),
+            about=tuple(
+                KINDS[one.sensor.kind].about.format(at=one.at, direction=one.sensor.direction)
+                for one in placed
+            ),
+            lines=tuple(line.name for line in listener.lines),
+        )
+
+    def following(self, settings: SignalSettings, unstable: bool) -> SignalSettings:
+        """Refused: signals are of runs that begin by themselves."""
+        raise InputError("--direction", None, "contradicts --signals", "omit one")
+
+    def hearing(self, request: SignalRequest) -> "SignalBatch":
+        """The batch for a request."""
+        return SignalBatch(self.kind, request)
+
+    def layout(self, settings: SignalSettings) -> SweepLayout:
+        """Signals, the rotation of the reference beside them, and what `OF_CASES` names."""
+        variables, scales = {}, {}
+        several = len(set(settings.rates)) > 1
+        for rate in dict.fromkeys(settings.rates):
+            time = f"time_{rate:.12g}_Hz" if several else "time"
+            about = f"time from the first sample on, at {rate:.12g} samples per second"
+            steps = np.arange(samples_of(settings, rate)) / rate
+            scales[time] = (Variable((time,), "s", about), steps)
+            rotation = f"rotation of the reference body since the first sample, at {rate:.12g} Hz"
+            variables[_angle_name(settings, rate)] = Variable((time,), "rad", rotation, "<f4")
+            for name, units, text, own in zip(
+                settings.names, settings.units, settings.about, settings.rates, strict=True
+            ):
+                if own == rate:
+                    variables[name] = Variable((time,), units, text, "<f4")
+        scales["line"] = _LINE, settings.lines
+        attributes = {"run_in": settings.run_in, "sensors": " ".join(settings.names)}
+        if not several:
+            attributes |= {"sampling_rate": settings.rates[0], "sampling_rate_units": "Hz"}
+        return SweepLayout(variables | OF_CASES, scales, attributes)
+
+    def size_of_chunk(self, settings: SignalSettings, total: int, width: int) -> int:
+        """Cases to be marched together."""
+        return max(1, min(TOGETHER, total))
+
+    def estimate(self, case: Any, settings: SignalSettings, total: int, width: int) -> Estimate:
+        """What one of so many cases takes."""
+        together = min(total, TOGETHER)
+        signal = sum(samples_of(settings, rate) for rate in settings.rates)
+        taken = cost.total(
+            (*self.kind.drivers(case), cost.Driver("--signals", settings.cycles, 1000.0)),
+            *self.kind.marching(case, float(settings.cycles)),
+            cost.in_memory(together * BLOCK * settings.samples, 8.0 * self.kind.most_states),
+            cost.in_memory(together * signal, 3 * 8.0),
+            cost.Estimate(seconds=_FILTERED * signal),
+        )
+        return taken._replace(record=8.0 * signal)
+
+    def sharing(self, case: Any) -> Hashable:
+        """Cases for which this is equal have the same tables."""
+        return self.kind.table_key(case)
+
+    def check(self, case: Any, settings: SignalSettings) -> None:
+        """Prepare a case, and place its sensors."""
+        self.kind.listener(self._prepared(case, settings))
+
+    def evaluate(self, chunk: Chunk, settings: SignalSettings, workers: int | None) -> dict[str, np.ndarray]:
+        """Return a row for every case of a chunk, for all datasets of its layout; by default by all cores."""
+        rows = self.layout(settings).empty_rows(len(chunk.cases))
+        ready: dict[int, Heard] = {}
+        stretches: dict[int, ListenedStretch] = {}
+        made = {i: case for i, case in enumerate(chunk.cases) if not isinstance(case, str)}
+        for i, case in made.items():
+            stretches[i] = stretch_of(case, int(chunk.numbers[i]), settings, self.kind)
+        # of one length, so that the tables of their teeth's numbers have one shape
+        ends = [stretch.first + BLOCK * stretch.blocks for stretch in stretches.values()]
+        for i, case in enumerate(chunk.cases):
+            if isinstance(case, str):
+                _fail(rows, i, case)
+                continue
+            stretch = stretches[i]
+            try:
+                finer = self._finer(case, settings)
+                own = settings._replace(cycles=max(ends), samples=finer)
+                prepared = self._prepared(case, own, stretch.noise_seed)
+                listener = self.kind.listener(prepared)
+                if tuple(one.sensor.name for one in listener.sensors) != settings.names:
+                    rule = "the sensors are not those of the first case"
+                    raise InputError("sensor", None, rule, "give all cases the same")
+                solver = prepared.case.solver
+                ready[i] = Heard(prepared.model, listener, solver, stretch.first, stretch.blocks, finer)
+            except (InputError, SimulationError) as error:
+                _fail(rows, i, str(error))
+        heard = listen(list(ready.values()), workers)
+        for i, sensed in zip(ready, heard, strict=True):
+            if isinstance(sensed, str):
+                _fail(rows, i, sensed)
+                continue
+            rows["noise_seed"][i] = stretches[i].noise_seed
+            operation = ready[i].model.operation
+            shaft = float(operation.nominal_speed) / (2.0 * pi)
+            rows["line_frequency"][i] = [line.order * shaft for line in sensed.lines]
+            _fill(rows, i, sensed, stretches[i].start, settings, chunk.cases[i].toml)
+        return rows
+
+    def heard(
+        self, cases: Sequence[Any], run_in: float, last: float, workers: int | None = None
+    ) -> list[Sensed | str]:
+        """Signals of cases from a turn of the reference body on to a time, s; a text where one fails: why.
+
+        The motion is sampled for the first of the cases, as its `output` says or finer.
+        """
+        rates = [sensor.rate for sensor in cases[0].sensors]
+        samples = max(_samples(rates, [self.kind.pace(cases[0])]), cases[0].output.samples_per_cycle)
+        plain = SignalSettings(last, run_in, 0, samples, *_NOBODY, 0)
+        paces = [self.kind.pace(case) for case in cases]
+        reach = _AROUND * REACH / min(rates)
+        rate = max(pace.speed * pace.cycles for pace in paces) / (2.0 * pi)  # reference cycles per second
+        first = max(0, floor(run_in * paces[0].cycles - reach * rate))
+        blocks = ceil(((last + reach) * rate - first) / BLOCK)
+        found: list[Sensed | str] = [""] * len(cases)
+        ready: dict[int, Heard] = {}
+        for i, case in enumerate(cases):
+            try:
+                own = self._prepared(case, plain._replace(cycles=first + BLOCK * blocks))
+                listener = self.kind.listener(own)
+                ready[i] = Heard(own.model, listener, own.case.solver, first, blocks, samples)
+            except (InputError, SimulationError) as error:
+                found[i] = str(error)
+        for i, sensed in zip(ready, listen(list(ready.values()), workers), strict=True):
+            found[i] = sensed
+        return found
+
+    def _finer(self, case: Any, settings: SignalSettings) -> int:
+        """Samples of a cycle of a case: those of the settings, doubled while it is too slow for so few."""
+        needed, samples = _samples(settings.rates, [self.kind.pace(case)]), settings.samples
+        while samples < needed:
+            samples *= 2
+        return samples
+
+    def _prepared(self, case: Any, settings: SignalSettings, noise_seed: int | None = None) -> Any:
+        """The case, sampled and as long as the settings say, its sensors with noise of a seed."""
+        sensors = case.sensors
+        if noise_seed is not None:
+            sensors = tuple(dataclasses.replace(sensor, seed=noise_seed) for sensor in sensors)
+        output = dataclasses.replace(case.output, samples_per_cycle=settings.samples)
+        solver = dataclasses.replace(case.solver, cycles=settings.cycles)
+        own = dataclasses.replace(case, sensors=sensors, output=output, solver=solver)
+        return self.kind.prepare(own, self.kind.tabulated(case))
+
+
+#: Sensors and lines of settings that need none.
+_NOBODY = (), (), (), (), ()
+
+
+def _samples(rates: Sequence[float], paces: Sequence[Pace]) -> int:
+    """Samples of a reference cycle that the fastest sensor asks of the slowest case."""
+    slowest = min(pace.speed * pace.cycles for pace in paces) / (2.0 * pi)  # reference cycles per second
+    return max(FEWEST_SAMPLES, ceil(OVERSAMPLED * max(rates) / slowest))
+
+
+def samples_of(settings: SignalSettings, rate: float) -> int:
+    """Samples of a signal of so many in a second."""
+    return max(1, round(settings.duration * rate))
+
+
+def stretch_of(case: Any, number: int, settings: SignalSettings, kind: SweptKind) -> ListenedStretch:
+    """When the case of a number is listened to: from the moment drawn for it, as long as signals are."""
+    random = np.random.default_rng([settings.seed, number])
+    pace = kind.pace(case)
+    turn = 2.0 * pi / pace.speed
+    reach = _AROUND * REACH / min(settings.rates)
+    start = (settings.run_in + random.random()) * turn + reach
+    start = ceil(start * min(settings.rates)) / min(settings.rates)
+    first = floor(settings.run_in * pace.cycles)
+    cycles = ceil((start + settings.duration + reach) / turn * pace.cycles) - first
+    return ListenedStretch(first, ceil(cycles / BLOCK), start, int(random.integers(2**31)))
+
+
+def _angle_name(settings: SignalSettings, rate: float) -> str:
+    return ANGLE if len(set(settings.rates)) == 1 else f"{ANGLE}_{rate:.12g}_Hz"
+
+
+def _fill(
+    rows: dict[str, Any], i: int, sensed: Sensed, start: float, settings: SignalSettings, toml: str
+) -> None:
+    """Put the signals of a case into its row."""
+    for signal in sensed.signals:
+        count = samples_of(settings, signal.rate)
+        time = signal.time
+        first = int(np.searchsorted(time, start - 1e-6 / signal.rate))
+        if len(time) < first + count or (first == 0 and time[0] > start + 1.0 / signal.rate):
+            end = f"{time[-1]:.4g} s" if len(time) else "none"
+            _fail(
+                rows,
+                i,
+                f"the signal of {signal.name} ends too early ({end}): the drive runs ahead of its speed",
+            )
+            return
+        part = slice(first, first + count)
+        rows[signal.name][i] = signal.values[part]
+        rows[_angle_name(settings, signal.rate)][i] = signal.angle[part] - signal.angle[first]
+    rows["start_time"][i] = start
+    rows["message"][i] = remarked(*map(warned, remarks_in_brief(toml)))
+    rows["status"][i] = DONE
+
+
+def _fail(rows: dict[str, Any], i: int, reason: str) -> None:
+    rows["status"][i] = FAILED
+    rows["message"][i] = reason
