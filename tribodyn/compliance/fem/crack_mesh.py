@@ -47,7 +47,7 @@ def cracked_mesh(loaded: LoadedTooth, crack: Crack, refined: float = 1.0) -> Cra
     fillet, flank, own = half_outline(loaded)
     start = mouth(loaded, crack.tangent).place
     tip = start + crack.depth * np.array([-np.cos(crack.angle), -np.sin(crack.angle)])
-    shape = _Shape(loaded, fillet, flank)
+    shape = _Domain(loaded, fillet, flank)
     if not np.all(shape.holds(np.linspace(start, tip, 50)[1:])) or not shape.far_from_bore(tip, crack.depth):
         rule = "the crack leaves the body: its tip lies in the bore or the other flank"
         raise InputError("depth", f"{1e3 * crack.depth:.3g} mm", rule, "make it shallower")
@@ -76,7 +76,7 @@ def cracked_mesh(loaded: LoadedTooth, crack: Crack, refined: float = 1.0) -> Cra
     return CrackedMesh(points, sound, cracked, held, on_flank, distance)
 
 
-class _Shape:
+class _Domain:
     """Which places lie in the ring or the tooth."""
 
     def __init__(self, loaded: LoadedTooth, fillet: Points, flank: Points) -> None:
@@ -170,7 +170,7 @@ def _quadtree(loaded: LoadedTooth, size: Size) -> Points:
     return np.concatenate(found)
 
 
-def _triangles(points: Points, shape: _Shape) -> NDArray[np.int64]:
+def _triangles(points: Points, shape: _Domain) -> NDArray[np.int64]:
     cells = Delaunay(points).simplices.astype(np.int64)
     a, b, c = (points[cells[:, k]] for k in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
