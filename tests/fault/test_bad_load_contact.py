@@ -115,12 +115,6 @@ ELSEWHERE = {
         'compliance = "energy"',
     ),
     "slices by the energy method": ("crc-23-47", ("mesh.slices=5",), "mesh.slices = 5", "energy"),
-    "pitch errors of a gear pair": (
-        "involute-18-36-fem",
-        (PITCH_ERRORS,),
-        f"{PINION}.pitch_errors = 18 values",
-        "repeats one mesh cycle",
-    ),
     "pitch errors in an efficiency study": (
         "efficiency-involute-18-36",
         ("mesh.compliance=fem", PITCH_ERRORS),

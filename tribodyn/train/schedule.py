@@ -49,8 +49,8 @@ def of_one_mesh(boundary: Float[Array, " boundary"]) -> Schedule:
     segment = np.arange(count, dtype=float)[:, None]
     start, end = xp.asarray(boundary)[:-1], xp.asarray(boundary)[1:]
     first = np.array([0.0, count])
-    none = np.zeros((count, 1))
-    return Schedule(first, start, end, segment, np.ones((count, 1)), np.ones(1), none, none, none)
+    offset, one, two = np.zeros((3, count, 1))
+    return Schedule(first, start, end, segment, np.ones((count, 1)), np.ones(1), offset, one, two)
 
 
 def common_period(rates: Sequence[Fraction]) -> int:
@@ -100,8 +100,8 @@ def schedule_of(
             offset[n, mesh] = phase + float(rate * cycle) - floor(middle)
     phase_in = np.array(starts) - np.array(cycles)
     phase_out = np.array(ends) - np.array(cycles)
-    none, rate = np.zeros_like(opens), np.array([float(r) for r in rates])
-    return Schedule(first, phase_in, phase_out, segment, opens, rate, offset, none, none)
+    rate, (one, two) = np.array([float(r) for r in rates]), np.zeros((2, *opens.shape))
+    return Schedule(first, phase_in, phase_out, segment, opens, rate, offset, one, two)
 
 
 def with_teeth(
