@@ -59,7 +59,7 @@ class SetFrequencies(NamedTuple):
 def set_frequencies(sun: int, planet: int, ring: int, planets: int, mesh: float) -> SetFrequencies:
     """Frequencies of a planetary set of so many teeth, by that of its meshes, whichever member is held.
 
-    In the frame of the carrier all gears mesh with f_mesh = z |n − n_c|, so that each turns there with
+    In the frame of the carrier all gears mesh with f_mesh = z abs(n − n_c), so that each turns there with
     f_mesh/z, and meets `planets` mates in a turn; a planet meets sun and ring with opposite flanks.
     """
     return SetFrequencies(
