@@ -9,11 +9,11 @@ from tests.support.planet_sets import IN_PHASE, SEQUENTIAL, planet_set, set_case
 from tests.support.train_scenarios import case_of_table
 from tribodyn.dynamics.modes import modes
 from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import half_angles
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
 from tribodyn.solve.orbit.periodic import steady_states
-from tribodyn.studies.gear_train.described.teeth import half_angles
 from tribodyn.studies.gear_train.planetary.results import STAGES, kinds_of
 from tribodyn.studies.gear_train.prepare import prepare
 from tribodyn.studies.gear_train.run import run

@@ -112,6 +112,15 @@ def assemble(family: Family, drive: Drive) -> Assembly:
     return Assembly(family, drive)
 
 
+def half_angles(assembly: Assembly) -> tuple[float, float]:
+    """Half thickness angles (rad) of pinion and gear on their working pitch circles."""
+    one, two = (
+        float(thickness_half_angle(assembly.tooth(side), assembly.path_of(side).pinion_pitch_radius))
+        for side in SIDES
+    )
+    return one, two
+
+
 def tip_clearance(assembly: Assembly, side: Side) -> Any:
     """Distance between this body's tip circle and its mate's root circle on the line of centres, m."""
     centre_distance = assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius

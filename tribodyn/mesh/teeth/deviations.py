@@ -4,6 +4,7 @@ Lengths are along the flank's normal, positive where material is missing, but fo
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -94,9 +95,14 @@ class ToothSample:
         """By the tolerances."""
         return sum(self.limits) - self.limits.single_pitch
 
+    @cached_property
+    def _pitch(self) -> Float[Array, " tooth"]:
+        """Of all teeth, which are drawn together."""
+        return sampled(self.limits, self.teeth, self.seed, self.gear).pitch
+
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""
-        pitch = float(sampled(self.limits, self.teeth, self.seed, self.gear).pitch[tooth])
+        pitch = float(self._pitch[tooth])
         random = np.random.default_rng([self.seed, self.gear, 1 + tooth, flank])
         share = np.clip(random.standard_normal(3) / SPREAD, -1.0, 1.0)
         waves, phase = random.integers(1, MOST_WAVES + 1), random.uniform(0.0, 2.0 * np.pi)

@@ -4,11 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.assembly import Assembly, half_angles
 from tribodyn.geometry.helix import normal_slope, overlap_ratio, pitch_slope, roll_shift
 from tribodyn.geometry.path import radius
-from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.helical import slice_layout
 from tribodyn.mesh.table import MeshData, back_entry
@@ -30,15 +28,6 @@ class PairPlaces(NamedTuple):
     #: numbers of the slots' teeth less those of the teeth that entered last on the driving side
     driver_number: Float[Array, "segment slot"]
     driven_number: Float[Array, "segment slot"]
-
-
-def half_angles(assembly: Assembly) -> tuple[float, float]:
-    """Half thickness angles (rad) of pinion and gear on their working pitch circles."""
-    one, two = (
-        float(thickness_half_angle(assembly.tooth(side), assembly.path_of(side).pinion_pitch_radius))
-        for side in SIDES
-    )
-    return one, two
 
 
 def places_of(assembly: Assembly, mesh: MeshData, cycle: MeshCycle) -> tuple[PairPlaces, ...]:

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, tip_radius
+from tribodyn.geometry.assembly import Assembly, half_angles
+from tribodyn.geometry.drive import Drive, Side, body_of, tip_radius
 from tribodyn.geometry.families import family
 from tribodyn.geometry.path import seen_from
 from tribodyn.geometry.tooth import thickness_half_angle
@@ -20,15 +20,6 @@ SAME_TOOTH = 1e-6
 _RADII = 9
 #: Signed distances in modules, and the difference in rad by which two paths of contact are the same.
 _OVER_MODULE, _SAME_ANGLE = np.linspace(-1.0, 1.0, 9), 1e-8
-
-
-def half_angles(assembly: Assembly) -> tuple[float, float]:
-    """Half thickness angles (rad) of pinion and gear on their working pitch circles."""
-    one, two = (
-        float(thickness_half_angle(assembly.tooth(side), assembly.path_of(side).pinion_pitch_radius))
-        for side in SIDES
-    )
-    return one, two
 
 
 def engagement(
