@@ -13,28 +13,23 @@ from tribodyn.studies.gears.over_time.sampled import Sampled
 
 REVOLUTION = Variable(("revolution",), "1", "revolution of the gear that drives the first mesh, from 1 on")
 _ERROR, _LOAD = "transmission_error_rotational", "normal_load"
-#: What a row has of a mesh: dataset of the motion, and how it is taken together over samples and pairs.
-_TAKEN: dict[str, tuple[str, str]] = {
-    "transmission_error_mean": (_ERROR, "mean"),
-    "transmission_error_rms": (_ERROR, "rms"),
-    "transmission_error_min": (_ERROR, "min"),
-    "transmission_error_max": (_ERROR, "max"),
-    "normal_load_max": (_LOAD, "max"),
-    "hertz_pressure_max": ("hertz_pressure", "max"),
-    "film_thickness_min": ("central_film_thickness", "min"),
-    "flash_temperature_max": ("flash_temperature_rise", "max"),
-    "power_friction_mean": ("mesh_power_friction", "mean"),
-}
-_MEANINGS = {
-    "transmission_error_mean": ("m", "mean of the rotational transmission error"),
-    "transmission_error_rms": ("m", "root mean square of the transmission error about its mean"),
-    "transmission_error_min": ("m", "minimum of the rotational transmission error"),
-    "transmission_error_max": ("m", "maximum of the rotational transmission error"),
-    "normal_load_max": ("N", "maximum normal load of a pair"),
-    "hertz_pressure_max": ("Pa", "maximum Hertz pressure"),
-    "film_thickness_min": ("m", "minimum central film thickness"),
-    "flash_temperature_max": ("K", "maximum flash temperature rise"),
-    "power_friction_mean": ("W", "mean power lost to sliding friction"),
+#: What a row has of a mesh: dataset of the motion, how it is taken together over samples and pairs, unit and
+#: meaning.
+_TAKEN: dict[str, tuple[str, str, str, str]] = {
+    "transmission_error_mean": (_ERROR, "mean", "m", "mean of the rotational transmission error"),
+    "transmission_error_rms": (
+        _ERROR,
+        "rms",
+        "m",
+        "root mean square of the transmission error about its mean",
+    ),
+    "transmission_error_min": (_ERROR, "min", "m", "minimum of the rotational transmission error"),
+    "transmission_error_max": (_ERROR, "max", "m", "maximum of the rotational transmission error"),
+    "normal_load_max": (_LOAD, "max", "N", "maximum normal load of a pair"),
+    "hertz_pressure_max": ("hertz_pressure", "max", "Pa", "maximum Hertz pressure"),
+    "film_thickness_min": ("central_film_thickness", "min", "m", "minimum central film thickness"),
+    "flash_temperature_max": ("flash_temperature_rise", "max", "K", "maximum flash temperature rise"),
+    "power_friction_mean": ("mesh_power_friction", "mean", "W", "mean power lost to sliding friction"),
 }
 PREFIX = "revolution_"
 
@@ -44,7 +39,7 @@ def described(*, of_train: bool) -> dict[str, Variable]:
     dims = ("revolution", "mesh") if of_train else ("revolution",)
     return {
         PREFIX + name: Variable(dims, unit, f"{text}, by revolution")
-        for name, (unit, text) in _MEANINGS.items()
+        for name, (_, _, unit, text) in _TAKEN.items()
     }
 
 
@@ -59,7 +54,7 @@ class ByRevolution:
     def __init__(self, record: RecordWriter, meshes: int, revolution: int, samples: int, of_train: bool):
         self._record, self._of_train = record, of_train
         self._size, self._row = revolution * samples, 0
-        self._parts: dict[str, list[np.ndarray]] = {name: [] for name, _ in _TAKEN.values()}
+        self._parts: dict[str, list[np.ndarray]] = {name: [] for name, *_ in _TAKEN.values()}
         self._held, self._meshes = 0, meshes
 
     def add(self, block: Sampled) -> None:
@@ -77,7 +72,7 @@ class ByRevolution:
     def _conclude(self) -> None:
         whole = {name: np.concatenate(parts) for name, parts in self._parts.items()}
         row: dict[str, Any] = {}
-        for name, (of, how) in _TAKEN.items():
+        for name, (of, how, *_) in _TAKEN.items():
             values = _together(whole[of], how)
             row[PREFIX + name] = values if self._of_train else values[0]
         self._record.put(self._row, row)
