@@ -13,7 +13,7 @@ from tools.fuzz.inputs import CURVE, Input, mutated, scenarios
 from tribodyn.cli.options import overrides
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.errors import InputError, InputErrors, SimulationError
-from tribodyn.kernels.native.arguments import Compiled
+from tribodyn.kernels.native.arguments import Compiled, Target
 from tribodyn.kernels.native.store import compiled_in, content_of
 from tribodyn.numerics.cache import arrays_kept_or_made, kept_or_made, trusted_folder
 from tribodyn.post.sweep_report import sweep_as_json
@@ -121,7 +121,7 @@ def _cache(given: Input, folder: Path) -> None:
         raise Fault(f"a changed {given.base} was taken, or not made again")
 
 
-_CODE = Compiled("f", "i8", True, [], bytes(range(200)))
+_CODE = Compiled("f", "i8", True, [], Target("generic", "", "3 1 0"), bytes(range(200)))
 _ARRAYS: dict[str, Callable[[], dict[str, Any]]] = {
     "gear": lambda: {
         name: np.arange(12.0) for name in GearCompliance._fields if name not in ("lead", "ends")

@@ -25,9 +25,11 @@ def _main() -> None:
     import sys
 
     from tribodyn.numerics.child import safe_path
+    from tribodyn.numerics.library_settings import ignore_settings
 
     # `python -m` and an empty entry of PYTHONPATH would import from the current folder
     sys.path[:] = safe_path()
+    ignore_settings()
     # start-up makes objects that stay: to look through them for cycles would be a tenth of its time
     gc.set_threshold(300_000)
     # the library keeps small systems to one thread of BLAS: the others need not be begun

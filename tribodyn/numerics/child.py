@@ -20,6 +20,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from tribodyn.numerics.library_settings import ignore_files
+
 if TYPE_CHECKING:
     import subprocess
 
@@ -162,6 +164,7 @@ def begin(target: str, *words: str) -> None:
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_SETMASK, ())
     _end_with_input()
+    ignore_files()
     module, _, name = target.partition(":")
     getattr(import_module(module), name)(*words)
 

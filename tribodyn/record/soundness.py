@@ -53,13 +53,14 @@ def blamed(path: Path, error: BaseException | None) -> Exception | None:
     """An error that ends the reading of a file if it is the file's fault.
 
     It is not if this process has written the file, nor if the error is of a user's own code while the file
-    is open. With ``TRIBODYN_TRACEBACK=1`` in the environment none is: a reader's mistake can be found so.
+    is open, or of the import of a library, as by its settings. With ``TRIBODYN_TRACEBACK=1`` in the
+    environment none is: a reader's mistake can be found so.
     """
     if not (isinstance(error, _MISREAD) or (isinstance(error, OSError) and error.errno is None)):
         return None
     package = __name__.partition(".")[0]
-    names = (str(frame.f_globals.get("__name__")) for frame, _ in walk_tb(error.__traceback__))
-    if package not in {name.partition(".")[0] for name in names}:
+    names = {str(frame.f_globals.get("__name__")) for frame, _ in walk_tb(error.__traceback__)}
+    if package not in {name.partition(".")[0] for name in names} or "importlib._bootstrap" in names:
         return None
     with suppress(OSError):
         if os.environ.get("TRIBODYN_TRACEBACK") or _identity(path) in _own:

@@ -136,6 +136,28 @@ def _source(file: str) -> bytes:
         raise _UnknownError from None
 
 
+#: The compiler's options that change code, with what numba takes where nothing says otherwise.
+OPTIONS = {"OPT": "3", "LOOP_VECTORIZE": "1", "SLP_VECTORIZE": "0"}
+
+
+class Target(NamedTuple):
+    """What machine code is compiled for, and how."""
+
+    processor: str  # as LLVM names it
+    features: str  # what the processor has, as LLVM writes it: "+fma,-avx512f"
+    options: str  # values of `OPTIONS`, in order
+
+    def fits(self, other: "Target") -> bool:
+        """Whether it needs nothing that another target lacks, and is compiled alike."""
+        return (self.processor, self.options) == (other.processor, other.options) and (
+            _present(self.features) <= _present(other.features)
+        )
+
+
+def _present(features: str) -> set[str]:
+    return {feature for feature in features.split(",") if feature.startswith("+")}
+
+
 class Compiled(NamedTuple):
     """A kernel's machine code as it is kept."""
 
@@ -144,6 +166,7 @@ class Compiled(NamedTuple):
     returns: str
     single: bool
     needs: list[str]  # names that the code does not define
+    target: "Target"  # what it was compiled for
     body: bytes  # the object file
 
 

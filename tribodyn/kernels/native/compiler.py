@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any, cast
 
 from llvmlite import ir
-from numba.core import types
+from numba.core import config, types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Flags, compile_extra
 from numba.core.compiler_lock import global_compiler_lock
@@ -20,7 +20,7 @@ from numba.core.errors import NumbaError
 from numba.core.registry import cpu_target
 
 from tribodyn.errors import InputError
-from tribodyn.kernels.native.arguments import Compiled, RecordLayout, functions_in
+from tribodyn.kernels.native.arguments import OPTIONS, Compiled, RecordLayout, Target, functions_in
 from tribodyn.kernels.native.functions import register_laws
 from tribodyn.kernels.native.parts import FUSE, as_part
 from tribodyn.kernels.native.records import WORDS, RecordType, fields_of, letter_of, put
@@ -99,7 +99,14 @@ def compiled(function: Callable[..., Any], layout: RecordLayout) -> Compiled:
     returned = kernel.overloads[kinds].signature.return_type
     several = isinstance(returned, types.BaseTuple)
     numbers = list(cast(Any, returned)) if several else () if returned is types.none else (returned,)
-    return Compiled(symbol, "".join(map(letter_of, numbers)), not several, library.needs(), library.body)
+    returns = "".join(map(letter_of, numbers))
+    return Compiled(symbol, returns, not several, library.needs(), target_of(library.codegen), library.body)
+
+
+def target_of(codegen: Any) -> Target:
+    """What numba compiles for at present, by whoever has set it."""
+    _, processor, features = codegen.magic_tuple()
+    return Target(processor, features, " ".join(str(int(getattr(config, name))) for name in OPTIONS))
 
 
 def explained(error: NumbaError, layout: RecordLayout) -> Exception:

@@ -2,12 +2,13 @@
 
 A file holds one kernel for one layout of its arguments: a line of JSON, then an object file as the platform's
 linker would take it. Its name is a digest of everything that the code depends on: the source of the kernel
-and of all that it imports, the versions of numba and llvmlite, the processor, and the layout. A file that is
-damaged, or needs a function that this process does not have, is compiled again.
+and of all that it imports, the versions of numba and llvmlite, the processor with all that it has, the
+compiler's options, and the layout. The file also says what the code was compiled for. One that is damaged, is
+for another processor or of other options, or needs a function that this process does not have, is compiled
+again; what a process compiles under settings that the name does not have is not kept.
 """
 
 import hashlib
-import importlib
 import importlib.util
 import json
 import os
@@ -19,9 +20,10 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-from tribodyn.errors import InputError
-from tribodyn.kernels.native.arguments import Code, Compiled, is_kept
+from tribodyn.errors import InputError, cut
+from tribodyn.kernels.native.arguments import OPTIONS, Code, Compiled, Target, is_kept
 from tribodyn.numerics.cache import kept_or_made
+from tribodyn.numerics.library_settings import without_file
 from tribodyn.numerics.sources import code_of, digest_of
 
 #: What turns any kernel into machine code.
@@ -34,20 +36,25 @@ def machine_code(function: Callable[..., Any], layout: Any) -> Code:
     Raises InputError where nothing can be compiled, by a variable of the environment or the version of numba.
     """
 
-    def made() -> tuple[Code, bytes]:
+    def made() -> tuple[Code, bytes | None]:
         code = _compiler()(function, layout)
+        _refuse_foreign(code.target)
         loaded_code = loaded(code)
         assert loaded_code is not None  # made in this process
-        return loaded_code, content_of(code)
+        return loaded_code, content_of(code) if code.target.fits(_target()) else None
+
+    def kept(content: bytes) -> Code | None:
+        code = compiled_in(content)
+        return loaded(code) if code.target.fits(_target()) else None
 
     place = _place_of(function, layout)
-    return kept_or_made(*place, lambda content: loaded(compiled_in(content)), made) if place else made()[0]
+    return kept_or_made(*place, kept, made) if place else made()[0]
 
 
 def _compiler() -> Callable[..., Compiled]:
     """What compiles a kernel; imports numba, of whose internals it needs more than numba documents."""
     try:
-        numba = importlib.import_module("numba")
+        numba = without_file("numba")
     except ValueError as error:
         name = "NUMBA_NUM_THREADS"
         if name not in os.environ:
@@ -65,6 +72,25 @@ def _compiler() -> Callable[..., Compiled]:
     return compiled
 
 
+def _target() -> Target:
+    """What numba compiles for in this process unless something other than variables says otherwise."""
+    processor = os.environ.get("NUMBA_CPU_NAME") or llvm.get_host_cpu_name()
+    features = os.environ.get("NUMBA_CPU_FEATURES")
+    if features is None:
+        features = "" if processor == "generic" else llvm.get_host_cpu_features().flatten()
+    options = " ".join(os.environ.get(f"NUMBA_{name}", usual) for name, usual in OPTIONS.items())
+    return Target(processor, features, options)
+
+
+def _refuse_foreign(target: Target) -> None:
+    """Raise InputError where code needs what this machine's processor lacks: it would end the process."""
+    here = target._replace(features=llvm.get_host_cpu_features().flatten())
+    if not target.fits(here):
+        rule = "numba compiles for another processor, of which this one lacks features"
+        remedy = "unset it, and import numba in a folder without .numba_config.yaml"
+        raise InputError("NUMBA_CPU_FEATURES", cut(target.features, 80), rule, remedy)
+
+
 @cache
 def _digest(module: str) -> str:
     """Digest of a module's source and of all that it imports, of what compiles them, and of the processor."""
@@ -74,7 +100,8 @@ def _digest(module: str) -> str:
     digest = hashlib.sha256(Path(numba.origin).with_name("_version.py").read_bytes())
     switches = sorted(item for item in os.environ.items() if item[0].startswith("NUMBA_"))
     processor = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
-    digest.update(repr((llvmlite.__version__, llvm.get_process_triple(), processor, switches)).encode())
+    target = llvm.get_process_triple(), processor, tuple(_target())
+    digest.update(repr((llvmlite.__version__, target, switches)).encode())
     digest.update(digest_of(module, _COMPILER))
     return digest.hexdigest()[:16]
 
@@ -92,7 +119,8 @@ def _place_of(function: Callable[..., Any], layout: Any) -> tuple[str, str] | No
 def compiled_in(content: bytes) -> Compiled:
     """What a file of the cache holds."""
     head, _, body = content.partition(b"\n")
-    return Compiled(**json.loads(head), body=body)
+    found = json.loads(head)
+    return Compiled(**found | {"target": Target(*found["target"])}, body=body)
 
 
 def content_of(code: Compiled) -> bytes:
