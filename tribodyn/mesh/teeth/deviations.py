@@ -1,6 +1,8 @@
 """Deviations of single teeth: run-out of a gear, errors of pitch, profile and helix of every flank.
 
 Lengths are along the flank's normal, positive where material is missing, but for eccentricity and wobble.
+What is written of a gear holds for the flanks that carry: the leading one of a gear that drives, the trailing
+one of a gear that is driven, both of an idler or a planet.
 """
 
 from dataclasses import dataclass
@@ -25,8 +27,9 @@ class RunOut:
     In mid-face the gear's axis stands off by the eccentricity, and at z by the vector sum of eccentricity and
     wobble times z. Angles are directions from the axis of tooth 0 in the gear's own sense of rotation. With ξ
     the direction from the line of centres (`FlankPlaces.turned` and the angle), the leading flank lacks
-    −e sin(ξ + α) along the transverse normal and the trailing one e sin(ξ − α): of one gear the error is
-    e sin(θ + α_w), with sidebands of the mesh orders at ± its rotation (physics 11).
+    −e sin(ξ + α) along the transverse normal and the trailing one e sin(ξ − α), of an internal gear, which
+    its mate pushes outwards, with −α: of one gear the error is e sin(θ + α_w), with sidebands of the mesh
+    orders at ± its rotation (physics 11).
     """
 
     teeth: int
@@ -45,23 +48,24 @@ class RunOut:
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""
         behind = places.turned + 2.0 * np.pi * tooth / self.teeth
-        gap = np.zeros_like(behind)
+        gap, outward = np.zeros_like(behind), np.sign(places.radius) * places.pressure_angle
         tilted = self.wobble * places.face[:, None]
         parts = (self.eccentricity, self.eccentricity_angle), (tilted, self.wobble_angle)
         for offset, angle in parts:
             direction = behind + angle
             if flank == LEADING:
-                gap = gap - offset * np.sin(direction + places.pressure_angle)
+                gap = gap - offset * np.sin(direction + outward)
             else:
-                gap = gap + offset * np.sin(direction - places.pressure_angle)
+                gap = gap + offset * np.sin(direction - outward)
         return _gap_alone(gap * places.lean, places)
 
 
 @dataclass(frozen=True)
 class PitchErrors:
-    """Index deviations of the leading flanks: how much each is behind its place; the trailing is ahead."""
+    """Index deviations: how much a flank of each tooth is behind its place; the other one is ahead."""
 
     errors: tuple[float, ...]  # m along the normal
+    flank: int  # that is behind: `LEADING` or `TRAILING`
     of_gap_alone: bool = True
 
     @property
@@ -72,15 +76,16 @@ class PitchErrors:
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""
         error = self.errors[tooth]
-        return _gap_alone(np.array(error if flank == LEADING else -error), places)
+        return _gap_alone(np.array(error if flank == self.flank else -error), places)
 
 
 @dataclass(frozen=True)
 class ToothSample:
     """Deviations of every tooth, drawn within tolerances: a normal distribution, a third of them its spread.
 
-    Pitch as `modification.sampled`, which keeps single and total pitch; profile slope and form (one to three
-    waves) and helix slope of every flank by itself. The same for the same seed and number of the gear.
+    Pitch as `modification.sampled`, which keeps single and total pitch, as `PitchErrors` of `flank`; profile
+    slope and form (one to three waves) and helix slope of every flank by itself. The same for the same seed
+    and number of the gear.
     """
 
     limits: Limits
@@ -88,6 +93,7 @@ class ToothSample:
     seed: int
     gear: int
     face_width: float  # over which the helix slope is, m
+    flank: int
     of_gap_alone: bool = True
 
     @property
@@ -107,7 +113,7 @@ class ToothSample:
         share = np.clip(random.standard_normal(3) / SPREAD, -1.0, 1.0)
         waves, phase = random.integers(1, MOST_WAVES + 1), random.uniform(0.0, 2.0 * np.pi)
         along = height_share(places)
-        gap = pitch if flank == LEADING else -pitch
+        gap = pitch if flank == self.flank else -pitch
         gap = gap + share[0] * self.limits.profile_slope * (along - 0.5)
         gap = gap + abs(share[1]) * self.limits.profile_form / 2.0 * np.cos(
             2.0 * np.pi * waves * along + phase
@@ -128,7 +134,7 @@ class MeasuredFlanks:
     height: Float[Array, " height"]
     face: Float[Array, " face"]  # m; a single one: even along the face
     errors: Float[Array, "tooth height face"]  # m along the normal
-    flank: int = LEADING
+    flanks: tuple[int, ...]  # that have them
     of_gap_alone: bool = True
 
     @property
@@ -138,7 +144,7 @@ class MeasuredFlanks:
 
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""
-        if tooth not in self.teeth or flank != self.flank:
+        if tooth not in self.teeth or flank not in self.flanks:
             return None
         error = self.errors[self.teeth.index(tooth)]
         along = height_share(places)
@@ -151,11 +157,12 @@ class MeasuredFlanks:
 
 @dataclass(frozen=True)
 class FormulaErrors:
-    """Errors of every tooth's leading flank by a formula, of `FORMULA_VARIABLES`, in µm along the normal."""
+    """Errors of every tooth by a formula, of `FORMULA_VARIABLES`, in µm along the normal."""
 
     formula: str
     teeth: int
     face_width: float  # m
+    flanks: tuple[int, ...]  # that have them
     of_gap_alone: bool = True
 
     @property
@@ -167,7 +174,7 @@ class FormulaErrors:
 
     def fields(self, tooth: int, flank: int, places: FlankPlaces) -> ToothFields | None:
         """See `fields.OwnFields`."""
-        if flank != LEADING:
+        if flank not in self.flanks:
             return None
         height, face = height_share(places), places.face[:, None] / self.face_width
         return _gap_alone(1e-6 * formula_value(self.formula, tooth, self.teeth, height, face), places)

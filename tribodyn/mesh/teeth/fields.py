@@ -10,10 +10,13 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from tribodyn.geometry.drive import Side
 from tribodyn.numerics.shapes import Array, Float
 
 #: Flanks of a tooth.
 LEADING, TRAILING = range(2)
+#: Flank with which either gear of a pair carries: the pinion drives.
+CARRYING: dict[Side, int] = {"pinion": LEADING, "gear": TRAILING}
 
 
 class FlankPlaces(NamedTuple):

@@ -53,12 +53,15 @@ def flank_places(
     # of the tooth that its driving flank would touch now in mid-face
     drawn = (roll if side > 0 else pitch / 2.0 - roll) + late[:, None]
     psi = half_angles(assembly)
-    ratio = float(assembly.path.pinion_pitch_radius / assembly.path.gear_pitch_radius)
+    radii = float(assembly.path.pinion_pitch_radius), float(assembly.path.gear_pitch_radius)
+    ratio = radii[0] / radii[1]
     lean = 1.0 / np.sqrt(1.0 + normal_slope(float(pitch_slope(assembly)), angle) ** 2)
     reach = np.asarray(radius(assembly.path, distance))
-    driver = FlankPlaces(roll, distance, reach, angle, lean, face, drawn - psi[0])
+    # an internal gear turns against the sense of its signed radius
+    of_driver = np.sign(radii[0]) * (drawn - psi[0])
+    driver = FlankPlaces(roll, distance, reach, angle, lean, face, of_driver)
     # on the back side the driven tooth is one pitch behind that of the driver's number
-    of_driven = psi[1] + ratio * (drawn if side > 0 else drawn - pitch)
+    of_driven = np.sign(radii[1]) * (psi[1] + ratio * (drawn if side > 0 else drawn - pitch))
     driven = driver._replace(radius=np.asarray(radius(assembly.path_of("gear"), -distance)), turned=of_driven)
     return driver, driven
 

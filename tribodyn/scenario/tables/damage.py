@@ -14,7 +14,7 @@ from tribodyn.mesh.teeth.damage.patch import Patch
 from tribodyn.mesh.teeth.damage.root_crack import RootCrack
 from tribodyn.mesh.teeth.damage.scuffing import Scuffing
 from tribodyn.mesh.teeth.damage.spall import MissingMap, Spall
-from tribodyn.mesh.teeth.fields import LEADING, TRAILING, OwnFields
+from tribodyn.mesh.teeth.fields import CARRYING, LEADING, TRAILING, OwnFields
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Column, InUnit, Number, Positive, Table, Text, csv_file, written
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
@@ -100,12 +100,11 @@ class GearPlace(NamedTuple):
         """The damaged flank."""
         if table.flank is not None:
             return _FLANKS[table.flank]
-        return LEADING if self.pairs[0][1] == "pinion" else TRAILING
+        return CARRYING[self.pairs[0][1]]
 
     def touched(self, flank: int) -> tuple[DriveTable, Side]:
         """A pair in which the flank carries; the first one where none does."""
-        side = "pinion" if flank == LEADING else "gear"
-        return next((pair for pair in self.pairs if pair[1] == side), self.pairs[0])
+        return next((pair for pair in self.pairs if CARRYING[pair[1]] == flank), self.pairs[0])
 
 
 def damage_of(tables: Sequence[DamageTable], gear: GearPlace) -> tuple[OwnFields, ...]:

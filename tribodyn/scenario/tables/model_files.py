@@ -77,7 +77,7 @@ class Modification(quantity.Table):
         None, description="of every tooth, um, over i, z, h and f; over time"
     )
     both_flanks: quantity.Switch = Field(
-        False, description="whether reliefs, crowning and profile error are on the back flanks too"
+        False, description="whether all of it but pitch errors is on the back flanks too"
     )
 
 

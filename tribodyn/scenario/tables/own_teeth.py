@@ -19,7 +19,7 @@ from tribodyn.mesh.teeth.deviations import (
     ToothSample,
     formula_value,
 )
-from tribodyn.mesh.teeth.fields import OwnFields, OwnTeeth
+from tribodyn.mesh.teeth.fields import CARRYING, LEADING, TRAILING, OwnFields, OwnTeeth
 from tribodyn.numerics.formula import FormulaError
 from tribodyn.scenario.quantity import Draws
 from tribodyn.scenario.tables.model_files import DriveTable, FlankErrors, Gear
@@ -37,45 +37,62 @@ ToothSampleNumber = Annotated[
 ]
 
 
+#: Flanks with which a gear carries in its meshes, one or both.
+Carrying = tuple[int, ...]
+BOTH_FLANKS: Carrying = (LEADING, TRAILING)
+#: Of a pair: the pinion drives.
+OF_PAIR: tuple[Carrying, Carrying] = (CARRYING["pinion"],), (CARRYING["gear"],)
+
+
 def own_teeth_of(
-    drive: DriveTable, sample: int | None, numbers: tuple[int, int] = (0, 1)
+    drive: DriveTable,
+    sample: int | None,
+    numbers: tuple[int, int] = (0, 1),
+    carrying: tuple[Carrying, Carrying] = OF_PAIR,
 ) -> tuple[OwnTeeth, OwnTeeth]:
     """Return what teeth of pinion and gear have of their own; the drive has passed its rules.
 
     `numbers` are those of the gears in a train, in all meshes of one the same: samples are drawn by them.
     """
-    allowed = zip(SIDES, numbers, tolerances_of(drive), strict=True)
+    allowed = zip(SIDES, numbers, carrying, tolerances_of(drive), strict=True)
     one, two = (tuple(_of_gear(drive, *each, sample)) for each in allowed)
     return one, two
 
 
 def _of_gear(
-    drive: DriveTable, side: str, number: int, allowed: FlankTolerances | None, sample: int | None
+    drive: DriveTable,
+    side: str,
+    number: int,
+    carrying: Carrying,
+    allowed: FlankTolerances | None,
+    sample: int | None,
 ) -> Iterator[OwnFields]:
     gear: Gear = getattr(drive, side)
     table = gear.modification
+    # a tooth that is out of place is so on both flanks: of an idler the one that drives counts
+    placed, flanks = min(carrying), BOTH_FLANKS if table.both_flanks else carrying
     if gear.eccentricity or gear.wobble:
         angles = gear.eccentricity_angle, gear.wobble_angle
         yield RunOut(gear.teeth, gear.eccentricity, angles[0], gear.wobble, angles[1], gear.face_width)
     if table.pitch_errors:
-        yield PitchErrors(tuple(table.pitch_errors))
+        yield PitchErrors(tuple(table.pitch_errors), placed)
     if table.tooth_errors is not None:
-        yield measured(table.tooth_errors)
+        yield measured(table.tooth_errors, flanks)
     if table.tooth_formula is not None:
-        yield FormulaErrors(table.tooth_formula, gear.teeth, gear.face_width)
+        yield FormulaErrors(table.tooth_formula, gear.teeth, gear.face_width, flanks)
     if sample is not None and allowed is not None:
         limits = Limits(*(getattr(allowed, name) for name in Limits._fields))
-        yield ToothSample(limits, gear.teeth, sample, number, gear.face_width)
+        yield ToothSample(limits, gear.teeth, sample, number, gear.face_width, placed)
 
 
-def measured(table: FlankErrors) -> MeasuredFlanks:
+def measured(table: FlankErrors, flanks: Carrying) -> MeasuredFlanks:
     """Return measured flanks of the rows of a table, which are complete."""
     tooth, height, face, error = table.in_si()
     teeth, heights, faces = (np.unique(column) for column in (tooth, height, face))
     errors = np.empty((len(teeth), len(heights), len(faces)))
     index = tuple(np.searchsorted(*pair) for pair in ((teeth, tooth), (heights, height), (faces, face)))
     errors[index] = error
-    return MeasuredFlanks(tuple(int(number) - 1 for number in teeth), heights, faces, errors)
+    return MeasuredFlanks(tuple(int(number) - 1 for number in teeth), heights, faces, errors, flanks)
 
 
 def differing(drive: DriveTable) -> Iterator[tuple[str, str]]:

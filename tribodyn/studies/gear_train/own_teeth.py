@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from tribodyn.mesh.teeth.fields import OwnTeeth
+from tribodyn.mesh.teeth.fields import CARRYING, OwnTeeth
 from tribodyn.scenario.tables.damage import GearPlace, damage_of
 from tribodyn.scenario.tables.own_teeth import own_teeth_of
 from tribodyn.studies.gear_train.described.drawn import Moving
@@ -11,7 +11,8 @@ from tribodyn.studies.gear_train.described.drawn import Moving
 def own_teeth(scenario: Any, train: Moving, mesh: int, view: Any) -> tuple[OwnTeeth, OwnTeeth]:
     """What teeth of driver and driven gear of a mesh have; `view` is its `scenario.PairView`."""
     numbers = train.motion.gears[mesh]
-    deviations = own_teeth_of(view.drive, view.mesh.tooth_sample, numbers)
+    one, two = (tuple(sorted({CARRYING[side] for _, side in train.meshes_of(gear)})) for gear in numbers)
+    deviations = own_teeth_of(view.drive, view.mesh.tooth_sample, numbers, (one, two))
     damaged, found = gears_of_train(train), []
     for own, number in zip(deviations, numbers, strict=True):
         name = train.parts.gears[number].name

@@ -201,6 +201,17 @@ def test_an_eccentric_pinion_shows_in_the_error_once_per_revolution():
     assert once == pytest.approx(10e-6 / np.cos(np.radians(20.0)), rel=5e-3)
 
 
+@pytest.mark.parametrize(("side", "teeth"), [("pinion", 18), ("gear", 36)])
+def test_a_formula_of_single_teeth_counts_as_their_pitch_errors_do(side: str, teeth: int):
+    """Either gear's: material that is missing."""
+    errors = 5.0 * np.sin(2.0 * np.pi * np.arange(1, teeth + 1) / teeth)
+    ways = ({"pitch_errors": [f"{e!r} um" for e in errors.tolist()]}, {"tooth_formula": "5*sin(2*pi*i/z)"})
+    drives = [{"like": DRY["drive"], side: {"modification": way}} for way in ways]
+    one, two = (new(study_of({**DRY, "drive": drive}, wear__teeth="each")).deflection for drive in drives)
+    assert np.ptp(one) > 5e-6
+    np.testing.assert_allclose(two, one, rtol=1e-6)
+
+
 def test_teeth_that_are_alike_wear_like_their_mean():
     together, each = study_of(), study_of(wear__teeth="each")
     mean, own = worn(together)[0], worn(each)[0]
