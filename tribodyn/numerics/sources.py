@@ -13,7 +13,7 @@ import re
 import sys
 import time
 from functools import cache
-from glob import glob
+from glob import escape, glob
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -64,7 +64,8 @@ def computing_digest() -> str:
     """Digest of all code that results come from; what was computed by other code is not taken for its own.
 
     That is this package but for what asks and shows, and installed packages that add laws, families, studies
-    or methods to it. Those are imported by name, so that all of them count, in use or not.
+    or methods to it, with the data in their folders. Those are imported by name, so that all of them count,
+    in use or not.
     """
     from importlib.metadata import entry_points
 
@@ -78,7 +79,21 @@ def computing_digest() -> str:
     groups = [group for group in offered.groups if group.startswith(f"{_OWN}.")]
     added = {entry.module for group in groups for entry in offered.select(group=group)}
     digest.update(digest_of(*sorted(added)))
+    for package in sorted({name.partition(".")[0] for name in added}):
+        for file in _data_of(package):
+            digest.update(f"{package} {file.name} {file.stat().st_size}".encode() + b"\0")
+            with open(file, "rb") as stream:
+                digest.update(hashlib.file_digest(stream, "sha256").digest())
     return digest.hexdigest()
+
+
+def _data_of(package: str) -> list[Path]:
+    """Files in a package's folder that are neither sources nor made of them."""
+    main = _file_of(package)
+    if main is None or main.name != "__init__.py":
+        return []
+    files = (Path(file) for file in sorted(glob(f"{escape(str(main.parent))}/**/*", recursive=True)))
+    return [file for file in files if file.is_file() and file.suffix not in (".py", ".pyc")]
 
 
 @cache
@@ -89,7 +104,9 @@ def _digest(name: str, file: Path) -> bytes:
     digest, so that none takes what this one computes for the work of the edited code.
     """
     digest = hashlib.sha256(code_of(_text(file)))
-    if getattr(sys.modules.get(name), "__file__", None) == str(file) and file.stat().st_mtime > _BEGUN:
+    # one dated in the future is as old as its date allows to say
+    edited = _BEGUN < file.stat().st_mtime <= time.time()
+    if edited and getattr(sys.modules.get(name), "__file__", None) == str(file):
         digest.update(f"{os.getpid()} {_BEGUN}".encode())
     return digest.digest()
 

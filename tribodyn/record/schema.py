@@ -37,9 +37,9 @@ def require_head(attributes: Mapping[str, Any]) -> None:
         raise ValueError(f"unknown status {attributes['status']}")
 
 
-def require_same_code(attributes: Mapping[str, Any], path: Path) -> None:
-    """Raise InputError where other code computed what an unfinished call left."""
-    if attributes.get(CODE) != computing_digest():
+def require_same_code(attributes: Mapping[str, Any], path: Path, code: str = "") -> None:
+    """Raise InputError where other code computed what an unfinished call left; default: that of this call."""
+    if attributes.get(CODE) != (code or computing_digest()):
         rule = "computed by other code (tribodyn, or a package with laws, has changed since)"
         raise InputError("--resume", str(path), rule, "move it away, or --force to begin anew")
 

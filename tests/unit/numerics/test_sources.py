@@ -197,7 +197,36 @@ def test_laws_of_installed_packages_count(copied: Path, tmp_path: Path, monkeypa
     first = computing_digest(copied)
     assert first != without
     (package / "helper.py").write_text("f = 0.15\n")
-    assert computing_digest(copied) not in (first, without)
+    second = computing_digest(copied)
+    assert second not in (first, without)
+    (package / "measured.csv").write_text("0.15\n")  # what a law reads as it is imported
+    with_data = computing_digest(copied)
+    assert with_data != second
+    (package / "measured.csv").write_text("0.25\n")
+    assert computing_digest(copied) not in (with_data, second)
+
+
+def test_a_source_dated_in_the_future_is_as_it_was_loaded(tmp_path, monkeypatch: pytest.MonkeyPatch):
+    """As from an archive of a machine whose clock is ahead: no other digest in every process."""
+    (tmp_path / "dated_ahead.py").write_text("x = 1\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    importlib.import_module("dated_ahead")
+    now = sources._BEGUN + 0.01  # after this process began
+    for time, here in ((sources._BEGUN - 9e6, False), (now, True), (now + 9e9, False)):
+        os.utime(tmp_path / "dated_ahead.py", (time, time))
+        assert (digest_in_another_process(tmp_path) != digest_again("dated_ahead")) is here
+
+
+def digest_again(name: str) -> bytes:
+    sources._digest.cache_clear()
+    return sources.digest_of(name)
+
+
+def digest_in_another_process(folder: Path) -> bytes:
+    script = "import sys, tribodyn.numerics.sources as s; sys.stdout.buffer.write(s.digest_of('dated_ahead'))"
+    command = [sys.executable, "-c", script]
+    environment = {**os.environ, "PYTHONPATH": f"{folder}{os.pathsep}{Path(tribodyn.__file__).parents[1]}"}
+    return subprocess.run(command, env=environment, capture_output=True, check=True).stdout
 
 
 def test_every_module_that_compiling_a_kernel_loads_is_in_its_digest():

@@ -13,6 +13,7 @@ all that it depends on is functions, modules in files, numbers and texts.
 
 import hashlib
 import struct
+import sys
 from collections.abc import Callable, Iterator
 from functools import cache
 from itertools import count
@@ -96,10 +97,20 @@ def _parts(function: Callable[..., Any]) -> Iterator[bytes]:
             yield repr((value.__module__, value.__qualname__, getattr(value, "_fields", ()))).encode()
         elif hasattr(value, "py_func"):  # compiled by numba's own decorator
             waiting.append(value.py_func)
-        elif callable(value):
+        elif callable(value) and _is_named(value):
             yield repr((type(value).__qualname__, getattr(value, "__name__", ""))).encode()
         else:
             raise _UnknownError
+
+
+def _is_named(value: Any) -> bool:
+    """Whether a callable object has no data of its own, or is what its module has under its name."""
+    if type(value).__module__.partition(".")[0] in ("builtins", "numba", "tribodyn") or isinstance(
+        value, np.ufunc
+    ):
+        return True
+    module = sys.modules.get(str(getattr(value, "__module__", "")))
+    return getattr(module, str(getattr(value, "__name__", "")), None) is value
 
 
 def _inside(cell: CellType) -> Any:

@@ -1,11 +1,13 @@
 """From a case of the wear study to its record; a run that goes on from what another one left."""
 
+import hashlib
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from time import perf_counter
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -16,8 +18,10 @@ from tribodyn.compliance.sharing.loaded_contact import check_contact
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.body import geometry_arrays
 from tribodyn.geometry.helix import pitch_slope
+from tribodyn.kernels.native.arguments import function_layout
 from tribodyn.mesh.teeth.fields import LEADING, TRAILING
 from tribodyn.mesh.teeth.places import flank_places
+from tribodyn.numerics.registry import FROM_PYTHON
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.sources import computing_digest
 from tribodyn.record.previous import Origin, keep_previous
@@ -30,10 +34,11 @@ from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 from tribodyn.studies.wear.case import BODIES, WearCase, layout_of, recorded_at
 from tribodyn.studies.wear.outcome import row_of, state_of, summary_of
-from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage
+from tribodyn.studies.wear.passage import Depths, Wearing, WearPassage, passage
 from tribodyn.studies.wear.places import places_of
 from tribodyn.studies.wear.steps import march, unworn
 from tribodyn.studies.wear.worn_files import check_profiles, write_profiles
+from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.wear import wear_law_of
 
 #: Keys in which the scenario of a run that goes on may differ from that of the record.
@@ -121,13 +126,15 @@ def run(
     known = len(before.get("revolutions", ()))
     rows = recorded_at(case, float(before["revolutions"][-1])) if known else recorded_at(case)
     start = state_of(study, {name: values[-1] for name, values in before.items()}) if known else unworn(study)
-    how: dict[str, Any] = {"force": replace, "code": computing_digest(), **_beside(study)}
+    how: dict[str, Any] = {"force": replace, "code": _code_of(case), **_beside(study)}
     with writer(case, path, layout_of(case), known + len(rows), **how) as record:
         if known:
             record.write(0, before)
         first = {name: values[0] for name, values in before.items()}
         row, at = {name: values[-1] for name, values in before.items()}, None
         try:
+            # of what is recorded already, where no row is left
+            at = passage(study, start.depths, start.revolutions) if known else None
             for state, at in march(study, start, rows):
                 block = row_of(study, state, at)
                 record.write(record.written, block)
@@ -202,13 +209,37 @@ def _recorded(case: WearCase, path: Path) -> dict[str, np.ndarray]:
         remedy = "move it away, or --force to begin anew"
         if record.kind != case.kind or _kept(record.attrs["scenario"]) != _kept(case.toml):
             raise InputError("--resume", str(found), "made from another scenario", remedy)
-        require_same_code(record.attrs, found)
+        if not all(map(_is_recognised, _functions_of(case))):
+            rule = "a law depends on data of which nobody knows whether they are still the same"
+            raise InputError("--resume", str(found), rule, remedy)
+        require_same_code(record.attrs, found, _code_of(case))
         rows = {name: record[name] for name in record}
     done = float(rows["revolutions"][-1]) if len(rows["revolutions"]) else 0.0
     if found == path and done >= case.revolutions:
         rule = f"the record reaches {done:g} revolutions already"
         raise InputError("wear.revolutions", f"{case.revolutions:g}", rule, "write a larger number")
     return {name: values[rows["revolutions"] <= case.revolutions] for name, values in rows.items()}
+
+
+def _functions_of(case: WearCase) -> list[Callable[..., Any]]:
+    """The functions of laws from outside this package: from Python, or from installed packages."""
+    oiled, own = case.lubricated, __name__.partition(".")[0] + "."
+    laws = (wear_law_of(case.wear), *(() if oiled is None else laws_of(oiled)))
+    outside = [
+        law for law in laws if law.name.startswith(FROM_PYTHON) or not law.function.__module__.startswith(own)
+    ]
+    return [part for law in outside for part in (*law.functions, law.parameters) if part is not None]
+
+
+def _is_recognised(function: Callable[..., Any]) -> bool:
+    """Whether a digest tells a function with all that it refers to from any other."""
+    return isinstance(function, FunctionType) and function_layout(function).kept
+
+
+def _code_of(case: WearCase) -> str:
+    """Digest of the code that computes a case, laws from outside and what they refer to included."""
+    known = [function_layout(part).identity for part in _functions_of(case) if _is_recognised(part)]
+    return hashlib.sha256(repr((computing_digest(), known)).encode()).hexdigest()
 
 
 def _kept(toml: str) -> dict[str, Any]:

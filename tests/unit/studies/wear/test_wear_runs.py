@@ -48,6 +48,49 @@ def test_a_run_that_goes_on_is_one_long_run(table, more, tmp_path: Path):
         assert found.scenario["wear"]["revolutions"] == 2e6
 
 
+@pytest.mark.parametrize("revolutions", [1e6, 5e5], ids=["all rows", "fewer"])
+def test_a_run_that_has_all_its_rows_is_concluded(revolutions: float, tmp_path: Path):
+    """As after a full disk at its end, or with an end that falls on a row: as a run that began anew."""
+    whole = run(case_of(OILED, revolutions), tmp_path / "whole.h5")
+    path = tmp_path / "worn.h5"
+    run(case_of(OILED, 1e6), path).path.rename(tmp_path / "worn.partial.h5")
+    for profile in tmp_path.glob("worn-*.csv"):
+        profile.unlink()
+    again = run(case_of(OILED, revolutions), path, resume=True)
+    assert again.status == "complete"
+    with Record(whole.path) as expected, Record(path) as found:
+        assert found.attrs.keys() == expected.attrs.keys()
+        for name in expected:
+            np.testing.assert_array_equal(found[name], expected[name], err_msg=name)
+        varying = {"wall_time": 0.0, "files": {}}
+        np.testing.assert_equal(found.summary | varying, expected.summary | varying)
+
+
+def _law(coefficient: float, numbers: "np.ndarray | None" = None):
+    """A law of one name, whose coefficient lies outside its code."""
+
+    def law(contact, parameters):
+        more = 0.0 if numbers is None else numbers[0]
+        return (coefficient + more) * (1.0 + 0.0 * contact.hertz_pressure)
+
+    return law
+
+
+def test_it_goes_on_under_the_same_law_alone(tmp_path: Path):
+    """A law from Python is known by its code and what that refers to; arrays could have changed."""
+    path = tmp_path / "worn.h5"
+    run(case_of(DRY, 1e6), path, wear=_law(1e-17))
+    before = path.read_bytes()
+    with pytest.raises(InputError, match="computed by other code"):
+        run(case_of(DRY, 2e6), path, wear=_law(2e-17), resume=True)
+    assert path.read_bytes() == before
+    assert run(case_of(DRY, 2e6), path, wear=_law(1e-17), resume=True).status == "complete"
+    run(case_of(DRY, 1e6), path, wear=_law(1e-17, np.zeros(1)), force=True)
+    with pytest.raises(InputError, match="depends on data") as error:
+        run(case_of(DRY, 2e6), path, wear=_law(1e-17, np.ones(1)), resume=True)
+    assert error.value.key == "--resume"
+
+
 def test_it_goes_on_from_its_own_scenario_alone(tmp_path: Path):
     path = tmp_path / "worn.h5"
     run(case_of(DRY, 1e6), path)
