@@ -55,6 +55,10 @@ RecordReader = Callable[[Path, str], dict[str, Any]]
 """Takes columns, as a scenario writes them out, from a record; the text is the key, for messages."""
 
 
+#: In the table of a model: the name of a file that says everything which the table does not.
+LIKE = "like"
+
+
 class Reference:
     """Marks a field that may name a file instead of being written out; the loader puts the content in."""
 
@@ -74,7 +78,7 @@ class Reference:
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         like = {"type": "string", "description": f"{self.what}: says what this table does not"}
-        table = {"type": "object", "properties": {"like": like}, "required": ["like"]}
+        table = {"type": "object", "properties": {LIKE: like}, "required": [LIKE]}
         several = [{"type": "string", "description": self.what}, handler(schema)]
         return {"anyOf": [*several, table] if self.folder else several}
 
@@ -190,8 +194,11 @@ class CurveTable(Table):
 def defaults_written_out(raw: dict[str, Any], table: type[Table]) -> dict[str, Any]:
     """Return the TOML data `raw` with every default of the schema written where a key is missing.
 
-    Keys that the schema does not know stay as they are, for the validation to name.
+    Keys that the schema does not know stay as they are, for the validation to name; so does a table that is
+    like a model, for the model comes before the defaults.
     """
+    if LIKE in raw:
+        return raw
     full = dict(raw)
     for key, field in table.model_fields.items():
         if key not in full and not field.is_required():

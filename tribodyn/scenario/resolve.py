@@ -14,11 +14,8 @@ from tribodyn.errors import InputError, printable_path, quoted
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario import bounds, sources
 from tribodyn.scenario.messages import Key, Origins
-from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out
+from tribodyn.scenario.quantity import LIKE, Reference, Table, csv_file, defaults_written_out
 from tribodyn.scenario.schema import expanded, family_shapes, matches, references
-
-#: In the table of a model: the name of a file that says everything which the table does not.
-LIKE = "like"
 
 OVERRIDES = "--set"
 
@@ -130,8 +127,16 @@ def toml_value(text: str) -> Any:
 
 
 def _override(known: _References, dotted: str, value: Any) -> None:
-    """Put one override in; tables on the way are made, references on the way are opened."""
+    """Put one override in, and remember that it is one."""
     key: Key = tuple(int(part) if part.isdecimal() else part for part in dotted.split("."))
+    if not _put(known, key, toml_value(value) if isinstance(value, str) else value):
+        rule = f"{'.'.join(map(str, key[:-1]))} is not a table"
+        raise InputError(dotted, quoted(value), rule, "see the keys with: tribodyn schema", OVERRIDES)
+    known.origins.put(key, OVERRIDES)
+
+
+def _put(known: _References, key: Key, value: Any) -> bool:
+    """Put a value in; tables on the way are made, references on the way are opened. False: no table there."""
     place: Any = known.data
     for depth, part in enumerate(key[:-1], start=1):
         if key[depth:] != (LIKE,):  # another model to be like takes the place of the first
@@ -142,15 +147,14 @@ def _override(known: _References, dotted: str, value: Any) -> None:
             place = place[part]
         else:
             place = None
-    last, put = key[-1], toml_value(value) if isinstance(value, str) else value
+    last = key[-1]
     if isinstance(place, dict):
-        place[str(last)] = put
+        place[str(last)] = value
     elif isinstance(place, list) and isinstance(last, int) and last < len(place):
-        place[last] = put
+        place[last] = value
     else:
-        rule = f"{'.'.join(map(str, key[:-1]))} is not a table"
-        raise InputError(dotted, quoted(value), rule, "see the keys with: tribodyn schema", OVERRIDES)
-    known.origins.put(key, OVERRIDES)
+        return False
+    return True
 
 
 def _put_content(known: _References, key: Key) -> None:
@@ -166,8 +170,7 @@ def _put_content(known: _References, key: Key) -> None:
         return
     referring, dotted = _referring(known, key), ".".join(map(str, key))
     if mark.folder:
-        file = sources.find_model(name, mark.folder, dotted, referring)
-        holder[key[-1]] = sources.read_toml(file)
+        _put_model(known, key, sources.find_model(name, mark.folder, dotted, referring), mark.folder)
     else:
         file = referring.parent / name
         if not sources.is_file(file):
@@ -181,10 +184,18 @@ def _put_content(known: _References, key: Key) -> None:
         column = curve[mark.columns[0]]
         quantities = [f"{number!r} {column['unit']}" for number in column["values"]]
         holder[key[-1]] = quantities if mark.as_list else curve
+        known.origins.put(key, str(file))
+
+
+def _put_model(known: _References, key: Key, file: Path, folder: str, above: tuple[Path, ...] = ()) -> None:
+    """Put the content of a model's file in; `above` are the files that are like it."""
+    _at(known.data, key[:-1])[key[-1]] = content = sources.read_toml(file)
     known.origins.put(key, str(file))
+    if LIKE in content:
+        _put_under(known, key, folder, (*above, file.resolve()))
 
 
-def _put_under(known: _References, key: Key, folder: str) -> None:
+def _put_under(known: _References, key: Key, folder: str, above: tuple[Path, ...] = ()) -> None:
     """Put the content of the model that the table at `key` is like under what the table says itself."""
     origins = known.origins
     table = _at(known.data, key)
@@ -195,13 +206,16 @@ def _put_under(known: _References, key: Key, folder: str) -> None:
     if not isinstance(name, str):
         raise InputError(dotted, quoted(name), "not the name of a model", "write a name in quotes")
     file = sources.find_model(name, folder, dotted, _referring(known, (*key, LIKE)))
-    written_in = {leaf: origins.of((*key, *leaf)) for leaf in _leaves(table)}
-    holder[key[-1]] = _merged(
-        sources.read_toml(file), {name: value for name, value in table.items() if name != LIKE}
-    )
-    origins.put(key, str(file))
-    for leaf, where in written_in.items():
-        origins.put((*key, *leaf), where)
+    own = [(leaf, value, origins.of((*key, *leaf))) for leaf, value in _leaves(table) if leaf != (LIKE,)]
+    if file.resolve() in above:
+        raise InputError(dotted, quoted(name), "is like itself", "name another file")
+    _put_model(known, key, file, folder, above)
+    for leaf, value, written_in in own:
+        at = (*key, *leaf)
+        if not _put(known, at, value):
+            rule = f"{'.'.join(map(str, at[:-1]))} is not a table in {printable_path(file)}"
+            raise InputError(".".join(map(str, at)), quoted(value), rule, "write the whole table", written_in)
+        origins.put(at, written_in)
 
 
 def _referring(known: _References, key: Key) -> Path:
@@ -210,22 +224,13 @@ def _referring(known: _References, key: Key) -> Path:
     return known.path if written_in == OVERRIDES else Path(written_in)
 
 
-def _merged(under: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
-    """Put one table over another, key by key."""
-    merged = dict(under)
-    for name, value in over.items():
-        below: Any = merged.get(name)
-        both = isinstance(below, dict) and isinstance(value, dict) and LIKE not in value
-        merged[name] = _merged(below, value) if both else value
-    return merged
-
-
-def _leaves(table: Mapping[str, Any], above: Key = ()) -> list[Key]:
-    """Return the keys of everything in a table that is no table."""
-    keys: list[Key] = []
+def _leaves(table: Mapping[str, Any], above: Key = ()) -> list[tuple[Key, Any]]:
+    """Return keys and values of everything in a table that is no table, or one that is like a model."""
+    found: list[tuple[Key, Any]] = []
     for name, value in table.items():
-        keys += _leaves(value, (*above, name)) if isinstance(value, dict) else [(*above, name)]
-    return keys
+        inner = isinstance(value, dict) and LIKE not in value
+        found += _leaves(value, (*above, name)) if inner else [((*above, name), value)]
+    return found
 
 
 def _at(data: Any, key: Iterable[str | int]) -> Any:

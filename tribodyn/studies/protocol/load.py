@@ -17,7 +17,8 @@ from tribodyn.errors import InputError, InputErrors, unknown_name
 from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.own_keys import example_of
-from tribodyn.scenario.resolve import LIKE, Resolved, resolve, resolve_table, unresolved_keys
+from tribodyn.scenario.quantity import LIKE
+from tribodyn.scenario.resolve import Resolved, resolve, resolve_table, unresolved_keys
 from tribodyn.scenario.scope import outside
 from tribodyn.scenario.sources import file_name, find_scenario
 from tribodyn.scenario.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
