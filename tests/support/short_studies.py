@@ -59,7 +59,9 @@ SHORT: dict[str, dict[str, Any]] = {
 def shortened(kind: str) -> list[str]:
     """Options of a verb that make the template of a kind short."""
     given = SHORT.get(kind, {})
-    written = {key: json.dumps(value) if isinstance(value, list) else value for key, value in given.items()}
+    written = {
+        key: json.dumps(value) if isinstance(value, (list, bool)) else value for key, value in given.items()
+    }
     return [word for key, value in written.items() for word in ("--set", f"{key}={value}")]
 
 

@@ -52,14 +52,13 @@ def check(
     """Check a scenario; print duty, geometry and stiffness."""
     from tribodyn.cli.outcome import complain
     from tribodyn.cli.printing import print_findings, print_json, print_prose
-    from tribodyn.quantities.quantity import in_si
     from tribodyn.studies.protocol.load import load
 
     loaded = load(scenario, overrides(settings))
     with loaded.naming():
         checked = loaded.study.check(loaded.case, allow_large=allow_large)
     if json:
-        print_json({"scenario": str(loaded.path), "title": loaded.case.title, **in_si(checked.data)})
+        print_json({"scenario": str(loaded.path), **checked.data})
         return
     number = len(checked.warnings)
     unusual = f"can be computed, but has {number} unusual value{'s' * (number > 1)}, see the end"

@@ -1,9 +1,11 @@
 """What can be said of a scenario before it runs."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from tribodyn.interface.scenario import Source, in_python, scenario
+from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies import STUDIES
 
 
@@ -21,8 +23,9 @@ def check(source: Source, overrides: Mapping[str, Any] | None = None) -> dict[st
     Returns
     -------
     dict
-        By the kind of study: ``geometry``, ``lubricant``, ``laws``, of an assessment ``iso``, every factor of
-        ISO 6336.
+        ``scenario``, its file or, of what comes from none, its name; ``title``; by the kind of study
+        ``geometry``, ``lubricant``, ``laws``, of an assessment ``iso``, every factor of ISO 6336. All numbers
+        are in SI units and angles in rad; a number with a unit is a pair of both.
 
     Raises
     ------
@@ -30,4 +33,5 @@ def check(source: Source, overrides: Mapping[str, Any] | None = None) -> dict[st
         Anything that is wrong with the scenario, or for which its case cannot be run.
     """
     case = scenario(source, overrides)
-    return STUDIES[case.kind].check(case, allow_large=True).data
+    where = str(find_scenario(str(source))) if isinstance(source, (str, Path)) else case.name
+    return {"scenario": where, **STUDIES[case.kind].check(case, allow_large=True).data}

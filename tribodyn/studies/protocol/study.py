@@ -138,7 +138,8 @@ class Study:
     def check(self, case: Any, *, allow_large: bool = False) -> CheckResult:
         """Check a case and say what it describes, and what a run takes where that is much, without a run.
 
-        Raises InputError where it cannot be run, or takes more than `allow_large` permits.
+        Its data are in SI units, angles in rad. Raises InputError where it cannot be run, or takes more than
+        `allow_large` permits.
         """
         estimate = self.estimate(case)
         refuse_large(estimate, allow_large)
@@ -148,7 +149,11 @@ class Study:
             from tribodyn.studies.gears.usual import with_duty
 
             checked = with_duty(with_rounding(checked, case.toml), case)
-        data, remarks = checked.data | {"estimate": as_data(estimate)}, checked.remarks
+        from tribodyn.quantities.quantity import in_si
+
+        title = {"title": case.title}
+        data = {**title, **in_si(checked.data), **title, "estimate": as_data(estimate)}
+        remarks = checked.remarks
         if share_of_limits(estimate) >= WORTH_SAYING:
             remarks = (*remarks, f"A run takes about {described(estimate)}.")
         return checked._replace(data=data, remarks=remarks)
