@@ -10,7 +10,7 @@ from tribodyn.dynamics.places import motion_of
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
-from tribodyn.train.flow import flow, tree
+from tribodyn.train.flow import flow
 from tribodyn.train.structure import TURN, GearMesh, displacements, rolling_ratio, shift_of, turn_of, works
 
 _COMPLIANCE = CHANNELS.index("compliance")
@@ -77,7 +77,7 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
 
     Displacements of a body scale with the least deflection of its meshes, velocities with the deflection
     times the mesh's natural frequency, works with a share of an energy. A body without meshes has the scales
-    of the one that it is linked to; on pins, by the lever.
+    of the one that it is linked to, which may have its own so; on pins, by the lever.
     """
     layout = model.layout
     frequency = [np.sqrt(t.stiffness / _inertial_mass(model, m)) for m, t in enumerate(scales.tables)]
@@ -94,17 +94,14 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
             )
             turn[body] = min(turn[body], deflection / abs(float(radius)))
             turn_rate[body] = min(turn_rate[body], velocity / abs(float(radius)))
-    for body, nearer, mesh, _ in tree(layout, tuple(np.asarray(model.links.stiffness)[:, TURN] > 0.0)):
-        if mesh < 0 and np.isinf(turn[body]):
-            for each in (shift, shift_rate, turn, turn_rate):
-                each[body] = each[nearer]
-    for k in np.flatnonzero(layout.pins):
-        ends = layout.first[k], layout.second[k]
-        for end, (body, other) in enumerate((ends, ends[::-1])):
-            if min(ends) >= 0 and np.isinf(turn[body]):
-                lever = float(np.linalg.norm(np.asarray(model.links.lever)[k, end]))
-                shift[body], shift_rate[body] = shift[other], shift_rate[other]
-                turn[body], turn_rate[body] = shift[other] / lever, shift_rate[other] / lever
+    of_body = shift, shift_rate, turn, turn_rate
+    # one after the other: a flywheel hangs on its carrier, and that on pins
+    waiting = [k for k in range(layout.links) if min(layout.first[k], layout.second[k]) >= 0]
+    while waiting:
+        left = [k for k in waiting if not _scaled_by_link(k, model, of_body)]
+        if len(left) == len(waiting):
+            break
+        waiting = left
     scale = np.empty(layout.states)
     half = layout.half
     for body in range(layout.bodies):
@@ -121,6 +118,27 @@ def absolute_tolerances(model: Model, rtol: float, scales: MeshScales) -> Float[
     scale[layout.lag] = turn[0] / float(model.operation.nominal_speed)
     scale[works(layout)] = SHARE_OF_WORKS * np.max(scales.energy)
     return rtol * scale
+
+
+def _scaled_by_link(k: int, model: Model, of_body: Sequence[Float[Array, " body"]]) -> bool:
+    """Whether a link between two bodies has, of one with scales, given any to the other, which had none.
+
+    `of_body` are the scales of displacements, rotations and the rates of both, changed in place.
+    """
+    layout = model.layout
+    shift, shift_rate, turn, turn_rate = of_body
+    ends = layout.first[k], layout.second[k]
+    if not (layout.pins[k] or model.links.stiffness[k][TURN] > 0.0):
+        return False
+    for end, (body, other) in enumerate((ends, ends[::-1])):
+        if np.isinf(turn[body]) and np.isfinite(turn[other]):
+            shift[body], shift_rate[body] = shift[other], shift_rate[other]
+            turn[body], turn_rate[body] = turn[other], turn_rate[other]
+            if layout.pins[k]:
+                lever = float(np.linalg.norm(np.asarray(model.links.lever)[k, end]))
+                turn[body], turn_rate[body] = shift[other] / lever, shift_rate[other] / lever
+            return True
+    return False
 
 
 def state_scales(model: Model, state: Float[Array, " state"]) -> Float[Array, " state"]:
