@@ -227,6 +227,17 @@ def spoilt(side: str, place: str, value: Any) -> dict[str, Any]:
         (spoilt("pinion", "gear_position", "150 mm"), "shaft.pinion.gear_position", "beyond the end"),
         (spoilt("gear", "bearing.1.position", "0.2 m"), "shaft.gear.bearing.1.position", "beyond the end"),
         (spoilt("gear", "section.0.bore", "50 mm"), "shaft.gear.section.0.bore", "smaller"),
+        (spoilt("gear", "section.0.diameter", "50 parsec"), "shaft.gear.section.0.diameter", "above 30"),
+        (
+            {
+                "shaft": {
+                    "gear": BETWEEN
+                    | {"section": [*BETWEEN["section"], {"length": "1 m", "diameter": "20 m"}]}
+                }
+            },
+            "shaft.gear.section.1.diameter",
+            "above 300",
+        ),
         (
             {"shaft": {"gear": BETWEEN | {"bearing": [BALL | {"position": "15 mm"}]}}},
             "shaft.gear.bearing",

@@ -18,6 +18,10 @@ Place = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 mm")]
 Fit = Annotated[float, InUnit(units.DEVIATION, "10 um")]
 Rating = Annotated[float, InUnit(units.positive(units.FORCE), "30 kN")]
 
+#: Largest diameter of a shaft over the smallest, and over its length: stiffness in bending goes with the
+#: fourth power, of which rounding leaves 2e-6.
+MOST_STEPPED, THICKEST = 300.0, 30.0
+
 DrawnType = Literal["deep-groove-ball", "cylindrical-roller", "tapered-roller"]
 #: Keys that rolling bearings of a type need, and those that others have no use for.
 _NEEDED = {
@@ -128,7 +132,19 @@ def _shown(length: float) -> str:
 
 def _broken_shaft(key: str, shaft: DrawnShaft) -> Iterator[InputError]:
     length = sum(section.length for section in shaft.section)
+    thinnest = min(range(len(shaft.section)), key=lambda number: shaft.section[number].diameter)
     for number, section in enumerate(shaft.section):
+        others = (
+            (shaft.section[thinnest].diameter, MOST_STEPPED, f"diameter of section {thinnest + 1}"),
+            (length, THICKEST, "length of the shaft"),
+        )
+        for other, most, name in others:
+            if section.diameter > most * other:
+                times = f"{section.diameter / other:.3g} times the {name}, {_shown(other)}"
+                rule = f"is {times}, above {most:g}: too stiff beside it for its bending to be computed"
+                place = f"{key}.section.{number}.diameter"
+                yield InputError(place, _shown(section.diameter), rule, "check both, and their units")
+                break
         if section.bore >= section.diameter:
             rule = f"must be smaller than the diameter, {_shown(section.diameter)}"
             yield InputError(

@@ -168,6 +168,10 @@ def _drawn(key: str, table: DrawnShaft, load: Five) -> GearSupport:
             "give a load, less clearance, or bearings that hold it there; thrust of tapered ones both ways"
         )
         raise InputError(key, None, rule, remedy) from error
+    except np.linalg.LinAlgError as error:
+        rule = "its sections and bearings differ so much in stiffness that no equilibrium can be computed"
+        remedy = "check the units of lengths, diameters and stiffnesses"
+        raise InputError(key, None, rule, remedy) from error
     matrix = np.array(stiffness)
     rest = np.array(moved) - np.linalg.solve(matrix, load)
     bearings = tuple(

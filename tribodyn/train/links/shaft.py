@@ -104,7 +104,7 @@ def under_load(shaft: SupportedShaft, load: Sequence[float]) -> UnderLoad:
     gear = rows[0]
     others = np.setdiff1d(np.arange(len(beam)), np.arange(len(beam))[gear])
     _refuse_loose(tangent, gear)
-    if np.linalg.norm(seen[1]) > 1e3 * SETTLED * size:
+    if not np.linalg.norm(seen[1]) <= 1e3 * SETTLED * size:  # NaN neither
         if np.max(np.abs(here)) > length:  # it runs away, whatever stiffness it meets there
             _refuse(here[gear])
         raise NotHeld("the equilibrium of shaft and bearings is not found")
