@@ -1,36 +1,45 @@
 """How much further the load brings every mesh than nominal rotation does: the static twist of its driver."""
 
+from collections.abc import Sequence
+from fractions import Fraction
+
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model, frictionless
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.train.schedule import interval_of
+from tribodyn.train.schedule import common_period, interval_of, schedule_of
 from tribodyn.train.structure import turned
 
 #: Static equilibria over the common period, of which the mean is taken.
 PLACES = 4
 
 
-def static_twist(model: Model) -> Float[Array, " mesh"]:
+def static_twist(model: Model, rates: Sequence[Fraction]) -> Float[Array, " mesh"]:
     """Cycles by which the load at the start brings every mesh further, z ϑ/2π of its driver's z teeth.
 
     The mean over the common period of ϑ, the micro-rotation of the driver against the reference at rest
     without friction. 0 for meshes that the reference drives, and for all where no equilibrium is found. Of a
-    planet's meshes, by how much the rotation of its carrier moves the pitch point it is less.
+    planet's meshes, by how much the rotation of its carrier moves the pitch point it is less. `rates` are
+    those of the meshes: of the period no more is laid out than the places.
     """
-    layout, period = model.layout, model.schedule.period
+    layout, period = model.layout, common_period(rates)
     further = np.zeros(layout.meshes)
     if not any(layout.driver) and not any(layout.pins):
         return further
     smooth = frictionless(model)
-    _, phases, intervals = interval_of((np.arange(PLACES) + 0.5) * period / PLACES, model.schedule)
+    boundaries = [np.asarray(mesh.table.boundary) for mesh in model.meshes]
+    begun = np.asarray(model.schedule.offset)[0].tolist()
+    states = []
     try:
-        states = [
-            static_equilibrium(smooth, float(phase), int(interval))
-            for phase, interval in zip(phases, intervals, strict=True)
-        ]
+        for place in range(PLACES):
+            cycle, eighths = divmod((2 * place + 1) * period, 2 * PLACES)
+            stand = [phase + float(rate * cycle % 1) for phase, rate in zip(begun, rates, strict=True)]
+            there = smooth._replace(schedule=schedule_of(boundaries, rates, stand, 1))
+            phase = eighths / (2 * PLACES)
+            _, _, interval = interval_of(np.array(phase), there.schedule)
+            states.append(static_equilibrium(there, phase, int(interval)))
     except SimulationError:
         return further
     mean = np.mean(states, axis=0)

@@ -22,7 +22,10 @@ TOGETHER = 1e-9
 
 
 class Schedule(NamedTuple):
-    """Intervals of the common period; phases are of the reference mesh, 0 … 1 in each of its cycles."""
+    """Intervals of the common period, or of a run that is shorter, with the cycle that begins at its end.
+
+    Phases are of the reference mesh, 0 … 1 in each of its cycles.
+    """
 
     first: Float[Array, " bound"]  # number of the interval that begins each reference cycle; last, of all
     start: Float[Array, " interval"]  # phase
@@ -38,7 +41,7 @@ class Schedule(NamedTuple):
 
     @property
     def period(self) -> int:
-        """Reference cycles after which everything repeats."""
+        """Reference cycles that are laid out; of whole common periods, after which everything repeats."""
         return len(self.first) - 1
 
 
@@ -59,49 +62,50 @@ def common_period(rates: Sequence[Fraction]) -> int:
 
 
 def schedule_of(
-    boundaries: Sequence[Float[Array, " boundary"]], rates: Sequence[Fraction], phases: Sequence[float]
+    boundaries: Sequence[Float[Array, " boundary"]],
+    rates: Sequence[Fraction],
+    phases: Sequence[float],
+    cycles: int | None = None,
 ) -> Schedule:
     """The schedule of meshes of given boundaries, rates and phases (mesh cycles) at the start.
 
-    The first one is the reference, of rate 1 and phase 0.
+    The first one is the reference, of rate 1 and phase 0. So many reference cycles are laid out, or the
+    common period, which repeats, if that is shorter or none are given.
     """
     if len(boundaries) == 1:
         return of_one_mesh(boundaries[0])
     period = common_period(rates)
-    events: list[tuple[float, int]] = []
-    for mesh, (boundary, rate, phase) in enumerate(zip(boundaries, rates, phases, strict=True)):
+    count = period if cycles is None else min(period, cycles)
+    parts = list(zip(boundaries, rates, phases, strict=True))
+    places, numbers = [], []
+    for mesh, (boundary, rate, phase) in enumerate(parts):
         passed = floor(float(phase))
-        for turn in range(passed - 1, passed + int(period * rate) + 2):
-            for at in np.asarray(boundary)[:-1]:
-                place = (turn + float(at) - phase) / float(rate)
-                nearest = round(place)  # the reference's own cycles begin at whole numbers
-                place = float(nearest) if abs(place - nearest) < TOGETHER else place
-                if 0.0 <= place < period:
-                    events.append((place, mesh))
-    events.sort()
-    starts: list[float] = []
-    opening: list[list[int]] = []
-    for place, mesh in events:
-        if not starts or place - starts[-1] >= TOGETHER:
-            starts.append(place)
-            opening.append([])
-        opening[-1].append(mesh)
-    ends = [*starts[1:], float(period)]
-    cycles = [floor(start) for start in starts]
-    first = np.searchsorted(cycles, np.arange(period + 1)).astype(float)
-    opens = np.zeros((len(starts), len(rates)))
+        turns = np.arange(passed - 1, passed + int(count * rate) + 2)
+        place = ((turns[:, None] + np.asarray(boundary)[:-1] - phase) / float(rate)).ravel()
+        nearest = np.round(place)  # the reference's own cycles begin at whole numbers
+        place = np.where(np.abs(place - nearest) < TOGETHER, nearest, place)
+        places.append(place[(place >= 0.0) & (place < count)])
+        numbers.append(np.full(len(places[-1]), mesh))
+    at, by = np.concatenate(places), np.concatenate(numbers)
+    order = np.lexsort((by, at))
+    at, by = at[order], by[order]
+    begins = np.diff(at, prepend=-1.0) >= TOGETHER
+    starts = at[begins]
+    opens = np.zeros((len(starts), len(parts)))
+    opens[np.cumsum(begins) - 1, by] = 1.0
+    ends = np.append(starts[1:], float(count))
+    begun = np.floor(starts)
     segment, offset = np.zeros_like(opens), np.zeros_like(opens)
-    for n, (start, end, cycle) in enumerate(zip(starts, ends, cycles, strict=True)):
-        opens[n, opening[n]] = 1.0
-        for mesh, (boundary, rate, phase) in enumerate(zip(boundaries, rates, phases, strict=True)):
-            middle = phase + float(rate) * 0.5 * (start + end)
-            inside = np.searchsorted(np.asarray(boundary), middle - floor(middle), side="right") - 1
-            segment[n, mesh] = min(max(inside, 0), len(boundary) - 2)
-            offset[n, mesh] = phase + float(rate * cycle) - floor(middle)
-    phase_in = np.array(starts) - np.array(cycles)
-    phase_out = np.array(ends) - np.array(cycles)
-    rate, (one, two) = np.array([float(r) for r in rates]), np.zeros((2, *opens.shape))
-    return Schedule(first, phase_in, phase_out, segment, opens, rate, offset, one, two)
+    for mesh, (boundary, rate, phase) in enumerate(parts):
+        middle = phase + float(rate) * 0.5 * (starts + ends)
+        inside = np.searchsorted(np.asarray(boundary), middle - np.floor(middle), side="right") - 1
+        segment[:, mesh] = np.clip(inside, 0, len(boundary) - 2)
+        # of whole numbers, whose quotients are exact to the last bit however many cycles there are
+        turned = np.array([rate.numerator * cycle / rate.denominator for cycle in range(count)])
+        offset[:, mesh] = phase + turned[begun.astype(int)] - np.floor(middle)
+    first = np.searchsorted(begun, np.arange(count + 1)).astype(float)
+    rate, (one, two) = np.array([float(rate) for rate in rates]), np.zeros((2, *opens.shape))
+    return Schedule(first, starts - begun, ends - begun, segment, opens, rate, offset, one, two)
 
 
 def with_teeth(
@@ -112,15 +116,15 @@ def with_teeth(
 ) -> Schedule:
     """The schedule of so many reference cycles, or of the hunting period if that is shorter, with its teeth.
 
-    `first` are the numbers of the driver's and the driven gear's teeth that entered each mesh last at the
-    start, `teeth` how many these gears have. After as many cycles of a mesh as the least common multiple of
-    both the same teeth meet again.
+    `schedule` has whole common periods, or at least so many cycles. `first` are the numbers of the driver's
+    and the driven gear's teeth that entered each mesh last at the start, `teeth` how many these gears have.
+    After as many cycles of a mesh as the least common multiple of both the same teeth meet again.
     """
     short, count = schedule.period, len(np.asarray(schedule.start))
     begun = np.searchsorted(np.asarray(schedule.first)[1:], np.arange(count), side="right")
     rate, offset = np.asarray(schedule.rate), np.asarray(schedule.offset)
     turns = np.round(offset[0] + rate * begun[:, None] - offset)  # whole cycles of every mesh since the start
-    in_period = np.round(rate * short).astype(int)
+    in_period = np.maximum(np.round(rate * short).astype(int), 1)
     hunting = [
         lcm(int(turned), *(abs(z) for z in both)) // int(turned)
         for turned, both in zip(in_period, teeth, strict=True)

@@ -15,7 +15,6 @@ import numpy as np
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, Model
 from tribodyn.mesh.cycle import CHANNELS, Polynomials
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.train.schedule import place_of
 
 #: Distances from the pitch point, over the width of reversal: its ends; the pitch point, where the friction
 #: coefficient has a kink in the sliding speed; and places beside it, as a fluid of high viscosity reaches its
@@ -52,25 +51,32 @@ def stops(model: Model) -> Float[Array, "interval stop"]:
     start, end, segment = (np.asarray(part) for part in (schedule.start, schedule.end, schedule.segment))
     width = float(model.operation.reversal_width)
     known: dict[tuple[int, int], list[float]] = {}
-    rows = []
-    for interval in range(len(start)):
-        inside: list[float] = []
-        for m, mesh in enumerate(model.meshes):
-            key = id(mesh.table), int(segment[interval, m])
+    columns = []
+    for m, mesh in enumerate(model.meshes):
+        offset, rate = np.asarray(schedule.offset)[:, m], np.asarray(schedule.rate)[m]
+        of_mesh: list[np.ndarray] = []
+        for there in np.unique(segment[:, m]).tolist():
+            key = id(mesh.table), int(there)
             if key not in known:
                 known[key] = [
                     phase for share in shares for phase in passages(mesh.table, key[1], share * width)
                 ]
-            inside += [place_of(m, phase, schedule, interval) for phase in known[key]]
-        first, last = float(start[interval]), float(end[interval])
-        near = 1e-9 * (last - first)
-        row: list[float] = []
-        for phase in sorted(inside):  # those of slices in step are one
-            if (row[-1] if row else first) + near < phase < last - near:
-                row.append(phase)
-        rows.append(row)
-    count = 1 + max(len(row) for row in rows)
-    return np.array([row + [last] * (count - len(row)) for row, last in zip(rows, end, strict=True)])
+            rows = segment[:, m] == there
+            of_mesh += [np.full(len(start), np.inf) for _ in known[key][len(of_mesh) :]]
+            for column, phase in zip(of_mesh, known[key], strict=False):
+                column[rows] = (phase - offset[rows]) / rate
+        columns += of_mesh
+    found = np.sort(np.array(columns).reshape(-1, len(start)), axis=0)
+    near = 1e-9 * (end - start)
+    last, kept = start, []
+    for column in found:  # those of slices in step are one
+        passed = (last + near < column) & (column < end - near)
+        last = np.where(passed, column, last)
+        kept.append(np.where(passed, column, np.inf))
+    ascending = np.sort(np.array(kept).reshape(-1, len(start)), axis=0)
+    most = int(np.max(np.sum(np.isfinite(ascending), axis=0), initial=0))
+    ending = np.append(ascending[:most], end[None], axis=0)
+    return np.where(np.isfinite(ending), ending, end).T
 
 
 def stops_of_many(models: Sequence[Model]) -> Float[Array, "case interval stop"]:

@@ -1,6 +1,7 @@
 """Many cases of a train's dynamics, evaluated together."""
 
 from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -49,7 +50,8 @@ class Trains(SweptKind):
 
     def form(self, cases: Sequence[TrainCase]) -> Form:
         """That of the first case."""
-        prepared = self.prepare(cases[0], self.tabulated(cases[0]))
+        short = replace(cases[0], max_period=1)  # nothing of it depends on how much is laid out
+        prepared = self.prepare(short, self.tabulated(short))
         layout, meshes = prepared.model.layout, tuple(mesh.name for mesh in cases[0].meshes)
         states = state_names(prepared.names, layout.planar, meshes, layout.spatial)
         return Form(int(layout.half) - 1, states, cases[0].period, meshes)

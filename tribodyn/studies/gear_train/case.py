@@ -173,6 +173,15 @@ class TrainCase(CaseHead):
         """Whether a stage has helical teeth: bodies outside sets that bearings hold move in space then."""
         return any(float(mesh.pair.drive.helix_angle) != 0.0 for mesh in self.meshes)
 
+    @property
+    def laid_out(self) -> int:
+        """Reference cycles of which is laid out when contacts change: the common period, or what is passed.
+
+        The latter is a run and the cycle that begins at its end, where no steady state may last as long as
+        the period: that of hunting teeth has millions of cycles.
+        """
+        return self.period if self.period <= self.max_period else min(self.period, self.solver.cycles + 1)
+
     def chosen(self) -> dict[str, str]:
         """Give the laws that "auto" took, those of the reference mesh for all."""
         return self.meshes[0].pair.chosen()

@@ -8,6 +8,8 @@ from tribodyn.studies.protocol import cost
 
 #: How often the samples of the last cycles are held.
 _WINDOW_HELD = 2.0
+#: Cycles of a common period that are usual; bytes and s of an interval of its layout, per mesh.
+_USUAL_PERIOD, _INTERVAL_BYTES, _INTERVAL = 200.0, 120.0, 1e-6
 
 
 def estimate(case: TrainCase) -> cost.Estimate:
@@ -23,7 +25,8 @@ def estimate(case: TrainCase) -> cost.Estimate:
         "body": len(case.bodies) + 1,
     }
     record = cost.recorded(Layout(TIME, SAMPLES), sizes)
-    block, window = min(max(cycles / 4.0, 1.0), 50.0) * samples, max(cycles / 4.0, case.period) * samples
+    block = min(max(cycles / 4.0, 1.0), 50.0) * samples
+    window = max(cycles / 4.0, min(case.period, cycles)) * samples
     return cost.total(
         drivers_of(case),
         record,
@@ -35,12 +38,22 @@ def estimate(case: TrainCase) -> cost.Estimate:
 
 def drivers_of(case: TrainCase) -> tuple[cost.Driver, ...]:
     """Keys that make a case large."""
-    return drivers(case, case.meshes[0].pair.mesh)
+    found = drivers(case, case.meshes[0].pair.mesh)
+    if case.laid_out < case.period or case.period <= _USUAL_PERIOD:
+        return found
+    remedy = (
+        f"the meshes are at their phases again after {case.period} cycles of the mesh {case.meshes[0].name}: "
+        "give gears of one shaft numbers of teeth with a divisor, or lower it"
+    )
+    return *found, cost.Driver("solver.max_period", case.period, _USUAL_PERIOD, remedy)
 
 
 def marching_of(case: TrainCase, cycles: float, together: bool = True) -> list[cost.Estimate]:
     """What its tables and so many reference cycles take; `together`: of many cases side by side."""
-    solver, samples, found = case.solver, case.output.samples_per_cycle, []
+    solver, samples = case.solver, case.output.samples_per_cycle
+    meshes, rates = len(case.meshes), sum(float(mesh.rate) for mesh in case.meshes)
+    intervals = float(case.laid_out) * cost.SEGMENTS * rates * meshes
+    found = [cost.Estimate(_INTERVAL_BYTES * intervals, seconds=_INTERVAL * intervals)]
     for mesh in case.meshes:
         bearings = [_held(case, body) for body in (mesh.driver, mesh.driven)]
         radians = float(mesh.rate) * radians_of(mesh.pair, bearings)

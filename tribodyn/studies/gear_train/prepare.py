@@ -90,7 +90,7 @@ def prepare(case: TrainCase, made: tuple[Tabulated, ...] | None = None) -> Prepa
     found = nominal_phases(case.toothed_shafts, engaged)
     order = _order(case)
     model = _model(case, made, warm, inertias, found, order)
-    further = static_twist(model)
+    further = static_twist(model, [mesh.rate for mesh in case.meshes])
     model = with_own_teeth(
         _under_load(model, case, further),
         entering_teeth(case.toothed_shafts, engaged, found, further.tolist()),
@@ -186,6 +186,7 @@ def _model(
             [np.asarray(each.table.boundary) for each in made],
             [mesh.rate for mesh in case.meshes],
             [float(phase) for phase in found.meshes],
+            case.laid_out,
         ),
         parameters.Operation(
             nominal_speed=source.speed / float(case.bodies[source.body].ratio),
@@ -226,6 +227,7 @@ def _under_load(model: parameters.Model, case: TrainCase, further: Float[Array, 
         [np.asarray(mesh.table.boundary) for mesh in model.meshes],
         [mesh.rate for mesh in case.meshes],
         ((model.schedule.offset[0] + further) % 1.0).tolist(),
+        case.laid_out,
     )
     return model._replace(schedule=schedule)
 

@@ -55,6 +55,8 @@ class MotionBatch:
     def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> SweepSettings:
         """How the cases are brought to their windows."""
         base = cases[0]
+        if transient is None:
+            self.kind.refuse(base)
         form = self.kind.form(cases)
         samples, common = base.output.samples_per_cycle, form.common
         through_jax = engine == "jax" and runs(base.solver.method) is not Runs.JAX
