@@ -15,6 +15,24 @@ Step = TypeVar("Step")
 
 _watcher: ContextVar[Callable[[float], None] | None] = ContextVar("watcher", default=None)
 _listener: ContextVar[Callable[[str], None] | None] = ContextVar("listener", default=None)
+_foreteller: ContextVar[Callable[[str], None] | None] = ContextVar("foreteller", default=None)
+
+
+@contextmanager
+def foretold(hear: Callable[[str], None]) -> Iterator[None]:
+    """Call `hear` with what long work inside the block is going to take, in a few words."""
+    token = _foreteller.set(hear)
+    try:
+        yield
+    finally:
+        _foreteller.reset(token)
+
+
+def foretell(what: str) -> None:
+    """Say what the work that now begins is going to take."""
+    hear = _foreteller.get()
+    if hear is not None:
+        hear(what)
 
 
 @contextmanager

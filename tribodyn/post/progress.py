@@ -1,7 +1,7 @@
 """A progress bar with rate and time left, for what takes more than a second.
 
 It is drawn on a terminal (of stderr) or in a notebook; anywhere else, as in a script whose output is kept,
-nothing is written.
+only what is going to take longer than a minute is said beforehand, in a line on stderr.
 """
 
 import sys
@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import Any
 
-from tribodyn.numerics.work import listened, watched
+from tribodyn.numerics.work import foretold, listened, watched
 
 PATIENCE = 1.0  # s
 #: The same between two pictures of the bar in a notebook.
@@ -41,7 +41,8 @@ def progress_bar(label: str, total: float = 100.0, unit: str = "%") -> Iterator[
     """
     notebook = _notebook()
     if not (notebook or sys.stderr.isatty()):
-        yield lambda _fraction: None
+        with foretold(lambda what: print(f"{label}: {what}", file=sys.stderr, flush=True)):
+            yield lambda _fraction: None
         return
     bar = _bar(unit)
     task = bar.add_task(label, total=total)
@@ -73,7 +74,11 @@ def progress_bar(label: str, total: float = 100.0, unit: str = "%") -> Iterator[
     patience.daemon = True
     patience.start()
     try:
-        with watched(prepare), listened(hear):
+        with (
+            watched(prepare),
+            listened(hear),
+            foretold(lambda what: bar.console.print(f"{label}: {what}", markup=False, highlight=False)),
+        ):
             yield report
         if notebook:  # where the last picture stays
             bar.update(task, description=label, completed=total)

@@ -15,6 +15,7 @@ from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, WAITING, VariedKey
 from tribodyn.record.sweep_writer import SweepHead, SweepWriter, values_left
 from tribodyn.record.writer import check_target
 from tribodyn.scenario.vary import Axis
+from tribodyn.studies.protocol.cost import say_beforehand
 from tribodyn.studies.sweeping.batch import Chunk
 from tribodyn.sweep.data_set import DataSet, listed_of
 from tribodyn.sweep.engines import Block, Engine
@@ -78,7 +79,8 @@ def run(
         _can_be_followed(grid, directions, unstable)
         settings = grid.batch.following(settings, unstable)
     most = refinement.most if refinement else 0
-    refuse_large(estimate_of(grid, settings, len(directions), engine.width, most), allow_large)
+    estimate = estimate_of(grid, settings, len(directions), engine.width, most)
+    refuse_large(estimate, allow_large)
     first = grid
     if refinement and resume and not force:
         grid = grid_of(grid, refinement, values_left(output, grid.axes[0].name))
@@ -91,6 +93,7 @@ def run(
     if not resume:
         check_target(Path(output), force, head.origin)
     _sound_somewhere(grid, settings)
+    say_beforehand(estimate)
     begun, done = perf_counter(), 0
     with SweepWriter(output, head, force=force, resume=resume) as record:
         done_before = int(np.sum(record.status != WAITING))

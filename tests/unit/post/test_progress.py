@@ -80,3 +80,19 @@ def test_a_notebook_shows_it_below_the_cell_and_the_last_one_stays():
     assert 2 <= len(lines) <= 6  # at most two a second
     assert "100%" in lines[-1]
     assert "cases/s" in lines[-1]
+
+
+LONG = """
+from tribodyn.post.progress import progress_of
+from tribodyn.studies.protocol.cost import Estimate, say_beforehand
+with progress_of(PROGRESS, 'slow work'):
+    say_beforehand(Estimate(seconds=59.0))
+    say_beforehand(Estimate(3 * 2.0**20, 2048.0, 150.0))
+"""
+
+
+def test_what_takes_longer_than_a_minute_is_said_beforehand():
+    said = "slow work: takes about 3 MiB of memory, a record of 2 KiB and 2.5 minutes of one core"
+    assert piped(LONG.replace("PROGRESS", "None")) == f"{said}\n"
+    assert piped(LONG.replace("PROGRESS", "False")) == ""
+    assert said in " ".join(on_a_terminal(LONG.replace("PROGRESS", "None")).split())

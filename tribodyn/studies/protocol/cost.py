@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Variable
+from tribodyn.numerics.work import foretell
 from tribodyn.record.schema import Layout
 from tribodyn.solve.methods import Runs, runs
 
@@ -41,6 +42,8 @@ class Estimate(NamedTuple):
 #: Above any of these a run is refused unless it is asked for; from this share on `check` says the estimate.
 LIMITS = Estimate(memory=8 * GIB, record=64 * GIB, seconds=1000 * 3600.0)
 WORTH_SAYING = 0.05
+#: Seconds of one core from which a run says beforehand what it takes.
+LONG = 60.0
 
 
 def record_bytes(layout: Layout, sizes: Mapping[str, int]) -> float:
@@ -81,6 +84,12 @@ def as_data(estimate: Estimate) -> dict[str, float]:
         "record": estimate.record,
         "core_seconds": estimate.seconds + estimate.shared,
     }
+
+
+def say_beforehand(estimate: Estimate) -> None:
+    """Say what is going to take longer than `LONG`, to whoever shows progress."""
+    if estimate.seconds + estimate.shared >= LONG:
+        foretell(f"takes about {described(estimate)}")
 
 
 def refuse_large(estimate: Estimate, allow_large: bool) -> None:

@@ -17,6 +17,7 @@ from tribodyn.studies.protocol.cost import (
     as_data,
     described,
     refuse_large,
+    say_beforehand,
     share_of_limits,
 )
 from tribodyn.studies.protocol.recording import CaseHead as CaseHead
@@ -175,7 +176,9 @@ class Study:
         """
         if resume and not self.resumes:
             raise InputError("--resume", None, f"{self.about}: such a run cannot go on", "omit it")
-        refuse_large(self.estimate(case), allow_large)
+        estimate = self.estimate(case)
+        refuse_large(estimate, allow_large)
+        say_beforehand(estimate)
         how = {"resume": resume, "client": client} if self.resumes else {}
         try:
             result = self._part("run", "run")(case, output, force=force, progress=progress, **how)
