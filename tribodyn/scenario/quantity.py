@@ -158,21 +158,20 @@ class Column(Table):
         return np.array(self.values, dtype=float) * factor_to_si(self.unit, kind)
 
 
-class CurveTable(Table):
-    """A function given by points; a scenario names a CSV file instead, whose header carries names and units.
+class Columns(Table):
+    """Columns of numbers, of one length; a scenario names a CSV file instead, with names and units on top.
 
-    The first field is the abscissa, which must increase; the second the ordinate.
+    Fields are annotated with the kind of quantity: ``Annotated[Column, LENGTH]``.
     """
 
-    def in_si(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return abscissae and ordinates in SI units."""
-        columns = [
+    def in_si(self) -> tuple[Any, ...]:
+        """Return all columns in SI units."""
+        return tuple(
             getattr(self, name).in_si(field.metadata[0]) for name, field in type(self).model_fields.items()
-        ]
-        return columns[0], columns[1]
+        )
 
     def model_post_init(self, _: Any) -> None:
-        """Check units, lengths and order."""
+        """Check units and lengths."""
         columns: dict[str, Column] = {name: getattr(self, name) for name in type(self).model_fields}
         for name, field in type(self).model_fields.items():
             try:
@@ -180,11 +179,21 @@ class CurveTable(Table):
             except NotAQuantity as error:
                 rule = f"{name} is in {quoted(columns[name].unit)}: {error.rule}"
                 raise broken(rule, error.remedy) from None
-        (first, x), (second, y) = columns.items()
-        if len(x.values) != len(y.values):
-            rule = f"{len(x.values)} values of {first} and {len(y.values)} of {second}"
-            raise broken(rule, "write as many of each")
-        given = np.array(x.values)
+        (first, x), *others = columns.items()
+        for other, column in others:
+            if len(x.values) != len(column.values):
+                rule = f"{len(x.values)} values of {first} and {len(column.values)} of {other}"
+                raise broken(rule, "write as many of each")
+
+
+class CurveTable(Columns):
+    """Functions given by points: the first field is the abscissa, which must increase."""
+
+    def model_post_init(self, _: Any) -> None:
+        """Check units, lengths and order."""
+        super().model_post_init(_)
+        first = next(iter(type(self).model_fields))
+        given = np.array(getattr(self, first).values)
         rising = given[1:] > given[:-1]
         if not rising.all():
             row = int(np.argmin(rising)) + 2

@@ -18,7 +18,7 @@ _TOKEN = re.compile(
     rf"""(?P<blank>\s*)(?:
         (?P<operand>[^\W\d_{_RAISED}][^\W{_RAISED}]*|°[A-Za-z]?|[%‰]|1(?![\d.]))
         |(?P<power>(?:\*\*|\^)\s*(?:{_POWER}|\(\s*{_POWER}\s*\))|⁻?[{_RAISED}])
-        |(?P<operator>[*/·])
+        |(?P<operator>[*/·⋅])
         |(?P<opening>\()
         |(?P<closing>\))
     )""",
@@ -93,10 +93,17 @@ COMMON_UNITS: dict[str, dict[str, float]] = {
     "wear coefficient": {"m**2/N": 1.0, "m^2/N": 1.0, "mm**3/(N*m)": 1e-09, "mm**3/J": 1e-09},
 }
 
+#: Units that pint does not know by these names: kind of quantity -> unit -> factor to the kind's SI unit.
+OWN_UNITS: dict[str, dict[str, float]] = {
+    "angular speed": dict.fromkeys(("rev/min", "r/min"), 0.10471975511965977),
+    "power": {"PS": 75.0 * 9.80665},  # DIN 66036: 75 kp m/s
+}
+
 _COMMA = re.compile(r"\s*(?P<before>[+-]?\d+),(?P<after>\d+)(?P<rest>[^,]*)", re.ASCII)
 _TURNS = re.compile(r"(1\s*/\s*min|min\s*(\^|\*\*)?\s*-\s*1|min⁻¹|/\s*min|[uU]/min)")
 #: Written without the sign of multiplication -> as it must be written.
 _JOINED = {
+    **dict.fromkeys(("N.m", "N-m"), "N*m"),
     "Pas": "Pa*s",
     "mPas": "mPa*s",
     "kNm": "kN*m",
@@ -107,6 +114,7 @@ _JOINED = {
     "Nms/rad": "N*m*s/rad",
     "kNm/rad": "kN*m/rad",
 }
+_EXPONENT = re.compile(r"(?<=[A-Za-zµ])([2-9])(?![\w.])")
 _KINEMATIC = re.compile(r"([cm]?m\s*(²|\^2|\*\*2|2)\s*/\s*s|c?St)")
 
 
@@ -163,7 +171,14 @@ def spelling(number: str, unit: str, what: str) -> tuple[str, str] | None:
         return f'"{unit}" leaves open whether turns or radians are meant', written("rpm")
     if unit in _JOINED:
         return f'"{unit}" needs a sign of multiplication', written(_JOINED[unit])
+    alike = [known for known in COMMON_UNITS.get(what, ()) if known.casefold() == unit.casefold()]
+    if len(alike) == 1:
+        return f'"{unit}" is not a unit of {what}: capitals count', written(alike[0])
+    if what == "power" and unit.casefold() in ("hp", "bhp"):
+        return f'"{unit}" is not a unit here', f"{written('hp')} of 745.7 W or {written('PS')[6:]} of 735.5 W"
     if what == "dynamic viscosity" and _KINEMATIC.fullmatch(unit):
         example = '100 mm²/s at 850 kg/m³ are "85 mPa*s"'
         return f'"{unit}" is a unit of kinematic viscosity', f"give it times the density: {example}"
+    if (raised := _EXPONENT.sub(r"**\1", unit)) != unit:
+        return f'"{unit}" has an exponent without a sign', written(raised)
     return None

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from tribodyn.scenario.unit_grammar import (
     COMMON_UNITS,
     LONGEST,
+    OWN_UNITS,
     RULE,
     decimal_comma,
     is_unit,
@@ -145,8 +146,8 @@ def _units(text: str, write: str) -> Any:
 
     if not is_unit(text):
         raise NotAQuantity(RULE if len(text) <= LONGEST else f"a unit of {len(text)} characters", write)
-    # engineers' spelling to pint's: "Nm" (a nautical mile to pint), "·", and the 1 of "1/K"
-    spelled = _NM.sub("N*m", _ONE_OVER.sub("dimensionless", text).replace("·", "*"))
+    # engineers' spelling to pint's: "Nm" (a nautical mile to pint), "·", "⋅", and the 1 of "1/K"
+    spelled = _NM.sub("N*m", _ONE_OVER.sub("dimensionless", text).replace("·", "*").replace("⋅", "*"))
     try:
         return registry().parse_units(spelled)
     except pint.UndefinedUnitError as error:
@@ -172,8 +173,9 @@ def _factor(text: str, kind: Kind, write: str) -> float:
     """Factor from the unit `text` to the SI unit of `kind`; one with a shifted zero, °C, has none."""
     if not text.strip():
         raise NotAQuantity("a number without a unit", write)
-    if (known := COMMON_UNITS.get(kind.name, {}).get(text)) is not None:
-        return known
+    for table in (COMMON_UNITS, OWN_UNITS):
+        if (known := table.get(kind.name, {}).get(text)) is not None:
+            return known
     return _factor_by_pint(text, kind, write)
 
 

@@ -92,3 +92,43 @@ def test_a_unit_alone_has_a_factor():
 def test_common_units_are_as_pint_has_them(kind, unit):
     kinds = [value for value in vars(units).values() if isinstance(value, units.Kind) and value.name == kind]
     assert COMMON_UNITS[kind][unit] == pytest.approx(units._factor_by_pint(unit, kinds[0], ""), rel=5e-16)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "value"),
+    [
+        ("2 N⋅m", units.TORQUE, 2.0),
+        ("2 kN·m", units.TORQUE, 2000.0),
+        ("60 rev/min", units.ANGULAR_SPEED, 2 * math.pi),
+        ("60 r/min", units.ANGULAR_SPEED, 2 * math.pi),
+        ("1 PS", units.POWER, 735.49875),  # DIN 66036: 75 kp m/s
+        ("1 hp", units.POWER, 745.69987158227022),  # 550 ft lbf/s
+    ],
+)
+def test_units_of_other_programs_are_read(text: str, kind: units.Kind, value: float):
+    assert to_si(text, kind) == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "remedy"),
+    [
+        ("1500 RPM", units.ANGULAR_SPEED, 'write "1500 rpm"'),
+        ("25 KW", units.POWER, 'write "25 kW"'),
+        ("25 HP", units.POWER, 'write "25 hp" of 745.7 W or "25 PS" of 735.5 W'),
+        ("220 mm2/s", units.KINEMATIC_VISCOSITY, 'write "220 mm**2/s"'),
+        ("7850 kg/m3", units.DENSITY, 'write "7850 kg/m**3"'),
+        ("5 N.m", units.TORQUE, 'write "5 N*m"'),
+    ],
+)
+def test_a_unit_that_is_spelled_otherwise(text: str, kind: units.Kind, remedy: str):
+    with pytest.raises(NotAQuantity) as refused:
+        to_si(text, kind)
+    assert refused.value.remedy == remedy
+
+
+def test_what_a_remedy_says_is_read():
+    """Every spelling that is offered is a quantity of that kind."""
+    for text, kind in (("9 RPM", units.ANGULAR_SPEED), ("9 mm2/s", units.KINEMATIC_VISCOSITY)):
+        with pytest.raises(NotAQuantity) as refused:
+            to_si(text, kind)
+        assert to_si(refused.value.remedy.split('"')[1], kind) > 0.0

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from math import inf, pi
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -16,7 +16,17 @@ from tribodyn.mesh.teeth.damage.scuffing import Scuffing
 from tribodyn.mesh.teeth.damage.spall import MissingMap, Spall
 from tribodyn.mesh.teeth.fields import CARRYING, LEADING, TRAILING, OwnFields
 from tribodyn.scenario import units
-from tribodyn.scenario.quantity import Column, InUnit, Number, Positive, Table, Text, csv_file, written
+from tribodyn.scenario.quantity import (
+    Column,
+    Columns,
+    InUnit,
+    Number,
+    Positive,
+    Table,
+    Text,
+    csv_file,
+    written,
+)
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
 
 #: Damaged teeth of a scenario, at most.
@@ -29,18 +39,12 @@ _ENDS = {"+z": 1, "-z": -1}
 EDGE = 0.2e-3
 
 
-class MissingTable(Table):
+class MissingTable(Columns):
     """Missing material over a flank: at every height (0 at the root's end of the path, 1 at the tip's)."""
 
     height: Annotated[Column, units.NUMBER]
     face: Annotated[Column, units.LENGTH]
     depth: Annotated[Column, units.DEVIATION]
-
-    def in_si(self) -> tuple[Any, ...]:
-        """Return all columns in SI units."""
-        return tuple(
-            getattr(self, name).in_si(field.metadata[0]) for name, field in type(self).model_fields.items()
-        )
 
 
 class DamageTable(Table):

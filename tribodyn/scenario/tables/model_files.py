@@ -20,7 +20,7 @@ Shape = Literal["linear", "parabolic"]
 _EXPONENT = {"linear": 1.0, "parabolic": 2.0}
 
 
-class FlankErrors(quantity.Table):
+class FlankErrors(quantity.Columns):
     """Errors of single teeth on the flank that drives or is driven, positive where material is missing.
 
     Every tooth at the same heights (0 at the root's end of the path of contact, 1 at the tip's) and places on
@@ -31,12 +31,6 @@ class FlankErrors(quantity.Table):
     height: Annotated[quantity.Column, units.NUMBER]
     face: Annotated[quantity.Column, units.LENGTH]
     error: Annotated[quantity.Column, units.DEVIATION]
-
-    def in_si(self) -> tuple[Any, ...]:
-        """Return all columns in SI units."""
-        return tuple(
-            getattr(self, name).in_si(field.metadata[0]) for name, field in type(self).model_fields.items()
-        )
 
 
 class Modification(quantity.Table):

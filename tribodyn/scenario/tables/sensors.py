@@ -2,9 +2,8 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-import numpy as np
 from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
@@ -12,12 +11,12 @@ from tribodyn.scenario import units
 from tribodyn.scenario.fields import Angle
 from tribodyn.scenario.quantity import (
     Column,
+    CurveTable,
     InUnit,
     Number,
     Positive,
     Table,
     Text,
-    broken,
     csv_file,
     written,
 )
@@ -75,31 +74,16 @@ class Mode(Table):
     points: dict[PartName, Number] = Field(description="at points of sensors, in their directions")
 
 
-class TransferTable(Table):
+class TransferTable(CurveTable):
     """A measured transfer function, real and imaginary part over frequency."""
 
     frequency: Annotated[Column, units.ANGULAR_FREQUENCY]
     real: Annotated[Column, units.ACCELERANCE]
     imaginary: Annotated[Column, units.ACCELERANCE]
 
-    def model_post_init(self, _: Any) -> None:
-        """Check units, lengths and order."""
-        for name, field in type(self).model_fields.items():
-            column = getattr(self, name)
-            try:
-                column.in_si(field.metadata[0])
-            except NotAQuantity as error:
-                raise broken(f"{name} is in {quoted(column.unit)}: {error.rule}", error.remedy) from None
-            if len(column.values) != len(self.frequency.values):
-                raise broken(f"not as many values of {name} as of frequency", "write as many of each")
-        if np.any(np.diff(self.frequency.values) <= 0.0):
-            raise broken("frequency does not increase", "sort the points by frequency")
-
-    def in_si(self) -> tuple[tuple[float, ...], tuple[complex, ...]]:
+    def response(self) -> tuple[tuple[float, ...], tuple[complex, ...]]:
         """Frequencies in Hz, and the complex response in 1/kg."""
-        frequency, real, imaginary = (
-            getattr(self, name).in_si(field.metadata[0]) for name, field in type(self).model_fields.items()
-        )
+        frequency, real, imaginary = self.in_si()
         return tuple((frequency / (2.0 * math.pi)).tolist()), tuple((real + 1j * imaginary).tolist())
 
 
@@ -197,6 +181,7 @@ def housing_of(housing: Housing | None) -> HousingData:
         for mode in housing.mode
     )
     paths = tuple(
-        HousingTransfer(path.point, path.at, path.direction, *path.table.in_si()) for path in housing.transfer
+        HousingTransfer(path.point, path.at, path.direction, *path.table.response())
+        for path in housing.transfer
     )
     return HousingData(modes, paths)
