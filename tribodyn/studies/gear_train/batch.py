@@ -12,6 +12,8 @@ from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.studies.gear_train.case import TrainCase, refuse_long_period
 from tribodyn.studies.gear_train.estimate import drivers_of, marching_of
 from tribodyn.studies.gear_train.planetary.frames import rolling_of
+from tribodyn.studies.gear_train.planetary.jamming import jams
+from tribodyn.studies.gear_train.planetary.results import stage_quantities, worst_stage
 from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare, tabulated
 from tribodyn.studies.gear_train.report import SWEPT
 from tribodyn.studies.gear_train.sensed import listener_of
@@ -119,6 +121,8 @@ class Trains(SweptKind):
         found = {
             name + OF_MESH: np.array([mesh.get(name, np.nan) for mesh in each], dtype=float) for name in KEPT
         }
+        if prepared.case.sets:
+            whole |= worst_stage(stage_quantities(prepared, inside.meshes, each))
         return whole | worst_of(each), found, each
 
     def warmer(self, case: TrainCase, row: Mapping[str, Any]) -> TrainCase | None:
@@ -127,6 +131,10 @@ class Trains(SweptKind):
             return None
         warm, lost = (row[name + OF_MESH].tolist() for name in ("bulk_temperature", "power_friction_mean"))
         return at_own_temperatures(case, warm, lost)
+
+    def warnings(self, prepared: PreparedTrain) -> list[str]:
+        """See `jamming.jams`."""
+        return jams(prepared)
 
     def sliding(self, case: TrainCase) -> str:
         """Its `friction.sliding`."""

@@ -15,6 +15,7 @@ from tribodyn.studies.gear_train.frequencies import (
     of_sets,
     passes,
 )
+from tribodyn.studies.gear_train.planetary.jamming import jams
 from tribodyn.studies.gear_train.planetary.results import kinds_of, planet_pass
 from tribodyn.studies.gear_train.prepare import PreparedTrain, prepare
 from tribodyn.studies.gear_train.sensed import listener_of
@@ -63,7 +64,8 @@ def check(case: TrainCase) -> CheckResult:
         *_once(names, [checked.tables for checked in of_meshes]),
     ]
     remarks = list(_named(names, [checked.remarks for checked in of_meshes]))
-    warnings = tuple(dict.fromkeys(_named(names, [checked.warnings for checked in of_meshes])))
+    said = _named(names, [checked.warnings for checked in of_meshes])
+    warnings = tuple(dict.fromkeys((*jams(prepared), *said)))
     return CheckResult(data, tables, remarks, warnings)
 
 

@@ -56,6 +56,7 @@ SWEPT = (
         *("efficiency", "power_in_mean", "power_friction_mean", "friction_work_on_vibration"),
         *("bulk_temperature", "contact_loss_fraction"),
         *("closure_in_range_fraction", "friction_in_range_fraction"),
+        *("mesh_load_factor", "planet_load_factor_max"),
     ),
 )
 SWEEP_TABLE = quantities(

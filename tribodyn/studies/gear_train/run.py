@@ -14,8 +14,10 @@ from tribodyn.errors import SimulationError
 from tribodyn.record.reader import MESHES
 from tribodyn.record.sensors import write_sensed
 from tribodyn.record.trust import judge_tribology
+from tribodyn.record.withheld import remarked
 from tribodyn.studies.gear_train.case import TrainCase
-from tribodyn.studies.gear_train.planetary.results import STAGES, stage_quantities
+from tribodyn.studies.gear_train.planetary.jamming import jams
+from tribodyn.studies.gear_train.planetary.results import STAGES, stage_quantities, worst_stage
 from tribodyn.studies.gear_train.prepare import PreparedTrain, geometry_of, prepare
 from tribodyn.studies.gear_train.record import TrainRecord, record_of
 from tribodyn.studies.gear_train.sensed import listener_of
@@ -135,9 +137,8 @@ def _concluded(
     whole |= worst_of(each) | {MESHES: dict(zip(names, each, strict=True))}
     if case.sets:
         whole[STAGES] = stages = stage_quantities(prepared, windows, each)
-        for name in ("mesh_load_factor", "planet_load_factor_max"):
-            whole[name] = max(float(own[name]) for own in stages.values())
-    sliding = case.meshes[0].pair.friction.sliding
-    whole["warning"] = warning_of(whole["friction_work_on_vibration"], sliding)
+        whole |= worst_stage(stages)
+    fed = warning_of(whole["friction_work_on_vibration"], case.meshes[0].pair.friction.sliding)
+    whole["warning"] = remarked(*jams(prepared), fed or "") or None
     statistics.judge.take({"efficiency": whole["efficiency"]})
     return whole | statistics.judge.summary()

@@ -37,6 +37,12 @@ def stage_quantities(
     return {own.name: _of_stage(prepared, own, windows, each) for own in prepared.case.sets}
 
 
+def worst_stage(stages: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:
+    """Largest load factors of all stages."""
+    names = ("mesh_load_factor", "planet_load_factor_max")
+    return {name: max(float(own[name]) for own in stages.values()) for name in names}
+
+
 def _of_stage(
     prepared: PreparedTrain,
     own: SetData,

@@ -237,7 +237,8 @@ def _fill(
     for name, value in (quantities | (of_meshes if settings.meshes else {})).items():
         rows[name][i] = value
     warning = warning_of(quantities["friction_work_on_vibration"], kind.sliding(prepared.case))
-    texts = [*remarks(trust | {"warning": warning}), *remarks_in_brief(prepared.case.toml)]
+    texts = [*kind.warnings(prepared), *remarks(trust | {"warning": warning})]
+    texts += remarks_in_brief(prepared.case.toml)
     rows["message"][i] = remarked(rows["message"][i], *map(warned, texts))
     rows[TRUST][i] = number(trust)
     model, section = prepared.model, outcome.section

@@ -136,6 +136,10 @@ class SweptKind:
         """The case at the bulk temperature of its own motion, `row` of a sweep; None: it is."""
         raise NotImplementedError
 
+    def warnings(self, _prepared: Any) -> list[str]:
+        """What to warn of in a prepared case, whatever its motion; without semicolons."""
+        return []
+
     def sliding(self, case: Any) -> str:
         """Its `friction.sliding`."""
         raise NotImplementedError
