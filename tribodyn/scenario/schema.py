@@ -33,15 +33,21 @@ def inner_tables(annotation: Any, held: type | None = None) -> Iterator[Inner]:
         yield from inner_tables(part, origin if origin in (dict, tuple) else held)
 
 
-def table_at(model: type[BaseModel], key: Iterable[str | int]) -> type[BaseModel] | None:
-    """Return the table that a key leads to; None where it leads to none."""
+def table_at(
+    model: type[BaseModel], key: Iterable[str | int], wanted: str | int | None = None
+) -> type[BaseModel] | None:
+    """Return the table that a key leads to; None where it leads to none.
+
+    Of a list that takes several sorts of tables it is the first one that has the next name of the key, or
+    the name that is `wanted` in it.
+    """
     key, place = tuple(key), 0
     while place < len(key):
         if isinstance(key[place], int):
             place += 1
             continue
         name = str(key[place])
-        inner, place = _step(model, key, place)
+        inner, place = _step(model, key, place, wanted)
         if inner is None:
             return None
         # of a union the branch that pydantic names, (tag) behind the place in the list
@@ -73,7 +79,9 @@ def holds_by_name(model: type[BaseModel], key: Iterable[str | int]) -> bool:
     return field is not None and any(inner.held is dict for inner in inner_tables(field.annotation))
 
 
-def _step(model: type[BaseModel], key: tuple[str | int, ...], place: int) -> tuple[Any, int]:
+def _step(
+    model: type[BaseModel], key: tuple[str | int, ...], place: int, wanted: str | int | None
+) -> tuple[Any, int]:
     """The table that a part of a key leads to, and the place after it and after a name that follows it."""
     name = str(key[place])
     following = key[place + 1] if place + 1 < len(key) else None
@@ -84,7 +92,9 @@ def _step(model: type[BaseModel], key: tuple[str | int, ...], place: int) -> tup
         return (extra, place + 1)
     in_list = [inner for inner in found if inner.held is tuple]
     if in_list and (isinstance(following, int) or len(in_list) == len(found)):
-        return in_list[0].table, place + 1
+        after = next((part for part in (*key[place + 1 :], wanted) if not isinstance(part, int)), None)
+        fitting = [inner.table for inner in in_list if after in inner.table.model_fields]
+        return (*fitting, in_list[0].table)[0], place + 1
     for inner in found:
         if inner.held is not tuple:
             return inner.table, place + 1 + (inner.held is dict and following is not None)

@@ -219,7 +219,7 @@ def _marks(table: type[BaseModel], key: str) -> list[Any]:
     named = [place for place, part in enumerate(parts) if isinstance(part, str)]
     if not named:
         return []
-    holder = table_at(table, parts[: named[-1]])
+    holder = table_at(table, parts[: named[-1]], parts[named[-1]])
     field = holder.model_fields.get(str(parts[named[-1]])) if holder else None
     return list(parts_of(field)) if field else []
 

@@ -7,6 +7,8 @@ import pytest
 from tribodyn.scenario.messages import keys_in
 from tribodyn.scenario.quantity import FamilyShape, Table, csv_file, defaults_written_out, model_file, written
 from tribodyn.scenario.schema import expanded, family_shapes, matches, references, table_at
+from tribodyn.scenario.vary import is_whole
+from tribodyn.studies import STUDIES
 
 
 class Inner(Table):
@@ -87,3 +89,10 @@ def test_keys_for_the_command_line():
 
 def test_defaults_of_tables_by_name():
     assert defaults_written_out({"named": {"a": {}}}, Outer)["named"] == {"a": {"inner": {"number": 3}}}
+
+
+def test_the_table_of_a_list_that_has_the_key():
+    """Of the sorts of stages a planetary one has planets."""
+    table = STUDIES["gear-train"].table()
+    assert is_whole(table, "stage.0.planets")
+    assert not is_whole(table, "stage.0.module")

@@ -1,5 +1,6 @@
 """Searches over several scenarios: figures of studies of different kinds, of the same gears."""
 
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -9,10 +10,15 @@ import pytest
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
+from tribodyn.scenario.resolve import resolve
+from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate
+from tribodyn.studies.design.candidates.sources import BASE as BASE_NAME
+from tribodyn.studies.design.candidates.sources import refused, require_key, sources_of
 from tribodyn.studies.design.page import before_and_after
 from tribodyn.studies.design.short_form import loaded_search, parts_of
+from tribodyn.studies.protocol.load import table_of
 
 RELIEF = "drive.pinion.modification.tip_relief"
 FREE = [{"key": RELIEF, "from": "0 um", "to": "20 um"}]
@@ -115,3 +121,48 @@ def test_parts_of_the_command_line():
     for wrong in (["oil"], ["=a"], ["oil="], ["a=b", "a=c"]):
         with pytest.raises(InputError):
             parts_of(wrong)
+
+
+def leaves(data: Any, above: tuple[str, ...] = ()) -> list[str]:
+    """Dotted keys of everything that is no table and no list of tables."""
+    if isinstance(data, dict):
+        return [key for name, value in data.items() for key in leaves(value, (*above, name))]
+    if isinstance(data, list) and data and isinstance(data[0], dict):
+        return [key for place, value in enumerate(data) for key in leaves(value, (*above, str(place)))]
+    return [".".join(above)]
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["two-stage-reducer", "wind-turbine-gearbox", "sensors-18-36", "assessment-helical-24-95", "irefc"],
+)
+def test_every_key_of_a_scenario_can_be_named(name: str):
+    """Gears by name, stages by place, bearings of a train: what stands in a file is a key of it."""
+    data = resolve(find_scenario(name), {}, table_of).data
+    sources = sources_of({BASE_NAME: data})
+    keys = leaves(data)
+    assert len(keys) > 10
+    assert [require_key("design.free.0.key", key, sources)[1] for key in keys] == keys
+
+
+@pytest.mark.parametrize(
+    ("key", "meant"),
+    [
+        ("gear.pinion-1.profil_shift", "gear.pinion-1.profile_shift"),
+        ("stage.0.modul", "stage.0.module"),
+        ("gear.pinion-1.modification.tip_releif", "gear.pinion-1.modification.tip_relief"),
+    ],
+)
+def test_a_misspelled_key_of_a_train(key: str, meant: str):
+    sources = sources_of({BASE_NAME: resolve(find_scenario("two-stage-reducer"), {}, table_of).data})
+    with pytest.raises(InputError, match=re.escape(f'did you mean "{meant}"?')):
+        require_key("design.free.0.key", key, sources)
+
+
+def test_a_value_that_a_key_of_a_train_does_not_take():
+    sources = sources_of({BASE_NAME: resolve(find_scenario("two-stage-reducer"), {}, table_of).data})
+    (source,) = sources.values()
+    assert refused("here", "gear.pinion-1.profile_shift", 0.3, source) is None
+    error = refused("here", "stage.0.module", "3 N", source)
+    assert error is not None
+    assert '"N" is not a unit of length' in error.rule

@@ -13,7 +13,7 @@ from pydantic import ValidationError, create_model
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.scenario.messages import explain
 from tribodyn.scenario.quantity import Table
-from tribodyn.scenario.schema import parts_of
+from tribodyn.scenario.schema import holds_by_name, table_at
 from tribodyn.scenario.vary import base_units
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
@@ -112,7 +112,7 @@ def refused(place: str, key: str, value: Any, source: Source) -> InputError | No
     Keys of a family or of a law are left to the scenario's own rules.
     """
     field: Any = None
-    for part, fields in _fields_along(key, source.schema):
+    for *_, part, fields in _fields_along(key, source.schema):
         if fields is None or part not in fields:
             return None
         field = fields[part]
@@ -130,24 +130,31 @@ def unknown_part(key: str, schema: type[Table]) -> tuple[list[str], str, list[st
 
     None where it knows the key. Keys of a family or of a law are known: the scenario's own rules judge them.
     """
-    above: list[str] = []
-    for part, fields in _fields_along(key, schema):
-        if fields is None or part.isdecimal():
+    for above, part, fields in _fields_along(key, schema):
+        if fields is None:
             return None
         if part not in fields:
             return None if "law" in fields or "shape" in above else (above, part, list(fields))
-        above.append(part)
     return None
 
 
-def _fields_along(key: str, schema: type[Table]) -> Iterator[tuple[str, Mapping[str, Any] | None]]:
-    """Parts of a dotted key, and the fields among which each stands; None below the tables."""
-    at: Any = schema
-    for part in key.split("."):
-        fields = getattr(at, "model_fields", None)
-        yield part, fields
-        marks = parts_of(fields[part]) if fields and part in fields else ()
-        at = next((mark for mark in marks if isinstance(mark, type) and issubclass(mark, Table)), None)
+def _fields_along(key: str, schema: type[Table]) -> Iterator[tuple[list[str], str, Mapping[str, Any] | None]]:
+    """Parts of a dotted key, with those before each and the fields among which it stands.
+
+    None in place of fields below the tables. Names and places of tables are passed over but at the end.
+    """
+    names = key.split(".")
+    parts = [int(name) if name.isdecimal() else name for name in names]
+    for place, part in enumerate(parts):
+        table = table_at(schema, parts[:place], part)
+        fields = table.model_fields if table else None
+        named = isinstance(part, int) or (place and holds_by_name(schema, parts[:place]))
+        if fields and part not in fields and table_at(schema, parts[: place + 1]) is not None:
+            named = True  # a table with names of its own beside its keys
+        if not named:
+            yield names[:place], names[place], fields
+        elif place == len(parts) - 1:
+            yield names[:place], names[place], None
 
 
 def standing(scenarios: Mapping[str, Mapping[str, Any]], key: str) -> Any:
