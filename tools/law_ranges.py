@@ -24,6 +24,7 @@ from tribodyn.tribology.ehl.of_case import contact_of
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.table import STEP
 from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.film.roughening import roughening
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw, LawInput
 from tribodyn.tribology.oil import LubricantData
@@ -217,35 +218,25 @@ def solved(pair: Pair, at: int, smooth: bool) -> CoupledSolution | None:
 
 
 def solved_along(pair: Pair) -> dict[str, Array]:
-    """Films, m, and friction coefficient of the solved contact by what laws stand for; NaN: not solved."""
-    names = ("central, rough", "minimum, rough", "central, smooth", "minimum, smooth", "friction")
-    found = {name: np.full(POSITIONS, np.nan) for name in names}
+    """Central films, m, of rough and smooth flanks, and friction coefficient; NaN: not solved."""
+    found = {name: np.full(POSITIONS, np.nan) for name in ("film", "smooth film", "friction")}
     for at in range(POSITIONS):
         if (rough := solved(pair, at, smooth=False)) is not None:
-            gap = rough.solution.mean_gap
-            found["central, rough"][at] = np.interp(0.0, rough.solution.place, gap)
-            found["minimum, rough"][at] = np.min(gap)
+            found["film"][at] = np.interp(0.0, rough.solution.place, rough.solution.mean_gap)
             found["friction"][at] = abs(rough.friction) / pair.line_load[at]
         if (flat := solved(pair, at, smooth=True)) is not None:
-            found["central, smooth"][at] = flat.solution.central_film_thickness
-            found["minimum, smooth"][at] = flat.solution.minimum_film_thickness
+            found["smooth film"][at] = flat.solution.central_film_thickness
     return found
-
-
-#: What each film law stands for.
-STANDS_FOR = {
-    "masjedi-khonsari": "central, rough",
-    "masjedi-khonsari-as-printed": "central, rough",
-    "dowson-higginson": "minimum, smooth",
-    "moes": "central, smooth",
-}
 
 
 def ratios(seed: int, count: int) -> dict[tuple[str, str], Ratios]:
     """Return (what, law) -> law over solved contact, of as many pairs."""
     found: dict[tuple[str, str], list[tuple[Array, ...]]] = {}
+    roughened: list[Array] = []
     for pair in pairs(seed, count):
         known = solved_along(pair)
+        smooth, rough = np.log(known["smooth film"]), math.log(pair.given.surfaces.roughness)
+        roughened.append(np.exp(smooth) * roughening(smooth, rough) / known["film"])
         entrainment, sliding = 0.5 * (pair.speeds[0] + pair.speeds[1]), pair.speeds[0] - pair.speeds[1]
         contact = local_contact(pair.line_load, pair.curvature, entrainment, sliding, *pair.speeds)
         for what, registry in (("film", FILM_LAWS), ("friction", FRICTION_LAWS)):
@@ -254,7 +245,7 @@ def ratios(seed: int, count: int) -> dict[tuple[str, str], Ratios]:
                     continue
                 law = registry[name]
                 inside = _by_law(law, contact, pair.given)
-                against = known[STANDS_FOR.get(name, "") if what == "film" else "friction"]
+                against = known[what]
                 rows = (inside[0] / against, *inside[1:])
                 if what == "friction" and name in MEANS:
                     weight = pair.line_load * np.abs(sliding)
@@ -262,6 +253,8 @@ def ratios(seed: int, count: int) -> dict[tuple[str, str], Ratios]:
                     rows = (np.array([mean]), *(limits[:1] for limits in inside[1:]))
                 whose = np.full(len(rows[0]), pair.oil), np.full(len(rows[0]), pair.drawn)
                 found.setdefault((what, name), []).append((*rows, *whose))
+    factors = np.concatenate(roughened)
+    print("roughening over solved, 5, 50, 95 %:", quantiles(factors[np.isfinite(factors)]))
     joined = {
         key: [np.concatenate(parts) for parts in zip(*rows, strict=True)] for key, rows in found.items()
     }
@@ -313,7 +306,8 @@ def tables(found: dict[tuple[str, str], Ratios]) -> str:
         limits = law.limits[len(law.limits) - law.judged.limits :]
         inside, outside = ratios.ratio[ratios.judged], ratios.ratio[~ratios.judged]
         low, high = law.judged.right
-        stands = STANDS_FOR[name] if what == "film" else "mean of the mesh" if name in MEANS else "friction"
+        stands = f"{law.thickness} film" if isinstance(law, FilmLaw) else "friction"
+        stands = "mean of the mesh" if name in MEANS else stands
         cells = (
             f"{what} `{name}`",
             stands,

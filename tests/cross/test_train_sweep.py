@@ -13,6 +13,7 @@ from tribodyn.studies.gear_train.report import SWEPT
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.sweep.grid import Grid
 
 KEYS = {"friction.law": "coulomb", "friction.coefficient": 0.06, "output.samples_per_cycle": 60}
 
@@ -77,7 +78,10 @@ def test_one_law_for_all_cases():
         for speed in ("500 rpm", "1480 rpm")
     )
     assert slow_one.chosen() != fast.chosen()
-    assert slow_one.beside(fast).chosen() == fast.chosen()
+    grid = Grid("two-stage-reducer", ["operating.input_speed=500,1480rpm"], {})
+    cases = [grid.case((i,)) for i in (0, 1)]
+    laws = {(mesh.pair.film.law, mesh.pair.friction.law) for case in cases for mesh in case.meshes}
+    assert len(laws) == 1
 
 
 def test_a_long_common_period_and_another_structure_are_refused():

@@ -18,7 +18,7 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 from tribodyn.record.withheld import warnings
 
-#: Lines of a verdict, at most.
+#: Lines of a run's verdict, at most.
 LINES = 5
 #: Share of the contact, or of the loss, outside the limits of a law from which its values are in doubt: of 94
 #: meshes those with up to a fifth of their loss outside have friction as right as those with none.
@@ -113,12 +113,12 @@ def band_of(summary: Mapping[str, Any]) -> str:
 
 def outside(summary: Mapping[str, Any]) -> Iterable[str]:
     """How far film and friction are from the solved contact, and where they are in doubt."""
-    holding = []
+    holding, here = [], True
     for what, where in (("film", "contact"), ("friction", "loss")):
         law, judged = summary.get(f"{what}_law"), numbers(summary.get(f"{what}_judged"))
         if not {"low", "median", "high"} <= set(judged):
             continue
-        beyond = numbers(summary).get(f"{what}_outside", 0.0)
+        beyond = in_doubt_by(summary, what)
         in_doubt = beyond >= IN_DOUBT
         low, middle, high = (
             1.0 / judged.get(f"{end}_outside" if in_doubt else end, judged[end])
@@ -126,23 +126,29 @@ def outside(summary: Mapping[str, Any]) -> Iterable[str]:
         )
         if not in_doubt:
             holding.append(f"{low:.2g} to {high:.2g} times the printed {what} ({law})")
+            here = here and "at_duty" in judged
             continue
         why = _why(summary.get("closure_exceeded" if what == "film" else "friction_exceeded"))
         times = f"probably {middle:.1g} times what is printed ({low:.1g} to {high:.1g})"
         beyond_in = f"{law} is beyond its range in {share(beyond)} of the {where}{why}"
         yield f"{what.capitalize()} in doubt, {times}: {beyond_in}."
     if holding:
-        yield f"By solved contacts, expect {' and '.join(holding)}."
+        contacts = "contacts solved at this duty" if here else "solved contacts"
+        yield f"By {contacts}, expect {' and '.join(holding)}."
+
+
+def in_doubt_by(summary: Mapping[str, Any], what: str) -> float:
+    """Share of contact or loss in which a law is beyond its range; 0 of one compared at the duty itself."""
+    if "at_duty" in numbers(summary.get(f"{what}_judged")):
+        return 0.0
+    return numbers(summary).get(f"{what}_outside", 0.0)
 
 
 def advised(summary: Mapping[str, Any]) -> Iterable[str]:
     """What to do, the most urgent first."""
     found = numbers(summary)
     for what in ("film", "friction"):
-        if (
-            isinstance(summary.get(f"{what}_judged"), Mapping)
-            and found.get(f"{what}_outside", 0.0) >= IN_DOUBT
-        ):
+        if isinstance(summary.get(f"{what}_judged"), Mapping) and in_doubt_by(summary, what) >= IN_DOUBT:
             nearest = "" if summary.get(f"{what}_chosen") else f'{what}.law = "auto" takes the nearest law; '
             yield f'To do: {nearest}{what}.law = "solved" solves the contact itself, a minute the first time.'
             return
@@ -197,9 +203,19 @@ def of_sweep(record: SweepRecord, place: Callable[[tuple[int, ...]], str]) -> li
     if low and high and low[0] < high[0]:
         ends = [f"{with_unit('efficiency', end[0])} at {end[1]}" for end in (low, high)]
         found.append(f"The efficiency lies between {' and '.join(ends)}.")
+    found += _of_laws(record)
     if failed := record.count()["failed"]:
         found.append(f"{failed} of {record.count()['cases']} cases failed.")
-    return found[:LINES]
+    return found
+
+
+def _of_laws(record: SweepRecord) -> Iterable[str]:
+    """How far the laws of a sweep are from solved contacts, and in how many cases they are extrapolated."""
+    judged = np.asarray(record["trust"])[record["status"] == DONE] if "trust" in record else np.zeros(0)
+    many = int(np.sum(judged == trust.VERDICTS[trust.EXTRAPOLATED]))
+    beyond = f"in {many} of {len(judged)} cases a law is nowhere inside its range, and that is in doubt"
+    for line in outside(record.settings.get("laws") or {}):
+        yield f"{line[:-1]}; {beyond}." if many else line
 
 
 def apart(fraction: float) -> str:

@@ -12,7 +12,7 @@ from tribodyn.scenario.sources import find_scenario, read_toml
 from tribodyn.scenario.vary import NO_TABLE, VARY, Axis, axes_of, in_si
 from tribodyn.studies import study_of
 from tribodyn.studies.protocol.evaluated import OneByOne
-from tribodyn.studies.protocol.load import loaded_from, table_of
+from tribodyn.studies.protocol.load import loaded_from, put_chosen, table_of
 from tribodyn.studies.sweeping.batch import Batch
 from tribodyn.studies.sweeping.signals import SignalRequest
 
@@ -73,19 +73,20 @@ class Grid:
     def case(self, place: Sequence[int]) -> Any:
         """Return the case at a place of the grid; InputError where its values contradict each other."""
         data, kept = self._at(place)
+        put_chosen(data, self.chosen, [axis.key for axis in self.axes])
         try:
             case = loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
         except InputError as error:
             raise self._as_varied(error) from None
-        return case.beside(self._written or case) if case.chosen() else case
+        return case
 
     @cached_property
-    def _written(self) -> Any:
-        """The scenario without its axes; None where it is no case without them."""
+    def chosen(self) -> dict[str, tuple[str, str]]:
+        """What the scenario without its axes leaves open; nothing where it is no case without them."""
         try:
-            return loaded_from(resolve(self.path, self.overrides, table_of), self.path).case
+            return loaded_from(resolve(self.path, self.overrides, table_of), self.path).case.chosen()
         except InputError:
-            return None
+            return {}
 
     def with_values(self, values: Sequence[float]) -> "Grid":
         """The same with other values of the first axis, SI, those it has among them and its ends the same."""

@@ -1,15 +1,18 @@
-"""`law = "auto"`: the film and the friction law that are nearest to the solved contact at a duty.
+"""`law = "auto"`: the film and the friction law that are nearest to the contact as it is solved at a duty.
 
-Every law that was compared with the solved contact (`JudgedRange`) is evaluated along the way of a pair at
-the nominal duty. It holds where its limits do on `HOLDS` of the way: those by the solved contact, or its
-authors' where there are none; a friction law's by the heat that is made there, as friction at the pitch point
-costs nothing. Of those that hold the one is taken whose ratio to the solved contact is nearest to 1 at 5 and
-95 % of the contacts of gears; where none holds, of all, outside their ranges. Laws that are tabulated, need
-values or are readings of another law (`other-…`) are no candidates.
+The contact of a pair is solved, mixed and with heat, at `SOLVED` places of its way through the mesh at the
+nominal duty; every law that was compared with solved contacts of gears (`JudgedRange`) is evaluated there.
+Of the film the law is taken whose values are nearest on the mean, of friction the one whose loss is; of those
+that are next to nearest by `ALIKE` one whose whole range holds on `HOLDS` of the way is preferred. Where no
+contact can be solved, the ratios of `JudgedRange` stand in. Laws that are tabulated, need values or are
+readings of another law (`other-…`) are no candidates.
 """
 
+import hashlib
+import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -17,11 +20,16 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
+from tribodyn.geometry.helix import curvature_share, pitch_slope, speed_share
 from tribodyn.geometry.path import kinematics
+from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.registry import Registry
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.tribology.closure import Lubricated, closure, law_input
+from tribodyn.numerics.sources import digest_of
+from tribodyn.tribology.closure import LEAST_SLIDING, Lubricated, closure, law_input
 from tribodyn.tribology.contact import LocalContact, local_contact
+from tribodyn.tribology.ehl.of_case import Contact, contact_of
+from tribodyn.tribology.ehl.table import solve_one
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO, Closure, FilmData, FilmLaw, FrictionLaw, LawInput
@@ -29,8 +37,13 @@ from tribodyn.tribology.surface_state import limits_last, surface_and_limits
 
 #: Share of the way of a pair on which the limits of a law must hold.
 HOLDS = 0.9
-#: Places on the way at which laws are evaluated.
-PLACES = 41
+#: Places on the way at which limits are evaluated, and which of them are solved.
+PLACES = 40
+SOLVED = slice(2, PLACES, 9)
+#: Grid's step of those contacts: the film within 2 %, friction within 3 %, in 0.05 s of a core each.
+STEP = 0.25
+#: Factor on the nearest law's departure up to which a law that is inside its range is preferred.
+ALIKE = 1.1
 
 CaseType = TypeVar("CaseType", bound=Lubricated)
 
@@ -39,23 +52,37 @@ class LawAtDuty(NamedTuple):
     """A law at a duty."""
 
     law: Any
-    holds: bool
-    #: law over solved contact in nine of ten contacts, inside its range where it holds, outside elsewhere
-    ratio: tuple[float, float]
+    inside: float  # share of the way, of friction of its loss, inside the law's range; NaN: none stated
+    #: law over solved contact at the places: least, on the mean (of friction over the loss), greatest; where
+    #: none was solved, in nine of ten contacts of gears
+    ratio: tuple[float, float, float]
+    solved: bool
 
     @property
-    def factor(self) -> float:
-        """By which the law is off at most."""
-        low, high = self.ratio
-        return max(high, 1.0 / low)
+    def distance(self) -> float:
+        """By which the law is off, as the logarithm of a factor."""
+        low, middle, high = map(math.log, self.ratio)
+        return abs(middle) if self.solved else max(high, -low)
 
     @property
     def reason(self) -> str:
         """Why it was taken, for people."""
-        what, (low, high) = self.law.table, self.ratio
-        whose = "whose range holds at this duty" if self.holds else "at this duty, at which no range holds"
-        times = f"{low:.2g} to {high:.2g} times it in nine of ten contacts"
-        return f"nearest to the solved contact of the {what} laws {whose}: {times}"
+        what, (low, middle, high) = self.law.table, self.ratio
+        contact = "the contact solved at this duty" if self.solved else "solved contacts of gears"
+        of = "loss" if what == "friction" else "film"
+        times = f"{middle:.2g} times its {of} ({low:.2g} to {high:.2g} along the way)"
+        return f"the {what} law nearest to {contact}: {times}; {self.range}"
+
+    @property
+    def range(self) -> str:
+        """Whether its range holds, in words."""
+        if math.isnan(self.inside):
+            return "it states no range"
+        of = "loss" if self.law.table == "friction" else "way"
+        beyond = f"{100 * (1.0 - self.inside):.0f} % of the {of}"
+        if self.inside >= HOLDS:
+            return "its range holds" if self.inside == 1.0 else f"its range holds but for {beyond}"
+        return f"outside its range in {beyond}"
 
 
 def settled(case: CaseType) -> CaseType:
@@ -67,17 +94,20 @@ def settled(case: CaseType) -> CaseType:
     friction, film = case.friction.law, case.film.law
     if AUTO not in (friction, film):
         return case
-    contact, changed = _along(case), {}
+    contact, given, changed = _along(case), law_input(case), {}
     if friction == AUTO:
-        heat = contact.line_load * np.abs(contact.sliding)
-        found = _nearest(FRICTION_LAWS, law_input(case), contact, heat)
-        changed["friction"] = replace(case.friction, law=found.law.name, chosen=found.reason)
+        found = nearest(FRICTION_LAWS, given, contact)
+        changed["friction"] = replace(case.friction, law=found.law.name, **_why(found))
         if film is None and not found.law.reads_film:
             film = AUTO
     if film == AUTO:
-        found = _nearest(FILM_LAWS, law_input(case), contact, np.ones_like(contact.line_load))
-        changed["film"] = FilmData(found.law.name, chosen=found.reason)
+        found = nearest(FILM_LAWS, given, contact)
+        changed["film"] = FilmData(found.law.name, **_why(found))
     return replace(case, **changed)  # pyright: ignore[reportArgumentType]  (cases are dataclasses)
+
+
+def _why(found: LawAtDuty) -> dict[str, Any]:
+    return {"chosen": found.reason, "ratio": found.ratio if found.solved else None}
 
 
 def _along(case: Lubricated) -> LocalContact:
@@ -85,33 +115,60 @@ def _along(case: Lubricated) -> LocalContact:
     torque, speed = abs(float(case.operating.gear_torque)), abs(float(case.operating.pinion_speed))
     if torque == 0.0 or speed == 0.0:
         rule = f'"{AUTO}" takes a law by the nominal duty, and this one has no torque or no speed'
-        raise InputError("friction.law", f'"{AUTO}"', rule, "name a law: tribodyn list laws")
+        raise InputError(
+            "friction.law" if case.friction.law == AUTO else "film.law",
+            f'"{AUTO}"',
+            rule,
+            "name a law: tribodyn list laws",
+        )
     assembly = assemble(family(case.family), case.drive)
     start, end = map(float, assembly.roll_limits)
     roll = start + (np.arange(PLACES) + 0.5) / PLACES * (end - start)
-    pitch = float(assembly.pitch_angle)
+    pitch, path, slope = float(assembly.pitch_angle), assembly.path, float(pitch_slope(assembly))
     many = int((end - start) / pitch) + 1
-    pairs = sum((roll + n * pitch >= start) & (roll + n * pitch <= end) for n in range(-many, many + 1))
-    motion = kinematics(assembly.path, assembly.path.signed_distance(roll))
+    pairs: Any = sum((roll + n * pitch >= start) & (roll + n * pitch <= end) for n in range(-many, many + 1))
+    if slope:  # lines of contact of all pairs are about as long at every position
+        pairs = (end - start) / pitch
+    distance = path.signed_distance(roll)
+    motion = kinematics(path, distance)
     load = torque / np.abs(motion.gear_normal_arm) / float(assembly.common_width) / pairs
+    curvature = np.abs(motion.relative_curvature * curvature_share(slope, path, distance))
+    speed = speed * np.asarray(speed_share(slope, path, distance))
     speeds = speed * motion.pinion_speed, speed * motion.gear_speed
-    return local_contact(
-        load, np.abs(motion.relative_curvature), speed * motion.entrainment, speed * motion.sliding, *speeds
-    )
+    return local_contact(load, curvature, speed * motion.entrainment, speed * motion.sliding, *speeds)
 
 
-def _nearest(
-    laws: Registry[Any], given: LawInput, contact: LocalContact, weight: Float[Array, " place"]
-) -> LawAtDuty:
-    """The law of the smallest factor of those that hold, or of all where none does."""
-    found = list(_candidates(laws, given, contact, weight))
-    return min(found, key=lambda candidate: (not candidate.holds, candidate.factor))
+def nearest(laws: Registry[Any], given: LawInput, contact: LocalContact) -> LawAtDuty:
+    """The law nearest to the solved contact along a way of `PLACES` contacts, see the module."""
+    films, coefficients = _solved(given, contact)
+    right = films if laws is FILM_LAWS else coefficients
+    found = sorted(_candidates(laws, given, contact, right), key=lambda candidate: candidate.distance)
+    alike = [each for each in found if each.distance <= found[0].distance + math.log(ALIKE)]
+    return next((each for each in alike if each.inside >= HOLDS), found[0])
+
+
+def _solved(given: LawInput, contact: LocalContact) -> tuple[Float[Array, " place"], Float[Array, " place"]]:
+    """Films (m) and friction coefficients of the contacts `SOLVED`; NaN where there is no solution."""
+    ratio = np.maximum(np.abs(contact.sliding) / contact.entrainment, LEAST_SLIDING)
+    columns = contact.line_load, contact.entrainment, contact.curvature, ratio
+    rows = np.log(np.stack(np.broadcast_arrays(*columns), axis=1))[SOLVED]
+    values = _solutions(contact_of(given), tuple(map(tuple, rows.tolist())))
+    return np.exp(values[:, 0]), np.exp(values[:, 1])
+
+
+@lru_cache(maxsize=64)
+def _solutions(contact: Contact, duties: tuple[tuple[float, ...], ...]) -> Float[Array, "place 3"]:
+    """`solve_one` of each duty, from this process, from the cache, or solved."""
+    digest = hashlib.sha256(digest_of(solve_one.__module__) + repr((contact, duties)).encode()).hexdigest()
+    made = lambda: {"values": np.array([solve_one(contact, np.array(duty), STEP) for duty in duties])}  # noqa: E731
+    return arrays_kept_or_made("ehl", digest, made)["values"]
 
 
 def _candidates(
-    laws: Registry[Any], given: LawInput, contact: LocalContact, weight: Float[Array, " place"]
+    laws: Registry[Any], given: LawInput, contact: LocalContact, right: Float[Array, " place"]
 ) -> Iterator[LawAtDuty]:
-    names: list[str] = []
+    heat = contact.line_load * np.abs(contact.sliding)
+    known, names = np.isfinite(right), list[str]()
     for name, law in laws.items():
         if law.judged is None or law.table_error is not None:
             continue
@@ -119,16 +176,26 @@ def _candidates(
             continue
         names.append(name)
         try:
-            made = _made(law, given)
+            state, limits = surface_and_limits(contact, _made(law, given))
         except InputError:  # a mean over the mesh without pressure angle at the pitch point
             continue
-        shares = limits_last(surface_and_limits(contact, made)[1][0 if law.table == "film" else 1])
-        shares = np.broadcast_to(shares, (PLACES, shares.shape[-1]))[:, -law.judged.limits :]
-        inside = float(np.average(np.all(shares >= 1.0, axis=1), weights=weight))
-        ratio = law.judged.ratio
-        if inside < HOLDS and law.judged.outside is not None:
-            ratio = law.judged.outside
-        yield LawAtDuty(law, inside >= HOLDS, (ratio[0], ratio[2]))
+        film = law.table == "film"
+        shares = limits_last(limits[0 if film else 1])
+        least = np.min(np.broadcast_to(shares, (PLACES, shares.shape[-1])), axis=1)
+        inside = math.nan
+        if not np.all(np.isnan(least)):
+            inside = float(np.average(least >= 1.0, weights=np.ones(PLACES) if film else heat))
+        if not np.any(known):
+            judged = law.judged.ratio if inside >= HOLDS else law.judged.outside or law.judged.ratio
+            yield LawAtDuty(law, inside, judged, solved=False)
+            continue
+        values = state.central_film_thickness if film else np.abs(state.friction_coefficient)
+        ratio = np.broadcast_to(values, (PLACES,))[SOLVED][known] / right[known]
+        if film:
+            middle = float(np.exp(np.mean(np.log(ratio))))
+        else:
+            middle = float(np.average(ratio, weights=heat[SOLVED][known] * right[known]))
+        yield LawAtDuty(law, inside, (float(np.min(ratio)), middle, float(np.max(ratio))), solved=True)
 
 
 def _made(law: FilmLaw | FrictionLaw, given: LawInput) -> Closure:

@@ -128,24 +128,21 @@ def with_laws(
     if film is not None:
         changed["film"] = FilmData(film)
     if friction is not None:
-        changed["friction"] = replace(case.friction, law=friction, values={}, chosen="")
+        changed["friction"] = replace(case.friction, law=friction, values={}, chosen="", ratio=None)
     return replace(case, **changed)  # pyright: ignore[reportArgumentType]  (cases are dataclasses)
 
 
 def law_quantities(case: Lubricated) -> dict[str, Any]:
     """Names of the laws in use, their ranges and the errors of their tables, for a summary.
 
-    `film_judged` and `friction_judged`: their ratios to the solved contact, where they were compared;
+    `film_judged` and `friction_judged`: their ratios to the solved contact, where they were compared; with
+    `at_duty` those at the contacts of the nominal duty, else those in nine of ten contacts of gears;
     `friction_band_low` and `_high`: factors on friction solved with an estimated viscosity.
     """
     film, friction = laws_of(case)
     chosen = {"film_chosen": case.film.chosen, "friction_chosen": case.friction.chosen}
-    judged, errors = {}, {}
+    errors = {}
     for law in (film, friction):
-        if law.judged is not None:
-            ratios = dict(zip(("low", "median", "high"), law.judged.ratio, strict=True))
-            outside = dict(zip(_OUTSIDE, law.judged.outside or (), strict=False))
-            judged[f"{law.table}_judged"] = {**ratios, **outside, "limits": law.judged.limits}
         if law.table_error is not None:
             active: Any = getattr(untried_closure_of(case), law.table)
             errors[f"{law.table}_table_error"] = law.table_error(active.parameters)
@@ -153,15 +150,28 @@ def law_quantities(case: Lubricated) -> dict[str, Any]:
             if low < high:
                 errors |= {f"{law.table}_band_low": low, f"{law.table}_band_high": high}
     return {
-        "film_law": film.name,
+        **law_ratios(case),
         "film_thickness": film.thickness,
         "film_range": film.stated or "none stated",
-        "friction_law": friction.name,
         "friction_range": friction.stated or "none stated",
         **{name: why for name, why in chosen.items() if why},
-        **judged,
         **errors,
     }
+
+
+def law_ratios(case: Lubricated) -> dict[str, Any]:
+    """Names of the laws in use and their ratios to the solved contact, where they were compared."""
+    found: dict[str, Any] = {}
+    for law, data in zip(laws_of(case), (case.film, case.friction), strict=True):
+        found[f"{law.table}_law"] = law.name
+        if data.ratio is not None:
+            ratios = dict(zip(("low", "median", "high"), data.ratio, strict=True))
+            found[f"{law.table}_judged"] = {**ratios, "at_duty": 1.0}
+        elif law.judged is not None:
+            ratios = dict(zip(("low", "median", "high"), law.judged.ratio, strict=True))
+            outside = dict(zip(_OUTSIDE, law.judged.outside or (), strict=False))
+            found[f"{law.table}_judged"] = {**ratios, **outside, "limits": law.judged.limits}
+    return found
 
 
 def exceeded_limits(

@@ -272,6 +272,8 @@ class FilmData:
     #: values of the law's own keys, by name, in SI units
     values: Mapping[str, Any] = field(default_factory=dict)
     chosen: str = ""  # why, where the scenario says "auto"
+    #: least, mean, greatest ratio to the contact solved at the duty, where "auto" chose by that
+    ratio: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -282,6 +284,8 @@ class FrictionData:
     #: values of the law's own keys, by name, in SI units
     values: Mapping[str, Any] = field(default_factory=dict)
     chosen: str = ""  # why, where the scenario says "auto"
+    #: least, mean, greatest ratio to the contact solved at the duty, where "auto" chose by that
+    ratio: tuple[float, float, float] | None = None
     #: sliding speed from the nominal rotation, or from the bodies as they move, vibration included
     sliding: Literal["kinematic", "dynamic"] = "dynamic"
     #: distance along the path of contact over which friction changes sign at the pitch point, m

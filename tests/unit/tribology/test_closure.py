@@ -146,8 +146,10 @@ def test_a_summary_names_laws_and_ratios(case):
     found = law_quantities(with_laws(case, "moes", "coulomb"))
     assert (found["film_law"], found["film_thickness"]) == ("moes", "central")
     assert found["friction_range"] == "none stated"
-    outside = {"low_outside": 1.2, "median_outside": 1.28, "high_outside": 1.63}
-    assert found["film_judged"] == {"low": 1.11, "median": 1.17, "high": 1.23, "limits": 6, **outside}
+    judged = FILM_LAWS["moes"].judged
+    low, median, high = judged.ratio
+    outside = dict(zip(("low_outside", "median_outside", "high_outside"), judged.outside, strict=True))
+    assert found["film_judged"] == {"low": low, "median": median, "high": high, "limits": 6, **outside}
     assert not {"friction_judged", "film_table_error", "friction_table_error"} & set(found)
     assert law_quantities(with_laws(case, "dowson-higginson", "coulomb"))["film_thickness"] == "minimum"
     assert LIU_NI.lubricant.supply is None

@@ -1,4 +1,4 @@
-"""Film laws of smooth line contacts: printed powers, asymptotes from Reynolds' equation, other formulas."""
+"""Film laws of line contacts: printed powers, asymptotes from Reynolds' equation, other formulas."""
 
 import math
 
@@ -9,16 +9,21 @@ from scipy.optimize import brentq
 
 from tests.support.closures import LIU_NI, POINT, known, under
 from tests.support.line_contacts import by_moes
+from tribodyn.tribology.ehl.fluid import Fluid
+from tribodyn.tribology.ehl.problem import LineContact
+from tribodyn.tribology.ehl.rough import Roughness
 from tribodyn.tribology.ehl.steady import solve_steady
 from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, masjedi_khonsari
 from tribodyn.tribology.film.moes import log_of_sum, log_survey
+from tribodyn.tribology.film.roughening import roughening
 
 SURFACES = LIU_NI.surfaces
+SMOOTH = LIU_NI._replace(surfaces=SURFACES._replace(roughness=1e-16))
 
 
-def film(law, line_load=4e5, curvature=100.0, speed=0.5):
+def film(law, line_load=4e5, curvature=100.0, speed=0.5, given=SMOOTH):
     """Film thickness, m."""
-    return known(under("none", film=law), line_load, curvature, speed, 0.0, speed, speed)[2]
+    return known(under("none", given, film=law), line_load, curvature, speed, 0.0, speed, speed)[2]
 
 
 def groups(line_load, curvature, speed):
@@ -51,10 +56,22 @@ def test_films_in_plain_powers(law):
         S, V = SURFACES.roughness * curvature, SURFACES.hardness / SURFACES.effective_modulus
         if law is dowson_higginson.LAW:
             expected = 2.65 * U**0.7 * G**0.54 * W**-0.13 / curvature
+            expected *= (1 + 1.25 * (SURFACES.roughness / expected) ** 2) ** 0.2
         else:
             expected = 2.691 * W**-0.135 * U**0.705 * G**0.556 / curvature
             expected *= 1 + 0.2 * S**1.222 * V**0.223 * W**-0.229 * U**-0.748 * G**-0.842
-        assert film(law.name, load, curvature, speed) == pytest.approx(expected, rel=1e-12)
+        assert film(law.name, load, curvature, speed, LIU_NI) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("share", [0.15, 0.5, 1.0, 3.0])
+def test_roughness_raises_a_film_as_it_does_the_solved_one(share):
+    """Mean gap on the line of centres over the film of smooth flanks, isothermal, at σ = h/share."""
+    smooth = LineContact(4e5, 0.01, 0.5, Fluid(0.05, 2e-8, 0.6), 2.26e11)
+    central = solve_steady(smooth).central_film_thickness
+    rough = solve_steady(smooth._replace(roughness=Roughness(central / share)))
+    gap = np.interp(0.0, rough.place, rough.mean_gap)
+    raised = float(roughening(math.log(central), math.log(central / share)))
+    assert raised * central / gap == pytest.approx(1.0, abs=0.06)
 
 
 @pytest.mark.parametrize("load", [0.04, 1.7, 30.0, 900.0])
@@ -177,6 +194,7 @@ def test_moes_within_its_range(pressure, load, material):
             effective_modulus=contact.effective_modulus,
             inlet_viscosity=contact.fluid.viscosity,
             pressure_viscosity=contact.fluid.pressure_viscosity,
+            roughness=1e-16,
         )
     )
     state = known(under("none", oil, film="moes"), *given, 0.0, given[2], given[2])

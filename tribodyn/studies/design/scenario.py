@@ -2,6 +2,7 @@
 
 import tomllib
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from functools import lru_cache
 from typing import Annotated, Any, Literal
 
@@ -17,7 +18,7 @@ from tribodyn.studies.design.case import DesignCase, RobustTable, SearchOptions,
 from tribodyn.studies.design.methods import METHODS
 from tribodyn.studies.design.parts import parts_of_design
 from tribodyn.studies.protocol.evaluated import evaluated_quantities
-from tribodyn.studies.protocol.load import schema_inside
+from tribodyn.studies.protocol.load import load_data, put_chosen, schema_inside
 
 KIND = "design"
 
@@ -161,6 +162,9 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
     for name, part in further.items():  # on the drive of the scenario, where both have one
         if "drive" in part and "drive" in base:
             further[name] = part | {"drive": base["drive"]}
+    for searched in (base, *further.values()):  # one law for all candidates
+        with suppress(InputError):  # whoever evaluates it says why
+            put_chosen(searched, load_data(searched, "scenario").case.chosen())
     fields, _ = parts_of_design(table, sources_of({BASE: base, **further}))
     return DesignCase(
         **head_of(scenario, toml, sha256),

@@ -14,7 +14,7 @@ from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_duty_rules
 from tribodyn.scenario.tables.internal_gear import driving_internal
 from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
-from tribodyn.studies.gears.case import LAYOUT, LubricatedCase
+from tribodyn.studies.gears.case import LAYOUT, LubricatedCase, with_chosen
 from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
@@ -123,15 +123,18 @@ Scenario = EfficiencyScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
     """Return the case of a scenario that has passed schema and rules."""
     duties = spectrum_of(scenario) if scenario.operating.duty is None else ()
-    case = EfficiencyCase(
+    case = with_chosen_laws(_at_duty(scenario, toml, sha256))
+    spectrum = tuple((share, with_chosen(_at_duty(duty, toml, sha256), case)) for share, duty in duties)
+    return replace(case, spectrum=spectrum)
+
+
+def _at_duty(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
+    return EfficiencyCase(
         **gear_fields(scenario, toml, sha256),
         **oil_fields(scenario),
         load_sharing=scenario.mesh.load_sharing,
         samples_per_cycle=scenario.output.samples_per_cycle,
     )
-    case = with_chosen_laws(case)
-    spectrum = tuple((share, case_of(duty, toml, sha256).beside(case)) for share, duty in duties)
-    return replace(case, spectrum=spectrum)
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:

@@ -14,7 +14,7 @@ from tribodyn.scenario.resolve import resolve_table
 from tribodyn.scenario.tables.duty import OiledOperatingTable
 from tribodyn.studies.ehl.along_path import PairWay, PreparedEhl, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.ehl.run import by_laws, meant_by, solve
+from tribodyn.studies.ehl.run import by_laws, solve
 from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.protocol.recording import TextTable
 from tribodyn.studies.protocol.study import CaseHead, Progress
@@ -35,10 +35,7 @@ FACTORS = (0.25, 0.5, 1.0, 2.0)
 AT_A_POINT = 5
 #: What laws are compared with, by dataset.
 AGAINST = {
-    "central_film_thickness": "central, rough",
-    "minimum_film_thickness": "minimum, rough",
-    "central_film_smooth": "central, smooth",
-    "minimum_film_smooth": "minimum, smooth",
+    "central_film_thickness": "film on the line of centres",
     "friction_coefficient": "friction",
 }
 #: Needed of a scenario.
@@ -215,7 +212,7 @@ def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
     for what, laws in by_laws(study, over).items():
         for law, values in laws.items():
             if what == "film":
-                meant, stated = meant_by(study, over, law), FILM_LAWS[law]
+                meant, stated = "central_film_thickness", FILM_LAWS[law]
             else:
                 meant, stated = "friction_coefficient", FRICTION_LAWS[law]
             ratio = values / arrays[meant]

@@ -1,6 +1,5 @@
 """From a case of the solved contact study to its record."""
 
-from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -143,19 +142,6 @@ def by_laws(study: along_path.PreparedEhl, over: along_path.PairWay) -> dict[str
     return {"film": films, "friction": frictions}
 
 
-def meant_by(study: along_path.PreparedEhl, over: along_path.PairWay, law: str) -> str:
-    """Which dataset of the solved contact a film law stands for.
-
-    Its central or its minimum film; and that between smooth surfaces, where the law knows no roughness.
-    """
-    smooth = replace(study, case=replace(study.case, roughness=1e-3 * study.case.roughness))
-    rough, flat = (
-        along_path.seen_by(prepared, over, law).surface.central_film_thickness for prepared in (study, smooth)
-    )
-    kind = "smooth" if np.array_equal(np.asarray(rough), np.asarray(flat)) else "thickness"
-    return f"{FILM_LAWS[law].thickness}_film_{kind}"
-
-
 def _traction(study: along_path.PreparedEhl, over: along_path.PairWay) -> list[float]:
     """Friction coefficient over slide-to-roll ratio, where the load is highest; NaN: not solved."""
     seen, at = along_path.seen_by(study, over), int(np.argmax(over.line_load))
@@ -180,8 +166,7 @@ def _summary(
         return arrays[name][solved]
 
     film = {
-        name: np.nanmedian(values / arrays[meant_by(study, over, name)])
-        for name, values in laws["film"].items()
+        name: np.nanmedian(values / arrays["central_film_thickness"]) for name, values in laws["film"].items()
     }
     mean = _mean_by_loss(arrays, arrays["friction_coefficient"], solved)
     friction = {

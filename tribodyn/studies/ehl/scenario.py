@@ -13,9 +13,9 @@ from tribodyn.scenario.fields import LoadCurve
 from tribodyn.scenario.quantity import InUnit, Switch, Table, csv_file, written
 from tribodyn.scenario.tables.duty import OiledOperatingTable, broken_driving_rules
 from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import GearScenario, Oil, broken_gear_rules, gear_fields, oil_fields
 from tribodyn.tribology.ehl.grid import STEP
+from tribodyn.tribology.law import FilmData
 
 
 class EhlMesh(Table):
@@ -109,16 +109,15 @@ Scenario = EhlScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
     """Return the case of a scenario that has passed schema and rules."""
     contact = scenario.contact
-    case = EhlCase(
+    return EhlCase(
         **gear_fields(scenario, toml, sha256),
-        **oil_fields(scenario),
+        **oil_fields(scenario) | {"film": FilmData()},  # the contact is solved
         positions=scenario.output.positions,
         transient=contact.transient,
         loads=contact.loads.in_si() if contact.loads else None,
         face_position=contact.face_position,
         step=contact.step,
     )
-    return with_chosen_laws(case)
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:

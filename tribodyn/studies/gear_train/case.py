@@ -5,9 +5,9 @@ torque count positive in its own sense of rotation; x, y are the train's, seen f
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, Self
+from typing import Any
 
 from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
@@ -182,19 +182,13 @@ class TrainCase(CaseHead):
         """
         return self.period if self.period <= self.max_period else min(self.period, self.solver.cycles + 1)
 
-    def chosen(self) -> dict[str, str]:
+    def chosen(self) -> dict[str, tuple[str, str]]:
         """Give the laws that "auto" took, those of the reference mesh for all."""
         return self.meshes[0].pair.chosen()
 
-    def beside(self, other: CaseHead) -> Self:
-        """Return the case with the laws of the other where "auto" chose them in both."""
-        if not isinstance(other, TrainCase) or len(other.meshes) != len(self.meshes):
-            return self
-        meshes = (
-            replace(mesh, pair=mesh.pair.beside(theirs.pair))
-            for mesh, theirs in zip(self.meshes, other.meshes, strict=True)
-        )
-        return replace(self, meshes=tuple(meshes))
+    def laws(self) -> dict[str, Any]:
+        """As of a pair; one film and one friction law hold in the whole train."""
+        return self.meshes[0].pair.laws()
 
     @property
     def toothed_shafts(self) -> tuple[ToothedShaft, ...]:

@@ -152,8 +152,7 @@ def verdict(record: Record) -> list[str]:
 
 def _beyond(mesh: Mapping[str, Any]) -> float:
     """Share of contact or loss beyond the range of a law from which it is in doubt; 0 below."""
-    found = of_any.numbers(mesh)
-    most = max(found.get("film_outside", 0.0), found.get("friction_outside", 0.0))
+    most = max(of_any.in_doubt_by(mesh, what) for what in ("film", "friction"))
     return most if most >= of_any.IN_DOUBT else 0.0
 
 

@@ -1,6 +1,5 @@
 """The scenario of a train, and the case that is made of it."""
 
-from dataclasses import replace
 from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import Discriminator, Field, Tag
@@ -45,7 +44,7 @@ from tribodyn.studies.gear_train.described.tables import (
 from tribodyn.studies.gear_train.own_teeth import own_teeth
 from tribodyn.studies.gear_train.planetary.linked import links_of_set, set_data
 from tribodyn.studies.gears.by_standard import quality_of
-from tribodyn.studies.gears.case import LubricatedCase
+from tribodyn.studies.gears.case import LubricatedCase, with_chosen
 from tribodyn.studies.gears.motion import (
     Friction,
     Mesh,
@@ -317,7 +316,7 @@ def _meshes(
 
 def _with_laws_of(pair: LubricatedCase, first: LubricatedCase) -> LubricatedCase:
     """One film and one friction law hold in the whole train: where "auto" chooses, for its first mesh."""
-    return replace(pair, film=first.film, friction=first.friction)
+    return first if pair is first else with_chosen(pair, first)
 
 
 def _source(scenario: Any, train: Moving, duty: TrainDuty) -> SourceData:

@@ -4,7 +4,7 @@ Plain frozen dataclasses, so that the physics never meets pydantic or pint. Pair
 """
 
 from dataclasses import dataclass, field, replace
-from typing import Self
+from typing import Any, TypeVar
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.body import GEOMETRY
@@ -24,6 +24,8 @@ from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.law import FilmData, FrictionData
 from tribodyn.tribology.losses import LossData
 from tribodyn.tribology.oil import LubricantData
+
+LawfulCase = TypeVar("LawfulCase", bound="LubricatedCase")
 
 TRIBOLOGY = quantities(
     *("film_min", "film_parameter_min", "film_parameter_min_roll_angle", "hertz_pressure_max"),
@@ -116,15 +118,19 @@ class LubricatedCase(OiledCase):
     temperature: TemperatureData | None = None
     losses: LossData | None = None  # load-independent losses, where they are to be added
 
-    def chosen(self) -> dict[str, str]:
-        """Give the laws that "auto" took."""
+    def chosen(self) -> dict[str, tuple[str, str]]:
+        """Give the laws that "auto" took, and why."""
         laws = {"film.law": self.film, "friction.law": self.friction}
-        return {key: f"{law.law}, {law.chosen}" for key, law in laws.items() if law.chosen}
+        return {key: (str(law.law), law.chosen) for key, law in laws.items() if law.chosen}
 
-    def beside(self, other: CaseHead) -> Self:
-        """Return the case with the laws of the other where "auto" chose them in both."""
-        if not isinstance(other, LubricatedCase) or not (self.film.chosen or self.friction.chosen):
-            return self
-        film = other.film if self.film.chosen and other.film.chosen else self.film
-        friction = other.friction if self.friction.chosen and other.friction.chosen else self.friction
-        return replace(self, film=film, friction=friction)
+    def laws(self) -> dict[str, Any]:
+        """Give the laws in use and their ratios to solved contacts of gears, whatever the duty."""
+        from tribodyn.tribology.closure import law_ratios
+
+        return law_ratios(with_chosen(self, self))
+
+
+def with_chosen(case: LawfulCase, other: LubricatedCase) -> LawfulCase:
+    """Return a case with the laws of another that has another duty."""
+    film, friction = replace(other.film, ratio=None), replace(other.friction, ratio=None)
+    return replace(case, film=film, friction=friction)

@@ -159,10 +159,11 @@ def with_oil(checked: CheckResult, lubricant: LubricantData) -> CheckResult:
 def _with_laws(checked: CheckResult, case: LubricatedCase, closure: Closure) -> CheckResult:
     """Add the laws in use, why they were taken, and where the nominal duty leaves their ranges."""
     outside = _exceeded(case, closure)
-    rows = [(law.table, law.name, *_at_duty(law, outside)) for law in laws_of(case)]
+    taken = zip(laws_of(case), (case.film.ratio, case.friction.ratio), strict=True)
+    rows = [(law.table, law.name, *_at_duty(law, outside, ratio)) for law, ratio in taken]
     remarks = [remark for name, law in _NAMES.items() for remark in exceeded(outside, name, law)]
-    chosen = [f"{key} = {taken}." for key, taken in case.chosen().items()]
-    columns = ("", "law", "at this duty", "over the solved contact, nine of ten")
+    chosen = [f"{key} = {law}, {why}." for key, (law, why) in case.chosen().items()]
+    columns = ("", "law", "at this duty", "over the solved contact")
     return checked._replace(
         data={**checked.data, "laws": {**law_quantities(case), **outside}},
         tables=(*checked.tables, TextTable("Laws", columns, rows)),
@@ -170,17 +171,23 @@ def _with_laws(checked: CheckResult, case: LubricatedCase, closure: Closure) -> 
     )
 
 
-def _at_duty(law: FilmLaw | FrictionLaw, outside: dict[str, Any]) -> tuple[str, str]:
-    """Whether the duty is inside the range of a law, and how far it is from the solved contact."""
+def _at_duty(
+    law: FilmLaw | FrictionLaw, outside: dict[str, Any], ratio: tuple[float, float, float] | None
+) -> tuple[str, str]:
+    """Whether the duty is inside the range of a law, and how far it is from the solved contact.
+
+    `ratio` is that of contacts solved at the duty; None: there are none.
+    """
     beyond = outside.get(f"{law.table}_outside", 0.0)
     range = "inside its range" if law.limits else "no range stated"
     if outside.get("closure_exceeded" if law.table == "film" else "friction_exceeded"):
         range = "partly outside its range" if beyond < IN_DOUBT else "outside its range"
+    if ratio is not None:
+        return range, f"{ratio[0]:.2g} to {ratio[2]:.2g} at this duty"
     if law.judged is None:
         return range, "not compared"
-    ratio = law.judged.outside if beyond >= IN_DOUBT else None
-    low, _, high = ratio or law.judged.ratio
-    return range, f"{low:.2g} to {high:.2g}"
+    low, _, high = (beyond >= IN_DOUBT and law.judged.outside) or law.judged.ratio
+    return range, f"{low:.2g} to {high:.2g} in nine of ten contacts"
 
 
 def _exceeded(case: LubricatedCase, closure: Closure) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
 from tribodyn.geometry.families import family
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.standards.micropitting import LUBRICATION_FACTORS, bulk_rise
-from tribodyn.studies.gears.case import GearCase, LubricatedCase
+from tribodyn.studies.gears.case import GearCase, LawfulCase, LubricatedCase
 from tribodyn.tribology.bulk_temperature import (
     Heat,
     Network,
@@ -32,8 +32,6 @@ from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, LubricantDat
 CLOSE, MOST_MOTIONS = 0.1, 5
 #: Share of the heat of tooth friction that either gear takes.
 SHARE = 0.5
-
-LawfulCase = TypeVar("LawfulCase", bound=LubricatedCase)
 
 
 def with_chosen_laws(case: LawfulCase) -> LawfulCase:

@@ -48,7 +48,7 @@ from tribodyn.scenario.tables.quality import (
 from tribodyn.scenario.tables.shafts import DrawnShafts, broken_shaft_rules, drawn_sides
 from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.studies.gears.supports import displaced, has_supports, supports_of
-from tribodyn.tribology.law import FrictionData
+from tribodyn.tribology.law import AUTO, FilmData, FrictionData
 
 Oil = Annotated[Lubricant, model_file("lubricants")]
 TemperatureKeys = Annotated[TemperatureTable | None, Field(description="bulk temperature of the teeth")]
@@ -102,14 +102,17 @@ def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:
 
 
 def oil_fields(scenario: Any) -> dict[str, Any]:
-    """Return the further fields of a `LubricatedCase`; tables that the kind does not have count as absent."""
-    friction, found = getattr(scenario, "friction", None), {}
+    """Return the further fields of a `LubricatedCase`; tables that the kind does not have count as absent.
+
+    Where nothing is said of film and friction, the film law is the one nearest at the duty.
+    """
+    friction, film, found = getattr(scenario, "friction", None), getattr(scenario, "film", None), {}
     if friction is not None:
         own = {name: getattr(friction, name) for name in type(friction).model_fields if name != "law"}
         found["friction"] = FrictionData(friction.law, law_values(friction), **own)
     return found | {
         "lubricant": lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
-        "film": film_of(getattr(scenario, "film", None)),
+        "film": FilmData(AUTO) if film is None and friction is None else film_of(film),
         "temperature": temperature_of(getattr(scenario, "temperature", None)),
         "losses": losses_of(getattr(scenario, "losses", None)),
     }

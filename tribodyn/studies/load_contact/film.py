@@ -56,6 +56,6 @@ def film_over_face(
         "film_parameter_min": float(film[least] / closure.surfaces.roughness),
         "film_parameter_min_roll_angle": float(loaded.roll[position[least], pair[least]]),
         "closure_in_range_fraction": fraction_in_range(inside),
-        **{name: value for name, value in outside.items() if name == "closure_exceeded"},
+        **{name: value for name, value in outside.items() if name in ("closure_exceeded", "film_outside")},
         **laws,
     }

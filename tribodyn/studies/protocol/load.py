@@ -3,7 +3,7 @@
 import hashlib
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib import resources
@@ -156,6 +156,16 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     toml = tomli_w.dumps(data)
     case: CaseHead = study.case(in_force(scenario), toml, hashlib.sha256(toml.encode()).hexdigest())
     return Loaded(case, study, path, origins)
+
+
+def put_chosen(
+    data: dict[str, Any], chosen: Mapping[str, tuple[str, str]], but: Collection[str] = ()
+) -> None:
+    """Put what a scenario left open into its tables, as a case took it, but for keys that are given."""
+    for key, (taken, _) in chosen.items():
+        table, name = key.split(".")
+        if key not in but:
+            data[table] = {**data.get(table, {}), name: taken}
 
 
 def _broken_rules(study: Study, scenario: Any) -> Iterator[InputError]:

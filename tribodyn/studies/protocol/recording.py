@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:  # `tribodyn --help` imports this file
     from tribodyn.record.schema import Layout
@@ -24,13 +24,13 @@ class CaseHead:
     #: of a record that is named after its scenario: the scenario's file, see `record.previous.Origin`
     scenario_file: str = field(default="", kw_only=True, compare=False)
 
-    def chosen(self) -> dict[str, str]:
+    def chosen(self) -> dict[str, tuple[str, str]]:
         """What the scenario left open: key -> what was taken, and why."""
         return {}
 
-    def beside(self, other: "CaseHead") -> Self:
-        """Return the case as one of several: what it left open is as it is in the other."""
-        return self
+    def laws(self) -> dict[str, Any]:
+        """Film and friction law with their ratios to solved contacts of gears, as in a summary, if any."""
+        return {}
 
 
 class RunResult(NamedTuple):

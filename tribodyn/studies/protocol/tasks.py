@@ -23,7 +23,7 @@ from tribodyn.numerics.work import announce
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import COMPLETE, Layout
 from tribodyn.studies.protocol.evaluated import evaluated
-from tribodyn.studies.protocol.load import load_data
+from tribodyn.studies.protocol.load import load_data, put_chosen
 from tribodyn.studies.protocol.part import Task, TaskResult
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import CaseHead, Progress, RunResult, Study
@@ -173,12 +173,14 @@ def _varied(study: Study, task: Task) -> dict[str, Any]:
 
 def _cases(task: Task) -> tuple[list[dict[str, Any]], list[Any]]:
     """Values by which the cases of a task differ, and the cases; a text where one cannot be made: why."""
-    base, keys, cases = case_of(task), list[dict[str, Any]](), list[Any]()
+    chosen, keys, cases = case_of(task).chosen(), list[dict[str, Any]](), list[Any]()
 
     def add(own: Mapping[str, Any]) -> Any:
         keys.append(dict(own))
+        scenario = dict(task.scenario)
+        put_chosen(scenario, chosen, own)
         try:
-            cases.append(case_of(task, own).beside(base))
+            cases.append(load_data(scenario, task.name, own).case)
         except InputError as error:
             cases.append(str(error))
         return cases[-1]

@@ -73,13 +73,13 @@ def spread(duty: DutyRange, count: int) -> tuple[Array, Array]:
     return np.clip(found, ends[:, 0], ends[:, 1]), along
 
 
-def solve_one(contact: Contact, duty: Array) -> Array:
+def solve_one(contact: Contact, duty: Array, step: float = STEP) -> Array:
     """Ln of film, ln of friction coefficient, and the asperities' share at a duty; NaN: none found."""
     line_load, speed, curvature, ratio = map(math.exp, duty)
     fluid, modulus, roughness, *_ = contact
     problem = LineContact(line_load, 1.0 / curvature, speed, fluid, modulus, ratio * speed, roughness)
     try:
-        found = solve_coupled(problem, contact.rheology, contact.thermal, step=STEP)
+        found = solve_coupled(problem, contact.rheology, contact.thermal, step=step)
     except SimulationError:
         return np.full(3, np.nan)
     gap = np.interp(0.0, found.solution.place, found.solution.mean_gap)

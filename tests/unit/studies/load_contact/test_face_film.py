@@ -11,6 +11,7 @@ OILED = {
     "operating.pinion_speed": "1500 rpm",
     "output.positions_per_cycle": 12,
     "film.law": "dowson-higginson",
+    "drive.roughness": "1e-6 um",  # a film of smooth flanks
 }
 TILTED = OILED | {"mesh.misalignment.in_plane": "2 arcmin", "mesh.slices": 7}
 PAIR = "load-contact-18-36"
