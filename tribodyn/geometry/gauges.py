@@ -1,10 +1,11 @@
 """What gauges measure of an involute's tooth thickness: span over teeth, dimension over pins or balls.
 
-In the normal section, as drawings have it (ISO 21771); the pins of helical teeth are balls, or touch as balls
-do where the number of teeth is even.
+In the normal section, as drawings have it (ISO 21771). Cylindrical pins of helical gears measure as balls do
+where the number of teeth is even, less where it is odd.
 """
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from tribodyn.geometry.assembly import Assembly
@@ -127,12 +128,48 @@ def _opposite(gear: Involute) -> float:
     return 1.0 if round(gear.teeth) % 2 == 0 else math.cos(math.pi / (2 * gear.teeth))
 
 
+def over_rollers(gear: Involute, pin_diameter: float, allowance: float = 0.0) -> float:
+    """Dimension M over two cylindrical pins in opposite gaps, between parallel anvils that both bear along.
+
+    Of an even number of teeth, and of spur gears, it is that of `over_pins`. Of an odd number the pins of
+    helical gears lie askew, and slide along their gaps until M is least:
+
+    M = D_M + d_K min_λ [cos λ + (λ − λ_0) sin λ]/√(1 + tan² β_K sin² λ), λ_0 = π/(2 z), tan β_K = tan β d_K/d
+
+    the common normal of two straight lines that touch the helices of the pins' centres, d_K = d_b/cos α_K, at
+    λ from the anvils' normal. Some 10 µm less than over balls. NaN for helices near 45° and beyond, where no
+    M is least.
+    """
+    if not gear.helix_angle or round(gear.teeth) % 2 == 0:
+        return over_pins(gear, pin_diameter, allowance)
+    from scipy.optimize import minimize_scalar
+
+    centre = gear.base_diameter / math.cos(_pin_angle(gear, pin_diameter, allowance))
+    pitch = gear.module / math.cos(gear.helix_angle) * gear.teeth
+    slope, aside = math.tan(gear.helix_angle) * centre / pitch, math.pi / (2 * gear.teeth)
+    if not slope * slope < _STEEPEST:
+        return math.nan
+
+    def apart(angle: float) -> float:
+        across = math.cos(angle) + (angle - aside) * math.sin(angle)
+        return across / math.hypot(1.0, slope * math.sin(angle))
+
+    most = 2.0 * aside / (1.0 - slope * slope)  # twice where it is least, to the first order
+    least = minimize_scalar(apart, bounds=(0.0, most), method="bounded", options={"xatol": 1e-9})
+    return centre * float(least.fun) + pin_diameter
+
+
+#: tan² β_K up to which pins askew come to rest.
+_STEEPEST = 0.8
+
 Quantity = tuple[float | str, str]
 
-#: Pin over normal module where none is given: the usual wire of external spur gears (Van Keuren).
-USUAL_PIN = 1.728
-#: The usual wire of internal spur gears (Van Keuren).
-USUAL_INTERNAL_PIN = 1.44
+#: Pin over normal module where none is given and it measures: the usual wire of external spur gears (Van
+#: Keuren), and of internal ones.
+USUAL_PIN, USUAL_INTERNAL_PIN = 1.728, 1.44
+#: Pins over normal module that are looked through for one that measures, nearest to the usual one first, and
+#: by how much of the module it must stand out of the tip circle.
+_PINS, _OUT = tuple(n / 100.0 for n in range(80, 401)), 0.05
 
 
 class Gauge(NamedTuple):
@@ -140,6 +177,7 @@ class Gauge(NamedTuple):
 
     span_teeth: int | None = None
     pin_diameter: float | None = None  # m
+    tolerance: float = 0.0  # of the tooth thickness, m: half of it on either side of its mean
 
 
 def involute_of(drive: Drive, side: Side) -> tuple[Involute, float]:
@@ -151,49 +189,114 @@ def involute_of(drive: Drive, side: Side) -> tuple[Involute, float]:
 
 
 def thickness_lines(assembly: Assembly, side: Side, gauge: Gauge = Gauge()) -> dict[str, Quantity]:
-    """Deviation of the tooth thickness and, of involutes, what gauges measure that touch on the flank."""
+    """Deviation of the tooth thickness and, of involutes, what gauges measure.
+
+    Where no span or pin measures the teeth, or the given one does not, that is said in the dimension's place.
+    """
     if not assembly.family.involute:
         deviation = 1e3 * float(body_of(assembly.drive, side).thickness_allowance)
         return {"deviation of tooth thickness": (deviation, "mm")}
-    gear, allowance = involute_of(assembly.drive, side)
+    _, allowance = involute_of(assembly.drive, side)
     lines: dict[str, Quantity] = {"deviation of tooth thickness": (1e3 * allowance, "mm")}
-    helical = gear.helix_angle != 0.0
-    if gear.teeth < 0:
-        return lines | _internal_lines(assembly, side, gauge)
-    count = usual_span_teeth(gear) if gauge.span_teeth is None else gauge.span_teeth
-    measured = span(gear, count, allowance)
-    if _on_flank(assembly, side, span_contact_diameter(gear, measured)):
-        wide = span_width(gear, measured) < float(body_of(assembly.drive, side).face_width)
-        name = "span" if wide else "span that the face is too narrow to measure"
-        lines |= {"teeth of the span": (float(count), ""), name: (1e3 * measured, "mm")}
-        if helical:
-            lines["face width that the span needs"] = 1e3 * span_width(gear, measured), "mm"
-    pin = USUAL_PIN * gear.module if gauge.pin_diameter is None else gauge.pin_diameter
-    if _on_flank(assembly, side, pin_contact_diameter(gear, pin, allowance)):
-        one, several = ("ball", "balls") if helical else ("pin", "pins")
-        lines |= {
-            f"{one} diameter": (1e3 * pin, "mm"),
-            f"dimension over {several}": (1e3 * over_pins(gear, pin, allowance), "mm"),
-        }
-    return lines
+    return lines | _span_lines(assembly, side, gauge) | _pin_lines(assembly, side, gauge)
 
 
-def _internal_lines(assembly: Assembly, side: Side, gauge: Gauge) -> dict[str, Quantity]:
-    """What gauges measure of internal spur teeth: the span over gaps, the dimension between pins.
+def _span_lines(assembly: Assembly, side: Side, gauge: Gauge) -> dict[str, Quantity]:
+    """Span over teeth, of internal gears over gaps.
 
-    The formulas of external teeth give both negative, with 1 less the number of gaps for that of teeth.
+    The formulas of external teeth give that negative, with 1 less the number of gaps for that of teeth.
     """
     gear, allowance = involute_of(assembly.drive, side)
-    lines: dict[str, Quantity] = {}
-    count = usual_span_teeth(gear) if gauge.span_teeth is None else 1 - gauge.span_teeth
-    measured = span(gear, count, allowance)
-    if _on_flank(assembly, side, -span_contact_diameter(gear, measured)):
-        lines |= {"gaps of the span": (1.0 - count, ""), "span over gaps": (-1e3 * measured, "mm")}
-    pin = USUAL_INTERNAL_PIN * gear.module if gauge.pin_diameter is None else gauge.pin_diameter
-    if _on_flank(assembly, side, pin_contact_diameter(gear, pin, allowance)):
-        between = -1e3 * over_pins(gear, pin, allowance)
-        lines |= {"pin diameter": (1e3 * pin, "mm"), "dimension between pins": (between, "mm")}
+    internal = gear.teeth < 0
+    width = float(body_of(assembly.drive, side).face_width)
+
+    def touches(count: int) -> bool:
+        diameter = span_contact_diameter(gear, span(gear, count, allowance))
+        return _on_flank(assembly, side, -diameter if internal else diameter)
+
+    def fits(count: int) -> bool:
+        return span_width(gear, abs(span(gear, count, allowance))) < width
+
+    if gauge.span_teeth is not None:
+        count = 1 - gauge.span_teeth if internal else gauge.span_teeth
+        found = [count] if touches(count) else []
+    else:
+        usual = usual_span_teeth(gear)
+        around = sorted(range(usual - 3, usual + 4), key=lambda each: abs(each - usual))
+        found = [each for each in around if (each < 1) == internal and touches(each)]
+        found = [each for each in found if fits(each)] or found
+    what, of = ("gaps", "span over gaps") if internal else ("teeth", "span")
+    if not found:
+        given = "of so many" if gauge.span_teeth is not None else "of any number"
+        return {of: (f"none: anvils over {what} {given} do not touch the flanks", "")}
+    count, sign = found[0], -1.0 if internal else 1.0
+    name = of if fits(count) else f"{of} that the face is too narrow to measure"
+    lines = {f"{what} of the span": (1.0 - count if internal else float(count), "")}
+    lines |= _with_limits(name, lambda deviation: sign * span(gear, count, deviation), allowance, gauge)
+    if gear.helix_angle:
+        needed = span_width(gear, abs(span(gear, count, allowance)))
+        lines["face width that the span needs"] = 1e3 * needed, "mm"
     return lines
+
+
+def _pin_lines(assembly: Assembly, side: Side, gauge: Gauge) -> dict[str, Quantity]:
+    """Dimension over pins, of internal gears between them, of helical gears over balls and pins."""
+    gear, allowance = involute_of(assembly.drive, side)
+    internal, helical = gear.teeth < 0, gear.helix_angle != 0.0
+    one, several = ("ball", "balls") if helical else ("pin", "pins")
+    name = f"dimension {'between' if internal else 'over'} {several}"
+    sign, pin = -1.0 if internal else 1.0, gauge.pin_diameter
+    if pin is None:
+        pin = usual_pin(assembly, side)
+        if pin is None:
+            return {name: ("none: no pin touches the flanks and stands out of the tip circle", "")}
+    elif why := pin_fails(assembly, side, pin):
+        return {f"{one} diameter": (1e3 * pin, "mm"), name: (f"none: {why}", "")}
+    lines = {f"{one} diameter": (1e3 * pin, "mm")}
+    lines |= _with_limits(name, lambda deviation: sign * over_pins(gear, pin, deviation), allowance, gauge)
+    if helical and not internal and math.isfinite(over_rollers(gear, pin, allowance)):
+        over = "dimension over cylindrical pins"
+        lines |= _with_limits(over, lambda deviation: over_rollers(gear, pin, deviation), allowance, gauge)
+    return lines
+
+
+def _with_limits(
+    name: str, of: Callable[[float], float], allowance: float, gauge: Gauge
+) -> dict[str, Quantity]:
+    """A dimension at the mean tooth thickness and, where that has a tolerance, its limits."""
+    lines: dict[str, Quantity] = {name: (1e3 * of(allowance), "mm")}
+    if gauge.tolerance:
+        ends = sorted(of(allowance + side * gauge.tolerance / 2) for side in (-1.0, 1.0))
+        for end, each in zip(("least", "most"), ends, strict=True):
+            lines[f"{name}, {end}"] = 1e3 * each, "mm"
+    return lines
+
+
+def usual_pin(assembly: Assembly, side: Side) -> float | None:
+    """Diameter of a pin or ball that measures the teeth, m: the usual one, or next to it; None: none does."""
+    gear, _ = involute_of(assembly.drive, side)
+    usual = USUAL_INTERNAL_PIN if gear.teeth < 0 else USUAL_PIN
+    for pin in (usual, *sorted(_PINS, key=lambda each: abs(each - usual))):
+        if not pin_fails(assembly, side, pin * gear.module, _OUT * gear.module):
+            return pin * gear.module
+    return None
+
+
+def pin_fails(assembly: Assembly, side: Side, pin_diameter: float, out: float = 0.0) -> str:
+    """Why pins or balls do not measure the teeth: they miss the flanks or do not stand out; "": they do.
+
+    `out` is by how much they must stand out of the tip circle, m.
+    """
+    gear, allowance = involute_of(assembly.drive, side)
+    if not _on_flank(assembly, side, pin_contact_diameter(gear, pin_diameter, allowance)):
+        return "such pins do not touch the flanks"
+    tooth = assembly.tooth(side)
+    centre = gear.base_diameter / math.cos(_pin_angle(gear, pin_diameter, allowance)) / 2
+    if centre + pin_diameter / 2 <= float(tooth.tip_radius) + out:
+        return "such pins do not stand out of the tip circle"
+    if centre - pin_diameter / 2 <= float(tooth.root_radius):
+        return "such pins touch the root"
+    return ""
 
 
 def _on_flank(assembly: Assembly, side: Side, diameter: Any) -> bool:

@@ -30,7 +30,7 @@ THICKNESS_KEYS = (
 _MEASURES = ("thickness_allowance", "span", "over_pins")
 #: What each measure needs beside it.
 _WITH = {"span": "span_teeth", "over_pins": "pin_diameter"}
-_EXAMPLES = {"span_teeth": "4", "pin_diameter": '"5.25 mm"', "span": '"32.4 mm"', "over_pins": '"83.2 mm"'}
+_EXAMPLES = {"span_teeth": "4", "pin_diameter": '"5.25 mm"'}
 
 
 def pressure_angle_of(drive: DriveTable) -> float | None:
@@ -82,7 +82,7 @@ def gear_body(drive: DriveTable, gear: Gear) -> GearBody:
 
 def gauge_of(gear: Gear) -> Gauge:
     """Return what a gear's tooth thickness is measured with."""
-    return Gauge(gear.span_teeth, gear.pin_diameter)
+    return Gauge(gear.span_teeth, gear.pin_diameter, gear.thickness_tolerance or 0.0)
 
 
 def gives_thickness(gear: Gear) -> bool:
@@ -124,10 +124,9 @@ def _broken_thickness(drive: DriveTable, key: str, gear: Gear) -> Iterator[Input
         rule = f"gives the tooth thickness, as {given[0]} does"
         yield InputError(f"{key}.{name}", _shown(gear, name), rule, "leave one of them out")
     for measure, other in _WITH.items():
-        for there, needed in ((measure, other), (other, measure)):
-            if getattr(gear, there) is not None and getattr(gear, needed) is None:
-                remedy = f"add {needed} = {_EXAMPLES[needed]}"
-                yield InputError(f"{key}.{needed}", rule=f"missing: {there} needs it", remedy=remedy)
+        if getattr(gear, measure) is not None and getattr(gear, other) is None:
+            remedy = f"add {other} = {_EXAMPLES[other]}"
+            yield InputError(f"{key}.{other}", rule=f"missing: {measure} needs it", remedy=remedy)
     if gear.thickness_tolerance is not None and gear.thickness_allowance is None:
         rule, remedy = "missing: thickness_tolerance is below it", 'add thickness_allowance = "-60 um"'
         yield InputError(f"{key}.thickness_allowance", None, rule, remedy)
