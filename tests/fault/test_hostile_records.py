@@ -14,9 +14,12 @@ import pytest
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tests.support.verbs import complaint
 from tribodyn.errors import InputError
+from tribodyn.post.page.sensed import sensed_section
 from tribodyn.record import lookout, schema, soundness
 from tribodyn.record.reader import Record
+from tribodyn.record.sensors import Sensed, SensorSignal, write_sensed
 from tribodyn.record.sweep_reader import open_any
+from tribodyn.signals.lines import SignalLine
 
 LOAD = "normal_load"
 SECRET = np.arange(10.0)
@@ -50,7 +53,7 @@ def layout() -> h5py.VirtualLayout:
 
 
 #: What stands in place of the dataset normal_load.
-REPLACED: dict[str, Callable[[h5py.File], object]] = {
+REPLACED: dict[str, Callable[[Any], object]] = {
     "external link": lambda f: f.__setitem__(LOAD, h5py.ExternalLink("secret.h5", "/normal_load")),
     "external storage": lambda f: f.create_dataset(LOAD, (10,), "f8", external=[("secret.bin", 0, 80)]),
     "virtual": lambda f: f.create_virtual_dataset(LOAD, layout()),
@@ -58,8 +61,31 @@ REPLACED: dict[str, Callable[[h5py.File], object]] = {
     "enormous": lambda f: f.create_dataset(LOAD, (10**9, 10**9), "f8", chunks=(1, 1000)),
     "enormous in one piece": lambda f: f.create_dataset(LOAD, (10**6, 10**9), "f8"),
     "text for numbers": lambda f: f.__setitem__(LOAD, np.full((10, 2), b"x")),
+    "a column of texts": lambda f: with_unit(f.create_dataset(LOAD, data=np.full(10, b"x"))),
+    "compound": lambda f: f.__setitem__(LOAD, np.zeros((10, 2), [("a", "f8"), ("b", "S4")])),
+    "one large part": lambda f: f.create_dataset(LOAD, (2**24,), "f8", chunks=(2**24,), compression="gzip"),
     "objects": lambda f: f.__setitem__(LOAD, ["a", "text"]),
 }
+
+
+def with_unit(dataset: Any) -> None:
+    dataset.attrs["units"] = "N"
+
+
+def scales_of(count: int) -> Callable[[Any], object]:
+    """The attribute that connects normal_load with scales, of so many axes; HDF5 asks not how many it has."""
+
+    def change(file: Any) -> None:
+        del file[LOAD].attrs["DIMENSION_LIST"]
+        kind = h5py.special_dtype(vlen=h5py.ref_dtype)
+        listed = np.empty(count, kind)
+        for axis in range(count):
+            listed[axis] = np.array([file["time"].ref], h5py.ref_dtype)
+        file[LOAD].attrs.create("DIMENSION_LIST", listed, dtype=kind)
+
+    return change
+
+
 #: What is added or changed.
 CHANGED: dict[str, Callable[[Any], object]] = {
     "group in itself": lambda f: f["geometry"].__setitem__("again", f["geometry"]),
@@ -68,7 +94,74 @@ CHANGED: dict[str, Callable[[Any], object]] = {
     "status of numbers": lambda f: f.attrs.__setitem__("status", np.arange(3.0)),
     "version of words": lambda f: f.attrs.__setitem__("format_version", "new"),
     "datatype": lambda f: f.__setitem__("type", np.dtype("f8")),
+    "more scales than axes": scales_of(7),
+    "many more scales than axes": scales_of(500),
+    "fewer scales than axes": scales_of(1),
+    "scales of a text": lambda f: f[LOAD].attrs.__setitem__("DIMENSION_LIST", "x" * 50),
+    "a scale's datasets of a text": lambda f: f["time"].attrs.__setitem__("REFERENCE_LIST", "x" * 200),
+    "a long mark of a scale": lambda f: f["time"].attrs.__setitem__("CLASS", np.bytes_(b"DIMENSION" * 99)),
+    "a number for a scale's name": lambda f: f["time"].attrs.__setitem__("NAME", 3),
 }
+
+
+RATE, SAMPLES = 1000.0, 400
+#: What is wrong with the signals of sensors: group, dataset or attribute, and what it holds.
+SENSED: dict[str, Callable[[Any], object]] = {
+    "a high rate": lambda g: g.attrs.__setitem__("rate", 1e300),
+    "a low rate": lambda g: g.attrs.__setitem__("rate", 1e-9),
+    "no rate": lambda g: g.attrs.__setitem__("rate", np.nan),
+    "a long time": lambda g: g["time"].__setitem__(..., np.linspace(0.0, 1e12, SAMPLES)),
+    "a time that jumps": lambda g: g["time"].__setitem__(-1, 1e12),
+    "no order": lambda g: g.parent["lines/order"].__setitem__(..., np.nan),
+    "a high order": lambda g: g.parent["lines/order"].__setitem__(..., 1e12),
+}
+#: Signals that could be measured, but of which nothing can be made.
+UNHEARD: dict[str, Callable[[Any], object]] = {
+    "rotation that jumps": lambda g: g["reference_angle"].__setitem__(-1, 1e9),
+    "many turns": lambda g: g["reference_angle"].__setitem__(..., np.linspace(0.0, 1e12, SAMPLES)),
+}
+
+
+def add_sensor(path: Path) -> None:
+    """A sensor of 1000 samples per second, at a gear that turns 50 times in a second."""
+    time = np.arange(SAMPLES) / RATE
+    angle, values = 100.0 * np.pi * time, np.sin(1000.0 * time)
+    signal = SensorSignal("top", "housing", "acceleration", "m/s2", RATE, time, angle, values)
+    with h5py.File(path, "r+") as file:
+        write_sensed(Sensed((signal,), (SignalLine("mesh", "mesh", 1e-5),), "pinion"), file)
+
+
+@pytest.mark.parametrize("what", [*SENSED, *UNHEARD])
+def test_signals_that_no_sensor_gives_are_refused(what: str, path: Path, tmp_path: Path):
+    """Nothing is made of rates, times and rotations that would fill the memory; a slow mesh has few names."""
+    add_sensor(path)
+    with Record(path) as record:
+        assert sensed_section(record).lines is not None
+    with h5py.File(path, "r+") as file:
+        (SENSED | UNHEARD)[what](file["sensors/at_1000_Hz"])
+    if what in SENSED:
+        assert "damaged" in complaint("listen", path, folder=tmp_path)
+        return
+    with Record(path) as record, pytest.raises(InputError, match="samples would be made of 400"):
+        sensed_section(record)
+
+
+@pytest.mark.parametrize("shift", ["1e-9", "inf", "nan", "1e9", "0", "-1"])
+def test_a_sound_that_would_not_end_or_not_begin_is_refused(shift: str, path: Path, tmp_path: Path):
+    add_sensor(path)
+    line = complaint("listen", path, "--shift", shift, folder=tmp_path)
+    assert "400 samples at 1000 Hz can be shifted by 0.00067 to 4.4e+04" in line
+
+
+def test_a_look_ends_by_the_processor_too(path: Path, monkeypatch):
+    """Where HDF5 goes around in circles; other work beside it counts for nothing."""
+    monkeypatch.setattr(lookout, "PROCESSOR_LIMIT", 0.1)
+    assert lookout.forked(counts_without_end, path).startswith("reading it did not end within 0.1 s of the")
+
+
+def counts_without_end(path: Path) -> str:
+    while True:
+        pass
 
 
 def damage(path: Path, what: str) -> None:

@@ -10,10 +10,12 @@ has started itself ends with it. (Linux's own signal at a parent's death comes w
 started the child, and other systems have none.) A native call that holds Python's lock is finished first.
 """
 
+import math
 import os
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from importlib import import_module
@@ -206,10 +208,11 @@ def copies_are_safe() -> bool:
     return hasattr(os, "fork") and threading.active_count() == 1
 
 
-def in_a_copy(work: Callable[[], bytes], limit: float) -> bytes:
+def in_a_copy(work: Callable[[], bytes], limit: float, processor: float) -> bytes:
     """Result of a function, at most 64 KiB, that is called in a copy of this process.
 
-    Raises TimeoutError if it does not end within the limit, s, and ChildProcessError if the copy crashes.
+    Raises TimeoutError if it does not end within the limit, s, or takes more time of the processor, s, and
+    ChildProcessError if the copy crashes.
     """
     import select
     import warnings
@@ -219,12 +222,12 @@ def in_a_copy(work: Callable[[], bytes], limit: float) -> bytes:
         warnings.simplefilter("ignore")  # that others' threads do not come along is known
         child = os.fork()
     if child == 0:
-        _work_as_a_copy(work, writing, limit)
+        _work_as_a_copy(work, writing, limit, processor)
     os.close(writing)
     content, status = b"", None
     try:
         if not select.select([reading], [], [], limit)[0]:
-            raise TimeoutError(f"no answer within {limit:g} s")
+            raise TimeoutError(f"did not end within {limit:g} s")
         while part := os.read(reading, 65536):
             content += part
         _, status = os.waitpid(child, 0)
@@ -233,15 +236,23 @@ def in_a_copy(work: Callable[[], bytes], limit: float) -> bytes:
         if status is None:
             os.kill(child, signal.SIGKILL)
             os.waitpid(child, 0)
+    if status and os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
+        raise TimeoutError(f"did not end within {processor:.2g} s of the processor")
     if status:
         raise ChildProcessError("the copy crashed")
     return content
 
 
-def _work_as_a_copy(work: Callable[[], bytes], writing: int, limit: float) -> NoReturn:
+def _work_as_a_copy(work: Callable[[], bytes], writing: int, limit: float, processor: float) -> NoReturn:
     """Write what the function says and end, without what a process does at its end."""
+    import resource
+
     status = 1
     try:
+        used, most = math.ceil(time.process_time() + processor), resource.getrlimit(resource.RLIMIT_CPU)[1]
+        allowed = used if most == resource.RLIM_INFINITY else min(used, most)
+        signal.signal(signal.SIGXCPU, signal.SIG_DFL)
+        resource.setrlimit(resource.RLIMIT_CPU, (allowed, most))
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):
             signal.signal(number, signal.SIG_DFL)
         signal.setitimer(signal.ITIMER_REAL, limit + 1.0)  # where the parent has been killed

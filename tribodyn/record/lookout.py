@@ -16,8 +16,11 @@ from pathlib import Path
 
 from tribodyn.numerics import child
 
-#: Seconds that a look through a file may take; a record of 1 GB takes milliseconds, its data are not read.
+#: Seconds that a look through a file may take, also where other work keeps the processor busy.
 TIME_LIMIT = 20.0
+#: Seconds of the processor, and bytes of the file for each further one. A record of 1 GB takes milliseconds,
+#: its data are not read; those of one that somebody has compressed are.
+PROCESSOR_LIMIT, BYTES_A_SECOND = 1.5, 5e7
 #: Seconds more where a process has to be started: a slow machine needs some time to import h5py.
 START_LIMIT = 40.0
 #: Characters of what is said of a file.
@@ -39,9 +42,10 @@ def through_a_child(look: Look, path: Path) -> str:
 def forked(look: Look, path: Path) -> str:
     """Call it in a copy of this process."""
     try:
-        reply = child.in_a_copy(lambda: look(path)[:_LONGEST].encode(errors="replace"), TIME_LIMIT)
-    except TimeoutError:
-        return _hung(TIME_LIMIT)
+        processor = PROCESSOR_LIMIT + path.stat().st_size / BYTES_A_SECOND
+        reply = child.in_a_copy(lambda: look(path)[:_LONGEST].encode(errors="replace"), TIME_LIMIT, processor)
+    except TimeoutError as error:
+        return f"reading it {error}"
     except ChildProcessError:
         return CRASHED
     return reply.decode()

@@ -21,6 +21,8 @@ from tribodyn.signals.lines import SORTS, SignalLine
 
 SENSORS, LINES = "sensors", "lines"
 _RATE = "at_{:.12g}_Hz"
+#: Orders, rates (Hz) and shares of an interval by which it may differ from others that no sensor exceeds.
+LARGEST_ORDER, LARGEST_RATE, EVEN = 1e6, 1e9, 1e-2
 _TIME = Variable(("time",), "s", "time of the samples of sensors, even")
 _ANGLE = Variable(("time",), "rad", "rotation of the reference body at these times")
 _ORDER = Variable(("line",), "1", "order of a line: cycles per turn of the reference body")
@@ -114,6 +116,8 @@ def read_sensed(record: Record) -> Sensed:
         names = [harmless(bytes(name).decode("utf-8", "replace")) for name in lines["line"][...]]
         sorts = str(lines.attrs["sorts"]).split()
         orders = np.asarray(lines["order"][...], dtype=float).tolist()
+        if not np.all(np.abs(orders) < LARGEST_ORDER):
+            raise ValueError("the order of a line is out of bounds")
         known = tuple(
             SignalLine(name, sort, order)
             for name, sort, order in zip(names, sorts, orders, strict=True)
@@ -135,8 +139,12 @@ def _tables(listed: Any) -> Iterable[Mapping[str, Any]]:
 def _read_rate(part: Any) -> Iterable[SensorSignal]:
     time, angle = (np.asarray(part[name][...], dtype=float) for name in ("time", "reference_angle"))
     rate = float(part.attrs["rate"])
-    if not (rate > 0.0 and time.ndim == 1 and np.all(np.diff(time) > 0.0) and np.all(np.diff(angle) > 0.0)):
-        raise ValueError("time and rotation of sensors do not increase")
+    if not 0.0 < rate < LARGEST_RATE or time.ndim != 1 or time.shape != angle.shape:
+        raise ValueError("the rate of sensors is out of bounds, or time and rotation differ in length")
+    if not np.all(np.abs(np.diff(time) * rate - 1.0) < EVEN):
+        raise ValueError("the time of sensors is not even, or of another rate")
+    if not np.all(np.diff(angle) > 0.0):
+        raise ValueError("the rotation of sensors does not increase")
     for name, dataset in part.items():
         if name in ("time", "reference_angle"):
             continue

@@ -4,6 +4,7 @@ HDF5 follows what a file says: into other files, around in circles, to sizes tha
 then it crashes. So a file that this process has not written is first read in a child process.
 """
 
+import math
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -34,10 +35,13 @@ _MISREAD = (*(error for error in UNREADABLE if error is not OSError), Arithmetic
 MAXIMUM_MEMBERS, MAXIMUM_ITEMS, MAXIMUM_DEPTH, MAXIMUM_AXES, MAXIMUM_ATTRIBUTE = 1000, 5000, 4, 8, 2**26
 #: Maximum number of attributes of an item: a summary has 145 for every mesh of a train.
 MAXIMUM_ATTRIBUTES = 20_000
-#: Maximum ratio of a compressed dataset's size to its bytes in the file, and bytes that need none.
-MAXIMUM_RATIO, SMALL = 1000, 2**20
+#: Maximum ratio of a compressed dataset's size to its bytes in the file, and bytes that need none; largest
+#: part that is read at once.
+MAXIMUM_RATIO, SMALL, MAXIMUM_PART = 100, 2**24, 2**26
 #: Attributes by which HDF5 connects datasets with their scales; they hold references.
 _REFERENCES = {"DIMENSION_LIST", "REFERENCE_LIST"}
+#: Mark of a scale as HDF5 writes it, and bytes of its name.
+_SCALE, _LONGEST_NAME = b"DIMENSION_SCALE", 1024
 
 _sound: set[tuple[int, ...]] = set()
 _own: set[tuple[int, ...]] = set()
@@ -147,7 +151,9 @@ class _Look:
                 raise _Unsound(f"{name!r} is neither a group nor a dataset")
 
     def _dataset(self, name: str, dataset: h5py.Dataset) -> None:
-        if dataset.shape is None or len(dataset.shape) > MAXIMUM_AXES or dataset.dtype.kind not in "fiuS":
+        text = dataset.dtype.kind == "S"
+        most = 1 if text else MAXIMUM_AXES
+        if dataset.shape is None or len(dataset.shape) > most or not (text or dataset.dtype.kind in "fiu"):
             raise _Unsound(f"{name!r} is of no type that records have")
         if dataset.external or dataset.is_virtual:
             raise _Unsound(f"the data of {name!r} lie in another file")
@@ -158,16 +164,26 @@ class _Look:
         else:
             whole = size <= MAXIMUM_RATIO * dataset.id.get_storage_size() + SMALL
             if whole and layout == h5py.h5d.CHUNKED:
-                dataset[...]  # the index of its parts is followed too
+                self._parts(name, dataset)
         if not whole:
             raise _Unsound(f"{name!r} is larger than the file")
+        _check_scale(name, dataset)
         self._attributes(dataset)
+        if text and str(dataset.attrs.get("units", "1")) != "1":
+            raise _Unsound(f"{name!r} is a text and has a unit")
         # what connects datasets with their scales, HDF5 takes on trust
         _ = dataset.is_scale
         for dim in dataset.dims:
             if len(dim) and (address := _address(dim[0])) not in self._scales:
                 self._scales.add(address)
                 _ = dim[0].name, dim[0].shape
+
+    def _parts(self, name: str, dataset: h5py.Dataset) -> None:
+        """Read all parts, one at a time: their index is followed too."""
+        if math.prod(dataset.chunks or ()) * dataset.dtype.itemsize > MAXIMUM_PART:
+            raise _Unsound(f"a part of {name!r} is too large")
+        for part in dataset.iter_chunks():
+            dataset[part]
 
     def _attributes(self, item: Any) -> None:
         if len(item.attrs) > MAXIMUM_ATTRIBUTES:
@@ -182,6 +198,33 @@ class _Look:
             if size > MAXIMUM_ATTRIBUTE:
                 raise _Unsound(f"the attribute {name!r} is too large")
             item.attrs[name]
+
+
+def _check_scale(name: str, dataset: h5py.Dataset) -> None:
+    """Look at the attributes that connect a dataset with scales: HDF5 writes what they hold into its memory.
+
+    It asks neither whether there are as many as axes, nor of what type they are.
+    """
+    for attribute in ("CLASS", "NAME", *_REFERENCES):
+        if attribute not in dataset.attrs:
+            continue
+        held = dataset.attrs.get_id(attribute)
+        kind, shape = held.get_type(), held.shape
+        if attribute in _REFERENCES:
+            several = attribute == "REFERENCE_LIST"
+            number = shape is not None and len(shape) == 1 and (several or shape[0] == len(dataset.shape))
+            due = isinstance(kind, h5py.h5t.TypeCompoundID) if several else _is_list_of_references(kind)
+            sound = number and due
+        else:
+            text = isinstance(kind, h5py.h5t.TypeStringID) and not kind.is_variable_str() and shape == ()
+            most = len(_SCALE) + 1 if attribute == "CLASS" else _LONGEST_NAME
+            sound = text and kind.get_size() <= most
+        if not sound:
+            raise _Unsound(f"the attribute {attribute!r} of {name!r} is of no type that records have")
+
+
+def _is_list_of_references(kind: Any) -> bool:
+    return isinstance(kind, h5py.h5t.TypeVlenID) and kind.get_super().equal(h5py.h5t.STD_REF_OBJ)
 
 
 def _address(item: Any) -> int:

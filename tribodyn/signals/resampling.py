@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.errors import InputError
 from tribodyn.numerics.shapes import Array, Float
 
 #: Edges of the filter over the new rate: passed up to the one, stopped from the other.
@@ -21,6 +22,8 @@ _BETA = 0.1102 * (ATTENUATION - 8.7)
 REACH = (ATTENUATION - 7.95) / (2.0 * 2.285 * 2.0 * np.pi * 2.0 * (STOPPED - PASSED))
 #: Weights are tabulated for so many places between two samples; values are linear between those.
 _BETWEEN = 256
+#: Samples even in angle, at most, for each one even in time, or in all; and the reverse.
+MOST, FEW = 64, 2_000_000
 #: Places that share a table where the rate of the samples drifts against the new one.
 _TOGETHER = 1024
 
@@ -114,13 +117,19 @@ def by_angle(
     turns : revolutions of the shaft at these, increasing
     per_turn : samples per revolution; orders up to 0.4 times that many are kept
     first, count : revolution to begin at, and samples; default: all that the signal covers
+
+    Raises InputError where these would be many more samples than the signal has.
     """
     turns = np.asarray(turns, dtype=float)
     begin = np.ceil(turns[0] * per_turn - 1e-9) if first is None else first * per_turn
-    most = int(np.floor(turns[-1] * per_turn + 1e-9) - begin) + 1
-    at = (begin + np.arange(most if count is None else count)) / per_turn
+    most = np.floor(turns[-1] * per_turn + 1e-9) - begin + 1 if count is None else count
+    if not most <= max(FEW, MOST * len(turns)):
+        rule = f"turns of which {most:.3g} samples would be made of {len(turns)}"
+        raise InputError("reference_angle", None, rule, "sample it at a higher rate")
+    at = (begin + np.arange(int(most))) / per_turn
     places = np.interp(at, turns, np.arange(len(turns)))
-    per_sample = np.interp(at, turns, np.gradient(turns))
+    # where it hardly turns, no filter is longer than those of so many samples
+    per_sample = np.maximum(np.interp(at, turns, np.gradient(turns)), 1.0 / (MOST * per_turn))
     pad = int(np.ceil(2.0 * REACH / max(min(1.0, per_turn * float(np.min(per_sample))), 1e-6)))
     pad = min(pad, len(turns) - 1)
     widths = [(pad, pad), *((0, 0) for _ in np.shape(values)[1:])]

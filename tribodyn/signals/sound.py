@@ -16,6 +16,8 @@ from tribodyn.signals.resampling import at_places
 SOUND_RATES = (44100, 48000)
 #: Highest magnitude, of full scale, so that nothing clips; fades at both ends and between repetitions, s.
 LEVEL, FADE = 0.9, 0.02
+#: Longest sound, s, and samples of a signal for one of a sound, at most.
+LONGEST, FASTEST = 600.0, 1000.0
 _BYTES = 2
 
 
@@ -48,12 +50,15 @@ def hearable(
     """Bring a signal to a hearable level, to the rate of a sound card, and to a length of some seconds.
 
     Its mean is taken out and its peak put at `LEVEL` of full scale. A signal shorter than `seconds` is
-    repeated, the repetitions faded into each other. `shift` multiplies all frequencies.
+    repeated, the repetitions faded into each other. `shift` multiplies all frequencies. Raises InputError
+    where the sound would be longer than `LONGEST`, or hardly any sample of it be left.
     """
-    if not shift > 0.0:
-        raise InputError("shift", shift, "must be greater than zero", "1 leaves the frequencies as they are")
     values = np.asarray(values, dtype=float)
     played = rate * shift
+    if not (shift > 0.0 and len(values) / LONGEST <= played <= FASTEST * sound_rate):
+        low, high = len(values) / LONGEST / rate, FASTEST * sound_rate / rate
+        rule = f"{len(values)} samples at {rate:g} Hz can be shifted by {low:.2g} to {high:.2g}"
+        raise InputError("shift", shift, rule, "1 leaves the frequencies as they are")
     count = int(np.floor((len(values) - 1) * sound_rate / played)) + 1
     heard = at_places(
         values - np.mean(values), np.arange(count) * played / sound_rate, 0.5 * sound_rate / played

@@ -83,8 +83,9 @@ def order_spectrum(
 
 
 def samples_per_turn(turns: Float[Array, " sample"]) -> int:
-    """Samples per revolution where a shaft turns slowest, rounded up."""
-    return int(np.ceil(1.0 / max(float(np.min(np.diff(turns))), 1e-9)))
+    """Samples per revolution where a shaft turns slowest, rounded up; at most 16 times the mean."""
+    each = np.diff(turns)
+    return int(np.ceil(1.0 / max(float(np.min(each)), float(np.mean(each)) / 16.0, 1e-9)))
 
 
 class Spectrogram(NamedTuple):

@@ -3,10 +3,12 @@
 import base64
 from collections.abc import Sequence
 from html import escape
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.record.sensors import Sensed, SensorSignal, read_sensed
 from tribodyn.signals.lines import named_orders, names_at
@@ -18,6 +20,8 @@ from tribodyn.signals.spectra import order_spectrum
 _HEARD, _LINES = 4, 6
 #: Samples per second of the sound on a page: half those of a disc, which halves the page.
 _SOUND_RATE = 22050
+#: Orders that have names, at most.
+_NAMED = 20_000
 _FEWEST = 32
 #: A line stands out by so many times the median beside it.
 _ABOVE, _BESIDE = 4.0, 25
@@ -46,7 +50,10 @@ def sensed_section(record: Record) -> SensedSection:
 
 
 def _sound(signal: SensorSignal) -> str:
-    heard = hearable(signal.values, signal.rate, _SOUND_RATE)
+    try:
+        heard = hearable(signal.values, signal.rate, _SOUND_RATE)
+    except InputError:  # too slow or too fast to be heard
+        return ""
     data = base64.b64encode(wav(heard.samples, heard.rate)).decode("ascii")
     said = f"{signal.about}; {heard.said(signal.units)}"
     return (
@@ -63,7 +70,7 @@ def _lines(signal: SensorSignal, sensed: Sensed) -> list[list[str]]:
     a = found.amplitudes
     inner = np.arange(1, min(len(a) - 1, int(limit / found.step)))
     peaks = inner[(a[inner] >= a[inner - 1]) & (a[inner] > a[inner + 1])]
-    known = list(named_orders(sensed.lines, limit))
+    known = list(islice(named_orders(sensed.lines, limit), _NAMED))
     rows = []
     for place in peaks[np.argsort(-a[peaks])][: 4 * _LINES]:
         if a[place] < _ABOVE * float(np.median(a[max(1, place - _BESIDE) : place + _BESIDE + 1])):

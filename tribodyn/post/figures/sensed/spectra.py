@@ -20,6 +20,8 @@ from tribodyn.signals.spectra import AmplitudeSpectrum, order_spectrum, spectrog
 _HEIGHT = 1.75
 #: Harmonics of the slowest mesh that are shown, and below which part of the highest amplitude nothing is.
 _HARMONICS, _FLOOR, _MAP_FLOOR = 5.5, 1e-5, 1e-3
+#: Harmonics of a mesh that are marked, at most.
+_MOST_LINES = 100
 #: Sidebands of every shaft whose places are drawn on either side.
 _BESIDE = 3
 #: Periods of the slowest mesh in one spectrum of a spectrogram, and spectra at least.
@@ -88,7 +90,7 @@ def _draw_orders(
     axes.set_xlim(0.0, limit)
     strongest, most = (meshes[0], 1), -1.0
     for line in meshes:
-        for k in range(1, int(limit / line.order + 1e-9) + 1):
+        for k in range(1, min(int(limit / line.order + 1e-9), _MOST_LINES) + 1):
             axes.axvline(k * line.order, color=QUIET, linewidth=0.6, linestyle=(0, (3, 3)), zorder=0)
             if k == 1 or len(meshes) == 1:
                 name_above(axes, k * line.order, literal(line.name) if k == 1 else f"{k}×", 0)
