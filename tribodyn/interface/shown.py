@@ -122,6 +122,7 @@ def tables(some: Iterable[TextTable]) -> str:
 
 def picture_of_run(record: Record, study: Study) -> str:
     """Draw the first datasets of a record over the last mesh cycles; nothing, where there are none."""
+    from tribodyn.post.cycles import first_shown
     from tribodyn.post.page.data import in_engineers_units, series_of, with_unit
     from tribodyn.post.style import literal
 
@@ -129,14 +130,15 @@ def picture_of_run(record: Record, study: Study) -> str:
     names = [name for name in study.panels() if name in series] or list(series)
     if not names or not record.samples:
         return ""
-    axis, unit = in_engineers_units(np.asarray(record[record.axis], dtype=float), record.units(record.axis))
-    done, start = record.summary.get("cycles_done"), axis[0]
-    if done and record.axis == "time":
-        start = max(start, axis[-1] - CYCLES * (axis[-1] - axis[0]) / float(done))
+    given = np.asarray(record[record.axis], dtype=float)
+    axis, unit = in_engineers_units(given, record.units(record.axis))
+    start = given[0]
+    if record.summary.get("cycles_done") and record.axis == "time" and record.samples > 1:
+        start, _ = first_shown(record, CYCLES)
 
     def draw(axes: "Axes", name: str) -> None:
         for curve in series[name].curves:
-            inside = axis[curve.places] >= start
+            inside = given[curve.places] >= start
             axes.plot(axis[curve.places][inside], curve.values[inside], label=literal(curve.label))
         title = series[name].title if len(series[name].title) < LONGEST else name.replace("_", " ")
         axes.set_title(literal(with_unit(title, series[name].unit)), loc="left")

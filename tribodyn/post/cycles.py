@@ -85,6 +85,13 @@ def last_cycles(record: Record, cycles: int | None = 2) -> Window:
     return Window(slice(start, stop), phase, record["time"][start:stop], per_cycle)
 
 
+def first_shown(record: Record, cycles: int) -> tuple[float, float]:
+    """Time at which the last so many mesh cycles of a record begin, and what one of them lasts, s."""
+    window = last_cycles(record, cycles)
+    cycle = float(np.ptp(window.time) / window.phase[-1])
+    return max(float(record["time"][0]), float(record["time"][-1]) - cycles * cycle), cycle
+
+
 def in_parts(record: Record, window: Window) -> Window:
     """A window as parts of so many cycles that every mesh of a train goes through one; of a pair single ones.
 

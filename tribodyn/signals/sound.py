@@ -3,6 +3,7 @@
 import io
 import struct
 import wave
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.numerics.output_files import MARKS
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.signals.resampling import at_places
+from tribodyn.signals.resampling import REACH, at_places
 
 #: Rates of sound, samples per second: of compact discs, and of video.
 SOUND_RATES = (44100, 48000)
@@ -18,6 +19,8 @@ SOUND_RATES = (44100, 48000)
 LEVEL, FADE = 0.9, 0.02
 #: Longest sound, s, and samples of a signal for one of a sound, at most.
 LONGEST, FASTEST = 600.0, 1000.0
+#: Places per sample at which a signal's peak is looked for: between them it is at most 2 % higher.
+BETWEEN = 8
 _BYTES = 2
 
 
@@ -49,9 +52,10 @@ def hearable(
 ) -> Hearable:
     """Bring a signal to a hearable level, to the rate of a sound card, and to a length of some seconds.
 
-    Its mean is taken out and its peak put at `LEVEL` of full scale. A signal shorter than `seconds` is
-    repeated, the repetitions faded into each other. `shift` multiplies all frequencies. Raises InputError
-    where the sound would be longer than `LONGEST`, or hardly any sample of it be left.
+    Its mean is taken out and its peak, between samples too, put at `LEVEL` of full scale, whatever the rate
+    and the shift are. A signal shorter than `seconds` is repeated, the repetitions faded into each other.
+    `shift` multiplies all frequencies. Raises InputError where the sound would be longer than `LONGEST`, or
+    hardly any sample of it be left.
     """
     values = np.asarray(values, dtype=float)
     played = rate * shift
@@ -60,9 +64,8 @@ def hearable(
         rule = f"{len(values)} samples at {rate:g} Hz can be shifted by {low:.2g} to {high:.2g}"
         raise InputError("shift", shift, rule, "1 leaves the frequencies as they are")
     count = int(np.floor((len(values) - 1) * sound_rate / played)) + 1
-    heard = at_places(
-        values - np.mean(values), np.arange(count) * played / sound_rate, 0.5 * sound_rate / played
-    )
+    around = values - np.mean(values)
+    heard = at_places(around, np.arange(count) * played / sound_rate, 0.5 * sound_rate / played)
     fade = min(int(FADE * sound_rate), count // 4)
     apart = count - fade
     repeats = max(1, int(np.ceil((seconds * sound_rate - fade) / max(apart, 1))))
@@ -73,7 +76,10 @@ def hearable(
     samples = np.zeros(apart * repeats + fade)
     for number in range(repeats):
         samples[number * apart : number * apart + count] += rise * heard
-    top = float(np.max(np.abs(samples), initial=0.0))
+    between = at_places(around, np.arange(len(around) * BETWEEN) / BETWEEN, 0.5)
+    ends = BETWEEN * ceil(REACH)  # where the low-pass overshoots, and which are faded
+    between = between[ends:-ends] if len(between) > 4 * ends else between
+    top = float(np.max(np.abs(between), initial=0.0))
     gain = LEVEL / top if top > 0.0 else 0.0
     return Hearable(samples * gain, sound_rate, gain, shift, repeats)
 

@@ -21,12 +21,23 @@ def test_a_faint_short_tone_is_heard_for_seconds_at_its_pitch(shift: float):
         5.0 + 1e-6 * np.cos(2.0 * np.pi * 400.0 * np.arange(8000) / rate), rate, shift=shift
     )
     assert len(heard.samples) >= 3.0 * heard.rate
-    assert np.max(np.abs(heard.samples)) == pytest.approx(0.9)
+    assert np.max(np.abs(heard.samples)) == pytest.approx(0.9, rel=1e-3)
     assert heard.gain == pytest.approx(0.9e6, rel=1e-2)
     assert heard.repeats > 1
     assert heard.samples[0] == pytest.approx(0.0, abs=0.01)
     lines = signals.spectrum(heard.samples, heard.rate)
     assert lines.frequencies[np.argmax(lines.amplitudes)] == pytest.approx(400.0 * shift, abs=1.0)
+
+
+@pytest.mark.parametrize("sound_rate", [22050, 44100, 48000])
+@pytest.mark.parametrize("tone", [400.0, 7300.0])
+def test_full_scale_is_the_peak_of_the_signal_whatever_the_rate(sound_rate: int, tone: float):
+    rate = 20e3
+    values = 3.0 * np.sin(2.0 * np.pi * tone * np.arange(6000) / rate)
+    heard = signals.hearable(values, rate, sound_rate)
+    assert 1.0 / heard.gain == pytest.approx(3.0 / 0.9, rel=0.02)
+    assert heard.gain == signals.hearable(values, rate).gain
+    assert np.max(np.abs(heard.samples)) < 1.0
 
 
 def test_silence_stays_silence():

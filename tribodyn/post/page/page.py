@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.cycles import shown_cycles
+from tribodyn.post.cycles import first_shown, shown_cycles
 from tribodyn.post.page.assembled import assembled
 from tribodyn.post.page.data import (
     PageMap,
@@ -127,13 +127,14 @@ def _record(record: Record, count: int) -> dict[str, Any]:
     if not record.samples:
         rule = "holds no samples to draw"
         raise InputError("record", str(record.path), rule, "run the scenario again")
-    axis, unit = in_engineers_units(np.asarray(record[record.axis], dtype=float), record.units(record.axis))
+    given = np.asarray(record[record.axis], dtype=float)
+    axis, unit = in_engineers_units(given, record.units(record.axis))
     cycle = float(axis[-1] - axis[0]) / 20.0
     window = [float(axis[0]), float(axis[-1])]
-    cycles = record.summary.get("cycles_done")
-    if cycles and record.axis == "time":
-        cycle = float(axis[-1] - axis[0]) / float(cycles)
-        window[0] = max(window[0], window[1] - shown_cycles(record) * cycle)
+    if record.summary.get("cycles_done") and record.axis == "time" and record.samples > 1:
+        start, lasts = first_shown(record, shown_cycles(record))
+        scale = (axis[-1] - axis[0]) / (given[-1] - given[0])
+        cycle, window[0] = float(lasts * scale), float(start * scale)
     elif record.axis == "phase":
         cycle = 1.0
     return {

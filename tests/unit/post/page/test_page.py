@@ -50,6 +50,18 @@ def test_it_holds_what_was_sampled(crc, page):
     np.testing.assert_allclose(unpacked(record["axis"], "<f8"), crc.data["time"] * 1e3)
 
 
+def test_the_last_cycles_of_a_record_that_keeps_a_part_of_its_run(tmp_path):
+    """Half a turn of two is kept; two cycles of 23 teeth last 2/23 of a turn."""
+    keys = {"solver.revolutions": 2, "output.window": [1.5, 2.0], "output.samples_per_cycle": 16}
+    kept = td.run("crc-23-47", {**keys, "friction.law": "none", "operating.pinion_speed": "1380 rpm"})
+    (record,) = data_of(kept.report(tmp_path / "kept.html"))["records"]
+    axis, (start, end) = unpacked(record["axis"], "<f8"), record["window"]
+    milliseconds = 1e3 * 2.0 * 60.0 / 1380.0 / 23.0
+    assert end - start == pytest.approx(milliseconds, rel=1e-2)
+    assert record["cycle"] == pytest.approx(milliseconds / 2.0, rel=1e-2)
+    assert np.sum(axis >= start - 1e-9) == 33
+
+
 @pytest.mark.parametrize(
     "scenario", ["efficiency-crc-23-47", "efficiency-involute-18-36", "load-contact-18-36"]
 )
