@@ -3,6 +3,7 @@
 import ast
 import operator
 from collections.abc import Callable, Mapping
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -17,11 +18,13 @@ _OPERATORS: dict[type, Callable[..., Any]] = {
     ast.USub: operator.neg,
     ast.UAdd: operator.pos,
 }
-FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **{name: getattr(np, name) for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "abs", "floor")},
-    "max": np.maximum,
-    "min": np.minimum,
+#: Functions of one number.
+_OF_ONE: dict[str, Callable[[Any], Any]] = {
+    name: getattr(np, name) for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "abs", "floor")
 }
+#: Functions of two numbers that several are put into one after the other.
+_OF_SEVERAL: dict[str, Callable[[Any, Any], Any]] = {"max": np.maximum, "min": np.minimum}
+FUNCTIONS = (*_OF_ONE, *_OF_SEVERAL)
 #: Characters and nesting of a formula, at most.
 LONGEST = 500
 
@@ -33,14 +36,17 @@ class FormulaError(ValueError):
 def evaluated(text: str, variables: Mapping[str, Any]) -> Any:
     """Value of a formula of numbers or arrays.
 
-    Raises FormulaError for what is not arithmetic, for unknown names, and where the value is not finite.
+    Raises FormulaError for what is not arithmetic, for unknown names, functions of another number of
+    arguments, and where the value is not a finite real number.
     """
     if len(text) > LONGEST:
         raise FormulaError(f"longer than {LONGEST} characters")
     try:
         tree = ast.parse(text, mode="eval")
         with np.errstate(all="ignore"):
-            value = _value(tree.body, {"pi": np.pi, **variables})
+            # NumPy's numbers: the root of a negative one is then none, and not complex
+            known = {name: np.asarray(value, dtype=float) for name, value in variables.items()}
+            value = _value(tree.body, {"pi": np.float64(np.pi), **known})
     except (SyntaxError, RecursionError, MemoryError, TypeError, ValueError, ArithmeticError) as error:
         if isinstance(error, FormulaError):
             raise
@@ -52,7 +58,7 @@ def evaluated(text: str, variables: Mapping[str, Any]) -> Any:
 
 def _value(node: ast.expr, variables: Mapping[str, Any]) -> Any:
     if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
-        return float(node.value)
+        return np.float64(node.value)
     if isinstance(node, ast.Name):
         if node.id not in variables:
             raise FormulaError(f'"{node.id}" is none of {", ".join(variables)}')
@@ -64,5 +70,12 @@ def _value(node: ast.expr, variables: Mapping[str, Any]) -> Any:
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.keywords:
         if node.func.id not in FUNCTIONS:
             raise FormulaError(f'"{node.func.id}" is none of the functions {", ".join(FUNCTIONS)}')
-        return FUNCTIONS[node.func.id](*(_value(part, variables) for part in node.args))
+        numbers = [_value(part, variables) for part in node.args]
+        if node.func.id in _OF_SEVERAL:
+            if len(numbers) < 2:
+                raise FormulaError(f'"{node.func.id}" takes two numbers or more')
+            return reduce(_OF_SEVERAL[node.func.id], numbers)
+        if len(numbers) != 1:
+            raise FormulaError(f'"{node.func.id}" takes one number')
+        return _OF_ONE[node.func.id](numbers[0])
     raise FormulaError("only numbers, variables, + - * / ** % and functions")

@@ -151,6 +151,9 @@ def test_bad_input_is_one_message():
         with pytest.raises(td.InputError) as caught:
             td.scenario("involute-23-47", {key: value})
         assert key in str(caught.value)
+    for formula in ("(-8)**(1/3)", "sin(h, h)", "sqrt(abs(h-0.06) - 0.01)"):
+        with pytest.raises(td.InputError, match="tooth_formula"):
+            td.scenario("involute-23-47", {"drive.gear.modification.tooth_formula": formula})
     columns = {
         name: {"unit": unit, "values": [1.0, 2.0]}
         for name, unit in (("tooth", "1"), ("face", "mm"), ("error", "um"))

@@ -10,9 +10,10 @@ from functools import cached_property
 
 import numpy as np
 
+from tribodyn.errors import InputError
 from tribodyn.geometry.flanks.modification import MOST_WAVES, SPREAD, Limits, sampled
 from tribodyn.mesh.teeth.fields import LEADING, FlankPlaces, ToothFields, height_share, sound
-from tribodyn.numerics.formula import evaluated
+from tribodyn.numerics.formula import FormulaError, evaluated
 from tribodyn.numerics.shapes import Array, Float
 
 
@@ -177,7 +178,12 @@ class FormulaErrors:
         if flank not in self.flanks:
             return None
         height, face = height_share(places), places.face[:, None] / self.face_width
-        return _gap_alone(1e-6 * formula_value(self.formula, tooth, self.teeth, height, face), places)
+        try:
+            value = formula_value(self.formula, tooth, self.teeth, height, face)
+        except FormulaError as error:  # at a place that a check did not see
+            rule = f"{error}: at tooth {tooth + 1}, between places where it is"
+            raise InputError("modification.tooth_formula", f'"{self.formula}"', rule) from None
+        return _gap_alone(1e-6 * value, places)
 
 
 #: Of `FormulaErrors`: number of the tooth, from 1; number of teeth; place along the profile, 0 at the root's

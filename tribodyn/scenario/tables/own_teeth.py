@@ -159,7 +159,7 @@ def _sizes(gear: Gear) -> Iterator[tuple[str, float]]:
 
 def _broken_formula(key: str, formula: str, gear: Gear, module: float) -> Iterator[InputError]:
     """Refuse what is no formula of every tooth, or of errors that are none."""
-    height, face = np.linspace(0.0, 1.0, 9), np.array([[-0.5], [0.0], [0.5]])
+    height, face = np.linspace(0.0, 1.0, 201), np.linspace(-0.5, 0.5, 21)[:, None]
     try:
         values = [formula_value(formula, tooth, gear.teeth, height, face) for tooth in range(gear.teeth)]
     except FormulaError as error:
