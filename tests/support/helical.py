@@ -21,6 +21,6 @@ def assembly(teeth, helix, width, module=3e-3, shift=(0.0, 0.0), dedendum=1.25, 
     return assemble(FAMILY, from_written(FAMILY, written))
 
 
-def elastic(*args, **changes):
+def elastic(*args, held=False, **changes):
     """The same with its finite elements."""
-    return flexibility(assembly(*args, **changes), (STEEL, STEEL), lead=True)
+    return flexibility(assembly(*args, **changes), (STEEL, STEEL), lead=True, held=held)

@@ -24,6 +24,7 @@ from tribodyn.compliance.foundation import (
     SELF_HARMONICS,
     Foundation,
     foundation_compliance,
+    free_foundation,
     ring_compliance,
     ring_foundation,
 )
@@ -46,6 +47,9 @@ SHEAR_FACTOR = 1.2  # rectangular section (Timoshenko)
 #: Modules by which the teeth thicken the rim of an internal gear where it bends: fitted to finite elements,
 #: 0.22 to 0.26 over rims of 2 to 6 modules and 60 to 120 teeth.
 RIM_OF_TEETH = 0.24
+
+# Bore over root radius: a smaller one does not change what finite elements answer (test_helical_coupling).
+_LEAST_UNEVEN_BORE = 0.3
 
 # Outline pieces are sampled at Chebyshev points and integrated as Chebyshev series. 1/y³ is singular where
 # the flanks would meet beyond the tip, so the points of the upper flank crowd towards there: this degree
@@ -125,6 +129,7 @@ class LoadedTooth(NamedTuple):
     side: Side  # {"pinion", "gear"} Which of the two.
     #: cosine of β on the reference circle and tan β_w on the pitch circle; None for a spur gear
     helix: tuple[Any, Any] | None = None
+    held: bool = False  # whether the body is held at its bore (`foundation.Support`)
 
     def contact(self, r: PerContact) -> ToothContact:
         """Contact on the tooth at signed distances r in the body's own view, in the normal section."""
@@ -137,8 +142,8 @@ class LoadedTooth(NamedTuple):
         return ToothContact(at.x, at.y * thinning, arctan2(along, sqrt(1.0 - along**2)))
 
 
-def loaded_tooth(assembly: Assembly, side: Side) -> LoadedTooth:
-    """Put a tooth to work on the drive's working path."""
+def loaded_tooth(assembly: Assembly, side: Side, held: bool = False) -> LoadedTooth:
+    """Put a tooth to work on the drive's working path, on a free body or one that is held at its bore."""
     tooth, path, beta = assembly.tooth(side), assembly.path_of(side), assembly.drive.helix_angle
     return LoadedTooth(
         tooth=tooth,
@@ -148,11 +153,24 @@ def loaded_tooth(assembly: Assembly, side: Side) -> LoadedTooth:
         body=body_of(assembly.drive, side),
         side=side,
         helix=(cos(beta), pitch_slope(assembly)) if is_jax(beta) or beta else None,
+        held=held,
     )
 
 
+def under_uneven_load(loaded: LoadedTooth) -> LoadedTooth:
+    """The tooth as loads meet it that vary along it and sum up to nothing: whatever accelerates, held.
+
+    The bore that the body is held at then counts little (`coupled_slices`): a smaller one as if it were
+    0.3 root radii.
+    """
+    bore, root = loaded.body.bore_radius, loaded.tooth.root_radius
+    if is_jax(loaded.body.teeth) or loaded.body.teeth > 0:
+        bore = maximum(bore, _LEAST_UNEVEN_BORE * root)
+    return loaded._replace(held=True, body=loaded.body._replace(bore_radius=bore))
+
+
 def tooth_compliance(
-    loaded: LoadedTooth, material: MaterialData, width: Any, r: PerContact, body: Foundation = "sainsot-velex"
+    loaded: LoadedTooth, material: MaterialData, width: Any, r: PerContact, by: Foundation = "sainsot-velex"
 ) -> ToothCompliance:
     """Compliance of one tooth that is loaded at the signed distances r (m) of the drive.
 
@@ -187,13 +205,16 @@ def tooth_compliance(
     across = cos(load_angle)
     root_load = namespace(x, lever).stack([sin(load_angle), across, across * lever / root], axis=-1)
     ring = root, loaded.body.bore_radius, root_angle, material.youngs_modulus
+    elastic, tip = (material.poisson_ratio, body_length), tooth.tip_radius / root
     if not is_jax(loaded.body.teeth) and loaded.body.teeth < 0:  # the polynomials are of bodies inside
         rim = rim_compliance(loaded, material.poisson_ratio)
         foundation = (root_load @ rim * root_load).sum(-1) / (material.youngs_modulus * body_length)
-    elif body == "ring":
-        foundation = ring_foundation(root_load, *ring, material.poisson_ratio, body_length)
-    else:
+    elif by == "ring":
+        foundation = ring_foundation(root_load, *ring, *elastic, loaded.held, tip)
+    elif loaded.held:
         foundation = foundation_compliance(load_angle, lever, *ring, body_length)
+    else:
+        foundation = free_foundation(root_load, load_angle, lever, *ring, *elastic, tip_ratio=tip)
     scale = 1.0 / (material.youngs_modulus * length)
     return ToothCompliance(scale * bending, scale * shear, scale * axial, foundation, root_load)
 
@@ -214,11 +235,13 @@ def rim_compliance(
     return ring_compliance(
         2.0 * np.pi * pitches / body.teeth,
         loaded.root_half_angle,
-        inside / body.bore_radius,
+        body.bore_radius / inside,
         poisson_ratio,
         HARMONICS if pitches else SELF_HARMONICS,
         None if fitted else body.pins,
         around=True,
+        held=loaded.held,
+        tip_ratio=tooth.tip_radius / tooth.root_radius,
     )
 
 
@@ -252,8 +275,8 @@ def polynomials_over_ring(loaded: LoadedTooth, material: MaterialData) -> float:
     """Body's compliance at the pitch point by Sainsot & Velex's polynomials over that by the exact ring."""
     at = np.zeros(1)
     fitted, ring = (
-        tooth_compliance(loaded, material, loaded.body.face_width, at, body).foundation[0]
-        for body in ("sainsot-velex", "ring")
+        tooth_compliance(loaded, material, loaded.body.face_width, at, by).foundation[0]
+        for by in ("sainsot-velex", "ring")
     )
     return float(fitted / ring)
 
@@ -271,8 +294,10 @@ def neighbour_coupling(loaded: LoadedTooth, material: MaterialData, pitches: int
         ring = ring_compliance(
             2.0 * np.pi * pitches / loaded.body.teeth,
             loaded.root_half_angle,
-            loaded.tooth.root_radius / loaded.body.bore_radius,
+            loaded.body.bore_radius / loaded.tooth.root_radius,
             material.poisson_ratio,
+            held=loaded.held,
+            tip_ratio=loaded.tooth.tip_radius / loaded.tooth.root_radius,
         )
     earlier_to_later = ring if loaded.side == "pinion" else ring.T
     return earlier_to_later / (material.youngs_modulus * loaded.body.face_width)

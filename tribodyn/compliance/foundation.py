@@ -6,6 +6,10 @@ shear and a linear normal traction, and fit polynomials to the answer for one to
 evaluates those; `ring_compliance` solves the same ring exactly, as a Fourier series in Michell's plane
 solutions, which gives what the polynomials leave out: how far a load on one tooth moves its neighbour.
 
+The ring held at its bore winds up and shifts as a whole. In motion that is no compliance of a mesh: the
+inertia sits in the rim, and torque and force accelerate it. Of a body that is not `held` orders 0 and 1 of
+the series are those of `free_body`, balanced by inertia; all others are the same.
+
 Root loads of a tooth are ordered (N, T, M): N along the tooth's axis, positive outwards; T across it,
 positive counter-clockwise; M a counter-clockwise moment about the point where the tooth's axis meets the
 root circle.
@@ -15,8 +19,9 @@ from typing import Any, Literal
 
 import numpy as np
 
+from tribodyn.compliance.free_body import free_shift, free_torsion
 from tribodyn.compliance.rim import pinned_receptance
-from tribodyn.numerics.elementary import cos, is_jax, log, namespace, sin
+from tribodyn.numerics.elementary import cos, is_jax, log, maximum, namespace, sin, within
 from tribodyn.numerics.shapes import Array, Float
 
 # Sainsot & Velex (2004), table 1: X = A/θ² + B h² + C h/θ + D/θ + E h + F
@@ -33,8 +38,16 @@ RADIUS_RATIO_RANGE = (1.4, 7.0)
 ROOT_HALF_ANGLE_RANGE = (0.01, 0.12)
 #: Where the compliance of a body under its own tooth comes from: the polynomials, or the ring that they fit.
 Foundation = Literal["sainsot-velex", "ring"]
+#: What a body's deflection counts from: its own mean motion, or the bore, which is held.
+Support = Literal["free", "held"]
 SELF_HARMONICS = 2048  # a tooth's own compliance: error below 0.3 % for up to 250 teeth (test_foundation)
 HARMONICS = 256  # neighbours: error below 1e-3 of the own compliance for up to 150 teeth (test_foundation)
+#: Root radius over bore radius at which the polynomials count for a free body. Less its wind-up and shift a
+#: body does not depend on larger ones, but the polynomials do, by their error: 1 to 5 % of the ring's
+#: deflection at 2.5, up to 60 % at 7 (test_free_body).
+FREE_RATIO_RANGE = (1.4, 2.5)
+# Bore over root radius below which orders from 2 on do not change any more, by 1e-8 of order 2.
+_SMALLEST_BORE = 1e-4
 
 
 def sainsot_velex(
@@ -53,10 +66,13 @@ def sainsot_velex(
     return values[0], values[1], values[2], values[3]
 
 
-def outside_fitted_range(radius_ratio: float, root_half_angle: float) -> list[str]:
-    """Say which arguments of `sainsot_velex` lie outside the range of the fit; none: it is inside."""
+def outside_fitted_range(radius_ratio: float | None, root_half_angle: float) -> list[str]:
+    """Say which arguments of `sainsot_velex` lie outside the range of the fit; none: it is inside.
+
+    Without a radius ratio: of a free body, whose polynomials never leave its range.
+    """
     ranges = (
-        ("root radius over bore radius", radius_ratio, RADIUS_RATIO_RANGE, ""),
+        ("root radius over bore radius", radius_ratio or RADIUS_RATIO_RANGE[0], RADIUS_RATIO_RANGE, ""),
         ("half angle of the root", root_half_angle, ROOT_HALF_ANGLE_RANGE, " rad"),
     )
     return [
@@ -75,7 +91,7 @@ def foundation_compliance(
     youngs_modulus: Float[Array, ""],
     width: Float[Array, ""],
 ) -> Float[Array, "*contact"]:
-    """Deflection of the loaded tooth along the load, from its body's elasticity, m/N: the polynomials.
+    """Deflection of the loaded tooth along the load against the bore, m/N: the polynomials.
 
     Sainsot & Velex (2004), eq. (4), with S = 2 θ r_root. The load angle (rad) is that between the force and
     the perpendicular of the tooth's axis, the lever u (m) the distance along this axis from the root circle
@@ -96,30 +112,69 @@ def ring_foundation(
     youngs_modulus: Float[Array, ""],
     poisson_ratio: Float[Array, ""],
     width: Float[Array, ""],
+    held: bool = False,
+    tip_ratio: Float[Array, ""] = 1.0,
 ) -> Float[Array, "*contact"]:
-    """Return what `foundation_compliance` does, by the exact ring; for any 0 < bore radius < root radius.
+    """Deflection of the loaded tooth along the load by the exact ring, m/N; for any bore < root radius.
 
     The root load (..., 3) is (N, T, M/root radius) per unit normal load.
     """
-    ring = ring_compliance(0.0, root_half_angle, root_radius / bore_radius, poisson_ratio, SELF_HARMONICS)
+    ratio = bore_radius / root_radius
+    ring = ring_compliance(
+        0.0, root_half_angle, ratio, poisson_ratio, SELF_HARMONICS, None, None, held, tip_ratio
+    )
     shape = namespace(root_load, ring).einsum("...i,ij,...j->...", root_load, ring, root_load)
     return shape / (youngs_modulus * width)
+
+
+def free_foundation(
+    root_load: Float[Array, "*contact 3"],
+    load_angle: Float[Array, "*contact"],
+    lever: Float[Array, "*contact"],
+    root_radius: Float[Array, ""],
+    bore_radius: Float[Array, ""],
+    root_half_angle: Float[Array, ""],
+    youngs_modulus: Float[Array, ""],
+    poisson_ratio: Float[Array, ""],
+    width: Float[Array, ""],
+    *,
+    tip_ratio: Float[Array, ""] = 1.0,
+) -> Float[Array, "*contact"]:
+    """Deflection of the loaded tooth along the load against its free body's mean motion, m/N: polynomials.
+
+    `foundation_compliance` less what orders 0 and 1 of the ring that it fits have in it, and more by those of
+    the free ring. Radius ratios outside FREE_RATIO_RANGE count as its ends in the polynomials.
+    """
+    fitted = within(bore_radius / root_radius, *(1.0 / ratio for ratio in reversed(FREE_RATIO_RANGE)))
+    against_bore = foundation_compliance(
+        load_angle, lever, root_radius, fitted * root_radius, root_half_angle, youngs_modulus, width
+    )
+    free, bound = (
+        ring_compliance(0.0, root_half_angle, ratio, poisson_ratio, 1, None, None, held, tip_ratio)
+        for ratio, held in ((bore_radius / root_radius, False), (fitted, True))
+    )
+    change = namespace(root_load, free).einsum("...i,ij,...j->...", root_load, free - bound, root_load)
+    return against_bore + change / (youngs_modulus * width)
 
 
 def ring_compliance(
     angle: Float[Array, ""],
     root_half_angle: Float[Array, ""],
-    radius_ratio: Float[Array, ""],
+    bore_ratio: Float[Array, ""],
     poisson_ratio: Float[Array, ""],
     harmonics: int = HARMONICS,
     pins: float | None = None,
     around: bool | None = None,
+    held: bool = False,
+    tip_ratio: Float[Array, ""] = 1.0,
 ) -> Float[Array, "3 3"]:
     """Compliance between the root loads of two teeth of one body.
 
-    Exact for a ring in plane stress that is fixed at its bore, or around the teeth (a ratio below 1) at its
-    outside, on `pins` there (`rim`) or, with 0, free as `_ring_receptance` has it (`around` says so where the
-    ratio is traced); each tooth loads its arc
+    Exact for a ring in plane stress from the bore radius, over the root radius, `bore_ratio`. Its shape is
+    fixed at the bore, or around the teeth (a ratio above 1) at its outside, on `pins` there (`rim`) or, with
+    0, free as `_ring_receptance` has it (`around` says so where the ratio is traced). As a whole it is `held`
+    there (the ratio is not 0), or else free (`free_body`), whatever the rim, with teeth up to the tip radius,
+    over the root radius, `tip_ratio`. Each tooth loads its arc
     of the root circle with uniform (N, T) and linear (M) traction along its own axes; displacements are the
     work conjugates (means over the arc). Truncated after `harmonics` terms: the self term (angle 0) converges
     like (harmonics · root_half_angle)^−2 and needs about 40/root_half_angle of them, the term between two
@@ -132,13 +187,20 @@ def ring_compliance(
     N. I. Muskhelishvili, Some Basic Problems of the Mathematical Theory of Elasticity, §§ 41, 59 (potentials
     φ, ψ; the ring); J. R. Barber, Elasticity, ch. 8 (the same as Michell's series).
     """
-    xp = namespace(angle, root_half_angle, radius_ratio, poisson_ratio)
+    xp = namespace(angle, root_half_angle, bore_ratio, poisson_ratio)
     order = np.arange(harmonics + 1.0)
     if pins:
-        receptance = pinned_receptance(order, 1.0 / radius_ratio, poisson_ratio, round(pins))
+        receptance = pinned_receptance(order, bore_ratio, poisson_ratio, round(pins))
         receptance = receptance * (1.0 + poisson_ratio)
     else:
-        receptance = _ring_receptance(order, 1.0 / radius_ratio, poisson_ratio, pins == 0, around)
+        bore = maximum(bore_ratio, _SMALLEST_BORE)
+        receptance = _ring_receptance(order, bore, poisson_ratio, pins == 0, around)
+    if not held:
+        radial = receptance[0, 0, 0]
+        torsion = free_torsion(bore_ratio, tip_ratio) * (1.0 + poisson_ratio)
+        turned = xp.stack([xp.stack([radial, 0.0 * radial]), xp.stack([0.0 * radial, torsion])])
+        moved = free_shift(bore_ratio, poisson_ratio, tip_ratio) * (1.0 + poisson_ratio)
+        receptance = xp.concatenate([xp.stack([turned, moved]), receptance[2:]])
     loads = _root_loads(order, root_half_angle)
     weight = np.where(order == 0, 0.5, 1.0) * np.pi
     products = xp.einsum("jna,nab,inb->nji", loads, receptance, loads) * weight[:, None, None]

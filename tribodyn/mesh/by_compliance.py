@@ -77,10 +77,10 @@ def compliance_remark(
         return ""
     beyond, off = [], []
     for side, material in zip(SIDES, materials, strict=True):
-        tooth = loaded_tooth(assembly, side)
+        tooth = loaded_tooth(assembly, side, mesh.held)
         if tooth.body.teeth < 0:  # its rim is solved
             continue
-        ratio = float(tooth.tooth.root_radius) / float(tooth.body.bore_radius)
+        ratio = float(tooth.tooth.root_radius) / float(tooth.body.bore_radius) if mesh.held else None
         beyond += [f"{side} {limit}" for limit in outside_fitted_range(ratio, float(tooth.root_half_angle))]
         over = polynomials_over_ring(tooth, material)
         if abs(over - 1.0) > REPORTED_DEVIATION:

@@ -8,9 +8,11 @@ Mech. Mach. Theory 40 (2005) 677-693), the bodies as a half-space, whose complia
 
 k along the tooth. Both lengths are shares of the normal module that are fitted to this package's finite
 elements: they meet the harmonics of `compliance.sharing.slices.pair_harmonics` within 0.055 of λ(0)
-(test_helical_coupling). The end faces are planes of symmetry: what free ends add is left out. Slices at
-different heights of the tooth take the geometric mean of their compliances; two pairs on one body hold each
-other section by section, spread like the bodies. The contact is each slice's own.
+(test_helical_coupling). A free body's C_bodies is that of k = 0 alone, where the load has a resultant that
+accelerates it; C_bodies of k > 0 is a held one's (`energy.under_uneven_load`). The end faces are planes of
+symmetry: what free ends add is left out. Slices at different heights of the tooth take the geometric mean of
+their compliances; two pairs on one body hold each other section by section, spread like the bodies. The
+contact is each slice's own.
 
 Lumping: at the operating load the slices that touch are solved together. Each slot of the table then has the
 compliance and the gap that give it the same load, and the same change of load while the gears turn.
@@ -20,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.energy import loaded_tooth, tooth_compliance
+from tribodyn.compliance.energy import LoadedTooth, loaded_tooth, tooth_compliance, under_uneven_load
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData
 from tribodyn.geometry.helix import normal_module
@@ -76,8 +78,11 @@ def couple_slices(
     fronts, slices = cycle.front_slots, cycle.slices
     front = np.s_[0, :, :fronts]
     r = cycle.signed_distance[front]
-    teeth, bodies, between = _parts(assembly, materials, mesh, r, slices)
-    own = cycle.compliance[front] - slices * (teeth + bodies)  # of the contact alone
+    loaded = [loaded_tooth(assembly, side, mesh.held) for side in SIDES]
+    teeth, even, even_between = _parts(assembly, materials, mesh, loaded, r, slices)
+    own = cycle.compliance[front] - slices * (teeth + even)  # of the contact alone
+    uneven = loaded if mesh.held else [under_uneven_load(tooth) for tooth in loaded]
+    _, bodies, between = _parts(assembly, materials, mesh, uneven, r, slices)
     arms = normal_arms(cycle)[front]
     force = absolute(gear_torque / cycle.gear_pitch_radius)
     share = cycle.share[front]
@@ -93,6 +98,9 @@ def couple_slices(
         rows = np.s_[first : first + count]
         along = [spread(middle[rows], share[rows], factor, slices) for factor in falling]
         matrix = slices * _matrix(teeth[rows], bodies[rows], between[rows], along)
+        if not mesh.held:  # what a load over the whole face does not meet
+            relief = even[rows] - bodies[rows], even_between[rows] - between[rows]
+            matrix = matrix + _over_the_face(*relief)
         gaps = cycle.gap[front][rows]
         found.append(
             _lumped(matrix, own[rows], arms[rows], gaps, share[rows], force, cycle.hertz_coefficient)
@@ -125,12 +133,13 @@ def _parts(
     assembly: Assembly,
     materials: tuple[MaterialData, MaterialData],
     mesh: MeshData,
+    tooth: list[LoadedTooth],
     r: Float[Array, "node slot"],
     slices: int,
 ) -> tuple[Float[Array, "node slot"], Float[Array, "node slot"], Float[Array, "node slice pair pair"]]:
     """Compliance of teeth and of bodies (N, Q) under a load over the whole face, and between pairs, m/N."""
     curve = RollCurve(*assembly.roll_limits)
-    width, tooth = assembly.common_width, [loaded_tooth(assembly, side) for side in SIDES]
+    width = assembly.common_width
     nodes = assembly.path.signed_distance(curve.nodes())
     parts = [
         tooth_compliance(t, m, width, nodes, mesh.foundation) for t, m in zip(tooth, materials, strict=True)
@@ -158,13 +167,29 @@ def _matrix(
 ) -> Float[Array, "node slot slot"]:
     """Deflection of slots per load on slots over the number of slices, without the contact."""
     slices, pairs = between.shape[1:3]
-    mean = (between[:, :, None] + between[:, None, :]) / 2.0  # (node, slice, slice, pair, pair)
-    matrix = mean.transpose(0, 3, 1, 4, 2).reshape(along[1].shape) * along[1]
+    matrix = _by_slots(between) * along[1]
     number = np.arange(pairs * slices) // slices
     for part, spreading in zip((teeth, bodies), along, strict=True):
         root = sqrt(part)
         matrix = matrix + (number[:, None] == number) * root[:, :, None] * spreading * root[:, None, :]
     return matrix
+
+
+def _over_the_face(
+    bodies: Float[Array, "node slot"], between: Float[Array, "node slice pair pair"]
+) -> Float[Array, "node slot slot"]:
+    """Deflection of slots per load on slots that depends on the load of the whole face alone."""
+    slices, pairs = between.shape[1:3]
+    number = np.arange(pairs * slices) // slices
+    same = number[:, None] == number
+    return _by_slots(between) + same * (bodies[:, :, None] + bodies[:, None, :]) / 2.0
+
+
+def _by_slots(between: Float[Array, "node slice pair pair"]) -> Float[Array, "node slot slot"]:
+    """What couples pairs in a slice as between slots, in the mean of both slices."""
+    count = between.shape[1] * between.shape[2]
+    mean = (between[:, :, None] + between[:, None, :]) / 2.0  # (node, slice, slice, pair, pair)
+    return mean.transpose(0, 3, 1, 4, 2).reshape(-1, count, count)
 
 
 def _lumped(

@@ -5,7 +5,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.foundation import Foundation
+from tribodyn.compliance.foundation import Foundation, Support
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Drive, body_of
@@ -28,6 +28,7 @@ class MeshData:
     #: compliance of a gear body under its own tooth, with ``compliance = "energy"``
     foundation: Foundation = "sainsot-velex"
     foundation_coupling: bool = True  # whether two pairs on one body share its foundation
+    body: Support = "free"  # what the deflection of a gear body counts from
     stiffness: float | None = None  # single-pair stiffness, N/m, with ``compliance = "constant"``
     #: single-pair stiffness over the pinion's roll angle from the pitch point (rad, N/m), with ``compliance =
     #: "table"``
@@ -54,6 +55,11 @@ class MeshData:
     def at_load(self) -> bool:
         """Whether the compliance is that of finite elements, taken at the operating torque."""
         return self.compliance == "fem"
+
+    @property
+    def held(self) -> bool:
+        """Whether bodies are held at their bores."""
+        return self.body == "held"
 
 
 class Slots(NamedTuple):
@@ -172,16 +178,16 @@ def mesh_table(assembly: Assembly, slots: Slots, motion: Kinematics, elastic: El
     )
 
 
-def check_bores(drive: Drive) -> None:
-    """Raise InputError for a solid body where its elasticity is needed; traced radii are not checked."""
-    for side in SIDES:
+def check_bores(drive: Drive, held: bool) -> None:
+    """Raise InputError for a solid body that is held at its bore; traced radii are not checked."""
+    for side in SIDES if held else ():
         body = body_of(drive, side)
         if not is_jax(body.bore_radius) and body.bore_radius * body.teeth <= 0:
             raise InputError(
                 f"drive.{side}.bore_radius",
                 body.bore_radius,
-                "the elastic body is held at its bore",
-                "give the radius at which the shaft holds it",
+                'with mesh.body = "held" the elastic body is held at its bore',
+                'give the radius at which the shaft holds it, or use "free"',
             )
 
 

@@ -78,7 +78,7 @@ def tabulate(
 def check_options(assembly: Assembly, mesh: table.MeshData, back: bool) -> None:
     """Raise InputError where an option lacks its numbers, or options contradict each other."""
     if mesh.compliance == "energy":
-        table.check_bores(assembly.drive)
+        table.check_bores(assembly.drive, mesh.held)
     if mesh.compliance == "constant" and mesh.stiffness is None:
         raise InputError(
             "mesh.stiffness", rule="is needed for compliance = 'constant'", remedy="give one pair's"
@@ -179,7 +179,7 @@ def pair_compliance(
         return 1.0 / interpolate(angle, stiffness, within(roll, angle[0], angle[-1])), uncoupled
 
     width = assembly.common_width
-    teeth = [loaded_tooth(assembly, side) for side in SIDES]
+    teeth = [loaded_tooth(assembly, side, mesh.held) for side in SIDES]
     parts = [
         tooth_compliance(t, m, width, r_nodes, mesh.foundation) for t, m in zip(teeth, materials, strict=True)
     ]

@@ -54,7 +54,7 @@ def tabulate_loaded(
 
     Raises InputError if a body has no bore, or the torque drives nothing; else as `tabulate.tabulate`.
     """
-    check_bores(assembly.drive)
+    check_bores(assembly.drive, mesh.held)
     torque = abs(gear_torque)
     check_torque(torque)
     for broken in uneven_teeth(mesh.modifications):
@@ -101,7 +101,8 @@ def flanks_of(
     assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: MeshData
 ) -> LoadedFlanks:
     """The flanks that the load contact model presses together, as a scenario's mesh describes them."""
-    flexible = flexibility(assembly, materials, lead=mesh.slice_coupling and mesh.slices > 1)
+    lead = mesh.slice_coupling and mesh.slices > 1
+    flexible = flexibility(assembly, materials, lead=lead, held=mesh.held)
     if not mesh.foundation_coupling:
         apart = [without_neighbours(gear) for gear in flexible.gears]
         flexible = flexible._replace(gears=(apart[0], apart[1]))

@@ -175,7 +175,7 @@ def drive() -> Drive:
 
 def elastic(pair: Drive, level: int = LEVEL) -> PairFlexibility:
     """Finite elements of the paper's pair, shifted or not, of its material."""
-    return flexibility(assemble(FAMILY, pair), _plain_case().materials, level=level)
+    return flexibility(assemble(FAMILY, pair), _plain_case().materials, level=level, held=True)
 
 
 def loss_factors(pair: Drive) -> tuple[float, float]:

@@ -60,7 +60,7 @@ def case_of(name: Name) -> Case:
 def elastic(name: Name) -> PairFlexibility:
     """Finite elements of a drive, for loads that vary along the face."""
     case = case_of(name)
-    return flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
+    return flexibility(assemble(family(case.family), case.drive), case.materials, lead=True, held=True)
 
 
 @cache

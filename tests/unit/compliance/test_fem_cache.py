@@ -36,8 +36,8 @@ def test_second_look_up_reads_the_file(folder, monkeypatch):
 
 
 def test_every_number_of_a_gear_is_in_the_name_of_its_file():
-    others = [GEAR._replace(**{field: 2 * getattr(GEAR, field)}) for field in GEAR._fields[1:-1]]
-    others.append(GEAR._replace(free_rim=True))
+    others = [GEAR._replace(**{field: 2 * getattr(GEAR, field)}) for field in GEAR._fields[1:-2]]
+    others += [GEAR._replace(free_rim=True), GEAR._replace(held=True)]
     others.append(GEAR._replace(tooth=GEAR.tooth._replace(tip_distance=0.9 * GEAR.tooth.tip_distance)))
     names = [*map(_digest, others), *(_digest(GEAR, *more) for more in ([], [1.0], [2.0], [np.ones(2)]))]
     assert len(set(names)) == len(others) + 4

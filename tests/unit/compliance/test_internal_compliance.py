@@ -36,8 +36,8 @@ def test_a_free_rim_bends_like_a_thin_ring():
     height = 0.02
     middle = 1.0 + height / 2
     load, narrow = np.array([1.0, 0.0, 0.0]), 0.01
-    own, opposite = (ring_compliance(a, narrow, 1 / (1 + height), NU, 256, 0.0)[0, 0] for a in (0.0, np.pi))
-    # means over the arcs of the loads; orders 0 and 1, which are held, have no share in bending
+    own, opposite = (ring_compliance(a, narrow, 1 + height, NU, 256, 0.0)[0, 0] for a in (0.0, np.pi))
+    # means over the arcs of the loads; orders 0 and 1 have no share in bending
     bending = (own + opposite) * load[0] * 2.0
     exact = (np.pi / 4 - 2 / np.pi) * middle**3 / (height**3 / 12)
     assert bending == pytest.approx(exact, rel=0.03)
@@ -93,11 +93,12 @@ def mean_stiffness(made, torque):
     return torque / abs(float(cycle.gear_pitch_radius)) / float(mean)
 
 
+@pytest.mark.parametrize(("support", "within"), [("held", 0.05), ("free", 0.065)])
 @pytest.mark.parametrize(
     ("teeth", "rim"), [((24, 30, 84), 6.0), ((24, 30, 84), 18.0), ((18, 36, 90), 9.0), ((25, 29, 83), 4.5)]
 )
-def test_mesh_stiffness_by_both_methods(teeth, rim):
-    """At a light load, where corners of the tips hardly help: within 5 % in plane strain.
+def test_mesh_stiffness_by_both_methods(teeth, rim, support, within):
+    """At a light load, where corners of the tips hardly help: within 5 % in plane strain, held; 6.5 % free.
 
     Teeth, rim and body by the beam are in plane stress, by the elements in plane strain.
     """
@@ -106,7 +107,7 @@ def test_mesh_stiffness_by_both_methods(teeth, rim):
         ("beam", {"compliance": "energy", "foundation": "ring", "hertz": "load-dependent"}),
         ("elements", {"compliance": "fem"}),
     ):
-        case = set_of(teeth, rim, compliance, torque="20 N*m")
+        case = set_of(teeth, rim, compliance | {"body": support}, torque="20 N*m")
         made = tabulated(case)[3]
         found[name] = mean_stiffness(made, case.meshes[3].pair.operating.gear_torque)
         if name == "beam":
@@ -117,4 +118,4 @@ def test_mesh_stiffness_by_both_methods(teeth, rim):
             found[name] = mean_stiffness(
                 made._replace(cycle=strain), case.meshes[3].pair.operating.gear_torque
             )
-    assert found["beam"] == pytest.approx(found["elements"], rel=0.05)
+    assert found["beam"] == pytest.approx(found["elements"], rel=within)

@@ -26,7 +26,7 @@ MODULE, DEPTH = 3e-3, 0.75e-3
 
 
 def solved(waves, depth=DEPTH, level=1) -> GearCompliance:
-    gear = GEAR._replace(depth=depth, level=level)
+    gear = GEAR._replace(depth=depth, level=level, held=True)
     return gear_compliance(gear)._replace(lead=lead_harmonics(gear, np.asarray(waves)))
 
 
@@ -73,6 +73,17 @@ def test_without_waves_it_is_the_plane_ring(gear):
     np.testing.assert_allclose(plane.own[0], freed_of_depth(gear.inside, POISSON), rtol=1e-9)
     np.testing.assert_allclose(plane.between[0], gear.between, rtol=1e-9, atol=1e-10)
     np.testing.assert_allclose(plane.root_stress[0], gear.lead.root_stress[0], rtol=1e-9, atol=1e-7)
+
+
+def test_a_free_gear_differs_under_an_even_load_alone(gear):
+    free = gear_compliance(GEAR._replace(depth=DEPTH))._replace(lead=gear.lead)
+    waves = np.array([0.0, 0.1, 1.0]) / MODULE
+    held, loose = (at_wave_numbers(each, waves, POISSON) for each in (gear, free))
+    np.testing.assert_allclose(loose.own[0], freed_of_depth(free.inside, POISSON), rtol=1e-9)
+    np.testing.assert_allclose(loose.between[0], free.between, rtol=1e-9, atol=1e-10)
+    assert np.all(loose.own[0] < held.own[0])
+    np.testing.assert_array_equal(loose.own[1:], held.own[1:])
+    np.testing.assert_array_equal(loose.between[1:], held.between[1:])
 
 
 def test_response_is_even_and_smooth_in_the_wave_number():
@@ -200,7 +211,8 @@ def any_gear(rng, waves, depth):
         deep = half_space((1 + which) * depth, waves[1:], POISSON)
         parts[0][1:, which] += deep[:, None]
     lead = LeadHarmonics(waves, *parts[:2], np.zeros((2, points)), parts[2])
-    return GearCompliance(np.linspace(20e-3, 22e-3, positions), np.empty(0), np.empty(0), depth, lead), excess
+    even = parts[0][0], parts[1][0]
+    return GearCompliance(np.linspace(20e-3, 22e-3, positions), *even, depth, lead), excess
 
 
 def test_what_is_more_than_a_half_space_is_taken_on_to_the_surface(rng):

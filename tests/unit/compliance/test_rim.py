@@ -89,11 +89,11 @@ def test_fewer_pins_hold_less_and_free_rims_yet_less():
     """Between neighbours too: the compliances' differences are positive for one load."""
     load = np.array([0.4, 1.0, -0.1])
     kept = [
-        load @ ring_compliance(0.0, 0.02, 1 / 1.08, NU, 2048, pins) @ load
+        load @ ring_compliance(0.0, 0.02, 1.08, NU, 2048, pins) @ load
         for pins in (None, 96.0, 24.0, 8.0, 4.0)
     ]
     assert all(np.diff(kept) > 0.0)
-    both = [ring_compliance(angle, 0.02, 1 / 1.08, NU, 256, 8.0) for angle in (0.07, -0.07)]
+    both = [ring_compliance(angle, 0.02, 1.08, NU, 256, 8.0) for angle in (0.07, -0.07)]
     np.testing.assert_allclose(both[0], both[1].T, atol=1e-9 * np.abs(both[0]).max())
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.support.helical_pairs import ENERGY, STEEL, helical_pair, sliced
-from tribodyn.compliance.energy import loaded_tooth, tooth_compliance
+from tribodyn.compliance.energy import loaded_tooth, tooth_compliance, under_uneven_load
 from tribodyn.compliance.sharing.load_sharing import flexibility
 from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
@@ -35,15 +35,20 @@ def test_harmonics_are_those_of_finite_elements(pair):
     spur = assemble(pair.family, pair.drive._replace(helix_angle=0.0))
     start, end = spur.roll_limits
     geometry = pair_geometry(spur, np.array([[0.6 * start], [0.0], [0.6 * end]]))
-    flexible = flexibility(spur, MATERIALS, lead=True)
+    flexible = flexibility(spur, MATERIALS, lead=True, held=True)
     harmonics = pair_harmonics(flexible, geometry, 25)[:, :, 0, 0]
     r = geometry.motion.signed_distance[:, 0]
-    parts = [tooth_compliance(loaded_tooth(spur, side), STEEL, spur.common_width, r) for side in SIDES]
+    teeth = [under_uneven_load(loaded_tooth(spur, side)) for side in SIDES]
+    parts = [tooth_compliance(tooth, STEEL, spur.common_width, r) for tooth in teeth]
     bodies = sum(part.foundation for part in parts)
     teeth = sum(part.total for part in parts) - bodies
     wave = np.pi * np.arange(25)[:, None] / flexible.width * spur.drive.module
     model = teeth / (1.0 + (TEETH_LENGTH * wave) ** 2) + bodies / (1.0 + BODIES_LENGTH * wave)
     np.testing.assert_allclose(model / model[0], harmonics / harmonics[0], atol=0.055)
+    # a free body is stiffer under an even load alone; a bore counts little under all others
+    free = pair_harmonics(flexibility(spur, MATERIALS, lead=True), geometry, 25)[:, :, 0, 0]
+    assert np.all(free[0] < 0.9 * harmonics[0])
+    np.testing.assert_allclose(free[1:], harmonics[1:], rtol=1e-9)
 
 
 def test_an_even_load_is_met_by_the_whole_compliance():

@@ -106,14 +106,14 @@ def test_single_pair_is_the_whole_face_at_the_pitch_point():
 
 @pytest.mark.parametrize("helix", [0.2, 0.35, 0.5])
 def test_single_pair_softens_with_the_cosine_of_the_helix_angle(helix):
-    """ISO 6336-1: in the transverse plane, per face width, c' goes like cos β for one rack."""
+    """ISO 6336-1: in the transverse plane, per face width, c' goes like cos β for one rack, within 3.5 %."""
 
     def stiffness(angle):
         pair = helical_pair(1.0, angle)
         single = single_pair(sliced(pair, ENERGY, 5), TORQUE).stiffness
         return single * math.cos(base_angle(pair)) ** 2 / float(pair.common_width)
 
-    assert stiffness(helix) / stiffness(0.02) == pytest.approx(math.cos(helix), rel=0.03)
+    assert stiffness(helix) / stiffness(0.02) == pytest.approx(math.cos(helix), rel=0.035)
 
 
 def test_small_helix_is_the_spur_pair():

@@ -171,10 +171,10 @@ class TestOptions:
             tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), mesh(**options), 2, back)
         assert error.value.key == key
 
-    def test_solid_body_is_refused(self):
+    def test_solid_body_that_is_held_is_refused(self):
         solid = DRIVE._replace(gear=DRIVE.gear._replace(bore_radius=0.0))
         with pytest.raises(InputError, match="held at its bore"):
-            tabulate(assemble(crc.FAMILY, solid), (STEEL, STEEL), ENERGY, 2)
+            tabulate(assemble(crc.FAMILY, solid), (STEEL, STEEL), mesh(body="held"), 2)
 
     def test_interpolation_is_the_monotone_one(self):
         rng = np.random.default_rng(4)
@@ -331,7 +331,8 @@ class TestBodies:
 
     def test_remark_on_a_rim_that_the_polynomials_are_off_for(self):
         steel = (STEEL, STEEL)
-        remark = compliance_remark(self.thin(), steel, ENERGY)
+        remark = compliance_remark(self.thin(), steel, mesh(body="held"))
+        assert "extrapolated: pinion root radius" in remark
         assert "the pinion's is 2.4" in remark
         assert "the gear's" not in remark
         assert 'mesh.foundation = "ring"' in remark
@@ -353,8 +354,9 @@ def test_few_teeth_with_tips_close_to_an_edge(shift):
         return GearBody(float(teeth), shift, 1.0, 1.25, 0.25, 0.02, 0.004)
 
     pair = assemble(involute.FAMILY, Drive(0.003, math.radians(20.0), few(8, shift), few(9, 0.5)))
-    cycle = tabulate(pair, (STEEL, STEEL), ENERGY, 2)
+    cycle = tabulate(pair, (STEEL, STEEL), mesh(body="held"), 2)
     inside = (cycle.in_contact[:, None, :] > 0) & np.ones_like(cycle.compliance, dtype=bool)
     r = np.asarray(cycle.signed_distance)[inside]
-    direct = sum(tooth_compliance(loaded_tooth(pair, side), STEEL, 0.02, r).total for side in SIDES)
+    teeth = [loaded_tooth(pair, side, held=True) for side in SIDES]
+    direct = sum(tooth_compliance(tooth, STEEL, 0.02, r).total for tooth in teeth)
     np.testing.assert_allclose(cycle.compliance[inside], direct + hertz_linear(STEEL, STEEL, 0.02), rtol=0.01)

@@ -47,7 +47,8 @@ def rolls(cycle):
 
 
 def loads_of_model(case, cycle):
-    flexible = flexibility(assemble(family(case.family), case.drive), case.materials)
+    pair = assemble(family(case.family), case.drive)
+    flexible = flexibility(pair, case.materials, held=case.mesh.held)
     return LoadedFlanks(flexible).share(rolls(cycle), case.operating.gear_torque)
 
 
@@ -198,7 +199,7 @@ def test_solid_body_is_refused():
 def test_effective_contact_ratio_of_a_shipped_drive():
     case = load_scenario(NAME, {})
     assembly = assemble(family(case.family), case.drive)
-    flexible = flexibility(assembly, case.materials)
+    flexible = flexibility(assembly, case.materials, held=case.mesh.held)
     roll = extended_rolls(assembly, roll_at_gap(assembly, 8e-5), 240)
     ratio = effective_contact_ratio(roll, LoadedFlanks(flexible).share(roll, 318.3), 2 * np.pi / 18)
     assert ratio == pytest.approx(1.733, abs=0.02)

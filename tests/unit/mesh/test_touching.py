@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.cracked_pair import STEEL, pair
-from tribodyn.compliance.energy import hertz_linear, tooth_compliance
+from tribodyn.compliance.energy import hertz_linear, tooth_compliance, under_uneven_load
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.mesh.teeth.damage.gear import damaged_gear
 from tribodyn.mesh.teeth.damage.touching import softer
@@ -19,7 +19,8 @@ def flanks():
 
 def parts(gear):
     at = np.zeros(1)
-    each = [tooth_compliance(tooth, STEEL, gear.width, at, "ring") for tooth in gear.teeth]
+    uneven = [under_uneven_load(tooth) for tooth in gear.teeth]
+    each = [tooth_compliance(tooth, STEEL, gear.width, at, "ring") for tooth in uneven]
     bodies = each[0].foundation + each[1].foundation
     teeth = each[0].total + each[1].total - bodies
     return teeth, bodies, float(hertz_linear(STEEL, STEEL, gear.width))

@@ -49,6 +49,7 @@ def cached_gear_compliance(gear: ElasticGear, width: float | None = None) -> Gea
     plane = plane._replace(depth=float(plane.depth))
     if width is None:
         return plane
+    gear = gear._replace(held=True)  # as the others are solved
     root = float(sense(gear.teeth) * gear.tooth.root_radius)
     module = 2.0 * float(gear.tooth.path.pinion_pitch_radius) / gear.teeth
     with part(0.05, 0.5):

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
+from tribodyn.compliance.fem.inertia_relief import Inertia, relieved
 from tribodyn.compliance.fem.ring_mesh import signed_polar
 from tribodyn.numerics.shapes import Array, Complex, Float
 from tribodyn.numerics.work import steps
@@ -99,7 +100,18 @@ def reduced_ring(
     readers: Float[Array, "reader dof"],
     mirrored: NDArray[np.bool_],
 ) -> Ring:
-    """Reduce a ring to its sectors' edges.
+    """Reduce a ring to its sectors' edges; of `reduced_rings` the first."""
+    return reduced_rings(half, stiffness, loads, readers, mirrored)[0]
+
+
+def reduced_rings(
+    half: HalfSector,
+    stiffness: Any,
+    loads: Float[Array, "dof load"],
+    readers: Float[Array, "reader dof"],
+    mirrored: NDArray[np.bool_],
+) -> tuple[Ring, Ring]:
+    """Reduce a ring to its sectors' edges: with these readers, and with all of them on the other half.
 
     The stiffness (dof, dof) is the half sector's; 2 or 3 components of the displacement follow each other at
     a node: u, v[, w]. Loads (dof, load) are on the half y > 0 of sector 0; readers (reader, dof) take the
@@ -109,7 +121,13 @@ def reduced_ring(
     components = stiffness.shape[0] // half.nodes
     even, odd = (_reduced(half, stiffness, loads, readers, components, symmetry) for symmetry in (1, -1))
     side = np.where(mirrored, -1.0, 1.0)[:, None]
+    return _joined(half, even, odd, components, side), _joined(half, even, odd, components, -side)
 
+
+def _joined(
+    half: HalfSector, even: ReducedSector, odd: ReducedSector, components: int, side: Float[Array, "reader 1"]
+) -> Ring:
+    """Ring of a half's two symmetries, with readers on its side (1) or on the other (-1)."""
     # With x on the edge at −π/Z and z R x on that at +π/Z, z the phase and R the turn, the even and the odd
     # part of the edge at +π/Z are (z R ± M) x/2; M reflects.
     turn = 2.0 * np.pi / half.teeth
@@ -150,16 +168,27 @@ def ring_response(
     readers: Float[Array, "reader dof"],
     mirrored: NDArray[np.bool_],
     sectors: NDArray[np.int64],
+    inertia: Inertia | None = None,
 ) -> Float[Array, "sector reader load"]:
-    """Readings (sector, reader, load) of the ring under loads on one sector; else as `reduced_ring`.
+    """Readings (sector, reader, load) of the ring under loads on one sector; else as `reduced_rings`.
 
-    Sectors are counted in pitches from the loaded one, in the sense from x to y.
+    Sectors are counted in pitches from the loaded one, in the sense from x to y. With its `inertia` the ring
+    is free in orders 0 and 1, else held.
     """
     seen = np.zeros((len(sectors), len(readers), loads.shape[1]))
+    first = 0
+    if inertia is not None:
+        readers, loads = np.concatenate([readers, inertia.momentum.T]), np.hstack([loads, inertia.momentum])
+        mirrored = np.concatenate([mirrored, np.zeros(3, dtype=bool)])
     for support, harmonics in half.supports():
-        ring = reduced_ring(support, stiffness, loads, readers, mirrored)
-        for z, weight in steps(harmonics):
-            seen += weight * np.real(z ** sectors[:, None, None] * ring.at_phase(z))
+        ring, opposite = reduced_rings(support, stiffness, loads, readers, mirrored)
+        for order, (z, weight) in enumerate(steps(harmonics), first):
+            reading = ring.at_phase(z)
+            if inertia is not None:
+                across = opposite.at_phase(z) if order < 2 else reading
+                reading = relieved(order, reading, across, inertia, loads, readers, mirrored)
+            seen += weight * np.real(z ** sectors[:, None, None] * reading)
+        first += len(harmonics)
     return seen
 
 

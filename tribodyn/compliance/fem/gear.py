@@ -14,6 +14,7 @@ from skfem import Basis
 
 from tribodyn.compliance.fem.cyclic_symmetry import HalfSector, half_sector, ring_response
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, ElasticGear, GearCompliance, LeadHarmonics
+from tribodyn.compliance.fem.inertia_relief import inertia_of
 from tribodyn.compliance.fem.ring_mesh import SectorMesh, half_sector_cells, half_sector_mesh, signed_polar
 from tribodyn.compliance.fem.strips import (
     COMPONENTS,
@@ -201,7 +202,7 @@ _SECTORS = np.arange(-NEIGHBOURS, NEIGHBOURS + 1)
 
 
 def gear_compliance(gear: ElasticGear) -> GearCompliance:
-    """Solve a gear in plane strain for unit loads at every vertex of a flank.
+    """Solve a gear in plane strain for unit loads at every vertex of a flank, held or free.
 
     Raises InputError if the cells do not fit into a thin rim, or the mesh not into the memory.
     """
@@ -210,13 +211,17 @@ def gear_compliance(gear: ElasticGear) -> GearCompliance:
     readers = np.concatenate([model.loads.T, model.inner])
     mirrored = np.concatenate([np.zeros(model.loads.shape[1], dtype=bool), model.beyond])
     stiffness = plane_stiffness(model.basis, gear.poisson_ratio)
-    seen = ring_response(model.half, stiffness, model.loads, readers, mirrored, _SECTORS)
+    inertia = None if gear.held else inertia_of(model.basis)
+    seen = ring_response(model.half, stiffness, model.loads, readers, mirrored, _SECTORS, inertia)
     inside, between = _parted(seen)
     return GearCompliance(signed_polar(model.position, gear.teeth)[0], inside, between, gear.depth)
 
 
 def lead_harmonics(gear: ElasticGear, wave_number: Float[Array, " wave"]) -> LeadHarmonics:
-    """Solve a gear for unit loads that run like cos kz along the teeth, k ≥ 0 in rad/m; errors likewise."""
+    """Solve a gear for unit loads that run like cos kz along the teeth, k ≥ 0 in rad/m; errors likewise.
+
+    Held at its bore, whether the gear is or not: loads of k > 0 sum up to nothing over the face.
+    """
     check_level(gear.level, COMPONENTS)
     model = gear_model(gear)
     constant, linear, square = strip_stiffness(model.basis, gear.poisson_ratio)

@@ -13,6 +13,10 @@ and with Weber-Banaschek's deflection down to the depth h its surface deflects b
 
 the limit of h_s(h; k) for kh → 0. What a tooth has more than a half-space, u − h_s, is read at h and 2h and
 taken on to the surface, as `local.freed_of_depth` does for k = 0. As k grows only B is left.
+
+A gear that is free (`inertia_relief`) differs from one that is held at its bore under a load that is even
+along the teeth, k = 0. Loads of k > 0 have no resultant, and the body hands them on from one part of the face
+to another: its bore, which stays straight on a stiff shaft, counts as exp(−k(r_root − r_bore)).
 """
 
 from typing import Any, NamedTuple
@@ -22,6 +26,7 @@ from scipy.interpolate import CubicSpline, make_interp_spline
 from scipy.special import k0, k1
 
 from tribodyn.compliance.local import freed_of_depth
+from tribodyn.geometry.drive import GearBody
 from tribodyn.geometry.tooth import Tooth
 from tribodyn.numerics.shapes import Array, Float
 
@@ -34,7 +39,7 @@ class ElasticGear(NamedTuple):
 
     tooth: Tooth  # as cut
     teeth: int
-    bore_radius: float  # where the body is held, m
+    bore_radius: float  # > 0 (`meshed_bore`); keeps its shape, m
     poisson_ratio: float  # ν < 0.5
     #: depth below the flank at which the loaded tooth's displacement is read, m, as it is at twice that; a
     #: cell or more, so that the mesh resolves it
@@ -42,10 +47,22 @@ class ElasticGear(NamedTuple):
     level: int  # multiplies the number of cells in both directions
     #: whether the outside of an internal gear is held as a whole only, and free to bend
     free_rim: bool = False
+    held: bool = False  # whether the bore is held, or else the whole body free
+
+
+#: Bore over root radius at which the body of a free gear is meshed at least: a smaller bore changes its
+#: compliance by less than 0.1 % (test_free_body).
+_LEAST_BORE = 0.1
+
+
+def meshed_bore(body: GearBody, tooth: Tooth, held: bool) -> float:
+    """Bore radius (m) of a body's mesh: of a solid or nearly solid one that is free, a small one."""
+    bore = float(body.bore_radius)
+    return bore if held else max(bore, _LEAST_BORE * float(tooth.root_radius)) if bore >= 0.0 else bore
 
 
 class LeadHarmonics(NamedTuple):
-    """Response of a gear to line loads cos kz along its teeth, for unit Young's modulus; amplitudes.
+    """Response of a gear, held, to line loads cos kz along its teeth, for unit Young's modulus; amplitudes.
 
     K wave numbers, M positions of the load as in `GearCompliance`, P positions along the root.
     """
@@ -170,6 +187,9 @@ def at_wave_numbers(
     value += (surface - half_space_surface(np.array([largest]), gear.depth, poisson_ratio))[:, None]
     weights = np.where(beyond[:, None], 0.0, weights)
     between, root_stress = (np.tensordot(weights, part, 1) for part in (lead.between, lead.root_stress))
+    even = k == 0.0
+    value[even] += freed_of_depth(gear.inside, poisson_ratio) - freed_of_depth(lead.inside[0], poisson_ratio)
+    between[even] += gear.between - lead.between[0]
     return LeadCompliance(gear.radius, value, between, root_stress)
 
 

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.fem.cache import cached_gear_compliance
-from tribodyn.compliance.fem.gear_compliance import ElasticGear
+from tribodyn.compliance.fem.gear_compliance import ElasticGear, meshed_bore
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek
 from tribodyn.compliance.sharing.active_set import press
 from tribodyn.compliance.sharing.flank_gap import flank_gap, oblique_gap
@@ -70,11 +70,13 @@ def flexibility(
     depth: float = DEPTH,
     level: int = LEVEL,
     lead: bool = False,
+    held: bool = False,
 ) -> PairFlexibility:
     """Finite elements of both gears, from the cache where they have been solved before.
 
-    The assembly is checked (`limits.checks`), bores > 0; the depth of the local region is in modules. With
-    `lead` also for loads that vary along the teeth, with free end faces, and with root stress.
+    The assembly is checked (`limits.checks`); the depth of the local region is in modules. With `lead` also
+    for loads that vary along the teeth, with free end faces, and with root stress. Bodies are free, or `held`
+    at their bores, which are > 0 then.
     """
     section = elastic_section(assembly)
     drive = section.drive
@@ -86,11 +88,12 @@ def flexibility(
             ElasticGear(
                 section.tooth(side),
                 round(float(body_of(drive, side).teeth)),
-                float(body_of(drive, side).bore_radius),
+                meshed_bore(body_of(drive, side), section.tooth(side), held),
                 material.poisson_ratio,
                 depth * float(drive.module),
                 level,
                 body_of(drive, side).pins == 0,
+                held,
             ),
             width * length_per_width(assembly) if lead else None,
         )
@@ -98,7 +101,7 @@ def flexibility(
     ]
     for at, side in enumerate(SIDES):
         if body_of(drive, side).pins:
-            gears[at] = on_pins(gears[at], section, side, materials[at])
+            gears[at] = on_pins(gears[at], section, side, materials[at], held)
     return PairFlexibility(assembly, materials, width, (gears[0], gears[1]))
 
 

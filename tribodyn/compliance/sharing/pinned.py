@@ -1,4 +1,4 @@
-"""A ring of finite elements, held in its fit, taken to what holds it in truth: by the rim's bending.
+"""A ring of finite elements, its outside in its fit, taken to what holds it in truth: by the rim's bending.
 
 Between fit and pins only low orders of the rim differ, which do not see the teeth one by one: the difference
 is that of two elastic rings (`energy.rim_compliance`) under the loads of the teeth on the root circle.
@@ -24,16 +24,18 @@ def check_even(assembly: Assembly) -> None:
             raise InputError(f"drive.{side}.rim", '"pins"', rule, 'use "fixed" or "free", or leave them out')
 
 
-def on_pins(fitted: GearCompliance, assembly: Assembly, side: Side, material: MaterialData) -> GearCompliance:
-    """Take an internal gear's compliance, held in its fit, to the support that its body has."""
-    loaded, ratio = loaded_tooth(assembly, side), material.poisson_ratio
+def on_pins(
+    fitted: GearCompliance, assembly: Assembly, side: Side, material: MaterialData, held: bool = False
+) -> GearCompliance:
+    """Take an internal gear's compliance, in its fit, to the support that its rim has."""
+    loaded, ratio = loaded_tooth(assembly, side, held), material.poisson_ratio
     own = distance_at_radius(loaded.path, fitted.radius)
     even = tooth_compliance(loaded, material, 1.0, own if side == "pinion" else -own)
     strain = ratio / (1.0 - ratio)  # plane strain by plane stress
 
     def softer(pitches: int) -> Any:
-        pinned, held = (rim_compliance(loaded, strain, -pitches, fitted) for fitted in (False, True))
-        return (1.0 - ratio**2) * np.einsum("mi,ij,nj->mn", even.root_load, pinned - held, even.root_load)
+        pinned, fit = (rim_compliance(loaded, strain, -pitches, fitted) for fitted in (False, True))
+        return (1.0 - ratio**2) * np.einsum("mi,ij,nj->mn", even.root_load, pinned - fit, even.root_load)
 
     between = np.stack([softer(pitches) for pitches in range(-NEIGHBOURS, NEIGHBOURS + 1)])
     return fitted._replace(

@@ -119,6 +119,8 @@ Strength = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "150
 FaceWidth = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "20 mm")]
 Radius = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "12 mm")]
 Diameter = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "30 mm")]
+BoreRadius = Annotated[float, quantity.InUnit(units.not_negative(units.LENGTH), "12 mm")]
+BoreDiameter = Annotated[float, quantity.InUnit(units.not_negative(units.LENGTH), "30 mm")]
 Rounding = Annotated[float, quantity.InUnit(units.not_negative(units.LENGTH), "0.03 mm")]
 Allowance = Annotated[float, quantity.InUnit(units.DEVIATION, "-60 um")]
 Span = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "32.4 mm")]
@@ -180,10 +182,10 @@ class Gear(quantity.Table):
     internal: quantity.Switch = Field(
         False, description="teeth inwards; lengths and numbers of teeth are written without sign all the same"
     )
-    bore_radius: Radius | None = Field(
-        None, description="where the body is held; default: 0.2 times the reference diameter"
+    bore_radius: BoreRadius | None = Field(
+        None, description="of the body; 0: a solid one; default: 0.2 times the reference diameter"
     )
-    bore_diameter: Diameter | None = Field(None, description="in place of the bore's radius")
+    bore_diameter: BoreDiameter | None = Field(None, description="in place of the bore's radius")
     profile_shift: quantity.Number = Field(0.0, description="x, times the module")
     profile_shift_of: Literal["tooth", "gap"] = Field(
         "tooth", description="what a positive shift makes thicker: the tooth, or the gap of an internal gear"

@@ -48,7 +48,7 @@ def loaded_teeth(
     """
     if not motion:
         return None
-    flexible = flexibility(assembly, case.materials, lead=True)
+    flexible = flexibility(assembly, case.materials, lead=True, held=case.mesh.held)
     slices = along["line_load"].shape[1]
     flanks = LoadedFlanks(flexible, case.mesh.modifications, slices, case.mesh.slice_coupling)
     roll = along["roll_angle"]

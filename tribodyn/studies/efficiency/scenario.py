@@ -20,6 +20,7 @@ from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FilmKeys,
     FoundationCoupling,
+    GearBodySupport,
     GearScenario,
     LossKeys,
     MatrixKeys,
@@ -85,6 +86,7 @@ class EfficiencyMesh(Table):
         "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
     )
     foundation_coupling: FoundationCoupling = True
+    body: GearBodySupport = "free"
     deviation_sample: SampleNumber = None
     misalignment: MisalignmentTable = written({})
     slices: FaceSlices = None

@@ -30,6 +30,7 @@ from tribodyn.studies.gears.case import OutputData
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FoundationCoupling,
+    GearBodySupport,
     SampleNumber,
     SliceCoupling,
     broken_stiffness_rules,
@@ -77,6 +78,7 @@ class Mesh(Table):
         "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
     )
     foundation_coupling: FoundationCoupling = True
+    body: GearBodySupport = "free"
     stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
     table: Annotated[fields.StiffnessCurve, csv_file("roll_angle", "stiffness")] | None = Field(
         None, description='of a single pair, with compliance = "table"'

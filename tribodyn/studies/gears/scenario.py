@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field
 
+from tribodyn.compliance.foundation import Support
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
@@ -69,6 +70,13 @@ FaceSlices = Annotated[
 ]
 SliceCoupling = Annotated[Switch, Field(description="slices of one tooth hold each other")]
 FoundationCoupling = Annotated[Switch, Field(description="pairs that share a body share its foundation")]
+GearBodySupport = Annotated[
+    Support,
+    Field(
+        description="what a gear body's deflection counts from: the body's own mean motion, "
+        "or its bore, which is held"
+    ),
+]
 SampleNumber = Annotated[
     DeviationSample | None,
     Field(description="number of the sample of deviations drawn from the quality; default: none"),

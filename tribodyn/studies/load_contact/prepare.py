@@ -24,17 +24,19 @@ def prepare(case: LoadContactCase) -> PreparedTeeth:
     """
     from tribodyn.compliance.sharing.flank_gap import check_modifications
 
-    flexible = _flexible(case.family, case.drive, case.materials)
+    flexible = _flexible(case.family, case.drive, case.materials, case.mesh.held)
     check_modifications(flexible.assembly, case.mesh.modifications)
     return PreparedTeeth(case, flexible)
 
 
 @remembered(2)
-def _flexible(name: str, drive: Drive, materials: tuple[MaterialData, MaterialData]) -> PairFlexibility:
+def _flexible(
+    name: str, drive: Drive, materials: tuple[MaterialData, MaterialData], held: bool
+) -> PairFlexibility:
     """The pair as it is without modifications: cases that differ in those, or in their load, share it."""
     from tribodyn.geometry.limits.checks import check
 
-    return flexibility(check(family(name), drive), materials, lead=True)
+    return flexibility(check(family(name), drive), materials, lead=True, held=held)
 
 
 def contact_of(study: PreparedTeeth, gear_torque: float) -> tuple[Any, ...]:

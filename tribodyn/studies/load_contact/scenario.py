@@ -16,6 +16,7 @@ from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FilmKeys,
+    GearBodySupport,
     GearScenario,
     MatrixKeys,
     Oil,
@@ -46,6 +47,7 @@ class LoadContactMesh(Table):
 
     slices: FaceSlices = None
     slice_coupling: SliceCoupling = True
+    body: GearBodySupport = "free"
     friction_coefficient: NotNegative = Field(0.0, description="of all pairs")
     deviation_sample: SampleNumber = None
     misalignment: MisalignmentTable = written({})

@@ -73,7 +73,8 @@ def flanks_of(case: WearCase) -> LoadedFlanks:
     """The flanks as they are made, and their elasticity by finite elements."""
     assembly, mesh = assembled(case), case.mesh
     check_modifications(assembly, mesh.modifications)
-    flexible = flexibility(assembly, case.materials, lead=mesh.slice_coupling and mesh.slices > 1)
+    lead = mesh.slice_coupling and mesh.slices > 1
+    flexible = flexibility(assembly, case.materials, lead=lead, held=mesh.held)
     return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
 
 

@@ -22,6 +22,7 @@ from tribodyn.studies.gears.prepare import with_chosen_laws
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
     FilmKeys,
+    GearBodySupport,
     GearScenario,
     MatrixKeys,
     Oil,
@@ -83,6 +84,7 @@ class WearMesh(Table):
 
     slices: FaceSlices = None
     slice_coupling: SliceCoupling = True
+    body: GearBodySupport = "free"
     deviation_sample: SampleNumber = None
     tooth_sample: ToothSampleNumber = None
     misalignment: MisalignmentTable = written({})

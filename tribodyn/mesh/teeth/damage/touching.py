@@ -7,7 +7,7 @@ under a load on a part of the face (`coupled_slices`), and by the contact's own 
 
 import numpy as np
 
-from tribodyn.compliance.energy import hertz_linear, tooth_compliance
+from tribodyn.compliance.energy import hertz_linear, tooth_compliance, under_uneven_load
 from tribodyn.mesh.coupled_slices import BODIES_LENGTH, TEETH_LENGTH, spread
 from tribodyn.mesh.teeth.damage.gear import CLEAR, DamagedGear
 from tribodyn.mesh.teeth.damage.patch import smooth
@@ -38,7 +38,7 @@ def partly_touching(
     if damaged.size:
         r = places.distance[damaged]
         parts = [
-            tooth_compliance(tooth, material, gear.width, r, "ring")
+            tooth_compliance(under_uneven_load(tooth), material, gear.width, r, "ring")
             for tooth, material in zip(gear.teeth, gear.materials, strict=True)
         ]
         bodies = parts[0].foundation + parts[1].foundation

@@ -1,0 +1,248 @@
+"""Gear bodies that nothing but their inertia holds: energy method and finite elements by second methods."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from scipy.sparse import bmat, csc_matrix, hstack, identity, kron
+from scipy.sparse.linalg import eigsh, spsolve
+from skfem import Basis, BilinearForm, ElementQuad2, MeshQuad
+
+from tests.support.twelve_teeth import GEAR, POISSON, whole_ring
+from tribodyn.compliance.fem.gear import gear_compliance, gear_model
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, meshed_bore
+from tribodyn.compliance.fem.strips import plane_stiffness
+from tribodyn.compliance.foundation import free_foundation, ring_compliance, ring_foundation
+from tribodyn.compliance.free_body import free_shift, free_torsion
+from tribodyn.compliance.iso6336 import pair_of, reference_stiffness
+from tribodyn.compliance.local import freed_of_depth
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.drive import Drive, GearBody, MaterialData
+from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.mesh.table import MeshData
+from tribodyn.mesh.tabulate import pair_slots, tabulate
+
+NU = 0.3
+STEEL = MaterialData("steel", 206e9, NU, 7850.0, 46.0, 470.0, 6e9)
+jax.config.update("jax_enable_x64", True)
+
+
+def radial_elements(order, bore, count=200):
+    """Displacement amplitudes (2, 2) at r = 1 per traction there, 2 G = 1, by quadratic elements over r.
+
+    Of an annulus between the bore, which keeps its shape, and r = 1: what is balanced by inertia, against the
+    mean motion.
+    """
+    low, high = sorted((bore, 1.0))
+    place = np.linspace(low, high, 2 * count + 1)
+    stiffness, mass = (np.zeros((2 * len(place), 2 * len(place))) for _ in range(2))
+    gauss, weights = np.polynomial.legendre.leggauss(4)
+    dilation = NU / (1.0 - NU)  # λ/2G of plane stress
+    law = np.diag([1.0, 1.0, 0.5]) + dilation * np.outer([1, 1, 0], [1, 1, 0])
+    for first in range(0, 2 * count, 2):
+        length = place[first + 2] - place[first]
+        for t, weight in zip(gauss, weights, strict=True):
+            shape = np.array([t * (t - 1) / 2, 1 - t * t, t * (t + 1) / 2])
+            slope = np.array([t - 0.5, -2 * t, t + 0.5]) * 2 / length
+            r, part = shape @ place[first : first + 3], weight * length / 2
+            # ε_r, ε_θ by cos nθ, γ_rθ by sin nθ; order 0: the tangential part alone turns
+            radial = np.stack([slope, shape / r, -order * shape / r])
+            around = np.stack([0 * shape, order * shape / r, slope - shape / r])
+            strain = np.stack([radial, around], axis=-1).reshape(3, 6)
+            at = np.s_[2 * first : 2 * first + 6]
+            stiffness[at, at] += strain.T @ law @ strain * r * part
+            mass[at, at] += np.kron(np.outer(shape, shape), np.eye(2)) * r * part
+    rigid = np.zeros(2 * len(place))
+    if order:
+        rigid[::2], rigid[1::2] = 1.0, -1.0
+    else:
+        rigid[1::2] = place
+    momentum = mass @ rigid / (rigid @ mass @ rigid)
+    node, inner = (-2, 0) if bore < 1.0 else (0, -2)
+    # the bore is a circle, that moves: in order 0 it does not widen
+    shape_kept = np.zeros((1, len(rigid)))
+    shape_kept[0, inner] = 1.0
+    shape_kept[0, inner + 1] = float(order)
+    ends = np.zeros((len(rigid), 2))
+    ends[node, 0] = ends[node + 1, 1] = 1.0
+    balanced = ends - np.outer(momentum, rigid @ ends)
+    left = np.block([[stiffness, shape_kept.T, momentum[:, None]], [shape_kept, np.zeros((1, 2))]])
+    left = np.vstack([left, np.append(momentum, [0.0, 0.0])])
+    moved = np.linalg.solve(left, np.vstack([balanced, np.zeros((2, 2))]))
+    moved = moved[: len(rigid)]
+    return moved[-2:] if bore < 1.0 else moved[:2]
+
+
+@pytest.mark.parametrize("bore", [0.01, 0.2, 0.5, 0.9, 1.1, 2.0])
+def test_rings_balanced_by_inertia_solve_the_equations_of_plane_stress(bore):
+    shift, turn = radial_elements(1, bore), radial_elements(0, bore)
+    np.testing.assert_allclose(free_shift(bore, NU), shift, rtol=2e-4, atol=2e-4 * np.abs(shift).max())
+    assert free_torsion(bore) == pytest.approx(turn[1, 1], rel=1e-4)
+
+
+def test_a_solid_disc_turns_by_a_twelfth():
+    """θ = T/(12π G b a²): 2 G = 1, T = 2π."""
+    assert free_torsion(0.0) == pytest.approx(2 * np.pi / (12 * np.pi * 0.5))
+    assert np.all(np.isfinite(free_shift(0.0, NU)))
+    np.testing.assert_allclose(free_shift(1e-5, NU), free_shift(0.0, NU), rtol=1e-8)
+
+
+def test_held_less_free_is_wind_up():
+    """Teeth all round: the held ring has (1/r_b² − 1/r_a²) T/(4π G b), the free one its own twist alone."""
+    teeth, bore = 40, 0.3
+    held, free = (
+        sum(
+            ring_compliance(2 * np.pi * k / teeth, 0.06, bore, NU, 100, held=held)[1, 1] for k in range(teeth)
+        )
+        for held in (True, False)
+    )
+    shear = 0.5 / (1 + NU)  # G for E = 1; load 1 on every tooth, r = 1
+    twisted = teeth * (1 / bore**2 - 1) / (4 * np.pi * shear)
+    x = bore**2
+    own = teeth * (1 - x) * (1 + 3 * x) / (1 + x) ** 2 / (12 * np.pi * shear)
+    assert held - free == pytest.approx(twisted - own, rel=1e-3)  # tractions of an arc, not of a point
+
+
+def pair(first, second, bores, module=2e-3):
+    bodies = [
+        GearBody(float(z), 0.0, 1.0, 1.25, 0.38, 0.02, bore)
+        for z, bore in zip((first, second), bores, strict=True)
+    ]
+    return assemble(FAMILY, Drive(module, np.radians(20.0), *bodies))
+
+
+@pytest.mark.parametrize("by", ["sainsot-velex", "ring"])
+def test_compliance_of_a_mesh_does_not_depend_on_the_bore(by):
+    """From a solid body to a bore of half the root radius: 2 %."""
+    mesh = MeshData("energy", 0.05, foundation=by)
+
+    def mean(bore):
+        assembly = pair(62, 62, (bore, bore))
+        table = tabulate(assembly, (STEEL, STEEL), mesh, pair_slots(assembly))
+        return np.array([table.compliance.mean(), np.abs(table.coupling).max()])
+
+    solid = mean(0.0)
+    for bore in (4e-3, 12.4e-3, 26e-3):
+        assert mean(bore)[0] == pytest.approx(solid[0], rel=0.02 if bore > 5e-3 else 2e-3)
+    np.testing.assert_allclose(mean(1e-9), solid, rtol=1e-6)
+
+
+@pytest.mark.parametrize("angle", [0.03, 0.06, 0.09, 0.12])
+@pytest.mark.parametrize("ratio", [2.0, 2.5, 4.0, 7.0, 50.0])
+def test_polynomials_of_free_bodies_follow_the_ring(angle, ratio):
+    load, lever = np.radians(20.0), 1.2 * angle
+    root = np.array([np.sin(load), np.cos(load), np.cos(load) * lever])
+    fitted = free_foundation(root, load, lever, 1.0, 1.0 / ratio, angle, 1.0, NU, 1.0)
+    assert fitted == pytest.approx(ring_foundation(root, 1.0, 1.0 / ratio, angle, 1.0, NU, 1.0), rel=0.065)
+
+
+def test_slopes_of_a_solid_body_are_finite_and_vanish():
+    root, load = jnp.array([0.34, 0.94, 0.1]), 0.34
+
+    def both(bore):
+        ring = ring_foundation(root, 0.03, bore, 0.06, 1.0, NU, 1.0)
+        return jnp.stack([ring, free_foundation(root, load, 0.003, 0.03, bore, 0.06, 1.0, NU, 1.0)])
+
+    value, slope = both(jnp.asarray(0.0)), jax.jacfwd(both)(0.0)
+    assert np.all(np.isfinite(value))
+    np.testing.assert_allclose(slope, 0.0, atol=1e-9)
+    step = 1e-6
+    at = 6e-3
+    np.testing.assert_allclose(
+        jax.jacfwd(both)(at), (both(at + step) - both(at - step)) / (2 * step), rtol=1e-5
+    )
+
+
+@pytest.mark.parametrize(("first", "second"), [(20, 62), (31, 62), (62, 62), (24, 120)])
+def test_solid_gears_are_as_stiff_as_iso_6336_has_them(first, second):
+    """ISO 6336-1's theory is of solid discs: c'_th of one pair within a tenth."""
+    assembly = pair(first, second, (0.0, 0.0))
+    table = tabulate(assembly, (STEEL, STEEL), MeshData("energy", 0.05), pair_slots(assembly))
+    single = 1.0 / table.compliance.min() / 0.02
+    assert single == pytest.approx(
+        reference_stiffness(pair_of(assembly, (STEEL, STEEL), 1e4)).theoretical, rel=0.1
+    )
+
+
+def mesh_frequency(bore, half_angle, spring):
+    """ω of two equal free discs, r = 1, whose arcs a tangential spring joins, by plane finite elements.
+
+    E = ρ = 1, plane stress; half of one disc, as the load is odd in x, against a spring to its mirror image.
+    """
+    fine = np.linspace(0.0, half_angle, 5), half_angle + (np.pi - half_angle) * np.linspace(0, 1, 41)[1:] ** 2
+    grid = MeshQuad.init_tensor(1.0 - (1.0 - bore) * np.linspace(1.0, 0.0, 25) ** 1.5, np.concatenate(fine))
+    radius, angle = grid.p
+    disc = MeshQuad(np.stack([radius * np.cos(angle), radius * np.sin(angle)]), grid.t)
+    basis = Basis(disc, ElementQuad2())
+    # plane stress by plane strain: ν' = ν/(1 + ν), E' = E (1 + 2ν)/(1 + ν)²
+    elastic = plane_stiffness(basis, NU / (1.0 + NU)) * (1.0 + 2.0 * NU) / (1.0 + NU) ** 2
+    mass = kron(BilinearForm(lambda u, v, _: u * v).assemble(basis), np.eye(2))
+    x, y = basis.doflocs
+    turn = np.arctan2(y, x)
+    arc = np.flatnonzero((np.hypot(x, y) > 1.0 - 1e-3) & (turn < half_angle * (1 + 1e-6)))
+    arc = arc[np.argsort(turn[arc])]
+    weights = np.tile([2.0, 4.0], len(arc))[: len(arc)]  # Simpson's
+    weights[0] = weights[-1] = 1.0
+    reader = np.zeros((basis.N, 2))
+    reader[arc, 1] = weights / weights.sum()
+    kept = np.setdiff1d(np.arange(2 * basis.N), 2 * np.flatnonzero(np.abs(y) < 1e-9))
+    row = csc_matrix(reader.ravel()[kept])
+    whole = csc_matrix(elastic)[kept][:, kept] + spring * row.T @ row
+    modes = eigsh(whole, 4, csc_matrix(mass)[kept][:, kept], sigma=-1e-3, return_eigenvectors=False)
+    return np.sqrt(np.sort(modes)[1])  # the first leaves the arc at rest
+
+
+@pytest.mark.parametrize(("bore", "within"), [(4.0 / 59.5, 0.005), (12.4 / 59.5, 0.01), (30.0 / 59.5, 0.03)])
+def test_lowest_mesh_frequency_is_that_of_whole_elastic_discs(bore, within):
+    """Gears of 62 teeth with bores of 8, 24.8 and 60 mm, all of them free; ISO's c_γα = 19.8 N/(mm µm)."""
+    spring, half_angle = 19.8e9 / 206e9, 0.045
+    found = mesh_frequency(bore, half_angle, spring)
+    body = ring_compliance(0.0, half_angle, bore, NU, 600)[1, 1]
+    area, inertia = np.pi * (1.0 - bore**2), np.pi / 2.0 * (1.0 - bore**4)
+    rigid = np.sqrt((1.0 / area + 1.0 / inertia) / (1.0 / (2.0 * spring) + body))
+    assert rigid == pytest.approx(found, rel=within)
+
+
+def test_finite_elements_of_a_free_gear_by_its_whole_ring():
+    """Every tooth in one matrix, the bore a rigid circle, three sums of inertia in the place of supports."""
+    basis, _ = whole_ring(1)
+    stiffness = plane_stiffness(basis, POISSON)
+    mass = csc_matrix(kron(BilinearForm(lambda u, v, _: u * v).assemble(basis), np.eye(2)))
+    x, y = basis.doflocs
+    rigid = np.zeros((basis.N, 2, 3))
+    rigid[:, 0, 0], rigid[:, 1, 0], rigid[:, 0, 1], rigid[:, 1, 2] = -y, x, 1.0, 1.0
+    rigid = rigid.reshape(-1, 3)
+    bore = np.repeat(np.hypot(x, y) < GEAR.bore_radius * (1 + 1e-9), 2)
+    # orders 0 and 1 of a bore that keeps its shape: it moves as a whole; all others hold it
+    inside = csc_matrix(identity(len(bore)))[:, ~bore]
+    allowed = csc_matrix(hstack([inside, csc_matrix(rigid * bore[:, None])]))
+    momentum = mass @ rigid
+    model = gear_model(GEAR)
+    flank = [int(np.argmin(np.hypot(x - px, y - py))) for px, py in model.position.T]
+    vertex = 5
+    near = int(np.argmin(np.hypot(*(model.basis.doflocs - model.position[:, vertex : vertex + 1]))))
+    load = np.zeros(2 * basis.N)
+    load[2 * flank[vertex] : 2 * flank[vertex] + 2] = model.loads[2 * near : 2 * near + 2, vertex]
+    inertia = np.linalg.inv(rigid.T @ momentum)
+    balanced = load - momentum @ inertia @ (rigid.T @ load)
+    sums = csc_matrix(allowed.T @ momentum)
+    left = bmat([[allowed.T @ stiffness @ allowed, sums], [sums.T, None]], format="csc")
+    solved = np.asarray(spsolve(left, np.append(allowed.T @ balanced, np.zeros(3))))
+    moved = allowed @ solved[:-3]
+    seen = gear_compliance(GEAR).between[NEIGHBOURS, :, vertex]
+    for other, node in enumerate(flank):
+        if other != vertex:
+            at = int(np.argmin(np.hypot(*(model.basis.doflocs - model.position[:, other : other + 1]))))
+            direction = model.loads[2 * at : 2 * at + 2, other]
+            assert direction @ moved[2 * node : 2 * node + 2] == pytest.approx(seen[other], rel=1e-6)
+
+
+def test_finite_elements_of_solid_gears_tend_to_a_limit():
+    root = float(GEAR.tooth.root_radius)
+    meshed = meshed_bore(GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 0.0), GEAR.tooth, False)
+    assert 0.0 < meshed <= 0.1 * root
+    small, smaller = (
+        freed_of_depth(gear_compliance(GEAR._replace(bore_radius=bore)).inside, POISSON)
+        for bore in (meshed, meshed / 2.0)
+    )
+    np.testing.assert_allclose(small, smaller, rtol=2e-3)
