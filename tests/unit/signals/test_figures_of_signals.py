@@ -24,11 +24,51 @@ def test_a_phase_modulation_has_the_bessel_amplitudes():
         assert found.at(23.0 + n, 0) == pytest.approx(abs(jv(n, depth)), abs=5e-4)
 
 
-@pytest.mark.parametrize(("taper", "within"), [("hann", 0.16), ("flat-top", 2e-3)])
-def test_amplitude_of_a_tone_between_two_lines(taper, within: float):
-    """Hann's window loses 1 − 8/(3π) in the middle (Harris 1978), the flat-top next to nothing."""
+@pytest.mark.parametrize(("taper", "line", "between"), [("hann", 0.16, 1e-4), ("flat-top", 2e-3, 2e-3)])
+def test_amplitude_of_a_tone_between_two_lines(taper, line: float, between: float):
+    """The line of Hann's window is 1 − 8/(3π) low in the middle (Harris 1978), the flat-top's right."""
     found = signals.spectrum(3.0 * np.cos(2.0 * np.pi * 1000.5 * TIME), RATE, taper)
-    assert found.at(1000.5) == pytest.approx(3.0, rel=within)
+    assert found.at(1000.5, 0) == pytest.approx(3.0, rel=line)
+    assert found.at(1000.5) == pytest.approx(3.0, rel=between)
+
+
+def turning(speed: float) -> np.ndarray:
+    """Revolutions of a shaft whose speed swings by 2 %."""
+    return speed * TIME + 0.02 * speed / (2.0 * np.pi * 3.0) * np.sin(2.0 * np.pi * 3.0 * TIME)
+
+
+@pytest.mark.parametrize("taper", ["hann", "flat-top"])
+@pytest.mark.parametrize("level", [0.0, 0.03])
+def test_amplitudes_at_fractional_orders(taper, level: float):
+    """Cosines of random orders, amplitudes and phases, with and without noise: each within 1 %."""
+    drawn, turns = np.random.default_rng(7), turning(24.7)
+    for number in range(25):
+        order, amplitude = drawn.uniform(5.0, 60.0), 10.0 ** drawn.uniform(-1.0, 2.0)
+        wave = amplitude * np.cos(2.0 * np.pi * order * turns + drawn.uniform(0.0, 2.0 * np.pi))
+        rough = level * amplitude * noise(number, len(TIME))
+        found = signals.order_spectrum(wave + rough + 5.0 * amplitude, turns, 256, taper)
+        assert found.at(order) == pytest.approx(amplitude, rel=1e-2), order
+
+
+@pytest.mark.parametrize("apart", [5.0, 6.4, 9.7])
+def test_amplitudes_of_two_close_tones(apart: float):
+    """Five lines apart or more, at any place between the lines."""
+    turns = turning(24.7)
+    step = signals.order_spectrum(turns, turns, 256).step
+    for place in np.linspace(0.0, 1.0, 7):
+        orders = (600.0 + place + np.array([0.0, apart])) * step
+        waves = 2.0 * np.cos(2.0 * np.pi * orders[0] * turns + 0.4), np.cos(2.0 * np.pi * orders[1] * turns)
+        found = signals.order_spectrum(sum(waves), turns, 256)
+        assert found.at(orders[0]) == pytest.approx(2.0, rel=1e-2)
+        assert found.at(orders[1]) == pytest.approx(1.0, rel=1.5e-2)
+
+
+def test_a_mean_is_no_oscillation():
+    """Nor is the flank of a stronger line: it is given as it is."""
+    found = signals.spectrum(100.0 + np.cos(2.0 * np.pi * 1.5 * TIME), RATE)
+    assert found.at(1.5) < 1.1
+    strong = signals.spectrum(np.cos(2.0 * np.pi * 1000.0 * TIME), RATE)
+    assert strong.at(1002.0) == pytest.approx(0.5)  # Hann's window is half as high a line beside
 
 
 def test_mean_and_tone_of_whole_periods():

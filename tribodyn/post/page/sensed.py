@@ -82,7 +82,7 @@ def _lines(signal: SensorSignal, sensed: Sensed) -> list[list[str]]:
                 signal.name,
                 f"{order:.5g}",
                 f"{order * turning:.5g}",
-                f"{a[place]:.4g}",
+                f"{found.at(order):.4g}",
                 signal.units,
                 names[0].label if names else "",
             ]
