@@ -122,24 +122,17 @@ def contact_stress(found: Geometry, load_factor: float) -> tuple[float, float]:
 
 
 def influences(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> Influences:
-    """Z_L (34), Z_v (37), Z_R (39) and Z_W (42) to (46)."""
+    """Z_L (34), Z_v (37), Z_R (39), of both gears by σ_Hlim of the softer, and Z_W (42) to (46)."""
     speed = mesh.pinion_speed * abs(mesh.reference_radius[0])
-    lubricant, velocity, rough = [], [], []
-    equivalent = _reference_roughness(mesh, sum(mesh.roughness) / 2.0)
-    for metal in metals:
-        limit = 1e-6 * metal.contact_limit
-        share = min(max((limit - _SOFT) / (_HARD - _SOFT), 0.0), 1.0)
-        c_l = 0.83 + 0.08 * share
-        lubricant.append(c_l + 4.0 * (1.0 - c_l) / (1.2 + 134.0 / (1e6 * mesh.viscosity_40)) ** 2)
-        c_v = c_l + 0.02
-        velocity.append(c_v + 2.0 * (1.0 - c_v) / math.sqrt(0.8 + 32.0 / max(speed, 1e-9)))
-        c_r = 0.32 - 0.0002 * min(max(limit, _SOFT), _HARD)
-        rough.append((3.0 / (1e6 * equivalent)) ** c_r)
-    return Influences(_two(lubricant), _two(velocity), _two(rough), work_hardening(mesh, metals))
-
-
-def _two(values: list[float]) -> tuple[float, float]:
-    return values[0], values[1]
+    limit = 1e-6 * min(metals, key=lambda metal: metal.hardness).contact_limit
+    share = min(max((limit - _SOFT) / (_HARD - _SOFT), 0.0), 1.0)
+    c_l = 0.83 + 0.08 * share
+    lubricant = c_l + 4.0 * (1.0 - c_l) / (1.2 + 134.0 / (1e6 * mesh.viscosity_40)) ** 2
+    c_v = c_l + 0.02
+    velocity = c_v + 2.0 * (1.0 - c_v) / math.sqrt(0.8 + 32.0 / max(speed, 1e-9))
+    c_r = 0.32 - 0.0002 * min(max(limit, _SOFT), _HARD)
+    rough = (3.0 / (1e6 * _reference_roughness(mesh, sum(mesh.roughness) / 2.0))) ** c_r
+    return Influences((lubricant,) * 2, (velocity,) * 2, (rough,) * 2, work_hardening(mesh, metals))
 
 
 def _reduced_radius(mesh: PittingMesh) -> float:

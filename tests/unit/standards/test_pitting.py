@@ -145,3 +145,18 @@ def test_a_notch_like_the_test_gears_has_factor_1():
     for metal in (CASE, SOFT):
         assert bending.relative_factors(gear(), alike, metal).notch == 1.0
         assert slip_layer(metal) > 0.0
+
+
+def test_lubricant_velocity_and_roughness_count_by_the_softer_material():
+    """A planet of 1500 MPa against a ring of 700 MPa: both C_ZL = 0.83, C_Zv = 0.85, C_ZR = 0.15."""
+    mixed = pitting.influences(mesh(), (CASE, SOFT))
+    speed, tangent = 38e-3 * 980 * math.pi / 30, math.tan(mesh().path.pressure_angle)
+    curvature = sum(1 / (base * tangent) for base in mesh().path.base_radius)
+    rough = 4.0 * (10e-3 * curvature) ** (1 / 3)
+    assert mixed.lubricant == pytest.approx((0.83 + 4 * 0.17 / (1.2 + 134 / 220) ** 2,) * 2, rel=1e-12)
+    assert mixed.speed == pytest.approx((0.85 + 2 * 0.15 / math.sqrt(0.8 + 32 / speed),) * 2, rel=1e-12)
+    assert mixed.roughness == pytest.approx(((3 / rough) ** 0.15,) * 2, rel=1e-12)
+    assert pitting.influences(mesh(), (SOFT, CASE)).lubricant == mixed.lubricant
+    hard = pitting.influences(mesh(), (CASE, CASE))
+    assert hard.lubricant[0] < mixed.lubricant[0]
+    assert hard.speed[0] > mixed.speed[0]

@@ -18,6 +18,7 @@ from tribodyn.geometry.assembly import (
 from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, internal_side, tip_circle_radius
 from tribodyn.geometry.families import Family
+from tribodyn.geometry.helix import overlap_ratio
 from tribodyn.geometry.limits.internal import (
     check_cutter,
     check_outside,
@@ -260,9 +261,10 @@ def _check_clearance(assembly: Assembly, side: Side) -> None:
 
 
 def _check_contact_ratio(assembly: Assembly) -> None:
-    ratio = assembly.contact_ratio
-    if not ratio >= 1:
-        rule = f"the contact ratio is {ratio:.3f}, so that a pair parts before the next one touches"
+    ratio, overlap = assembly.contact_ratio, float(overlap_ratio(assembly))
+    if not ratio + overlap >= 1:
+        of = f"total contact ratio is {ratio + overlap:.3f}" if overlap else f"contact ratio is {ratio:.3f}"
+        rule = f"the {of}, so that a pair parts before the next one touches"
         remedy = "use larger addenda, more teeth or a smaller pressure angle"
         distance = assembly.drive.centre_distance
         if (
@@ -281,7 +283,8 @@ def _usable_centre_distance(assembly: Assembly, given: float) -> float | None:
 
     def carries(distance: float) -> bool:
         apart = drive._replace(centre_distance=1e-3 * distance)
-        return bool(Assembly(assembly.family, apart).contact_ratio >= 1)
+        moved = Assembly(assembly.family, apart)
+        return bool(moved.contact_ratio + overlap_ratio(moved) >= 1)
 
     reference = 0.5e3 * float(drive.module * (drive.pinion.teeth + drive.gear.teeth))
     return boundary(carries, 1e3 * given, reference)

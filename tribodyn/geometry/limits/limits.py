@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance, tip_corner_gap
 from tribodyn.geometry.drive import SIDES, Drive, Side
+from tribodyn.geometry.helix import overlap_ratio
 from tribodyn.geometry.limits.internal import away_from_pitch_point, internal_distances
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point
@@ -39,7 +40,7 @@ def distances(assembly: Assembly) -> dict[str, Any]:
         for side in SIDES:
             of_body = _of_body(assembly, side)
             found |= {f"{name}_{side}": of_body[name] for name in _OF_BODY}
-        found["contact_ratio_above_1"] = assembly.contact_ratio - 1.0
+        found["contact_ratio_above_1"] = assembly.contact_ratio + overlap_ratio(assembly) - 1.0
         found |= internal_distances(assembly)
     return {name: found[name] for name in LIMITS}
 

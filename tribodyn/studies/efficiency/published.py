@@ -62,11 +62,18 @@ class TorqueRatio(NamedTuple):
     friction_coefficient: Array  # 1
 
 
-def rotations(pinion_teeth: float, points: int = POINTS) -> tuple[Array, Array]:
-    """Pinion angles over one pitch about the pitch point, rad, and quadrature weights that sum to 1."""
-    half = math.pi / pinion_teeth
-    place, weight = from_pitch_point(half, points)
-    return np.concatenate([-place[::-1], place]), np.concatenate([weight[::-1], weight]) / (2.0 * half)
+def rotations(
+    pinion_teeth: float, points: int = POINTS, limits: tuple[float, float] = (-math.inf, math.inf)
+) -> tuple[Array, Array]:
+    """Pinion angles over one pitch about the pitch point, rad, and quadrature weights that sum to 1.
+
+    The pitch lies within `limits` of the roll angle, which contain the pitch point: no longer with it in the
+    middle where they end before.
+    """
+    pitch = 2.0 * math.pi / pinion_teeth
+    before = min(max(pitch / 2.0, pitch - limits[1]), -limits[0])
+    (back, of_back), (ahead, of_ahead) = (from_pitch_point(way, points) for way in (before, pitch - before))
+    return np.concatenate([-back[::-1], ahead]), np.concatenate([of_back[::-1], of_ahead]) / pitch
 
 
 def path_contact(

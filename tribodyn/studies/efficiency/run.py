@@ -32,7 +32,7 @@ from tribodyn.studies.efficiency.along_path import (
     samples,
 )
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing
-from tribodyn.studies.efficiency.published import by_loss_factor, path_contact, torque_ratio
+from tribodyn.studies.efficiency.published import by_loss_factor, path_contact, rotations, torque_ratio
 from tribodyn.studies.efficiency.scenario import EfficiencyCase
 from tribodyn.studies.efficiency.slices import deflections, judged
 from tribodyn.studies.gears.case import gears_layout
@@ -200,7 +200,11 @@ def efficiencies(
     if not start < 0.0 < end:  # no pair about the pitch point, of some internal pairs
         return results | _by_loss_factor(study)
     single = torque_ratio(
-        path_contact(study.path, case.drive.pinion.teeth),
+        path_contact(
+            study.path,
+            case.drive.pinion.teeth,
+            rotations(case.drive.pinion.teeth, limits=(float(start), float(end))),
+        ),
         -duty.gear_torque if duty.way < 0.0 else duty.gear_torque * float(cycle.speed_ratio),
         duty.pinion_speed,
         float(cycle.face_width),

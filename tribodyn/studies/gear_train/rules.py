@@ -38,7 +38,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         *broken_duty_rules(scenario),
     ]
     if not isinstance(scenario.mesh, tuple):
-        broken += broken_mesh_rules(scenario.mesh)
+        broken += [*broken_mesh_rules(scenario.mesh), *_stiffness_of_stages(scenario)]
     else:
         broken += _bare_meshes(scenario.mesh)
     broken += broken_solver_rules(scenario.solver)
@@ -117,6 +117,16 @@ def _of_all_gears(scenario: Scenario) -> Iterator[InputError]:
     if scenario.mean_roughness is None and not flanks:
         remedy = 'add mean_roughness = "0.6 um", Ra of the flanks of all gears that say none'
         yield InputError("mean_roughness", None, "missing", remedy)
+
+
+def _stiffness_of_stages(scenario: Scenario) -> Iterator[InputError]:
+    for number, stage in enumerate(scenario.stage):
+        for name in ("stiffness", "sun_stiffness", "ring_stiffness"):
+            given = getattr(stage, name, None)
+            if given is not None and scenario.mesh.compliance != "constant":
+                rule = f'contradicts mesh.compliance = "{scenario.mesh.compliance}"'
+                remedy = 'leave it out, or write compliance = "constant" with a stiffness for other meshes'
+                yield InputError(f"stage.{number}.{name}", f"{given:g} N/m", rule, remedy)
 
 
 def _bearings(scenario: Scenario) -> Iterator[InputError]:

@@ -296,7 +296,9 @@ def _meshes(
             ),
             **oil_fields(view),
         )
-        first = first or with_chosen_laws(pair)
+        # one film and one friction law hold in the whole train: where "auto" chooses, for its first mesh
+        pair = with_chosen_laws(pair) if first is None else with_chosen(pair, first)
+        first = first or pair
         part = train.parts.meshes[place]
         found.append(
             TrainMesh(
@@ -307,16 +309,11 @@ def _meshes(
                 motion.gears[mesh],
                 figure.places.azimuths[mesh],
                 motion.rate[mesh],
-                _with_laws_of(pair, first),
+                pair,
                 carrier,
             )
         )
     return tuple(found)
-
-
-def _with_laws_of(pair: LubricatedCase, first: LubricatedCase) -> LubricatedCase:
-    """One film and one friction law hold in the whole train: where "auto" chooses, for its first mesh."""
-    return first if pair is first else with_chosen(pair, first)
 
 
 def _source(scenario: Any, train: Moving, duty: TrainDuty) -> SourceData:

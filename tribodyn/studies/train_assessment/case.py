@@ -32,11 +32,19 @@ SAMPLES: dict[str, Variable] = {
 LAYOUT = Layout(SPEED, SAMPLES)
 
 
+def of_mesh(name: str, mesh: str) -> bool:
+    """Whether a name is that of a mesh, or of several: theirs go on after a hyphen."""
+    return mesh == name or mesh.startswith(f"{name}-")
+
+
 class TrainRatingTable(RatingTable):
     """What is asked beyond the duty, and what the standards need to know of every mesh."""
 
     face_load_factor: AtLeastOne = Field(  # pyright: ignore[reportIncompatibleVariableOverride]
         1.0, description="K_Hβ of every mesh: the face is taken as aligned"
+    )
+    face_load_factors: dict[Text, AtLeastOne] = Field(
+        {}, description="K_Hβ of single meshes, by the name of a mesh or what names of several begin with"
     )
     mesh_load_factor: AtLeastOne | None = Field(
         None, description="K_gamma of the planetary stages; default: each one's own, of the simulation"
@@ -50,6 +58,11 @@ class TrainRatingTable(RatingTable):
     friction_laws: tuple[Text, ...] = Field(
         (), max_length=10, description="further friction laws, a run each: for the spread of the losses"
     )
+
+    def face_of(self, mesh: str) -> float:
+        """K_Hβ of a mesh: by the longest name that it has or begins with, else that of all meshes."""
+        known = [name for name in self.face_load_factors if of_mesh(name, mesh)]
+        return self.face_load_factors[max(known, key=len)] if known else self.face_load_factor
 
 
 @dataclass(frozen=True, kw_only=True)

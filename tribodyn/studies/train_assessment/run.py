@@ -196,14 +196,15 @@ def _of_mesh(case: TrainAssessmentCase, mesh: MeshAtDuty, own: Mapping[str, Any]
         "load_factors": {
             "K_A": settings.application_factor,
             "K_gamma": share,
-            "K_Hbeta": settings.face_load_factor,
+            "K_Hbeta": settings.face_of(mesh.name),
         },
     }
     pair, assembly = mesh.pair, assembled(mesh.pair)
     if pair.quality is None or not assembly.family.involute or not pair.operating.gear_torque > 0.0:
         return found
     oil = float(pair.lubricant.temperature)
-    duty = rated_duty(settings, oil, face=1.0, mesh=share)._replace(mesh=share)
+    duty = rated_duty(settings, oil, face=1.0, mesh=share)
+    duty = duty._replace(mesh=share, face=settings.face_of(mesh.name))
     standard = standard_of(pair, assembly, duty)
     strength = strength_of(pair.lubricant, oil, settings.structure_factor)
     found["load_factors"] |= factors_by_name(standard.factors)

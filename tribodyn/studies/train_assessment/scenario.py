@@ -14,7 +14,7 @@ from tribodyn.studies import study_of
 from tribodyn.studies.gears.rated.capacity import required
 from tribodyn.studies.gears.rated.limits import OilLimits
 from tribodyn.studies.protocol.load import load_data, schema_inside
-from tribodyn.studies.train_assessment.case import TrainAssessmentCase, TrainRatingTable
+from tribodyn.studies.train_assessment.case import TrainAssessmentCase, TrainRatingTable, of_mesh
 from tribodyn.tribology.friction import FRICTION_LAWS
 
 KIND = "train-assessment"
@@ -64,9 +64,19 @@ def _around(base: type[Table] | None) -> type[Table]:
 def case_of(scenario: Scenario, toml: str, sha256: str) -> TrainAssessmentCase:
     """Return the case of a scenario that has passed schema and rules."""
     train = tomllib.loads(toml)["scenario"]
+    subject = load_data(train, str(train.get("name") or "train"))
+    whole = subject.study.whole()
+    names = [mesh.name for mesh in whole.meshes(subject.case)] if whole else []
+    for name, factor in scenario.assessment.face_load_factors.items():
+        if not any(of_mesh(name, mesh) for mesh in names):
+            key, rule = (
+                f"assessment.face_load_factors.{name}",
+                "is no mesh, and no mesh's name begins with it",
+            )
+            raise InputError(key, factor, rule, f"the meshes: {', '.join(names)}")
     return TrainAssessmentCase(
         **head_of(scenario, toml, sha256),
-        subject=load_data(train, str(train.get("name") or "train")),
+        subject=subject,
         settings=scenario.assessment,
         limits=scenario.limits.model_dump() | required(scenario.assessment),
     )

@@ -31,14 +31,15 @@ def case(tmp_path):
     return lambda **changes: load_scenario(path, {key.replace("__", "."): v for key, v in changes.items()})
 
 
-def by_hand():
+def by_hand(addendum=3.0):
     """H_v from the tooth numbers: P = μ F_n (ω_1 + ω_2) ξ̄, ξ̄ = (ξ_A² + ξ_E²)/(2 g_α), lengths in mm."""
     helix, rack = math.radians(20.0), math.radians(20.0)
     transverse = math.atan(math.tan(rack) / math.cos(helix))
     pitch = [3.0 * z / math.cos(helix) / 2.0 for z in (23, 47)]
     base = [r * math.cos(transverse) for r in pitch]
     recess, approach = (
-        math.sqrt((r + 3.0) ** 2 - b**2) - b * math.tan(transverse) for r, b in zip(pitch, base, strict=True)
+        math.sqrt((r + addendum) ** 2 - b**2) - b * math.tan(transverse)
+        for r, b in zip(pitch, base, strict=True)
     )
     mean = (recess**2 + approach**2) / (2.0 * (recess + approach))
     lean = math.cos(math.asin(math.sin(helix) * math.cos(rack)))
@@ -55,6 +56,17 @@ def test_even_lines_have_the_closed_form_with_the_square_of_the_width(case):
         assert abs(found["energy_residual"]) < 1e-12
     assert abs(errors[1]) < 1e-3
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.15)
+
+
+def test_a_pair_that_touches_by_its_overlap_alone(case):
+    """ε_α = 0.94: sections of the face touch one after the other, and all of it is never out of contact."""
+    short = {"drive__pinion__addendum": 0.5, "drive__gear__addendum": 0.5}
+    found = quantities_of(case(mesh__slices=44, **short))
+    assert found["contact_ratio"] < 1.0 < found["total_contact_ratio"]
+    assert found["loss_factor"] == pytest.approx(by_hand(1.5), rel=1e-9)
+    assert (1.0 - found["efficiency_uniform"]) / (1e-4 * by_hand(1.5)) == pytest.approx(1.0, abs=5e-3)
+    with pytest.raises(InputError, match=r"total contact ratio is 0\.\d+, so that a pair parts"):
+        quantities_of(case(**short, drive__pinion__face_width="1 mm", drive__gear__face_width="1 mm"))
 
 
 def test_the_loss_is_the_same_whichever_gear_drives(case):

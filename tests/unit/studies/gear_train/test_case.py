@@ -10,12 +10,14 @@ from tests.support.train_scenarios import REDUCER
 from tests.support.turning_outlines import assert_teeth_touch
 from tribodyn.errors import InputError
 from tribodyn.geometry.body import body_masses
+from tribodyn.scenario.sources import find_scenario, read_toml
 from tribodyn.studies.gear_train.assembled import (
     assemblies,
     body_inertias,
     link_damping,
 )
 from tribodyn.studies.gear_train.case import HOUSING, refuse_long_period
+from tribodyn.studies.protocol.load import load_data, load_scenario
 
 
 def test_speeds_senses_and_torques_of_a_two_stage_reducer(reduced):
@@ -141,3 +143,19 @@ def test_tooth_families_may_be_mixed_between_stages(reduced):
     case = reduced(gear=gear, stage=stage)
     assert [mesh.pair.family for mesh in case.meshes] == ["cycloidal", "involute"]
     assert_teeth_touch(case)
+
+
+def test_every_mesh_of_a_stage_may_have_a_stiffness():
+    """Those of the sun and of the ring differ; what no stage says is that of [mesh]."""
+    data = read_toml(find_scenario("planetary-24-84"))
+    constant = {"compliance": "constant", "stiffness": "2e8 N/m", "damping_ratio": 0.07}
+    data["mesh"], stage = constant, data["stage"][0]
+    stage["sun_stiffness"] = "4e8 N/m"
+    meshes = load_data(data, "set").case.meshes
+    assert {mesh.pair.mesh.stiffness for mesh in meshes if "sun" in mesh.name} == {4e8}
+    assert {mesh.pair.mesh.stiffness for mesh in meshes if "ring" in mesh.name} == {2e8}
+    stage["ring_stiffness"] = "5e8 N/m"
+    meshes = load_data(data, "set").case.meshes
+    assert {mesh.pair.mesh.stiffness for mesh in meshes if "ring" in mesh.name} == {5e8}
+    with pytest.raises(InputError, match=r"stage\.1\.stiffness .* contradicts mesh\.compliance"):
+        load_scenario("two-stage-reducer", {"stage.1.stiffness": "4e8 N/m"})

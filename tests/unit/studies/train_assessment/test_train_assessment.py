@@ -95,12 +95,17 @@ def test_what_exceeds_a_limit_is_named(assessed: dict[str, Any], folder: Path):
 def test_application_factors_lower_the_standards_margins_alone(folder: Path, assessed: dict[str, Any]):
     """The runs lie there already; what is given takes the place of the simulation's K_γ."""
     more = sets({"assessment.application_factor": 1.5, "assessment.mesh_load_factor": 1.2})
+    more += sets(
+        {"assessment.face_load_factors.set-ring": 1.3, "assessment.face_load_factors.set-ring-2": 1.4}
+    )
     harder = json.loads(invoke("assess", "set.toml", "-o", "out", "--force", "--json", *more, folder=folder))
     assert harder["wall_time"] < 0.5 * assessed["wall_time"]
     for name, mesh in assessed[MESHES].items():
         after = harder[MESHES][name]
         assert after["simulated"] == mesh["simulated"]
         assert after["load_factors"]["K_gamma"] == 1.2
+        face = 1.3 if name.startswith("set-ring") else 1.0
+        assert after["load_factors"]["K_Hbeta"] == (1.4 if name == "set-ring-2" else face)
         assert after["iso"]["S_B"] < mesh["iso"]["S_B"]
 
 
@@ -114,6 +119,7 @@ def test_application_factors_lower_the_standards_margins_alone(folder: Path, ass
         ({"assessment.speed_range": [1.2, 0.5]}, "assessment.speed_range"),
         ({"assessment.friction_laws": ["glue"]}, "assessment.friction_laws"),
         ({"assessment.speeds": -1}, "assessment.speeds"),
+        ({"assessment.face_load_factors": {"set-sum": 1.2}}, "assessment.face_load_factors.set-sum"),
     ],
 )
 def test_bad_input_is_one_message(changes: dict[str, Any], key: str, tmp_path: Path):

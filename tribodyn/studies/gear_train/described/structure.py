@@ -299,6 +299,13 @@ def _distance_of_set(scenario: Any, parts: Structure, mesh: MeshPart) -> Printed
     return Printed(float(path.pinion_pitch_radius + path.gear_pitch_radius), 0.0)
 
 
+def stiffness_key(stage: Stage | PlanetaryStage, mesh: str) -> str:
+    """Which key of a stage gives the stiffness of one of its meshes."""
+    if isinstance(stage, Stage):
+        return "stiffness"
+    return "sun_stiffness" if mesh.startswith(f"{stage.name}-sun-") else "ring_stiffness"
+
+
 def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
     """The table [mesh] that holds for a mesh."""
     table = mesh.table
@@ -310,6 +317,7 @@ def mesh_table(scenario: Any, mesh: MeshPart) -> Mesh:
     given = {}
     if isinstance(table, (Stage, PlanetaryStage)):
         given = {name: getattr(table, name) for name in ("damping_ratio", "backlash")}
+        given["stiffness"] = getattr(table, stiffness_key(table, mesh.name))
     return scenario.mesh.model_copy(update={name: own for name, own in given.items() if own is not None})
 
 

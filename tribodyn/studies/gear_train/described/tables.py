@@ -101,6 +101,9 @@ class Stage(StageTeeth):
     """Two gears that mesh; the pinion of a drive file is the gear that drives."""
 
     type: Literal["pair", "planetary"] = "pair"
+    stiffness: Stiffness | None = Field(
+        None, description="of a single pair of teeth; default: that of [mesh]"
+    )
     name: PartName | None = Field(None, description="default: the names of its gears")
     gears: tuple[Text, ...] = Field(min_length=2, max_length=2, description="that mesh, in either order")
     azimuth: Azimuth | None = Field(
@@ -136,6 +139,12 @@ class PlanetaryStage(StageTeeth):
     )
     tangential_pin_errors: tuple[Annotated[float, InUnit(units.LENGTH)], ...] = Field(
         (), max_length=12, description="of every planet's pin, counter-clockwise; default: none"
+    )
+    sun_stiffness: Stiffness | None = Field(
+        None, description="of a single pair of teeth of sun and planet; default: that of [mesh]"
+    )
+    ring_stiffness: Stiffness | None = Field(
+        None, description="of a single pair of teeth of planet and ring; default: that of [mesh]"
     )
     frame_forces: bool = Field(True, description="Coriolis and centrifugal forces in the carrier's frame")
 
