@@ -3,6 +3,7 @@
 import pytest
 
 import tribodyn as td
+from tribodyn.post.report import on_closures
 
 PAIR = {
     "drive": {"like": "diez-ibarbia-18-36"},
@@ -47,3 +48,5 @@ def test_the_film_of_every_kind_is_that_of_the_solved_contact(kind, solved):
     low, high = band(found)
     assert low < 1.1 * solved["central_film_min"]
     assert high > solved["central_film_min"] / 1.1
+    if "film_chosen" in found:
+        assert any("nearest to the contact solved at this duty" in line for line in on_closures(found))

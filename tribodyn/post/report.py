@@ -160,7 +160,7 @@ def _without_judged_range(summary: Mapping[str, Any]) -> list[str]:
     sentences = []
     for what in ("film", "friction"):
         ratio = summary.get(f"{what}_judged")  # of the law to the solved contact
-        if isinstance(ratio, Mapping) and not ratio["limits"]:
+        if isinstance(ratio, Mapping) and not ratio.get("limits", 1):  # none of one compared at the duty
             times = f"{ratio['low']:.2g} to {ratio['high']:.2g} times"
             sentences.append(
                 f"The {what} law {summary[f'{what}_law']} has no range by the solved contact: in nine of ten "
