@@ -52,10 +52,11 @@ def check(
     """Check a scenario; print duty, geometry and stiffness."""
     from tribodyn.cli.outcome import complain
     from tribodyn.cli.printing import print_findings, print_json, print_prose
+    from tribodyn.post.progress import progress_bar
     from tribodyn.studies.protocol.load import load
 
     loaded = load(scenario, overrides(settings))
-    with loaded.naming():
+    with loaded.naming(), progress_bar(loaded.case.name):
         checked = loaded.study.check(loaded.case, allow_large=allow_large)
     if json:
         print_json({"scenario": str(loaded.path), **checked.data})

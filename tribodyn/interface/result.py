@@ -61,6 +61,14 @@ class Run:
             return shown.of_run(record)
 
     @cached_property
+    def verdict(self) -> list[str]:
+        """What it shows, whether it holds, and what to do: what `tribodyn run` prints first."""
+        from tribodyn.studies.pages import study_of_record
+
+        with Record(self.path) as record:
+            return study_of_record(record).verdict(record)
+
+    @cached_property
     def mesh_cycle(self) -> dict[str, Any]:
         """The table over a mesh cycle that the run was made from, by name; empty where there is none."""
         with Record(self.path) as record:
@@ -247,7 +255,7 @@ class Run:
             return shown.block(
                 shown.heading(str(self.scenario.get("title", self.path.stem)), self.status, self.trust),
                 warnings_of(record, named=False),
-                verdict_list(study.verdict(record)),
+                verdict_list(self.verdict),
                 shown.picture_of_run(record, study),
                 summary_tables([record], [study.reported()]),
                 shown.folded("How far to trust it", [*self.reasons, *study.sentences(record)]),

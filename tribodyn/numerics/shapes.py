@@ -28,14 +28,31 @@ elif os.environ.get("TRIBODYN_CHECK_SHAPES"):
 
     Array = np.ndarray | np.generic | jax.Array | bool | int | float | complex
 else:
+    import numpy as np
 
-    class _Unchecked:
-        """Stands for an array type wherever nobody checks: every index gives the class itself."""
+    class Float:
+        """Stands for an array type wherever nobody checks: what `help` shows of it."""
 
-        def __class_getitem__(cls, item: object) -> type:
-            return cls
+        scalar = float
 
-    Bool = Complex = Float = Int = _Unchecked
+        def __class_getitem__(cls, item: tuple[object, str]) -> type:
+            return cls.scalar if item[1] == "" else np.ndarray
+
+    class Bool(Float):
+        """Of booleans."""
+
+        scalar = bool
+
+    class Int(Float):
+        """Of whole numbers."""
+
+        scalar = int
+
+    class Complex(Float):
+        """Of complex numbers."""
+
+        scalar = complex
+
     Array = Any
 
 __all__ = ["Array", "Bool", "Complex", "Float", "Int"]

@@ -65,7 +65,7 @@ def progress_bar(label: str, total: float = 100.0, unit: str = "%") -> Iterator[
 
     def prepare(fraction: float) -> None:
         if fraction < 1.0:
-            show(fraction, f"{label}: finite elements")
+            show(fraction, f"{label}: tables, made once")
         else:
             report(reached)
 

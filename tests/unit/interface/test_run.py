@@ -1,6 +1,8 @@
 """Runs, sweeps and gears as objects in Python."""
 
 import gc
+import pydoc
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +12,7 @@ import pytest
 from matplotlib.figure import Figure, SubFigure
 
 import tribodyn as td
+from tribodyn.cli.app import app
 from tribodyn.interface.result import Run
 from tribodyn.interface.sweep import Sweep
 
@@ -25,6 +28,20 @@ def test_the_interface_is_what_is_listed():
     assert set(dir(td)) == set(td.__all__)
     for name in td.__all__:
         assert getattr(td, name) is not None
+
+
+def test_help_names_types_that_a_reader_knows():
+    shown = "".join(pydoc.plain(pydoc.render_doc(part)) for part in (td.Differentiable, td.signals.rms))
+    assert "rms(values: numpy.ndarray) -> float" in shown
+    assert not re.findall(r"(?:tribodyn\.[\w.]*\._\w+|numerics\.shapes\.\w+)", shown)
+
+
+def test_a_run_has_the_verdict_that_is_printed(crc, capsys):
+    app(["show", str(crc.path)], standalone_mode=False)
+    printed = " ".join(capsys.readouterr().out.split())
+    assert len(crc.verdict) > 2
+    for sentence in crc.verdict:
+        assert sentence in printed
 
 
 def test_functions_keep_their_names_whatever_is_imported():

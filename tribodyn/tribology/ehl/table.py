@@ -21,7 +21,7 @@ from tribodyn.numerics import child
 from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.shapes import Array
 from tribodyn.numerics.sources import digest_of
-from tribodyn.numerics.work import steps, usable_cores
+from tribodyn.numerics.work import foretell, part, steps, usable_cores
 from tribodyn.tribology.contact import DUTY_LOADS, DutyRange, hertz_half_width
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.lookup import TERMS, mixed_friction, most_of_film
@@ -140,6 +140,8 @@ WANTED = 0.01
 #: Contacts solved: first, more each time while the error is larger, and at most; and of these one in so many
 #: is compared instead of fitted.
 FIRST, MORE, MOST, COMPARED = 240, 120, 600, 6
+#: What a contact takes, s of one core, mixed and with heat.
+A_CONTACT = 0.12
 #: Stiffness of the polynomials: what a coefficient counts beside a deviation of all contacts.
 _STIFFNESS = 3e-5
 
@@ -199,8 +201,12 @@ def _made(contact: Contact, duty: DutyRange) -> ContactTable:
     duties, along = spread(duty, MOST)
     values = np.zeros((0, 3))
     found = None
+    foretell(
+        f"solves {FIRST} to {MOST} contacts of the teeth, once, at about {A_CONTACT:g} s of one core each"
+    )
     for count in range(FIRST, MOST + 1, MORE):
-        values = np.concatenate([values, solve_all(contact, duties[len(values) : count])])
+        with part(len(values) / MOST, count / MOST):
+            values = np.concatenate([values, solve_all(contact, duties[len(values) : count])])
         found = _fitted(contact, (middle, half), duties[:count], values, along[:count])
         if max(found.film_error, found.friction_error) <= WANTED:
             break
