@@ -50,7 +50,10 @@ def drawn(seed: int) -> Any:
 
 
 def departures(case: Any, positions: int = 8) -> dict[str, dict[str, float]]:
-    """How far each law is from the solved contact: |ln| of the film on the mean, of friction of the loss."""
+    """How far each law is from the solved contact: |ln| of the film on the mean, of friction of the loss.
+
+    Empty where no contact could be solved.
+    """
     study = prepare(replace(case_for(case, positions), step=0.25))
     over = way(study)
     film, friction = np.full((2, positions), np.nan)
@@ -58,6 +61,8 @@ def departures(case: Any, positions: int = 8) -> dict[str, dict[str, float]]:
         if known is not None:
             film[at] = np.interp(0.0, known.solution.place, known.solution.mean_gap)
             friction[at] = abs(known.friction) / over.line_load[at]
+    if not np.any(np.isfinite(film * friction)):
+        return {}
     heat, laws = over.line_load * np.abs(over.sliding), by_laws(study, over)
     loss = np.nansum(heat * friction)
     lost = {law: np.nansum(heat * (values + 0.0 * friction)) for law, values in laws["friction"].items()}

@@ -115,7 +115,10 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
         sentences.append(f"The film law is inside its range in {_percent(fraction)} of the contact{outside}.")
         sentences += exceeded(summary, "closure_exceeded", "film law")
     if summary.get("film_thickness") == "minimum":
-        sentences.append(f"The film is the minimum film, which {summary['film_law']} gives.")
+        sentences.append(
+            f"The formula of {summary['film_law']} is of the minimum film, some 15 % below that on the line "
+            "of centres."
+        )
     if summary.get("film_range") == "none stated":
         sentences.append(f"The film law {summary['film_law']} states no range of validity.")
     friction, name = summary.get("friction_in_range_fraction"), summary.get("friction_law")

@@ -132,7 +132,8 @@ def influences(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> Influences:
     velocity = c_v + 2.0 * (1.0 - c_v) / math.sqrt(0.8 + 32.0 / max(speed, 1e-9))
     c_r = 0.32 - 0.0002 * min(max(limit, _SOFT), _HARD)
     rough = (3.0 / (1e6 * _reference_roughness(mesh, sum(mesh.roughness) / 2.0))) ** c_r
-    return Influences((lubricant,) * 2, (velocity,) * 2, (rough,) * 2, work_hardening(mesh, metals))
+    hardened = work_hardening(mesh, metals)
+    return Influences((lubricant, lubricant), (velocity, velocity), (rough, rough), hardened)
 
 
 def _reduced_radius(mesh: PittingMesh) -> float:

@@ -71,7 +71,7 @@ class LawAtDuty(NamedTuple):
         contact = "the contact solved at this duty" if self.solved else "solved contacts of gears"
         of = "loss" if what == "friction" else "film"
         times = f"{middle:.2g} times its {of} ({low:.2g} to {high:.2g} along the way)"
-        return f"the {what} law nearest to {contact}: {times}; {self.range}"
+        return f"nearest to {contact}: {times}; {self.range}"
 
     @property
     def range(self) -> str:

@@ -38,7 +38,10 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         *broken_duty_rules(scenario),
     ]
     if not isinstance(scenario.mesh, tuple):
-        broken += [*broken_mesh_rules(scenario.mesh), *_stiffness_of_stages(scenario)]
+        broken += [
+            *broken_mesh_rules(scenario.mesh),
+            *_stiffness_of_stages(scenario.stage, scenario.mesh.compliance),
+        ]
     else:
         broken += _bare_meshes(scenario.mesh)
     broken += broken_solver_rules(scenario.solver)
@@ -119,12 +122,12 @@ def _of_all_gears(scenario: Scenario) -> Iterator[InputError]:
         yield InputError("mean_roughness", None, "missing", remedy)
 
 
-def _stiffness_of_stages(scenario: Scenario) -> Iterator[InputError]:
-    for number, stage in enumerate(scenario.stage):
+def _stiffness_of_stages(stages: Any, compliance: str) -> Iterator[InputError]:
+    for number, stage in enumerate(stages):
         for name in ("stiffness", "sun_stiffness", "ring_stiffness"):
             given = getattr(stage, name, None)
-            if given is not None and scenario.mesh.compliance != "constant":
-                rule = f'contradicts mesh.compliance = "{scenario.mesh.compliance}"'
+            if given is not None and compliance != "constant":
+                rule = f'contradicts mesh.compliance = "{compliance}"'
                 remedy = 'leave it out, or write compliance = "constant" with a stiffness for other meshes'
                 yield InputError(f"stage.{number}.{name}", f"{given:g} N/m", rule, remedy)
 
