@@ -125,7 +125,7 @@ def holds_table(heading: str, heads: Sequence[Sequence[Judged]], rows: Sequence[
 def bearings_table(summary: Mapping[str, Any]) -> str:
     """The bearings of drawn shafts; "" where there are none."""
     found = summary.get("bearings")
-    return numbers_table("Bearings", *bearing_rows(found)) if found else ""
+    return numbers_table("Bearings", *bearing_rows(found), " points") if found else ""
 
 
 def limits_table(summary: Mapping[str, Any]) -> str:
