@@ -53,7 +53,7 @@ def summary_table(
             elif value is not None:
                 if np.ndim(value) and not quantity.listed:
                     label += f", {_order_of(record.pairs)}"
-                rows.append((f"  {label}", quantity.written(value), quantity.unit))
+                rows.append((f"  {label}", quantity.written_of(record.summary), quantity.unit))
         if rows:
             table.add_row(Text(group, style="bold cyan"), "", "")
         for row in rows:

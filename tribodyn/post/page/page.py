@@ -215,8 +215,7 @@ def _parts(records: Sequence[Record], contents: Sequence[PageContent]) -> str:
 def _cell(record: Record, quantity: Quantity) -> str:
     if quantity.name in reasons(record.summary):
         return "withheld"
-    value = record.summary.get(quantity.name)
-    return "" if value is None else quantity.written(value)
+    return "" if record.summary.get(quantity.name) is None else quantity.written_of(record.summary)
 
 
 def _verdict(record: Record, content: PageContent, named: bool) -> str:

@@ -1,7 +1,7 @@
 """Pitting and bending of the simulation beside the standard's: stresses, safeties, lives.
 
-Contact pressure by Hertz, the tips' corners included, and root stress by finite elements under the loads of
-the steady state at the duty; what is endured is the standard's.
+Hertz pressure where the standard rates a flank, and root stress by finite elements, under the loads of the
+steady state at the duty; what is endured is the standard's.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -19,7 +19,15 @@ from tribodyn.standards.bending import mean_stress_influence, pulsating_stress
 from tribodyn.standards.fatigue import Bin, damage
 from tribodyn.standards.rainflow import rainflow_repeated
 from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.gears.rated.capacity import MOST_DAMAGE, Capacity, Failure, life_of
+from tribodyn.studies.assessment.rated_flank import NominalLoad, RatedFlank, nominal_load, rated_flanks
+from tribodyn.studies.gears.rated.capacity import (
+    MOST_DAMAGE,
+    Capacity,
+    Failure,
+    as_life,
+    life_of,
+    shorter_life,
+)
 from tribodyn.studies.gears.rated.strength import metals_of
 
 
@@ -31,12 +39,14 @@ class LoadedTeeth(NamedTuple):
     #: pair_share: share of all pairs' load that one carries in slow rotation where the root stress of pinion
     #: and gear is largest
     pair_share: tuple[float, float]
-    #: the same where the pressure is, of helical pairs times the face width over the length of their contact
-    line_share: float
-    #: angle of the pinion from the pitch point, rad, at which that place of the face touches
-    pressure_roll: float
-    #: largest pressure in motion on the path of contact where the largest of all is in corner contact, Pa
-    on_path: float | None
+    #: flank_slow, flank_moving: pressure where the standard rates the flanks of pinion and gear
+    flank_slow: tuple[RatedFlank, RatedFlank]
+    flank_moving: tuple[RatedFlank, RatedFlank]
+    nominal: NominalLoad
+    #: roll angle of the pinion from the pitch point, rad, at which the place with the largest pressure in
+    #: motion touches, and whether it is beyond the path of contact: a tip's corner
+    peak_roll: float
+    in_corner: bool
 
 
 def loaded_teeth(
@@ -51,7 +61,7 @@ def loaded_teeth(
     flexible = flexibility(assembly, case.materials, lead=True, held=case.mesh.held)
     slices = along["line_load"].shape[1]
     flanks = LoadedFlanks(flexible, case.mesh.modifications, slices, case.mesh.slice_coupling)
-    roll = along["roll_angle"]
+    roll, helical = along["roll_angle"], float(case.drive.helix_angle) != 0.0
     length = slice_contacts(flanks, roll[:, None]).length[:, 0] * flexible.width / slices
     slice_load = along["line_load"] * length
     # the places of one pair's way are those of all pairs at the positions of a mesh cycle
@@ -62,24 +72,26 @@ def loaded_teeth(
 
     loads = in_cycle(slice_load)
     slow = tooth_stress(flanks, in_cycle(roll), loads[None])
-    moved = _in_motion(motion, roll, slice_load, float(case.drive.helix_angle) != 0.0)
+    moved = _in_motion(motion, roll, slice_load, helical)
     moving = tooth_stress(flanks, motion["roll_angle"], moved)
     shares = [_share(loads, peak.at) for peak in slow.root_peak]
-    at = slow.pressure_peak.at
-    line = _share(loads, at)
-    if float(case.drive.helix_angle):
-        touching = in_cycle(length * (slice_load > 0.0))[at[1], at[2]]
-        line *= flexible.width / float(np.sum(touching))
-    start, end = assembly.roll_limits
+    carried = np.sum(loads, axis=2) / np.sum(loads, axis=(1, 2))[:, None]
+    if helical:
+        touching = np.sum(in_cycle(length * (slice_load > 0.0)), axis=2)
+        carried = carried * flexible.width / np.where(touching > 0.0, touching, np.inf)
+    nominal = nominal_load(assembly)
     rolls = _slice_rolls(flanks, motion["roll_angle"])
-    inside = np.max(np.where((rolls >= start) & (rolls <= end), moving.pressure, 0.0))
+    start, end = assembly.roll_limits
+    peak = float(rolls[moving.pressure_peak.at[1:]])
     return LoadedTeeth(
         slow,
         moving,
         (shares[0], shares[1]),
-        line,
-        float(_slice_rolls(flanks, in_cycle(roll))[at[1:]]),
-        float(inside) if inside < moving.pressure_peak.value else None,
+        rated_flanks(_slice_rolls(flanks, in_cycle(roll)), slow.pressure, nominal, carried),
+        rated_flanks(rolls, moving.pressure, nominal),
+        nominal,
+        peak,
+        not start <= peak <= end,
     )
 
 
@@ -185,12 +197,12 @@ class SimulatedStrength(NamedTuple):
         ]
         return SimulatedStrength((found[0][0], found[0][1]), (found[1][0], found[1][1]))
 
-    def safeties(self) -> dict[str, float]:
-        """The smaller safeties of both gears and the shortest life, s."""
+    def safeties(self) -> dict[str, Any]:
+        """The smaller safeties of both gears and the shortest life, as `capacity.safeties`."""
         named = self.by_name()
         found = {name: min(named[name].values()) for name in ("S_H", "S_F") if name in named}
-        lives = [min(named[name].values()) for name in ("life_pitting", "life_bending") if name in named]
-        return found | ({"life": min(lives)} if lives else {})
+        every = [one for both in self for one in both if one.life is not None]
+        return found | shorter_life(*(as_life(one.life or 0.0, one.damage == 0.0) for one in every))
 
 
 def strength_beside(
@@ -199,16 +211,16 @@ def strength_beside(
     """Safeties and lives of stresses of the simulation, by the stresses that the standard permits.
 
     Under a load spectrum the stresses follow the duties as the standard's do. A flank's place is pressed once
-    in a meshing; at the root cycles are counted by rain-flow, compression included.
+    in a meshing; at the root cycles are counted by rain-flow.
     """
     settings, metals = case.settings, metals_of(case)
     given = given_factors(settings, quantities)
-    pressed = float(np.sqrt(given.load))
-    _, *place = teeth.moving.pressure_peak.at
-    flank = [Bin(pressed * p, 1.0) for p in teeth.moving.pressure[:, *place]]
+    pressed = float(np.sqrt(given.load)) * teeth.nominal.credit
     pitting, bending = [], []
     for gear, peak in enumerate(teeth.moving.root_peak):
-        of_flank = SimulatedFailure(pressed * teeth.moving.pressure_peak.value)
+        rated_at = teeth.flank_moving[gear]
+        flank = [Bin(pressed * float(p), 1.0) for p in rated_at.pressure]
+        of_flank = SimulatedFailure(pressed * rated_at.largest)
         of_root = SimulatedFailure(given.load * peak.value)
         if capacity is not None and metals is not None:
             rated = capacity.gears[gear]
@@ -226,9 +238,10 @@ def strength_beside(
 def root_bins(course: Float[Array, "tooth time"], influence: float) -> list[Bin]:
     """Pulsating stresses with the damage of the cycles of some teeth, Pa; between its meshings a tooth rests.
 
-    `influence` is M of ISO 6336-3, annex B.
+    Compression by a neighbour's load counts as rest: the roots of running test gears have it too, so that
+    σ_Flim contains it. `influence` is M of ISO 6336-3, annex B.
     """
-    at_rest = np.pad(course, ((0, 0), (0, 1)))
+    at_rest = np.pad(np.maximum(course, 0.0), ((0, 0), (0, 1)))
     cycles = rainflow_repeated(at_rest.ravel())
     found = [Bin(pulsating_stress(each.low, each.high, influence), each.share) for each in cycles]
     return [one for one in found if one.stress > 0.0]

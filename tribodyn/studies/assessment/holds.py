@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from tribodyn.geometry.drive import SIDES
+from tribodyn.studies.gears.rated.capacity import as_life, shorter_life
 from tribodyn.studies.gears.rated.first_page import Judged, holds_table, judged_cell
 from tribodyn.studies.gears.rated.limits import LIMITS
 
@@ -57,16 +58,23 @@ def _of_gear(found: Mapping[str, Any], side: str, name: str, limits: Mapping[str
     keys = _OF_GEARS[name]
     if isinstance(keys, str):
         return judged_cell(found.get(keys, {}).get(side), name, limits)
-    lives = [found[key][side] for key in keys if key in found]
-    cell = judged_cell(min(lives, default=None), name, limits)
-    damages = [found.get(key.replace("life", "damage"), {}).get(side) for key in keys]
-    endless = lives and all(damage == 0.0 for damage in damages)
-    return cell._replace(text=f"≥ {cell.text}") if endless else cell
+    lives = [
+        as_life(found[key][side], found.get(key.replace("life", "damage"), {}).get(side) == 0.0)
+        for key in keys
+        if key in found
+    ]
+    life = shorter_life(*lives)
+    return judged_cell(life.get("life"), name, limits, unlimited=bool(life.get("life_unlimited")))
 
 
 def _range(limit: Mapping[str, Any], name: str) -> Judged:
     if "p5" not in limit:
         return Judged("")
-    low, high = (LIMITS[name].quantity.written(float(limit[end])) for end in ("p5", "p95"))
+    low, high = (
+        # what reaches the lower bound of a life without end is one, too
+        "≥ " * bool(limit.get("unlimited") and float(limit[end]) >= limit["value"])
+        + LIMITS[name].quantity.written(float(limit[end]))
+        for end in ("p5", "p95")
+    )
     mark = "bad" if limit.get("exceed") else "good"
     return Judged(f"{low} to {high}" if low != high else low, mark)

@@ -17,8 +17,8 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.standards import micropitting, scuffing
 from tribodyn.standards.micropitting import Films
 from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
-from tribodyn.studies.gears.rated.capacity import Capacity, safeties
-from tribodyn.studies.gears.rated.limits import judged, worst
+from tribodyn.studies.gears.rated.capacity import Capacity, safeties, shorter_life
+from tribodyn.studies.gears.rated.limits import judged, with_unlimited, worst
 from tribodyn.studies.gears.rated.margins import Strength, bulk_of, flanks_of, oil_of
 from tribodyn.studies.gears.rated.standard import (
     ZERO_CELSIUS,
@@ -119,10 +119,13 @@ def load_factor(settings: AssessmentTable, quantities: Mapping[str, Any]) -> flo
 def largest_stresses(
     case: AssessmentCase, local: LocalValues, quantities: Mapping[str, Any]
 ) -> tuple[float, float]:
-    """Largest pressure on the flanks and tension in the roots, slow rotation times `load_factor`, Pa."""
+    """Largest pressure between B and D and tension in the roots, slow rotation times `load_factor`, Pa."""
     root = max(quantities["pinion_root_tension_max"], quantities["gear_root_tension_max"])
-    raised = load_factor(case.settings, quantities)
-    return float(np.nanmax(local.films.pressure)), raised * float(root)
+    raised, inner = load_factor(case.settings, quantities), sorted(local.points[[2, 4]])
+    rated = (local.roll_angle >= inner[0]) & (local.roll_angle <= inner[1])
+    pressed = local.films.pressure[rated]
+    known = pressed if np.any(np.isfinite(pressed)) else local.films.pressure
+    return float(np.nanmax(known)), raised * float(root)
 
 
 def simulated_part(
@@ -171,7 +174,7 @@ def margins_and_limits(
     found: Standard | None,
     capacity: Capacity | None,
     strength: Strength,
-    beside: Mapping[str, float],
+    beside: Mapping[str, Any],
     local: LocalValues,
     quantities: Mapping[str, Any],
 ) -> dict[str, Any]:
@@ -213,7 +216,8 @@ def margins_and_limits(
             "c_gamma_beta": own.stiffness.mesh_face,
         }
     margins = {"simulated": simulated} | ({"iso": by_standard | rated} if by_standard else {})
-    return {"margins": margins, "load_factors": factors, "limits": judged(case.limits, values)}
+    limits = with_unlimited(judged(case.limits, values), shorter_life(rated, simulated))
+    return {"margins": margins, "load_factors": factors, "limits": limits}
 
 
 def _by_simulation(case: AssessmentCase, strength: Strength, local: LocalValues) -> dict[str, float]:

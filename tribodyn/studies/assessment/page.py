@@ -216,7 +216,7 @@ def _between(found: Mapping[str, float] | None, quantity: Quantity) -> str:
 def _reasons(summary: Mapping[str, Any]) -> str:
     """Why both part, where they do."""
     found = summary.get("reasons", {})
-    return listed("Where standard and simulation part by more than 15 %", found) if found else ""
+    return listed("Where standard and simulation part by more than 5 %", found) if found else ""
 
 
 def _scatter(summary: Mapping[str, Any]) -> str:

@@ -137,6 +137,7 @@ def assessed(
         **outcome.least(),
         "iso": outcome.iso,
         "simulated": outcome.simulated,
+        "rests_on": outcome.rests,
         "reasons": numbered(outcome.parted),
         **bearing_part(case, case.lubricant),
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
@@ -152,7 +153,7 @@ def assessed(
         **_trust(done, {task.name for _, task in parts.tasks_of(taking_part) if task.needed}),
         "wall_time": perf_counter() - begun,
     }
-    summary = {name: value for name, value in summary.items() if value not in ({}, [])}
+    summary = {name: value for name, value in summary.items() if value not in ({}, [], "")}
     return local, summary | {"units": units_of(summary)}
 
 
@@ -193,7 +194,7 @@ def concluded(
     )
     simulated = simulated_part(case, assembly, local, found) | (strength.by_name() if strength else {})
     outcome = Conclusion(local, by_standard, capacity, iso, simulated, judged)
-    return outcome._replace(stresses=stresses, strength=strength, parted=beside.parted)
+    return outcome._replace(stresses=stresses, strength=strength, parted=beside.parted, rests=beside.rests)
 
 
 def units_of(summary: Mapping[str, Any]) -> dict[str, str]:

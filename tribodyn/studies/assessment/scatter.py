@@ -13,7 +13,7 @@ from tribodyn.studies.assessment.beside import SimulatedStrength
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.margins import LocalValues
 from tribodyn.studies.assessment.unknowns import Draw
-from tribodyn.studies.gears.rated.capacity import Capacity, safeties
+from tribodyn.studies.gears.rated.capacity import Capacity, safeties, shorter_life
 from tribodyn.studies.gears.rated.limits import least, over_samples, worst
 from tribodyn.studies.gears.rated.standard import Standard
 
@@ -37,12 +37,13 @@ class Conclusion(NamedTuple):
     stresses: tuple[float, float] = (0.0, 0.0)  # of flanks and roots, see `margins.largest_stresses`
     strength: SimulatedStrength | None = None  # of the simulation against pitting and bending
     parted: Sequence[str] = ()  # why simulation and standard part
+    rests: str = ""  # which of both the verdict rests on
 
-    def least(self) -> dict[str, float]:
+    def least(self) -> dict[str, Any]:
         """The worse of the standard and the simulation: S_H, S_F, and the life, s."""
         both = safeties(self.capacity), self.strength.safeties() if self.strength else {}
-        names = dict.fromkeys(name for found in both for name in found)
-        return {name: worst(*(found.get(name) for found in both)) for name in names}
+        names = [name for name in ("S_H", "S_F") if any(name in found for found in both)]
+        return {name: worst(*(found.get(name) for found in both)) for name in names} | shorter_life(*both)
 
     def strength_under(self, stresses: tuple[float, float]) -> SimulatedStrength | None:
         """The strength where the largest stresses are others."""

@@ -1,7 +1,7 @@
 """The report of an assessment of a train: a first page for whoever asks, the details on those behind it."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +10,7 @@ from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.gears.rated import first_page
+from tribodyn.studies.gears.rated.capacity import shorter_life
 from tribodyn.studies.gears.rated.first_page import (
     Judged,
     holds_table,
@@ -130,12 +131,9 @@ def _holds(summary: Mapping[str, Any]) -> str:
     heads = [Judged(""), *(Judged(_short(name)) for name in columns)]
     rows = []
     for group, names in groups_of(meshes).items():
-        known = {
-            name: [value for mesh in names if (value := _worst(meshes[mesh], name)) is not None]
-            for name in columns
-        }
-        cells = [judged_cell(min(known[name], default=None), name, limits) for name in columns]
-        rows.append([Judged(group), *cells])
+        rows.append(
+            [Judged(group), *(_cell([meshes[mesh] for mesh in names], name, limits) for name in columns)]
+        )
     bounds = (limits.get(name, {}).get("limit") for name in columns)
     required = [
         "" if bound is None else f"≥ {LIMITS[name].quantity.written(bound)}"
@@ -143,6 +141,13 @@ def _holds(summary: Mapping[str, Any]) -> str:
     ]
     rows.append([Judged("required"), *map(Judged, required)])
     return holds_table("Does it hold, and how long?", (heads,), rows)
+
+
+def _cell(meshes: Sequence[Mapping[str, Any]], limit: str, limits: Mapping[str, Any]) -> Judged:
+    """The worst of some meshes."""
+    life = shorter_life(*(mesh.get("iso", {}) for mesh in meshes)) if limit == "life" else {}
+    known = [value for mesh in meshes if (value := _worst(mesh, limit)) is not None]
+    return judged_cell(min(known, default=None), limit, limits, unlimited=bool(life.get("life_unlimited")))
 
 
 def _worst(mesh: Mapping[str, Any], limit: str) -> float | None:

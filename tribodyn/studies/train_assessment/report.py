@@ -7,6 +7,7 @@ from tribodyn.post.verdict import numbers, with_unit
 from tribodyn.quantities.catalogue import QUANTITIES, quantities
 from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.gears.rated.capacity import shorter_life
 from tribodyn.studies.gears.rated.limits import on_limits
 from tribodyn.studies.gears.rated.said import sentences as sentences
 from tribodyn.studies.gears.rated.said import unit_of
@@ -58,6 +59,9 @@ def worst_in(quantity: Quantity, part: str, names: list[str], meshes: Mapping[st
     values = [meshes[name].get(part, {}).get(quantity.name) for name in names]
     few = quantity.name.startswith(("S_", "film", "lambda", "efficiency", "life"))
     extreme = min if few else max
+    if quantity.name == "life":
+        life = shorter_life(*(meshes[name].get(part, {}) for name in names))
+        return quantity.written_of(life) if life else "–"
     known = [_of_table(value, extreme) for value in values if value is not None]
     return quantity.written(float(extreme(known))) if known else "–"
 

@@ -15,8 +15,8 @@ from tribodyn.post.report import EXCEEDED
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
 from tribodyn.studies.gears.prepare import assembled
-from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
-from tribodyn.studies.gears.rated.limits import judged, least, worst
+from tribodyn.studies.gears.rated.capacity import as_life, capacity_of, life_bins, shorter_life
+from tribodyn.studies.gears.rated.limits import judged, least, with_unlimited, worst
 from tribodyn.studies.gears.rated.margins import strength_of
 from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
 from tribodyn.studies.gears.rated.standard import (
@@ -128,7 +128,7 @@ def assessed(
         **_worst_margins(meshes),
         STAGES: own.get(STAGES, {}),
         MESHES: meshes,
-        "limits": judged(case.limits, _values(own, meshes)),
+        "limits": with_unlimited(judged(case.limits, _values(own, meshes)), _worst_margins(meshes)),
         "assumed": numbered(list(_assumed(case, meshes))),
         "extrapolated": numbered([*_extrapolated(every, done), *_outside(meshes)]),
         **{name: own[name] for name in (TRUST, REASONS) if own.get(name)},
@@ -212,7 +212,7 @@ def _of_mesh(case: TrainAssessmentCase, mesh: MeshAtDuty, own: Mapping[str, Any]
     capacity = capacity_of(pair, assembly, standard.factors, bins, settings, mesh.meshing)
     by_standard = iso_part(pair, standard) | margins_by_standard(standard, strength, oil)
     if capacity is not None:
-        by_standard |= {"life": capacity.life, **capacity.by_name()}
+        by_standard |= as_life(capacity.life, capacity.shortest.unlimited) | capacity.by_name()
     beyond = list(capacity.remarks) if capacity else []
     return found | {"iso": by_standard} | ({"outside": numbered(beyond)} if beyond else {})
 
@@ -232,7 +232,7 @@ def _worst_margins(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
             place = min(known, key=lambda mesh: known[mesh])
             found[name] = known[place]
             found.setdefault("worst_of", {})[name] = place
-    return found
+    return found | shorter_life(*(mesh.get("iso", {}) for mesh in meshes.values()))
 
 
 def _values(own: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:

@@ -18,10 +18,12 @@ from tribodyn.studies.assessment.beside import (
     root_bins,
     strength_beside,
 )
-from tribodyn.studies.assessment.reasons import bending_reasons, pitting_reasons, reasons
+from tribodyn.studies.assessment.rated_flank import NominalLoad, nominal_load, rated_flanks
+from tribodyn.studies.assessment.reasons import bending_reasons, pitting_reasons, reasons, rests_on
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
 from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
+from tribodyn.studies.protocol.load import load_scenario
 
 SLICES = 7
 #: As the simulation has them: without dynamics.
@@ -139,9 +141,49 @@ def test_a_root_that_only_pulsates_has_one_cycle_per_meshing():
     shares = {size: sum(one.cycles for one in found if one.stress == size) for size in (250.0, 300.0)}
     assert shares == {250.0: 1.0, 300.0: 1.0}
     assert {one.stress for one in found} == set(shares)
-    # compression before it makes the cycle as bad as one to a higher stress
-    pressed = root_bins(course - 30.0 * (course == 0.0), 0.5)
-    assert max(one.stress for one in pressed) == pytest.approx(300.0 + 30.0 * 0.5 / 1.5)
+    # the roots of running test gears are compressed by their neighbours too: σ_Flim contains it
+    assert root_bins(course - 30.0 * (course == 0.0), 0.5) == found
+
+
+def test_the_standard_and_hertz_agree_where_one_pair_carries_everything_in_slow_rotation(case, teeth):
+    """At the pitch point σ_H0 √K is Hertz times Z_ε, so that S_H differs by the load factors alone."""
+    case, capacity, factors = rated_of(case)
+    strength = strength_beside(case, teeth, capacity, STATIC)
+    ratio = (strength.pitting[1].safety or 0.0) / capacity.gears[1].pitting.safety
+    along = teeth.flank_slow[1].along_face
+    assert ratio == pytest.approx(
+        math.sqrt(factors.flank / case.settings.application_factor) / along, rel=2e-3
+    )
+    # of the root the finite elements and the formula, over the largest of the face, of gears as tested
+    for gear in (0, 1):
+        *_, face, root = bending_reasons(gear, teeth, GivenFactors(1.0, 1.0, 1.0), capacity, factors)
+        assert face.factor * root.factor / capacity.common["K_Fbeta"] == pytest.approx(1.0, abs=0.08)
+
+
+@pytest.mark.parametrize("overlap", [0.0, 0.4, 1.0])
+def test_a_flank_is_rated_between_its_inner_point_and_the_pitch_point(overlap):
+    """Pressures that fall from 5 at the start of the path, with corners of 100: closed form at B, C and D."""
+    roll = np.linspace(-1.0, 1.0, 41)
+    course = np.where(np.abs(roll) > 0.9, 100.0, 4.0 - roll)
+    nominal = NominalLoad(0.0, (-0.31, 0.42), overlap, 1.0, 0.9)
+    cycles = np.array([1.0, 1.5])[:, None, None, None] * course[None, :, None, None] * np.array([0.5, 1.0])
+    shares = 0.5 + 0.1 * roll[:, None]
+    wide = np.broadcast_to(roll[:, None, None], (41, 1, 2))
+    pinion, gear = rated_flanks(wide, cycles, nominal, shares)
+    assert pinion.pressure == pytest.approx(np.array([1.0, 1.5]) * (4.0 + 0.31 * (1.0 - overlap)))
+    assert gear.pressure == pytest.approx(np.array([4.0, 6.0]))
+    assert pinion.carried == pytest.approx(0.5 - (0.031 if overlap < 1.0 else 0.0))
+    assert pinion.along_face == pytest.approx(1.0 / math.sqrt((1.0 + 0.25) / 2.0))
+    assert nominal.credit == 0.9
+
+
+def test_a_helical_pair_counts_with_its_hertz_pressure_and_a_spur_pair_with_Z_epsilon(case):
+    """ISO 6336-2, (28) to (30), over the share of the load that presses there."""
+    spur = assembled(case)
+    assert nominal_load(spur).credit == pytest.approx(math.sqrt((4.0 - float(spur.contact_ratio)) / 3.0))
+    helical = assembled(load_scenario("assessment-helical-24-95"))
+    assert nominal_load(helical).credit == pytest.approx(1.0)
+    assert nominal_load(helical).carried == pytest.approx(1.0 / float(helical.contact_ratio))
 
 
 @pytest.mark.parametrize("given", [GivenFactors(1.0, 1.0, 1.0), GivenFactors(1.4, 1.2, 1.3)])
@@ -154,7 +196,7 @@ def test_the_factors_of_a_reason_make_the_ratio(case, loaded, along, given):
         bent = given.load * shaken.moving.root_peak[gear].value
         parts = bending_reasons(gear, shaken, given, capacity, factors)
         assert math.prod(part.factor for part in parts) == pytest.approx(rated.bending.stress / bent)
-        pressed = math.sqrt(given.load) * shaken.moving.pressure_peak.value
+        pressed = math.sqrt(given.load) * shaken.flank_moving[gear].largest * shaken.nominal.credit
         parts = pitting_reasons(gear, shaken, given, capacity, factors)
         assert math.prod(part.factor for part in parts) == pytest.approx(rated.pitting.stress / pressed)
         assert all(part.factor > 0.0 for part in parts)
@@ -166,8 +208,10 @@ def test_reasons_are_given_where_both_part(case, loaded, along):
     given = GivenFactors(1.0, 1.0, 1.0)
     strength = strength_beside(case, heavy, capacity, STATIC)
     said = reasons(heavy, strength, given, capacity, factors)
-    assert len(said) == 4
-    assert all("mostly by" in text and "dynamic factor × " in text.lower() for text in said)
+    assert len([text for text in said if text.startswith("S_")]) == 4
+    assert all(
+        "mostly by" in text and "dynamic factor × " in text.lower() for text in said if text.startswith("S_")
+    )
     # without any difference nothing is said
     alike = strength._replace(
         bending=tuple(
@@ -175,4 +219,11 @@ def test_reasons_are_given_where_both_part(case, loaded, along):
             for one, gear in zip(strength.bending, capacity.gears, strict=True)
         )
     )
-    assert [text[:3] for text in reasons(heavy, alike, given, capacity, factors)] == ["S_H", "S_H"]
+    assert [text[:3] for text in reasons(heavy, alike, given, capacity, factors)[:3]] == ["S_H", "S_H", "The"]
+    # and what the verdict rests on is the smaller: at three times the load the simulation's
+    rests = rests_on(heavy, strength, given, capacity, factors)
+    for name, mode in (("S_H", "pitting"), ("S_F", "bending")):
+        own = min(one.safety for one in getattr(strength, mode))
+        rated = min(getattr(gear, mode).safety for gear in capacity.gears)
+        assert own < rated
+        assert f"{name} {own:.2f} simulated, {rated:.2f} by the standard (mostly dynamic factor)" in rests

@@ -56,6 +56,16 @@ def test_every_gear_is_judged_by_itself_and_what_nobody_knows_is_a_dash():
 def test_a_life_is_the_shorter_of_both_and_a_bound_where_nothing_is_damaged():
     found = cells(holds(SUMMARY))["Life, h"]
     assert found[:4] == [("good", "≥ 100,000"), ("good", "200,000"), ("bad", "1,000"), ("good", "200,000")]
+    # the end of a line of permissible stress for breakage comes before the life until pitting
+    iso = SUMMARY["iso"] | {
+        "life_pitting": {"pinion": 3.6e9, "gear": 3.6e8},
+        "damage_pitting": {"pinion": 0.1},
+    }
+    iso["life_bending"] = {"pinion": 7.2e8, "gear": 7.2e8}
+    life = {"value": 7.2e8, "limit": 7.2e7, "kept": True, "p5": 3.6e8, "p95": 7.2e8, "unlimited": True}
+    found = cells(holds(SUMMARY | {"iso": iso, "limits": {"life": life}}))["Life, h"]
+    assert found[:2] == [("good", "≥ 200,000"), ("good", "100,000")]
+    assert found[4] == ("good", "100,000 to ≥ 200,000")
 
 
 def test_check_has_the_factors_without_a_simulation():

@@ -1,7 +1,7 @@
 """Pitting and bending of a pair of gears by ISO 6336-2, -3, -5 and -6: stresses, safeties, life."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from tribodyn.geometry.assembly import Assembly
@@ -45,6 +45,7 @@ class Failure(NamedTuple):
     damage: float  # Miner's sum at the required safety
     life: float  # at the required safety, s; where it has no end, see `unlimited`
     unlimited: bool  # below the end of the line of permissible stress: `life` is a lower bound
+    left: float  # share of the life that 1 % more stress leaves
 
 
 class GearCapacity(NamedTuple):
@@ -63,9 +64,15 @@ class Capacity(NamedTuple):
     remarks: tuple[str, ...] = ()  # what lies outside the limits of the standard
 
     @property
+    def shortest(self) -> Failure:
+        """The failure with the shortest life of both gears."""
+        every = [each for gear in self.gears for each in (gear.pitting, gear.bending)]
+        return min(every, key=lambda each: (each.life, each.unlimited))
+
+    @property
     def life(self) -> float:
         """The shortest life of both gears, s."""
-        return min(each.life for gear in self.gears for each in (gear.pitting, gear.bending))
+        return self.shortest.life
 
     def by_name(self) -> dict[str, Any]:
         """Everything by the standard's names; what either gear has of its own by ``pinion``, ``gear``."""
@@ -193,15 +200,25 @@ def life_bins(
     ]
 
 
-def safeties(capacity: Capacity | None) -> dict[str, float]:
-    """The smaller S_H and S_F of both gears, and the shorter life, s."""
+def safeties(capacity: Capacity | None) -> dict[str, Any]:
+    """The smaller S_H and S_F of both gears, and the shorter life, s; ``life_unlimited``: a lower bound."""
     if capacity is None:
         return {}
     return {
         "S_H": min(gear.pitting.safety for gear in capacity.gears),
         "S_F": min(gear.bending.safety for gear in capacity.gears),
-        "life": capacity.life,
-    }
+    } | as_life(capacity.life, capacity.shortest.unlimited)
+
+
+def as_life(life: float, unlimited: bool) -> dict[str, Any]:
+    """A life, s, as summaries have it."""
+    return {"life": life} | ({"life_unlimited": True} if unlimited else {})
+
+
+def shorter_life(*found: Mapping[str, Any]) -> dict[str, Any]:
+    """The shorter of the lives that summaries have, see `as_life`."""
+    lives = [(each["life"], bool(each.get("life_unlimited"))) for each in found if "life" in each]
+    return as_life(*min(lives)) if lives else {}
 
 
 def required(settings: RatingTable) -> dict[str, float]:
@@ -242,15 +259,17 @@ def _root(
 def _failure(stress: float, bins: Sequence[Bin], curve: StressCurve, required: float, life: float) -> Failure:
     cycles = sum(one.cycles for one in bins)
     found, unlimited = life_of(bins, curve, required, life, cycles)
+    used = min(damage(bins, curve, required), MOST_DAMAGE)
     return Failure(
         stress,
         tuple(bins),
         curve,
         cycles,
         safety(bins, curve),
-        min(damage(bins, curve, required), MOST_DAMAGE),
+        used,
         found,
         unlimited,
+        1.0 if unlimited else used / max(damage(bins, curve, 1.01 * required), used),
     )
 
 

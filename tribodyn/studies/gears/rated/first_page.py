@@ -11,7 +11,7 @@ from tribodyn.post.page.page import summary_tables, verdict_list, warnings_of
 from tribodyn.post.style import inline
 from tribodyn.record.reader import Record
 from tribodyn.studies.gears.rated.bearings import bearing_rows
-from tribodyn.studies.gears.rated.limits import LIMITS, on_limits
+from tribodyn.studies.gears.rated.limits import LIMITS, on_limits, written_limit
 from tribodyn.studies.pages import overview
 from tribodyn.studies.protocol.part import TaskResult
 from tribodyn.studies.protocol.study import Study
@@ -96,15 +96,20 @@ class Judged(NamedTuple):
     span: int = 1  # columns that it takes
 
 
-def judged_cell(value: float | None, limit: str, limits: Mapping[str, Any], span: int = 1) -> Judged:
-    """A value as it is written, good or bad by a limit of the summary; a dash where there is none."""
+def judged_cell(
+    value: float | None, limit: str, limits: Mapping[str, Any], span: int = 1, *, unlimited: bool = False
+) -> Judged:
+    """A value as it is written, good or bad by a limit of the summary; a dash where there is none.
+
+    An `unlimited` one is a lower bound.
+    """
     if value is None or not math.isfinite(value):
         return Judged("–", "", span)
     mark, asked_for = "", limits.get(limit)
     if asked_for is not None:
         kept = value >= asked_for["limit"] if LIMITS[limit].least else value <= asked_for["limit"]
         mark = "good" if kept else "bad"
-    return Judged(LIMITS[limit].quantity.written(float(value)), mark, span)
+    return Judged("≥ " * unlimited + LIMITS[limit].quantity.written(float(value)), mark, span)
 
 
 def holds_table(heading: str, heads: Sequence[Sequence[Judged]], rows: Sequence[Sequence[Judged]]) -> str:
@@ -134,7 +139,7 @@ def limits_table(summary: Mapping[str, Any]) -> str:
     rows = []
     for name, found in limits.items():
         limit = LIMITS[name]
-        value, bound = (limit.quantity.written(float(found[key])) for key in ("value", "limit"))
+        value, bound = written_limit(name, found), limit.quantity.written(float(found["limit"]))
         required = f"{'≥' if limit.least else '≤'} {bound}"
         verdict = "holds" if found["kept"] else "exceeded"
         if found.get("exceed"):

@@ -77,6 +77,21 @@ def judged(limits: Mapping[str, float | None], values: Mapping[str, float]) -> d
     return found
 
 
+def with_unlimited(limits: dict[str, dict[str, Any]], life: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Judged limits, the life marked as a lower bound where it is one, see `capacity.as_life`."""
+    if "life" in limits and life.get("life_unlimited"):
+        limits["life"]["unlimited"] = True
+    return limits
+
+
+def written_limit(name: str, found: Mapping[str, Any]) -> str:
+    """The value of a judged limit as it is written."""
+    quantity = LIMITS[name].quantity
+    return quantity.written_of(
+        {quantity.name: float(found["value"]), f"{quantity.name}_unlimited": found.get("unlimited")}
+    )
+
+
 def over_samples(limits: Mapping[str, Mapping[str, Any]], samples: Mapping[str, Any]) -> dict[str, Any]:
     """Judged limits with their scatter over samples: ``p5``, ``p95``, ``samples`` and how many ``exceed``.
 

@@ -1,0 +1,105 @@
+"""One stage has one life: typed as a train and as a pair of gears; a life without end is a lower bound."""
+
+import math
+from typing import Any
+
+import pytest
+
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.studies.gear_train import whole
+from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.rated.capacity import Capacity, as_life, capacity_of, life_bins, shorter_life
+from tribodyn.studies.gears.rated.limits import LIMITS, judged, with_unlimited, written_limit
+from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
+from tribodyn.studies.protocol.load import load_data, load_scenario
+
+OIL = {"lubricant": "iso-vg-320-mineral"}
+RATED = {
+    "application_factor": 1.25,
+    "face_load_factor": 1.2,
+    "required_safety_pitting": 1.1,
+}
+GEARS = (
+    {"teeth": 19, "profile_shift": 0.35, "face_width": "47 mm"},
+    {"teeth": 83, "profile_shift": 0.1, "face_width": "45 mm"},
+)
+FLANKS = {"material": "18CrNiMo7-6", "mean_roughness": "0.6 um", "quality": 6}
+TEETH = {"module": "3 mm", "pressure_angle": "20 deg", "helix_angle": "15 deg"}
+DUTY = {"oil_temperature": "70 degC", "power": "75 kW"}
+TRAIN = {
+    "title": "A stage",
+    "kind": "gear-train",
+    **OIL,
+    **FLANKS,
+    "gear": {
+        "pinion": {**GEARS[0], "hand": "left", "bore_diameter": "20 mm"},
+        "wheel": {**GEARS[1], "bore_diameter": "70 mm"},
+    },
+    "stage": [{"gears": ["pinion", "wheel"], **TEETH}],
+    "bearings": "rigid-1e9",
+    "operating": {"input": "pinion", "output": "wheel", "input_speed": "1480 rpm", **DUTY},
+    "mesh": {"damping_ratio": 0.05},
+    "friction": {"law": "xu"},
+}
+
+
+def capacity(case: Any, settings: Any) -> Capacity:
+    assembly = assembled(case)
+    factors = standard_of(case, assembly, rated_duty(settings, 343.15, face=1.2)).factors
+    found = capacity_of(case, assembly, factors, life_bins(case, assembly, factors), settings)
+    assert found is not None
+    return found
+
+
+@pytest.fixture(scope="module")
+def pair() -> Any:
+    """The pair at the centre distance of the train, where it meshes without backlash."""
+    gears = {
+        side: {**gear, "bore_radius": bore}
+        for side, gear, bore in zip(("pinion", "gear"), GEARS, ("10 mm", "35 mm"), strict=True)
+    }
+    scenario = {
+        "title": "A pair",
+        "kind": "assessment",
+        **OIL,
+        "drive": {"family": "involute", **FLANKS, **TEETH, **gears},
+        "operating": {"pinion_speed": "1480 rpm", **DUTY},
+        "assessment": RATED,
+    }
+    return load_data(scenario, "pair")
+
+
+def test_a_stage_has_one_life_as_a_train_and_as_a_pair(pair: Any):
+    train = load_data(TRAIN, "train")
+    (mesh,) = whole.meshes(train.case)
+    own, other = capacity(mesh.pair, pair.case.settings), capacity(pair.case, pair.case.settings)
+    for first, second in zip(own.gears, other.gears, strict=True):
+        assert first.pitting.safety == pytest.approx(second.pitting.safety, rel=1e-6)
+        assert first.bending.safety == pytest.approx(second.bending.safety, rel=1e-6)
+    assert own.life == pytest.approx(other.life, rel=1e-4)
+
+
+def test_what_one_per_cent_of_stress_costs_is_the_slope_of_the_life_factor(pair: Any):
+    """Z_NT of case-hardened steel falls from 1 to 0.85 from 5e7 to 1e10 cycles: ISO 6336-2, table 2."""
+    found = capacity(pair.case, pair.case.settings).shortest
+    exponent = math.log(1e10 / 5e7) / math.log(1.0 / 0.85)
+    assert not found.unlimited
+    assert found.left == pytest.approx(1.01**-exponent, rel=1e-6)
+
+
+def test_a_life_without_end_is_written_as_a_lower_bound_and_a_shorter_one_is_not():
+    ended, endless = as_life(3600.0, False), as_life(7200.0, True)
+    life = QUANTITIES["life"]
+    assert life.written_of(shorter_life(ended, endless, {})) == "1"
+    assert life.written_of(shorter_life(endless)) == "≥ 2"
+    assert shorter_life({}) == {}
+    limits = with_unlimited(judged({"life": 3600.0}, {"life": 7200.0}), endless)
+    assert written_limit("life", limits["life"]) == "≥ 2"
+    assert LIMITS["life"].least
+
+
+def test_a_lightly_loaded_pair_lasts_without_end():
+    light = load_scenario("assessment-helical-24-95", {"operating.power": "100 kW"})
+    found = capacity(light, light.settings)
+    assert found.shortest.unlimited
+    assert found.shortest.left == 1.0
