@@ -37,6 +37,11 @@ LOAD_CONTACT = (
         "Maximum over mean line load along the face, where the line load is at its maximum; of helical pairs "
         "that of the mean over the mesh cycle. ISO 6336-1 estimates the same ratio."
     ),
+    Quantity(
+        "face_load_ratios", "Face load factors of the load spectrum's torques", digits=".3f", listed=True
+    ).defined_as(
+        "Over that of the duty, of the other torques of the duties that press these flanks, increasing."
+    ),
     Quantity("face_load_factor_pitch_point", "Face load factor at the pitch point", digits=".3f").defined_as(
         "The same where a pair is at the pitch point."
     ),

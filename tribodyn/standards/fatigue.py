@@ -56,15 +56,16 @@ class Bin(NamedTuple):
 
     stress: float  # Pa
     cycles: float
+    curve: StressCurve | None = None  # permissible at the speed of these cycles; None: as of all bins
 
 
 def damage(bins: Sequence[Bin], curve: StressCurve, safety: float = 1.0) -> float:
     """Miner's sum Σ n/N of stresses times a safety: 1 where life ends; infinite above the static limit."""
     total = 0.0
-    for stress, cycles in bins:
-        endured = curve.endured(stress * safety)
-        if cycles > 0.0:
-            total += cycles / endured if endured > 0.0 else math.inf
+    for one in bins:
+        endured = (one.curve or curve).endured(one.stress * safety)
+        if one.cycles > 0.0:
+            total += one.cycles / endured if endured > 0.0 else math.inf
     return total
 
 
@@ -77,7 +78,7 @@ def safety(bins: Sequence[Bin], curve: StressCurve) -> float:
     if not loaded:
         return math.inf
     if len(loaded) == 1:
-        return curve.at(loaded[0].cycles) / loaded[0].stress
+        return (loaded[0].curve or curve).at(loaded[0].cycles) / loaded[0].stress
     from scipy.optimize import brentq  # heavy, and materials need none of it
 
     highest = max(one.stress for one in loaded)

@@ -257,14 +257,14 @@ def _rated(
 ) -> SimulatedFailure:
     """Add safety and life: `bins` are those of so many meshings at the duty, `rated` by the standard."""
     endured = [
-        Bin(one.stress * duty.stress / rated.stress, one.cycles / meshings * duty.cycles)
+        Bin(one.stress * duty.stress / rated.stress, one.cycles / meshings * duty.cycles, duty.curve)
         for duty in rated.bins
         for one in bins
     ]
 
     def times(factor: float) -> SimulatedFailure:
         stress = factor * found.stress
-        grown = [Bin(factor * one.stress, one.cycles) for one in endured]
+        grown = [one._replace(stress=factor * one.stress) for one in endured]
         reached, _ = life_of(grown, rated.curve, required, life, rated.cycles)
         used = min(damage(grown, rated.curve, required), MOST_DAMAGE)
         return SimulatedFailure(stress, rated.safety * rated.stress / stress, reached, used, times)

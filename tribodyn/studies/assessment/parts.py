@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -53,7 +53,21 @@ def request_of(case: AssessmentCase) -> Request:
         tuple(dict.fromkeys((first, *(name for name in settings.friction_laws[1:] if name != AUTO)))),
         pitch_deviation,
         tuple(draw.keys(tables["bearings"]) for draw in draws_of(case)),
+        () if settings.face_load_factor else other_torques(case),
     )
+
+
+def other_torques(case: AssessmentCase) -> tuple[float, ...]:
+    """Torques of the load spectrum that press these flanks, other than that of the duty, N m, increasing."""
+    own = case.operating.gear_torque
+    return tuple(sorted({torque for _, _, torque in case.spectrum if torque > 0.0 and torque != own}))
+
+
+def faces_of(case: AssessmentCase, quantities: Mapping[str, Any]) -> list[float]:
+    """K_Hβ of every duty of the load spectrum; the contact analysis has them over that of the case's duty."""
+    ratios = zip(other_torques(case), quantities.get("face_load_ratios", ()), strict=False)
+    by_torque, own = dict(ratios), quantities["face_load_factor"]
+    return [max(own * by_torque.get(torque, 1.0), 1.0) for _, _, torque in case.spectrum]
 
 
 def draws_of(case: AssessmentCase) -> list[Draw]:

@@ -1,6 +1,6 @@
 """From a case of an assessment to its record: the other studies' parts, then the standards beside them."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -66,11 +66,12 @@ def check(case: AssessmentCase) -> CheckResult:
 
 
 def _by_standard(
-    case: AssessmentCase, assembly: Assembly, face: float
+    case: AssessmentCase, assembly: Assembly, face: float, faces: Sequence[float] = ()
 ) -> tuple[dict[str, Any], Standard, Capacity | None]:
-    """The standards by name and as they are, with a K_Hβ where none is given."""
+    """The standards by name and as they are, with a K_Hβ, and those of the duties, where none is given."""
     standard = standard_of(case, assembly, rated_duty(case.settings, case.oil_temperature, face=face))
-    bins = life_bins(case, assembly, standard.factors, case.spectrum)
+    own = () if case.settings.face_load_factor else faces
+    bins = life_bins(case, assembly, standard.factors, case.spectrum, own)
     capacity = capacity_of(case, assembly, standard.factors, bins, case.settings)
     return iso_part(case, standard) | (capacity.by_name() if capacity else {}), standard, capacity
 
@@ -178,7 +179,9 @@ def concluded(
     local = local_of(case, assembly, along, found)
     iso, by_standard, capacity = {}, None, None
     if assembly.family.involute:
-        iso, by_standard, capacity = _by_standard(case, assembly, found["face_load_factor"])
+        iso, by_standard, capacity = _by_standard(
+            case, assembly, found["face_load_factor"], parts.faces_of(case, found)
+        )
     factors = by_standard.factors if by_standard else None
     beside = compared(case, assembly, (along, motion), capacity, factors, found)
     stresses = largest_stresses(case, local, found)

@@ -20,6 +20,7 @@ from tribodyn.studies.protocol.part import (
 )
 
 _TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-contact-samples"
+_SPECTRUM = "loaded-contact-spectrum"
 #: Mesh cycles in which a deviating tooth is seen from its entry to its exit, up to ε_α = 3.
 _CYCLES = 3
 _QUANTITIES = (
@@ -61,6 +62,9 @@ def tasks(request: Request) -> tuple[Task, ...]:
         "output": {"cycles": _CYCLES},
     }
     found.append(Task(_DEVIATING, "load sharing with a pitch deviation", deviating, needed=False))
+    if request.spectrum_torques:
+        others = [{"operating.gear_torque": f"{torque!r} N*m"} for torque in request.spectrum_torques]
+        found.append(Task(_SPECTRUM, "loads along the face of the spectrum's duties", at_duty, others))
     if request.samples:
         cases = [of_teeth(sample) for sample in request.samples]
         about = "load sharing, samples"
@@ -88,6 +92,9 @@ def answer(request: Request, done: Mapping[str, TaskResult]) -> Findings:
         _, line_load = over_roll(record, record["line_load"])
         torques, spread = record["torque"], record["map_peak_to_peak"]
     found: dict[str, Any] = {name: summary[name] for name in _QUANTITIES if name in summary}
+    if _SPECTRUM in done:
+        ratios = done[_SPECTRUM].rows["face_load_factor"] / summary["face_load_factor"]
+        found["face_load_ratios"] = [float(ratio) if np.isfinite(ratio) else 1.0 for ratio in ratios]
     accurate = summary.get("shared_load_max")
     deviating = done[_DEVIATING].summary.get("shared_load_max")
     if deviating is not None and accurate is not None:

@@ -31,6 +31,8 @@ class Request(NamedTuple):
     #: samples of what is not known, whose scatter is asked for: keys of a scenario with these tables and the
     #: values that take the place of theirs. Those of `of_teeth` concern the gears, the others their motion
     samples: Sequence[Mapping[str, Any]]
+    #: torques of the other duties of a load spectrum, N m, whose loads along the face are asked for
+    spectrum_torques: Sequence[float] = ()
 
     def operating(self) -> dict[str, Any]:
         """Table ``operating`` of a scenario at the duty."""

@@ -100,6 +100,48 @@ def test_a_spectrum_of_equal_duties_is_one_duty_without_application_factor():
             assert getattr(gear, name).cycles == pytest.approx(getattr(other, name).cycles, rel=1e-12)
 
 
+TWO_DUTIES = [
+    {"share": 0.7, "power": "7000 kW", "pinion_speed": "1165.9 rpm"},
+    {"share": 0.3, "power": "3500 kW", "pinion_speed": "300 rpm"},
+]
+
+
+def test_a_spectrum_is_as_safe_whichever_of_its_duties_is_assessed():
+    """K_Hβ of each duty, as the contact analysis has them, and its own K_v, K_Hα and Z_v."""
+    faces, found = (1.1, 1.25), []
+    for number in (1, 2):
+        case = case_of({"duty": TWO_DUTIES, "operating.duty": number})
+        assembly = assembled(case)
+        duty = rated_duty(case.settings, case.oil_temperature, face=faces[number - 1])
+        factors = standard_of(case, assembly, duty).factors
+        bins = life_bins(case, assembly, factors, case.spectrum, faces)
+        found.append(capacity_of(case, assembly, factors, bins, case.settings))
+    one, other = found
+    assert one.gears[0].factors["Z_v"] > 1.02 * other.gears[0].factors["Z_v"]
+    for first, second in zip(one.gears, other.gears, strict=True):
+        for name in ("pitting", "bending"):
+            for value in ("safety", "damage", "life", "cycles"):
+                own = getattr(getattr(first, name), value)
+                assert own == pytest.approx(getattr(getattr(second, name), value), rel=1e-6), (name, value)
+
+
+def test_the_damage_of_a_spectrum_is_the_sum_over_duties_each_assessed_alone():
+    """At the safety of both together Miner's sum is 1: cycles over those that each endures by itself."""
+    _, both = rated({"duty": TWO_DUTIES, "operating.duty": 1})
+    endured = []
+    for duty in TWO_DUTIES:
+        alone = {key: value for key, value in duty.items() if key != "share"}
+        changes = {f"operating.{key}": value for key, value in alone.items()}
+        endured.append(rated(changes | {"assessment.application_factor": 1.0})[1])
+    for gear, total in enumerate(both.gears):
+        summed = 0.0
+        for duty, alone in zip(TWO_DUTIES, endured, strict=True):
+            pitting = alone.gears[gear].pitting
+            cycles = pitting.curve.endured(total.pitting.safety * pitting.stress)
+            summed += duty["share"] * pitting.cycles / cycles
+        assert summed == pytest.approx(1.0, rel=1e-4)
+
+
 def test_rare_overloads_cost_less_than_lasting_ones():
     def spectrum(share: float) -> Capacity:
         duties = [

@@ -92,16 +92,20 @@ def capacity_of(
 ) -> Capacity | None:
     """Rate a pair of involutes whose pinion drives; None where the materials' strength is not known.
 
-    `at_duty` are the load factors of the case's own duty, `bins` those of its life, shares 1 in sum.
+    `at_duty` are the load factors of the case's own duty, `bins` those of its life, shares 1 in sum. The
+    velocity factor and the load factors of each bin are those of its own duty.
     """
     metals = metals_of(case)
     if metals is None:
         return None
     mesh = _mesh(case, assembly, settings)
     shape, influence = pitting.geometry(mesh), pitting.influences(mesh, metals)
+    of_duties = [pitting.influences(mesh._replace(pinion_speed=load.pinion_speed), metals) for load in bins]
     roots = [_root(case, assembly, side, settings, turns) for side, turns in zip(SIDES, meshing, strict=True)]
     slender = min(root.face_width for root in roots) / max(root.tooth_height for root in roots)
     face, tangential = bending.face_factor(at_duty.duty.face, slender), pitting.tangential_load(mesh)
+    faces = {load.factors.duty.face: bending.face_factor(load.factors.duty.face, slender) for load in bins}
+    faces[at_duty.duty.face] = face
     gears, remarks = [], list[str]()
     for number, (metal, root, turns) in enumerate(zip(metals, roots, meshing, strict=True)):
         turned = turns.per_turn / (abs(mesh.path.ratio) if number else 1.0)
@@ -114,24 +118,29 @@ def capacity_of(
         nominal = bending.nominal_stress(root, tangential)
 
         def bent(factors: LoadFactors, share: float = 1.0, nominal: bending.Stress = nominal) -> float:
-            return bending.root_stress(nominal, factors.flank / factors.duty.face * face * share)
+            along = faces[factors.duty.face] / factors.duty.face
+            return bending.root_stress(nominal, factors.flank * along * share)
 
         remarks += [f"Root of the {SIDES[number]}: {text}." for text in bending.beyond(root, nominal.notch)]
         relative = bending.relative_factors(root, nominal, metal)
         curves = pitting.permissible(metal, influence.of(number)), bending.permissible(metal, relative)
+        by_speed = [pitting.permissible(metal, of_duty.of(number)) for of_duty in of_duties]
+        own_curves = by_speed, [None] * len(bins)
         needed = settings.safety_pitting, settings.safety_bending
         found = [
             _failure(
                 stress(at_duty),
                 [
-                    Bin(stress(load.factors, share), n)
-                    for load, share, n in zip(bins, shares, cycles, strict=True)
+                    Bin(stress(load.factors, share), n, own)
+                    for load, share, n, own in zip(bins, shares, cycles, of_bins, strict=True)
                 ],
                 curve,
                 required,
                 settings.life,
             )
-            for stress, curve, required in zip((flank, bent), curves, needed, strict=True)
+            for stress, curve, of_bins, required in zip(
+                (flank, bent), curves, own_curves, needed, strict=True
+            )
         ]
         factors = flank_names(metal, influence, number) | root_names(metal, root, nominal, relative)
         gears.append(GearCapacity(found[0], found[1], factors | _failures_by_name(metal, found, needed)))
@@ -183,19 +192,21 @@ def life_bins(
     assembly: Assembly,
     at_duty: LoadFactors,
     spectrum: Sequence[tuple[float, float, float]] = (),
+    faces: Sequence[float] = (),
 ) -> list[LoadBin]:
     """Duties of the life: a load spectrum's (share, pinion speed, gear torque), else the case's own duty.
 
     In a spectrum loads count as they are, K_A = 1 (ISO 6336-6); K_v and K_Hα follow each duty where they are
-    not given, K_Hβ is that of the case's duty. A duty without load or against the motion does no damage to
-    these flanks.
+    not given, and so does K_Hβ, one for each duty in `faces`; without, and where it is given, it is that of
+    the case's duty. A duty without load or against the motion does no damage to these flanks.
     """
     if not spectrum:
         return [LoadBin(1.0, case.operating.pinion_speed, case.operating.gear_torque, at_duty)]
     duty = at_duty.duty._replace(application=1.0)
+    every = zip(spectrum, faces or [duty.face] * len(spectrum), strict=True)
     return [
-        LoadBin(share, speed, torque, load_factors(case, assembly, duty, (speed, torque)))
-        for share, speed, torque in spectrum
+        LoadBin(share, speed, torque, load_factors(case, assembly, duty._replace(face=face), (speed, torque)))
+        for (share, speed, torque), face in every
         if torque > 0.0
     ]
 
