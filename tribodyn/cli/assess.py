@@ -90,8 +90,8 @@ def assess(
         print_files(what, [file])
     limits = data.get("limits", {}).items()
     if missed := [name for name, limit in limits if not limit["kept"]]:
-        typer.echo(f"limits exceeded: {', '.join(missed)}")
+        typer.echo(f"limits not kept: {', '.join(missed)}")
     if within := [
         f"{name} ({limit['exceed']} of {limit['samples']})" for name, limit in limits if limit.get("exceed")
     ]:
-        typer.echo(f"limits exceeded by samples of what is not known: {', '.join(within)}")
+        typer.echo(f"limits not kept by samples of what is not known: {', '.join(within)}")

@@ -59,8 +59,57 @@ _MEANS = {
 }
 
 
+def over_course(summary: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A summary with the extremes of the whole run in place of the last cycles', where its speed changes."""
+    course = summary.get("course")
+    if not isinstance(course, Mapping):
+        return summary
+    run = summary.get("extremes", {}).get("run", {})
+    names = ("hertz_pressure_max", "film_min", "film_parameter_min", "normal_load_max")
+    found = {name: run[name]["value"] for name in names if name in run and name in summary}
+    own = {
+        name: course[name]["value"] for name in ("dynamic_factor", "contact_loss_fraction") if name in course
+    }
+    return {**summary, **found, **own}
+
+
+def on_course(course: Mapping[str, Any]) -> str:
+    """A sentence on a run whose speed changes: what is largest, at which speed and order."""
+    ends = " to ".join(_rpm(course[f"{end}_speed"]) for end in ("first", "last"))
+    parts = []
+    if "dynamic_factor" in course:
+        found = course["dynamic_factor"]
+        parts.append(
+            f"vibration raises the tooth forces to {found['value']:.2f} times their mean {_at(found)}"
+        )
+    if "transmission_error_peak_to_peak" in course:
+        found = course["transmission_error_peak_to_peak"]
+        swing = with_unit("transmission_error_peak_to_peak", found["value"])
+        parts.append(f"the transmission error swings by up to {swing} {_at(found)}")
+    if "contact_loss_fraction" in course and course["contact_loss_fraction"]["value"] > APART:
+        found = course["contact_loss_fraction"]
+        parts.append(f"the teeth are apart for up to {share(found['value'])} of the time {_at(found)}")
+    else:
+        parts.append("no tooth lifts off")
+    return f"On the way from {ends} {'; '.join(parts)}."
+
+
+def _rpm(speed: float) -> str:
+    """A speed over a few mesh cycles, to three digits."""
+    return f"{float(f'{speed * 30.0 / math.pi:.3g}'):g} rpm"
+
+
+def _at(found: Mapping[str, Any]) -> str:
+    """Where on the course of a run something is, over a few mesh cycles."""
+    order = f", mesh order {found['order']:.2g}" if "order" in found else ""
+    return f"at {_rpm(found['speed'])} ({found['time']:.3g} s{order})"
+
+
 def moved(summary: Mapping[str, Any]) -> Iterable[str]:
     """What moves."""
+    if isinstance(course := summary.get("course"), Mapping):
+        yield on_course(course)
+        return
     summary = numbers(summary)
     if (error := summary.get("transmission_error_peak_to_peak")) is not None:
         parts = [f"The transmission error swings by {with_unit('transmission_error_peak_to_peak', error)}"]
@@ -93,13 +142,14 @@ def pressed(summary: Mapping[str, Any]) -> Iterable[str]:
 
 def lost(summary: Mapping[str, Any]) -> Iterable[str]:
     """What is lost."""
+    last = ", over the last cycles" if "course" in summary else ""
     summary = numbers(summary)
     power, friction = summary.get("power_in_mean"), summary.get("power_friction_mean")
     if power and friction is not None and friction > 0.0:
         mean = summary.get("friction_coefficient_mean")
         at = f", at a mean coefficient of {mean:.3f}{band_of(summary)}" if mean is not None else ""
         through = share(friction / abs(power))
-        yield f"Friction takes {watts(friction)} of {watts(abs(power))}, {through}{at}."
+        yield f"Friction takes {watts(friction)} of {watts(abs(power))}, {through}{at}{last}."
 
 
 def band_of(summary: Mapping[str, Any]) -> str:
@@ -176,7 +226,7 @@ def first(record: Record) -> Iterable[str]:
 
 def of_gears(record: Record) -> list[str]:
     """Lines of a record of gears; of any record those for which it has the quantities."""
-    found = record.summary
+    found = over_course(record.summary)
     parts = (moved(found), pressed(found), lost(found), outside(found), advised(found))
     return [line for part in parts for line in part]
 

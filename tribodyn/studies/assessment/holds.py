@@ -33,8 +33,8 @@ def holds(summary: Mapping[str, Any]) -> str:
     first = [Judged(""), Judged("by the standard", span=2), Judged("simulated", span=2)]
     second = [Judged(""), *(Judged(side) for _ in parts for side in SIDES)]
     if scattered:
-        first.append(Judged("worst, over samples"))
-        second.append(Judged("5 to 95 %"))
+        first.append(Judged("worse of both"))
+        second.append(Judged("5 to 95 % of samples"))
     return holds_table(
         "Does it hold, and how long?", ([*first, Judged("required")], [*second, Judged("")]), rows
     )

@@ -40,6 +40,7 @@ _COMPARED = quantities(
 )
 _SCATTERED = quantities("K_Hbeta", "transmission_error_peak_to_peak")
 _MARGINS = quantities("theta_B", "S_B", "S_intS", "S_lambda")
+_HEADS = ("", "ISO 6336", "5 to 95 % of samples", "simulated", "5 to 95 % of samples", "")
 
 
 def page(record: Record) -> str:
@@ -150,12 +151,12 @@ def _tiles(summary: Mapping[str, Any]) -> str:
         ),
         (
             f"{summary['hertz_pressure_max'] * 1e-9:.2f} GPa",
-            "maximum Hertz pressure, slow rotation",
+            "maximum Hertz pressure, slow rotation without K_A",
             over("hertz_pressure_max", ".2f", 1e-9),
         ),
         (
             f"{root * 1e-6:.0f} MPa",
-            "maximum root tension",
+            "maximum root tension, slow rotation without K_A",
             _range(np.max(roots, axis=0), ".0f", 1e-6) if roots else "",
         ),
         (
@@ -177,7 +178,7 @@ def _range(values: Any, digits: str, factor: float = 1.0, offset: float = 0.0) -
     if values is None or not np.any(np.isfinite(np.asarray(values, dtype=float))):
         return ""
     found = scatter(values)
-    return " to ".join(format(factor * (found[end] + offset), digits) for end in _ENDS)
+    return f"samples {' to '.join(format(factor * (found[end] + offset), digits) for end in _ENDS)}"
 
 
 def _by_standard(summary: Mapping[str, Any]) -> str:
@@ -198,11 +199,11 @@ def _by_standard(summary: Mapping[str, Any]) -> str:
                 unit_of(quantity),
             )
         )
-    heads = ("", "ISO 6336", "5 to 95 %", "simulated", "5 to 95 %", "")
+    heads, application = _HEADS, float(summary["load_factors"]["K_A"])
     if not any(part.get("spread") for part in both):
         rows, heads = [row[:2] + row[3:4] + row[5:] for row in rows], heads[:2] + heads[3:4] + heads[5:]
-        return numbers_table("Standard and simulation", heads, rows)
-    return numbers_table("Standard and simulation", heads, rows, " ranges")
+    kind = " ranges" if len(heads) == len(_HEADS) else ""
+    return numbers_table(f"Standard and simulation, both with K_A {application:g}", heads, rows, kind)
 
 
 def _between(found: Mapping[str, float] | None, quantity: Quantity) -> str:

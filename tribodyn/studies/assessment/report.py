@@ -57,8 +57,8 @@ PANELS = ("hertz_pressure", "contact_temperature", "specific_film")
 def verdict(record: Record) -> list[str]:
     """Say whether the limits hold, what moves and presses, what is lost, and how far to trust it."""
     found = [sentence for _, sentence in on_limits(record.summary)]
-    rests = [str(record.summary["rests_on"])] if "rests_on" in record.summary else []
-    return [*found, *rests, *shown(record.summary), *outside(record.summary)]
+    texts = [str(record.summary[name]) for name in ("not_judged", "rests_on") if name in record.summary]
+    return [*found, *texts, *shown(record.summary), *outside(record.summary)]
 
 
 def shown(summary: Mapping[str, Any]) -> Iterator[str]:

@@ -32,6 +32,7 @@ from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.bearings import bearing_part
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins
+from tribodyn.studies.gears.rated.limits import not_judged
 from tribodyn.studies.gears.rated.margins import strength_of
 from tribodyn.studies.gears.rated.said import numbered
 from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
@@ -139,6 +140,7 @@ def assessed(
         "iso": outcome.iso,
         "simulated": outcome.simulated,
         "rests_on": outcome.rests,
+        "not_judged": not_judged(case.limits, case.lubricant.fzg),
         "reasons": numbered(outcome.parted),
         **bearing_part(case, case.lubricant),
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),

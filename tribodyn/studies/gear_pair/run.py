@@ -109,7 +109,9 @@ def _run(case: Case, path: Path, force: bool, *, progress: Progress | None) -> R
         last, work = statistics.window_of_mesh(MESH), statistics.window_work()
         summary |= limits_in(last, case)
         speed = case.operating.pinion_speed
-        summary |= steady_quantities(last, work, prepared, samples, speed, statistics.in_window[MESH])
+        summary |= steady_quantities(
+            *(last, work, prepared, samples, speed, statistics.in_window[MESH]), changes="course" in summary
+        )
         summary |= thermal_quantities(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
         summary |= contact_quantities(case.lubricant, summary)
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)

@@ -25,11 +25,14 @@ def steady_quantities(
     samples: int,
     nominal_speed: float,
     extremes: RunningExtremes,
+    *,
+    changes: bool = False,
 ) -> dict[str, Any]:
     """Quantities of the last whole mesh cycles of a run.
 
     The `window` has the mesh's datasets over these cycles, last sample not included, so many `samples` in
-    each. `work` is the change of the state over them. `nominal_speed` is the pinion's, rad/s.
+    each. `work` is the change of the state over them. `nominal_speed` is the pinion's, rad/s. Where the speed
+    `changes`, the teeth also carry what accelerates the load.
     """
     cycle, layout = prepared.cycle, prepared.model.layout
     cycles = len(window["normal_load"]) / samples
@@ -39,6 +42,8 @@ def steady_quantities(
     turned = cycle.pinion_pitch_radius * cycle.pitch_angle * cycles
     turned = turned - float(rotational_error(work, MESH, prepared.model))
     force = float(work[work_of(layout, OUT)] / turned)
+    if changes:
+        force = float(np.mean(window["driven_torque"]) / (cycle.gear_sense * cycle.gear_pitch_radius))
     return {
         "averaging_cycles": int(cycles),
         **mesh_quantities(window, cycle, extremes, force, cycles / duration, samples),

@@ -141,6 +141,7 @@ def verdict(record: Record) -> list[str]:
     summary, meshes = record.summary, meshes_of(record)
     if not meshes:
         return []
+    summary, meshes = of_course(summary, meshes)
     found = [*_moved(summary, meshes), *_pressed(summary, meshes), *_lost(summary, meshes)]
     name = max(meshes, key=lambda name: _beyond(meshes[name]))
     for line in of_any.outside(meshes[name]):
@@ -148,6 +149,19 @@ def verdict(record: Record) -> list[str]:
         if len(found) == of_any.LINES - 1:
             break
     return [*found, *of_any.advised({**meshes[name], **of_any.numbers(summary)})]
+
+
+def of_course(
+    summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]
+) -> tuple[Mapping[str, Any], dict[str, Mapping[str, Any]]]:
+    """The same with the extremes of the whole run where its speed changes."""
+    courses = [mesh["course"] for mesh in meshes.values() if "course" in mesh]
+    if not courses:
+        return summary, dict(meshes)
+    from tribodyn.studies.gear_train.summary import worst_of  # heavy, and few runs change
+
+    over = {name: of_any.over_course(mesh) for name, mesh in meshes.items()}
+    return {**summary, **worst_of(list(over.values())), "course": courses[0]}, over
 
 
 def _beyond(mesh: Mapping[str, Any]) -> float:
@@ -160,6 +174,11 @@ def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) 
     factors = {name: of_any.numbers(mesh).get("dynamic_factor") for name, mesh in meshes.items()}
     known = {name: factor for name, factor in factors.items() if factor is not None}
     if not known:
+        return
+    if courses := {name: mesh["course"] for name, mesh in meshes.items() if "course" in mesh}:
+        name = max(courses, key=lambda name: known.get(name, 0.0))
+        text = of_any.on_course(courses[name])
+        yield text if len(meshes) == 1 else f"Mesh {name}: {text[0].lower()}{text[1:]}"
         return
     if len(known) <= NAMED:
         parts = _listed([f"{factor:.2f} ({name})" for name, factor in known.items()])

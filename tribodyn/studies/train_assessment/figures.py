@@ -11,6 +11,7 @@ from tribodyn.post.figures.drawing import Drawing, single
 from tribodyn.post.figures.panel import View
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.record.reader import MESHES, Record
+from tribodyn.studies.gears.rated.limits import SAFETIES, least
 from tribodyn.studies.train_assessment.report import groups_of
 
 _RPM = 30.0 / math.pi
@@ -63,17 +64,20 @@ def _losses(axes: Axes, record: Record) -> None:
 
 
 def _safeties(axes: Axes, record: Record) -> None:
-    """Safeties by the standards (filled) and by the simulation (open), the worst mesh of a kind."""
-    meshes = record.summary[MESHES]
+    """Safeties by the standards (filled) and simulated (open), the worst mesh of a kind; lines: required."""
+    meshes, limits = record.summary[MESHES], record.summary.get("limits", {})
     groups = list(groups_of(meshes).items())[::-1]
-    for number, name in enumerate(("S_B", "S_intS", "S_lambda")):
+    for number, (limit, name) in enumerate(SAFETIES.items()):
+        if limit in limits:
+            required = float(limits[limit]["limit"])
+            axes.axvline(required, color=PALETTE[number], linewidth=0.9, linestyle="--")
         for part, fill in (("iso", PALETTE[number]), ("simulated", "none")):
             found = [
                 (min(values), place)
                 for place, (_, members) in enumerate(groups)
                 if (
                     values := [
-                        float(mesh[part][name])
+                        float(least(mesh[part][name]))
                         for mesh in map(meshes.get, members)
                         if name in mesh.get(part, {})
                     ]
@@ -83,12 +87,11 @@ def _safeties(axes: Axes, record: Record) -> None:
                 label = f"{literal(name)}, {'standard' if part == 'iso' else 'simulated'}"
                 values, places = zip(*found, strict=True)
                 axes.scatter(values, places, s=18, facecolors=fill, edgecolors=PALETTE[number], label=label)
-    axes.axvline(1.0, color="#b3261e", linewidth=0.9, linestyle="--")
     axes.set_yticks(range(len(groups)), [literal(group) for group, _ in groups])
     axes.set_xscale("log")
     axes.margins(0.08, 0.0)
     axes.set_ylim(-0.5, 1.35 * len(groups))  # room for the legend
-    axes.set(title="Safeties, the worst mesh of a kind")
+    axes.set(title="Safeties, the worst mesh of a kind; dashed: required")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="upper center", ncol=2, fontsize=6)
 

@@ -1,10 +1,13 @@
 """The report of an assessment of a train: a first page for whoever asks, the details on those behind it."""
 
 import math
+import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from tribodyn.geometry.families import family
+from tribodyn.geometry.rack_section import as_written
 from tribodyn.post.page.page import table
 from tribodyn.post.style import inline
 from tribodyn.quantities.catalogue import QUANTITIES
@@ -19,14 +22,16 @@ from tribodyn.studies.gears.rated.first_page import (
     listed,
     numbers_table,
 )
-from tribodyn.studies.gears.rated.limits import LIMITS, least, worst
+from tribodyn.studies.gears.rated.limits import LIMITS, SAFETIES, least, worst
 from tribodyn.studies.pages import loaded_again, overview
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.train_assessment.case import TrainAssessmentCase
-from tribodyn.studies.train_assessment.report import groups_of, mesh_rows, stage_rows, verdict
+from tribodyn.studies.train_assessment.report import groups_of, heading, mesh_rows, stage_rows, verdict
 from tribodyn.studies.train_assessment.run import DUTY, tasks_of
 
 _RPM = 30.0 / math.pi
+#: How a scenario gives the load of a train at its ends.
+_LOADS = ("power", "input_torque", "output_torque")
 
 
 def page(record: Record) -> str:
@@ -49,8 +54,8 @@ def page(record: Record) -> str:
         _tiles(summary),
         f'<div class="columns"><div>{limits_table(summary)}</div><div>{_stages(summary)}</div></div>',
         f'<div class="pictures"><p>{picture}</p></div>',
-        _meshes(summary, "simulated", "Each mesh, simulated; of several planets the worst"),
-        _meshes(summary, "iso", "Each mesh by the standards; of several planets the worst"),
+        _meshes(summary, "simulated"),
+        _meshes(summary, "iso"),
         first_page.part_section(study, "Motion at the duty", [done[DUTY]] if done else []),
         "<section><h2>Gears and oil</h2>"
         + "".join(table(*sheet) for sheet in study.check(case.subject.case, allow_large=True).tables)
@@ -66,16 +71,20 @@ def _asked(case: TrainAssessmentCase, summary: Mapping[str, Any]) -> str:
     assert whole is not None, "refused by the rules"
     meshes, gears = {mesh.name: mesh.pair for mesh in whole.meshes(train)}, []
     for group, names in groups_of(summary[MESHES]).items():
-        drive = meshes[names[0]].drive
+        pair = meshes[names[0]]
+        drive = as_written(family(pair.family), pair.drive)
         teeth = "/".join(f"{float(gear.teeth):.0f}" for gear in (drive.pinion, drive.gear))
         helix = f", β {abs(math.degrees(drive.helix_angle)):.4g}°" if drive.helix_angle else ""
         times = f", {len(names)} times" if len(names) > 1 else ""
         gears.append(f"{group} {teeth}, module {drive.module * 1e3:.4g} mm{helix}{times}")
     pair = next(iter(meshes.values()))
     oil = first_page.oil_line(pair.lubricant, float(pair.lubricant.temperature), case.settings.lubrication)
+    typed = tomllib.loads(train.toml).get("operating", {})
+    loads = [f"{name.replace('_', ' ')} {typed[name]}" for name in _LOADS if typed.get(name) is not None]
+    power = f"{summary['power_in_mean'] * 1e-3:.5g} kW"
     duty = (
-        f"{summary['power_in_mean'] * 1e-3:.5g} kW put in "
-        f"at {summary['input_speed'] * _RPM:.5g} rpm, ratio {summary['train_ratio']:.5g}"
+        f"{', '.join([*loads, ''])}input at {summary['input_speed'] * _RPM:.5g} rpm, ratio "
+        f"{summary['train_ratio']:.5g}; with the losses simulated {power} go in"
     )
     return first_page.asked({"Gears": "; ".join(gears), "Oil": oil, "Duty": duty})
 
@@ -91,7 +100,7 @@ def _tiles(summary: Mapping[str, Any]) -> str:
         ends = (f"{100.0 * summary[f'efficiency_{end}']:.2f}" for end in ("lowest", "highest"))
         spread = f"; {' to '.join(ends)} % by other laws"
     shown = [
-        (f"{100.0 * summary['efficiency']:.2f} %", f"efficiency{spread}"),
+        (f"{100.0 * summary['efficiency']:.2f} %", f"efficiency by tooth friction alone{spread}"),
         (f"{summary['power_friction_mean'] * 1e-3:.4g} kW", "lost to tooth friction"),
         (f"{summary['dynamic_factor']:.2f}", f"largest dynamic factor{highest}"),
     ]
@@ -108,7 +117,12 @@ def _tiles(summary: Mapping[str, Any]) -> str:
             where = summary.get("worst_of", {}).get(name, "")
             shown.append((f"{summary[name]:.2f}", f"{QUANTITIES[name].symbol}, {text}, in {where}"))
     if "hertz_pressure_max" in summary:
-        shown.append((f"{summary['hertz_pressure_max'] * 1e-9:.2f} GPa", "maximum Hertz pressure in motion"))
+        shown.append(
+            (
+                f"{summary['hertz_pressure_max'] * 1e-9:.2f} GPa",
+                "maximum Hertz pressure in motion, without K_A",
+            )
+        )
     shown.append(
         ("none", "loss of contact at the speeds run")
         if lost is None
@@ -118,10 +132,7 @@ def _tiles(summary: Mapping[str, Any]) -> str:
 
 
 #: Limit -> what of a mesh it bounds.
-_HOLDS = {
-    **{"pitting": "S_H", "bending": "S_F", "life": "life"},
-    **{"scuffing_flash": "S_B", "scuffing_integral": "S_intS", "micropitting": "S_lambda"},
-}
+_HOLDS = SAFETIES | {"life": "life"}
 
 
 def _holds(summary: Mapping[str, Any]) -> str:
@@ -165,6 +176,6 @@ def _stages(summary: Mapping[str, Any]) -> str:
     return numbers_table("Each planetary stage", columns, rows, " meshes") if rows else ""
 
 
-def _meshes(summary: Mapping[str, Any], part: str, heading: str) -> str:
+def _meshes(summary: Mapping[str, Any], part: str) -> str:
     columns, rows = mesh_rows(summary, part)
-    return numbers_table(heading, columns, rows, " meshes") if rows else ""
+    return numbers_table(heading(part, summary), columns, rows, " meshes") if rows else ""

@@ -88,6 +88,15 @@ def mesh_rows(summary: Mapping[str, Any], part: str) -> tuple[list[str], list[li
     return ["", *groups, ""], [row for row in rows if set(row[1:-1]) != {"–"}]
 
 
+def heading(part: str, summary: Mapping[str, Any]) -> str:
+    """What stands above the table of meshes, simulated or by the standards."""
+    factors = [float(mesh["load_factors"]["K_A"]) for mesh in summary.get(MESHES, {}).values()]
+    by = "simulated, without K_A"
+    if part == "iso":
+        by = f"by the standards with K_A {max(factors, default=1.0):g}"
+    return f"Each mesh, {by}; of several planets the worst"
+
+
 def stage_rows(summary: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     """Columns and rows of the table of planetary stages."""
     stages = summary.get("stages", {})
@@ -103,8 +112,8 @@ def tables(record: Record) -> list[TextTable]:
     found = []
     for title, (columns, rows) in (
         ("Each planetary stage", stage_rows(record.summary)),
-        ("Each mesh, simulated; of several planets the worst", mesh_rows(record.summary, "simulated")),
-        ("Each mesh by the standards; of several planets the worst", mesh_rows(record.summary, "iso")),
+        (heading("simulated", record.summary), mesh_rows(record.summary, "simulated")),
+        (heading("iso", record.summary), mesh_rows(record.summary, "iso")),
     ):
         if rows:
             found.append(TextTable(title, tuple(columns), rows))
@@ -113,7 +122,10 @@ def tables(record: Record) -> list[TextTable]:
 
 def verdict(record: Record) -> list[str]:
     """Say whether the limits hold, how the planets share the load, what vibrates and what is lost."""
-    return [*(sentence for _, sentence in on_limits(record.summary)), *_shown(record.summary)]
+    summary = record.summary
+    judged = [sentence for _, sentence in on_limits(summary)]
+    missing = [str(summary["not_judged"])] if "not_judged" in summary else []
+    return [*judged, *missing, *_shown(summary), *map(str, summary.get("in_doubt", {}).values())]
 
 
 def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
@@ -139,4 +151,7 @@ def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
         yield f"Smallest safeties: {', '.join(parts)}."
     if "efficiency" in found:
         lost = with_unit("power_friction_mean", found["power_friction_mean"])
-        yield f"The teeth lose {lost}; the train is {100.0 * found['efficiency']:.2f} % efficient."
+        yield (
+            f"The teeth lose {lost}; by tooth friction alone, without bearings, seals and churning, the "
+            f"train is {100.0 * found['efficiency']:.2f} % efficient."
+        )

@@ -12,11 +12,12 @@ from typing import Any
 import numpy as np
 
 from tribodyn.post.report import EXCEEDED
+from tribodyn.post.verdict import outside
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.record.trust import REASONS, TRUST
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import as_life, capacity_of, life_bins, shorter_life
-from tribodyn.studies.gears.rated.limits import judged, least, with_unlimited, worst
+from tribodyn.studies.gears.rated.limits import SAFETIES, judged, least, not_judged, with_unlimited, worst
 from tribodyn.studies.gears.rated.margins import strength_of
 from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
 from tribodyn.studies.gears.rated.standard import (
@@ -128,13 +129,34 @@ def assessed(
         **_worst_margins(meshes),
         STAGES: own.get(STAGES, {}),
         MESHES: meshes,
-        "limits": with_unlimited(judged(case.limits, _values(own, meshes)), _worst_margins(meshes)),
+        "limits": with_unlimited(
+            judged(case.limits, _values(own, meshes, case.settings.application_factor)),
+            _worst_margins(meshes),
+        ),
+        "not_judged": _not_judged(case),
+        "in_doubt": numbered(_in_doubt(own)),
         "assumed": numbered(list(_assumed(case, meshes))),
         "extrapolated": numbered([*_extrapolated(every, done), *_outside(meshes)]),
         **{name: own[name] for name in (TRUST, REASONS) if own.get(name)},
         "wall_time": perf_counter() - begun,
     }
-    return along, {name: value for name, value in summary.items() if value not in ({}, [])}
+    return along, {name: value for name, value in summary.items() if value not in ({}, [], "")}
+
+
+def _not_judged(case: TrainAssessmentCase) -> str:
+    """Of all meshes, which have one oil."""
+    first = _whole(case).meshes(case.subject.case)[0]
+    return not_judged(case.limits, first.pair.lubricant.fzg)
+
+
+def _in_doubt(own: Mapping[str, Any]) -> list[str]:
+    """Which meshes have film or friction that the solved contact puts in doubt, as the run says."""
+    found: dict[str, list[str]] = {}
+    for name, mesh in own[MESHES].items():
+        for line in outside(mesh):
+            if "in doubt" in line:
+                found.setdefault(line, []).append(name)
+    return [f"Mesh {', '.join(names)}: {line[0].lower()}{line[1:]}" for line, names in found.items()]
 
 
 def _over_speed(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[str, np.ndarray]:
@@ -225,7 +247,7 @@ def _margin(mesh: Mapping[str, Any], name: str) -> float:
 def _worst_margins(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """Smallest safeties of all meshes, and which mesh has them."""
     found: dict[str, Any] = {}
-    for name in ("S_H", "S_F", "life", "S_B", "S_intS", "S_lambda"):
+    for name in (*SAFETIES.values(), "life"):
         known = {mesh: _margin(each, name) for mesh, each in meshes.items()}
         known = {mesh: value for mesh, value in known.items() if math.isfinite(value)}
         if known:
@@ -235,18 +257,18 @@ def _worst_margins(meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     return found | shorter_life(*(mesh.get("iso", {}) for mesh in meshes.values()))
 
 
-def _values(own: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> dict[str, float]:
-    """What the limits are compared with."""
+def _values(
+    own: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]], application: float
+) -> dict[str, float]:
+    """What the limits are compared with, pressures with K_A."""
     margins = _worst_margins(meshes)
-    names = {
-        **{"pitting": "S_H", "bending": "S_F", "life": "life"},
-        **{"scuffing_flash": "S_B", "scuffing_integral": "S_intS", "micropitting": "S_lambda"},
-    }
+    names = SAFETIES | {"life": "life"}
     found = {limit: margins.get(name, math.nan) for limit, name in names.items()}
     of_run = {"hertz_pressure": "hertz_pressure_max"}
     for limit in ("dynamic_factor", "hertz_pressure", "mesh_load_factor"):
         value = own.get(of_run.get(limit, limit))
         found[limit] = math.nan if value is None else float(value)
+    found["hertz_pressure"] *= math.sqrt(application)
     return found
 
 
@@ -255,6 +277,10 @@ def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]])
     yield f"In every mesh {factors_said(settings)}"
     if settings.mesh_load_factor is None and any("alike" in mesh for mesh in meshes.values()):
         yield "K_γ of each planetary stage is that of the simulation."
+    yield (
+        "The efficiency is that of tooth friction alone: bearings, seals and churning are not in it. K_A is "
+        "in stresses and safeties by the standards; the simulation runs without it."
+    )
     yield "Accurate teeth in the simulation but for modifications and pin errors of the scenario."
     rated = [name for name, mesh in meshes.items() if "iso" in mesh]
     if len(rated) < len(meshes):

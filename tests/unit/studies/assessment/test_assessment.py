@@ -207,7 +207,7 @@ def test_a_stopped_call_goes_on_and_limits_are_judged(assessed: dict, folder: Pa
     assert again["limits"]["dynamic_factor"]["exceed"] == again["limits"]["dynamic_factor"]["samples"] == 2
     assert (kept["dynamic_factor"], kept["hertz_pressure"], kept["micropitting"]) == (False, True, True)
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")
-    assert "Limits exceeded with accurate teeth: " in page
+    assert "Limits not kept with accurate teeth: " in page
     assert "With what is not known varied: " in page
     assert "Dynamic factor K_v (2 of 2)" in page
     assert '<tr class="bad"><td>Dynamic factor' in page

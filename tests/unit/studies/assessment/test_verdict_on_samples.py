@@ -28,7 +28,7 @@ def test_samples_have_a_sentence_of_their_own():
     assert not varied[0]
     for part in (
         "1 of 4 samples loses contact, from 1800 rpm",
-        "limits exceeded: Dynamic factor K_v (2 of 3), Micropitting S_λ (1 of 4).",
+        "limits not kept: Dynamic factor K_v (2 of 3), Micropitting S_λ (1 of 4).",
     ):
         assert part in varied[1]
 

@@ -88,7 +88,7 @@ def test_what_exceeds_a_limit_is_named(assessed: dict[str, Any], folder: Path):
     assert not assessed["limits"]["dynamic_factor"]["kept"]
     assert assessed["limits"]["scuffing_flash"]["kept"]
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")
-    assert "Limits exceeded: Dynamic factor K_v." in page
+    assert "Limits not kept: Dynamic factor K_v." in page
     assert "set-ring" in page
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.record.trust import Judge, heat_of
+from tribodyn.studies.gears.over_time.course import Course
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.recorded import pair_numbers
 from tribodyn.studies.gears.over_time.sampled import Sampled
@@ -42,10 +43,12 @@ class MeshOfRun(NamedTuple):
 class RunStatistics:
     """What the summary needs of a run that arrives in blocks."""
 
-    def __init__(self, window: int, total: int, meshes: Sequence[MeshOfRun], layout: TrainLayout):
+    def __init__(
+        self, window: int, total: int, meshes: Sequence[MeshOfRun], layout: TrainLayout, course: Course
+    ):
         self.start, self.stop = total - window, total
         self.written = 0
-        self.meshes, self.layout = meshes, layout
+        self.meshes, self.layout, self.course = meshes, layout, course
         self.extremes = [RunningExtremes(mesh.cycle) for mesh in meshes]
         self.in_window = [RunningExtremes(mesh.cycle) for mesh in meshes]
         self.blocks: list[list[dict[str, np.ndarray]]] = []
@@ -58,6 +61,7 @@ class RunStatistics:
         cycles, stored = block.cycles, block.whole["stored_energy"]
         self.written += len(cycles)
         add_extremes(self.extremes, self.meshes, block, extreme)
+        self.course.add(block)
         judge_run(self.judge, self.meshes, self.layout, block, extreme)
         if not self.ends:
             self.ends.append((states[0], stored[0]))
@@ -81,7 +85,7 @@ class RunStatistics:
             return {}
         shown = self.in_window[m] if complete else self.extremes[m]
         described = {"run": self.extremes[m].described(), "last_cycles": self.in_window[m].described()}
-        return shown.values() | {"extremes": described}
+        return shown.values() | {"extremes": described} | self.course.summary(m)
 
     def balance(self) -> dict[str, float]:
         """Residual of the energy balance so far."""

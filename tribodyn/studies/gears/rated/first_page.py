@@ -134,16 +134,17 @@ def bearings_table(summary: Mapping[str, Any]) -> str:
 
 
 def limits_table(summary: Mapping[str, Any]) -> str:
-    """Every limit that was judged, the exceeded ones red."""
+    """Every limit that was judged, those that are not kept red."""
     limits = summary.get("limits", {})
     rows = []
     for name, found in limits.items():
         limit = LIMITS[name]
         value, bound = written_limit(name, found), limit.quantity.written(float(found["limit"]))
         required = f"{'≥' if limit.least else '≤'} {bound}"
-        verdict = "holds" if found["kept"] else "exceeded"
+        missed = "below" if limit.least else "above"
+        verdict = "holds" if found["kept"] else missed
         if found.get("exceed"):
-            verdict += f"; {found['exceed']} of {found['samples']} exceed it"
+            verdict += f"; {found['exceed']} of {found['samples']} samples {missed}"
         rows.append((limit.label, value, required, limit.quantity.unit, verdict))
     exceeded = [
         number for number, found in enumerate(limits.values()) if not found["kept"] or found.get("exceed")

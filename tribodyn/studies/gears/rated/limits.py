@@ -43,11 +43,18 @@ LIMITS: dict[str, StandardLimit] = {
     "life": StandardLimit("Life", QUANTITIES["life"], least=True),
     "dynamic_factor": StandardLimit("Dynamic factor K_v", QUANTITIES["dynamic_factor"]),
     "mesh_load_factor": StandardLimit("Mesh load factor K_γ", QUANTITIES["mesh_load_factor"]),
-    "hertz_pressure": StandardLimit("Hertz pressure with K_v", QUANTITIES["hertz_pressure_max"]),
+    "hertz_pressure": StandardLimit("Hertz pressure with K_A and K_v", QUANTITIES["hertz_pressure_max"]),
     "root_tension": StandardLimit("Root tension", QUANTITIES["pinion_root_tension_max"]),
     "loaded_error": StandardLimit(
         "Loaded error, peak to peak", QUANTITIES["loaded_transmission_error_peak_to_peak"]
     ),
+}
+
+
+#: Limit of a safety -> its name.
+SAFETIES = {
+    **{"pitting": "S_H", "bending": "S_F"},
+    **{"scuffing_flash": "S_B", "scuffing_integral": "S_intS", "micropitting": "S_lambda"},
 }
 
 
@@ -92,6 +99,19 @@ def written_limit(name: str, found: Mapping[str, Any]) -> str:
     )
 
 
+def not_judged(limits: Mapping[str, float | None], stages: Any) -> str:
+    """Which required safeties are not known, since the oil lacks the load stage; "" where none is."""
+    needs = {"scuffing_flash": "scuffing", "scuffing_integral": "scuffing", "micropitting": "micropitting"}
+    missing = [
+        name
+        for name, stage in needs.items()
+        if limits.get(name) is not None and getattr(stages, stage) is None
+    ]
+    names = "; ".join(LIMITS[name].label for name in missing)
+    of = " and ".join(dict.fromkeys(needs[name] for name in missing))
+    return f"Not judged: {names}, for the oil has no FZG load stage of {of}." if missing else ""
+
+
 def over_samples(limits: Mapping[str, Mapping[str, Any]], samples: Mapping[str, Any]) -> dict[str, Any]:
     """Judged limits with their scatter over samples: ``p5``, ``p95``, ``samples`` and how many ``exceed``.
 
@@ -117,14 +137,14 @@ def on_limits(summary: Mapping[str, Any]) -> list[tuple[bool, str]]:
     every = f"All {len(limits)} limits hold" if len(limits) != 1 else "The one limit holds"
     found = []
     if exceeded:
-        found.append((False, f"Limits exceeded{accurate}: {'; '.join(exceeded)}."))
+        found.append((False, f"Limits not kept{accurate}: {'; '.join(exceeded)}."))
     elif limits:
         found.append((True, f"{every}{accurate}."))
     return [*found, *_on_samples(limits, samples)]
 
 
 def _on_samples(limits: Mapping[str, Any], samples: Mapping[str, Any]) -> list[tuple[bool, str]]:
-    """How many samples exceed which limit, and how many lose contact."""
+    """How many samples do not keep which limit, and how many lose contact."""
     if not samples:
         return []
     count, parts = int(samples["samples"]), []
@@ -137,7 +157,7 @@ def _on_samples(limits: Mapping[str, Any], samples: Mapping[str, Any]) -> list[t
         for name, found in limits.items()
         if found.get("exceed")
     ]
-    parts += [f"limits exceeded: {', '.join(exceeded)}"] if exceeded else []
+    parts += [f"limits not kept: {', '.join(exceeded)}"] if exceeded else []
     if parts:
         return [(False, f"With what is not known varied: {'; '.join(parts)}.")]
     judged_too = any("exceed" in found for found in limits.values())
