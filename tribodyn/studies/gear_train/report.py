@@ -173,7 +173,11 @@ def _beyond(mesh: Mapping[str, Any]) -> float:
 def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) -> Iterable[str]:
     factors = {name: of_any.numbers(mesh).get("dynamic_factor") for name, mesh in meshes.items()}
     known = {name: factor for name, factor in factors.items() if factor is not None}
+    loss = of_any.numbers(summary).get("contact_loss_fraction", 0.0)
+    where = f" in {_worst(summary, meshes, 'contact_loss_fraction')}" if loss > of_any.APART else ""
     if not known:
+        if where:
+            yield f"Teeth that carry nothing: {of_any.apart(loss)}{where}."
         return
     if courses := {name: mesh["course"] for name, mesh in meshes.items() if "course" in mesh}:
         name = max(courses, key=lambda name: known.get(name, 0.0))
@@ -186,8 +190,6 @@ def _moved(summary: Mapping[str, Any], meshes: Mapping[str, Mapping[str, Any]]) 
     else:
         name = max(known, key=lambda name: known[name])
         text = f"Vibration raises the tooth forces to at most {known[name]:.2f} times their mean ({name})"
-    loss = of_any.numbers(summary).get("contact_loss_fraction", 0.0)
-    where = f" in {_worst(summary, meshes, 'contact_loss_fraction')}" if loss > of_any.APART else ""
     yield f"{text}; {of_any.apart(loss)}{where}."
 
 

@@ -165,10 +165,10 @@ def thermal_quantities(thermal: Thermal | None, power_in: float, efficiency: flo
 def contact_quantities(lubricant: LubricantData, summary: Mapping[str, Any]) -> dict[str, float]:
     """Maximum contact temperature, K: bulk of the teeth, else of the oil, and the maximum flash temperature.
 
-    Nothing where neither temperature is known.
+    Nothing where neither temperature is known, or no teeth touch.
     """
-    warm = summary.get("bulk_temperature", lubricant.temperature)
-    return {} if warm is None else {"contact_temperature_max": float(warm + summary["flash_temperature_max"])}
+    warm, flash = summary.get("bulk_temperature", lubricant.temperature), summary.get("flash_temperature_max")
+    return {} if warm is None or flash is None else {"contact_temperature_max": float(warm + flash)}
 
 
 def _heat(mesh_loss: float, losses: dict[str, Loss], housing: bool, other: float = 0.0) -> Heat:

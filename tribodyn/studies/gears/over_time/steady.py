@@ -91,7 +91,9 @@ def mesh_quantities(
         "transmission_error_rms": float(np.std(error)),
         "transmission_error_peak_to_peak": extremes.spread("transmission_error"),
         "transmission_error_harmonics": spectrum.harmonics(HARMONICS),
-        "transmission_error_normal_mean": float(np.nanmean(newest)),
+        "transmission_error_normal_mean": float(np.nanmean(newest))
+        if np.any(np.isfinite(newest))
+        else float("nan"),
         "transmission_error_normal_peak_to_peak": extremes.spread(f"{flanks}transmission_error_normal"),
         "dynamic_factor": extremes.by_name[f"{flanks}mesh_force_max"].value / abs(force)
         if force != 0.0
