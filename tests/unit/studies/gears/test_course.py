@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tribodyn.post.verdict import of_gears, over_course
-from tribodyn.studies.gears.over_time.course import Course
+from tribodyn.studies.gears.over_time.course import RunCourse
 from tribodyn.studies.gears.over_time.sampled import Sampled
 
 SAMPLES, CYCLES, PITCH = 40, 200, 2.0 * math.pi / 27.0
@@ -33,7 +33,7 @@ def run_up(first: float, last: float) -> Sampled:
 
 
 def course(block: Sampled, part: int = 70) -> dict[str, Any]:
-    found = Course([1.0], SAMPLES, PITCH)
+    found = RunCourse([1.0], SAMPLES, PITCH)
     for first in range(0, len(block.cycles), part):
         found.add(block.part(slice(first, first + part)))
     return found.summary(0)
@@ -64,7 +64,7 @@ def test_a_run_at_one_speed_has_no_course():
 
 def test_a_slower_mesh_has_orders_of_its_own():
     block = run_up(50.0, 250.0)
-    found = Course([1.0, 0.25], SAMPLES, PITCH)
+    found = RunCourse([1.0, 0.25], SAMPLES, PITCH)
     found.add(block._replace(meshes=block.meshes * 2))
     assert found.summary(1)["course"]["dynamic_factor"]["order"] == pytest.approx(12.0)
 

@@ -16,7 +16,7 @@ from tribodyn.studies.gears.over_time.sampled import Sampled
 _CYCLES = 2.0
 
 
-class Row(NamedTuple):
+class CourseRow(NamedTuple):
     """A mesh over a few of its cycles."""
 
     time: float  # s, in their middle
@@ -28,14 +28,14 @@ class Row(NamedTuple):
     apart: float  # share of the time without contact
 
 
-class Course:
+class RunCourse:
     """Takes in blocks of samples and sums up every few cycles of the first mesh."""
 
     def __init__(self, rates: list[float], samples: int, pitch_angle: float):
         self._rates, self._samples, self._pitch = rates, samples, pitch_angle
         self._cycles = math.ceil(_CYCLES / min(rates))
         self._held: list[tuple[np.ndarray, ...]] = []
-        self.rows: list[list[Row]] = [[] for _ in rates]
+        self.rows: list[list[CourseRow]] = [[] for _ in rates]
 
     def add(self, block: Sampled) -> None:
         """Take in the next samples."""
@@ -64,7 +64,7 @@ class Course:
             orders = (self._order(values) / rate for values in (shaking, swinging))
             lost = 1.0 - float(np.mean(touching[:-1, m]))
             self.rows[m].append(
-                Row(at, speed, largest, next(orders), float(np.ptp(swinging)), next(orders), lost)
+                CourseRow(at, speed, largest, next(orders), float(np.ptp(swinging)), next(orders), lost)
             )
 
     def _order(self, values: np.ndarray) -> float:
@@ -92,7 +92,7 @@ class Course:
         return {"course": found}
 
 
-def _place(row: Row) -> dict[str, float]:
+def _place(row: CourseRow) -> dict[str, float]:
     return {"time": row.time, "speed": row.speed}
 
 

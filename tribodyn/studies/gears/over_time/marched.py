@@ -14,7 +14,7 @@ from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Stop, TransientSettings, transient
 from tribodyn.studies.gears.over_time.by_revolution import ByRevolution
-from tribodyn.studies.gears.over_time.course import Course
+from tribodyn.studies.gears.over_time.course import RunCourse
 from tribodyn.studies.gears.over_time.running import MeshOfRun, RunStatistics, judge_balance
 from tribodyn.studies.gears.over_time.sampled import Sampled, evaluated_with_extremes
 from tribodyn.studies.gears.prepare import MOST_MOTIONS
@@ -54,7 +54,7 @@ def record_motion(
     settings = TransientSettings(
         choice.method, solver.rtol, cycles, solver.max_steps, samples, window, extremes=True
     )
-    course = Course([mesh.rate for mesh in meshes], samples, float(model.operation.pitch_angle))
+    course = RunCourse([mesh.rate for mesh in meshes], samples, float(model.operation.pitch_angle))
     statistics = RunStatistics(window, cycles, meshes, model.layout, course)
     kept, revolution = case.output.kept(cycles), case.output.revolution
     by_revolution = None

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.record.trust import Judge, heat_of
-from tribodyn.studies.gears.over_time.course import Course
+from tribodyn.studies.gears.over_time.course import RunCourse
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.recorded import pair_numbers
 from tribodyn.studies.gears.over_time.sampled import Sampled
@@ -44,7 +44,7 @@ class RunStatistics:
     """What the summary needs of a run that arrives in blocks."""
 
     def __init__(
-        self, window: int, total: int, meshes: Sequence[MeshOfRun], layout: TrainLayout, course: Course
+        self, window: int, total: int, meshes: Sequence[MeshOfRun], layout: TrainLayout, course: RunCourse
     ):
         self.start, self.stop = total - window, total
         self.written = 0
