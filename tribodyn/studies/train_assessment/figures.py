@@ -91,7 +91,7 @@ def _safeties(axes: Axes, record: Record) -> None:
     axes.set_xscale("log")
     axes.margins(0.08, 0.0)
     axes.set_ylim(-0.5, 1.35 * len(groups))  # room for the legend
-    axes.set(title="Safeties, the worst mesh of a kind; dashed: required")
+    axes.set(title="Safeties of the worst mesh; dashed: required")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="upper center", ncol=2, fontsize=6)
 

@@ -125,11 +125,18 @@ def verdict(record: Record) -> list[str]:
     summary = record.summary
     judged = [sentence for _, sentence in on_limits(summary)]
     missing = [str(summary["not_judged"])] if "not_judged" in summary else []
-    return [*judged, *missing, *_shown(summary), *map(str, summary.get("in_doubt", {}).values())]
+    doubt = [str(line) for line in summary.get("in_doubt", {}).values()]
+    return [*judged, *missing, *doubt, *_shown(summary)]
 
 
 def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
     found = numbers(summary)
+    if "efficiency" in found:
+        lost = with_unit("power_friction_mean", found["power_friction_mean"])
+        yield (
+            f"The teeth lose {lost}; by tooth friction alone, without bearings, seals and churning, the "
+            f"train is {100.0 * found['efficiency']:.2f} % efficient."
+        )
     if "dynamic_factor" in found:
         text = f"Vibration raises the tooth forces to at most {found['dynamic_factor']:.2f} times their mean"
         if (highest := found.get("dynamic_factor_max", 0.0)) > found["dynamic_factor"]:
@@ -149,9 +156,3 @@ def _shown(summary: Mapping[str, Any]) -> Iterator[str]:
     if names:
         parts = [f"{QUANTITIES[name].symbol} {found[name]:.2f} in {least[name]}" for name in names]
         yield f"Smallest safeties: {', '.join(parts)}."
-    if "efficiency" in found:
-        lost = with_unit("power_friction_mean", found["power_friction_mean"])
-        yield (
-            f"The teeth lose {lost}; by tooth friction alone, without bearings, seals and churning, the "
-            f"train is {100.0 * found['efficiency']:.2f} % efficient."
-        )

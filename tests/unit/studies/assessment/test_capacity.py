@@ -8,6 +8,7 @@ import pytest
 from tribodyn.compliance.iso6336 import blank_factor
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES
+from tribodyn.studies.assessment.parts import faces_of, other_torques, request_of
 from tribodyn.studies.gear_train import whole
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins
@@ -123,6 +124,21 @@ def test_a_spectrum_is_as_safe_whichever_of_its_duties_is_assessed():
             for value in ("safety", "damage", "life", "cycles"):
                 own = getattr(getattr(first, name), value)
                 assert own == pytest.approx(getattr(getattr(second, name), value), rel=1e-6), (name, value)
+
+
+def test_the_contact_is_analysed_at_the_torque_of_every_duty():
+    """K_Hβ of the duties is one list, whichever of them the ratios are to."""
+    found = []
+    for number, ratio in ((1, 1.25 / 1.1), (2, 1.1 / 1.25)):
+        case = case_of({"duty": TWO_DUTIES, "operating.duty": number})
+        own = case.operating.gear_torque
+        assert other_torques(case) == (next(torque for *_, torque in case.spectrum if torque != own),)
+        quantities = {"face_load_factor": (1.1, 1.25)[number - 1], "face_load_ratios": [ratio]}
+        found.append(faces_of(case, quantities))
+    assert found == [pytest.approx([1.1, 1.25])] * 2
+    assert request_of(case).spectrum_torques == other_torques(case)
+    given = case_of({"duty": TWO_DUTIES, "operating.duty": 1, "assessment.face_load_factor": 1.3})
+    assert request_of(given).spectrum_torques == ()
 
 
 def test_the_damage_of_a_spectrum_is_the_sum_over_duties_each_assessed_alone():
