@@ -77,9 +77,9 @@ def _safeties(axes: Axes, record: Record) -> None:
                 for place, (_, members) in enumerate(groups)
                 if (
                     values := [
-                        float(least(mesh[part][name]))
+                        value
                         for mesh in map(meshes.get, members)
-                        if name in mesh.get(part, {})
+                        if (value := least(mesh.get(part, {}).get(name))) is not None
                     ]
                 )
             ]
