@@ -160,8 +160,15 @@ def _solved(given: LawInput, contact: LocalContact) -> tuple[Float[Array, " plac
 def _solutions(contact: Contact, duties: tuple[tuple[float, ...], ...]) -> Float[Array, "place 3"]:
     """`solve_one` of each duty, from this process, from the cache, or solved."""
     digest = hashlib.sha256(digest_of(solve_one.__module__) + repr((contact, duties)).encode()).hexdigest()
-    made = lambda: {"values": np.array([solve_one(contact, np.array(duty), STEP) for duty in duties])}  # noqa: E731
+    made = lambda: {"values": np.array([_one(contact, np.array(duty)) for duty in duties])}  # noqa: E731
     return arrays_kept_or_made("ehl", digest, made)["values"]
+
+
+def _one(contact: Contact, duty: Float[Array, " number"]) -> Float[Array, " 3"]:
+    try:
+        return solve_one(contact, duty, STEP)
+    except InputError:  # next to no load, or a film of another order than the contact
+        return np.full(3, math.nan)
 
 
 def _candidates(

@@ -68,6 +68,12 @@ def test_a_range_holds_only_where_all_of_it_does(scenario):
     assert "outside its range in 100 % of the way" in found["masjedi-khonsari"].reason
 
 
+def test_where_no_contact_is_solved_the_ratios_of_gears_stand_in(scenario):
+    case = load_scenario(scenario, {"operating.gear_torque": "1e-6 N*m"})
+    assert case.friction.ratio is None
+    assert "nearest to solved contacts of gears" in case.friction.chosen
+
+
 def test_different_duties_have_different_laws(scenario):
     taken = [load_scenario(scenario, duty).friction for duty in DUTIES.values()]
     assert len({friction.law for friction in taken}) > 1
