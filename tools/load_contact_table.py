@@ -35,7 +35,7 @@ DRIVES = (
     "involute-35-70-high-contact-ratio",
 )
 LINE_LOAD = 200e3  # N/m on a single pair, at the pitch point
-MESH = MeshData("energy", 0.05)
+MESH = MeshData("energy", 0.05, body="held")
 
 
 class Deflections(NamedTuple):
@@ -72,7 +72,7 @@ def row(name: str) -> list[str]:
     arm = float(assembly.path.gear_pitch_radius * np.cos(assembly.path.pressure_angle(0.0)))
     torque = LINE_LOAD * min(drive.pinion.face_width, drive.gear.face_width) * arm
     elements = deflections(tabulate_loaded(assembly, case.materials, MESH, torque), torque)
-    ratio = load_contact(flexibility(assembly, case.materials), torque, 0.0).contact_ratio
+    ratio = load_contact(flexibility(assembly, case.materials, held=True), torque, 0.0).contact_ratio
     cells = [
         name,
         f"{assembly.contact_ratio:.3f}, {ratio:.3f}",

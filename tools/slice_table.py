@@ -60,7 +60,7 @@ def figures(
 def coupled_and_free(_: object) -> str:
     case = load_scenario("involute-18-36-fem")
     assert isinstance(case, Case)
-    flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
+    flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True, held=True)
     rows = []
     for name, modifications in CASES.items():
         both = (figures(flexible, modifications, case.operating.gear_torque, way) for way in (True, False))

@@ -66,7 +66,7 @@ def breakdown(_: object) -> str:
     pair = drive(20.0, (18, 36), (0.012, 0.025), WIDTH)
     assembly = assemble(involute.FAMILY, pair)
     path = assembly.path
-    teeth = [loaded_tooth(assembly, side) for side in SIDES]
+    teeth = [loaded_tooth(assembly, side, held=True) for side in SIDES]
     parts, on_ring = (
         [tooth_compliance(tooth, STEEL, WIDTH, np.zeros(1), body) for tooth in teeth]
         for body in ("sainsot-velex", "ring")
@@ -124,10 +124,11 @@ def rims(_: object) -> str:
     rows = []
     for teeth, ratio in product((20, 30, 50, 90), (1.06, 1.15, 1.4, 2.1, 5.0)):
         assembly = assemble(involute.FAMILY, equal_pair(teeth, ratio))
-        tooth = loaded_tooth(assembly, "pinion")
+        tooth = loaded_tooth(assembly, "pinion", held=True)
         cosine = math.cos(float(assembly.path.pressure_angle(0.0)))
         torque = LINE_LOAD * WIDTH * cosine * float(assembly.path.gear_pitch_radius)
-        loaded = LoadedFlanks(flexibility(assembly, (STEEL, STEEL))).share(np.zeros((1, 1)), torque)
+        flexible = flexibility(assembly, (STEEL, STEEL), held=True)
+        loaded = LoadedFlanks(flexible).share(np.zeros((1, 1)), torque)
         elements = LINE_LOAD / (float(loaded.deflection[0]) * cosine)
         rim = teeth / 2 - 1.25 - float(tooth.body.bore_radius) / 0.003
         row = [teeth, ratio, f"{rim:.1f}", f"{polynomials_over_ring(tooth, STEEL):.2f}"]
@@ -157,8 +158,10 @@ def coupling(_: object) -> str:
         assembly = assemble(family, pair)
         slots = pair_slots(assembly)
         cycles = [
-            tabulate(assembly, (STEEL, STEEL), MeshData("energy", 0.05, foundation_coupling=on), slots)
-            for on in (False, True)
+            tabulate(assembly, (STEEL, STEEL), mesh, slots)
+            for mesh in (
+                MeshData("energy", 0.05, foundation_coupling=on, body="held") for on in (False, True)
+            )
         ]
         c = cycles[1]
         ratio = c.coupling[0, :, 0, 1] / np.sqrt(c.compliance[0, :, 0] * c.compliance[0, :, 1])
