@@ -128,6 +128,13 @@ def oil_remarks(lubricant: LubricantData) -> list[str]:
 _NAMES = {"closure_exceeded": "film law", "friction_exceeded": "friction law"}
 
 
+_BY_BODIES = ("energy", "fem")
+_BODY_REMARKS = {
+    "free": 'mesh.body = "free": the stiffness has no wind-up of the gear bodies in it.',
+    "held": 'mesh.body = "held": the stiffness has the wind-up of the gear bodies against their bores in it.',
+}
+
+
 def check_gears(
     prepared: PreparedGears[Any], closure: Closure | None = None, masses: Any = None
 ) -> CheckResult:
@@ -142,6 +149,8 @@ def check_gears(
     remark = compliance_remark(assembly, case.materials, case.mesh)
     checked = sheet_and_stiffness(assembly, case.materials, method, pair, masses, remark, torque)
     checked = with_oil(checked, case.lubricant)
+    if case.mesh.compliance in _BY_BODIES:
+        checked = checked._replace(remarks=(*checked.remarks, _BODY_REMARKS[case.mesh.body]))
     if prepared.slice_remark:
         checked = checked._replace(remarks=(*checked.remarks, prepared.slice_remark))
     return checked if closure is None else _with_laws(checked, case, closure)
