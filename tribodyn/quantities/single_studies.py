@@ -150,7 +150,18 @@ COMPUTATION = (
     Quantity("objective", "Objective at the best").defined_as("In SI units of its own."),
     Quantity("objective_start", "Objective at the start").defined_as("In SI units of its own."),
     Quantity("method", "Method").defined_as("Method of the search, see method_reason in the summary."),
-    Quantity("evaluations", "Evaluations", digits=",d").defined_as("Candidates that were evaluated."),
+    Quantity("evaluations", "Evaluations", digits=",d").defined_as(
+        "Candidates that were evaluated on the scenario's own resolution: at most `design.evaluations`."
+    ),
+    Quantity(
+        "evaluations_finer", "Evaluations on finer resolutions", digits=",d", below="besides, finer"
+    ).defined_as("Evaluations of the last stage, on 2 to 47 times the resolution."),
+    Quantity(
+        "evaluations_about", "Evaluations about the best", digits=",d", below="besides, about the best"
+    ).defined_as("Each key and each tolerance moved alone, and the confirmation of start and best."),
+    Quantity("evaluations_total", "Evaluations in all", digits=",d").defined_as(
+        "All of these, and the start on every resolution."
+    ),
     Quantity(
         "evaluations_feasible", "Feasible evaluations", digits=",d", below="of these feasible"
     ).defined_as("Candidates that satisfy all constraints."),

@@ -1,7 +1,7 @@
 """What a search takes, before any work."""
 
 from tribodyn.studies.design.candidates.archive import FACTORS, resolutions
-from tribodyn.studies.design.candidates.candidates import cases_of, chosen, start_of
+from tribodyn.studies.design.candidates.candidates import cases_of, chosen, shapes_gears, start_of
 from tribodyn.studies.design.candidates.converged import counts
 from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.case import DesignCase
@@ -25,7 +25,9 @@ def estimate(case: DesignCase) -> Estimate:
         for name in case.scenarios:
             loaded = loaded_source(case.scenarios, name, cases[0])
             several.append(loaded.study.estimate(loaded.case))
-            seconds += candidates * len(cases) * several[-1].seconds
+            # what cases share, such as finite elements, is made anew for gears of another shape
+            own = several[-1].shared if shapes_gears(case) else 0.0
+            seconds += candidates * len(cases) * (several[-1].seconds + own)
     largest = max(several, key=lambda estimate: estimate.memory)
     sizes = {name: len(scale) for name, scale in scales_of(case, names_of(case, [])).items()}
     sizes["evaluation"] = len(FACTORS) * case.search.evaluations

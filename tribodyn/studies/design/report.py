@@ -13,7 +13,14 @@ from tribodyn.studies.design.candidates.sources import split
 
 REPORTED: Reported = {
     "Search": quantities(
-        "objective_name", "method", "evaluations", "evaluations_feasible", "evaluations_without_quantities"
+        *(
+            "objective_name",
+            "method",
+            "evaluations",
+            "evaluations_feasible",
+            "evaluations_without_quantities",
+        ),
+        *("evaluations_finer", "evaluations_about", "evaluations_total"),
     ),
     "Solver": quantities("wall_time"),
 }
@@ -24,7 +31,13 @@ SWEPT = quantities(
 SWEEP_TABLE = quantities("objective", "objective_start", "evaluations")
 
 PANELS = ("objective",)
-TOP = ("objective_start", "objective", "best", "evaluations")  # of what `run --json` prints
+TOP = (
+    "objective_start",
+    "objective",
+    "best",
+    "evaluations",
+    "evaluations_total",
+)  # of what `run --json` prints
 
 
 def verdict(record: Record) -> list[str]:
@@ -49,7 +62,11 @@ def verdict(record: Record) -> list[str]:
     feasible, evaluations = summary.get("evaluations_feasible"), summary.get("evaluations")
     if feasible is not None and evaluations:
         holds = "The best keeps every constraint" if feasible else "No candidate keeps every constraint"
-        found.append(f"{holds}; {feasible} of {evaluations} candidates do.")
+        total = summary.get("evaluations_total", evaluations)
+        more = f" Besides, {total - evaluations} evaluations were finer or about the best." * (
+            total > evaluations
+        )
+        found.append(f"{holds}; {feasible} of {evaluations} candidates do.{more}")
     if feasible:
         found.append("To do: run the best, which lies beside the record as a scenario of its own.")
     return found

@@ -25,7 +25,7 @@ from tribodyn.studies.design.candidates.archive import (
     resolutions,
 )
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, samples_of, shares_of, start_of
-from tribodyn.studies.design.candidates.converged import Converged, converged
+from tribodyn.studies.design.candidates.converged import Converged, converged, counts
 from tribodyn.studies.design.candidates.evaluation import (
     Answer,
     Cluster,
@@ -68,12 +68,17 @@ def check(case: DesignCase) -> CheckResult:
     cases = len(case.duties) * len(samples_of(case))
     wanted = [objective.name.removeprefix("-") for objective in case.objectives]
     more = case.objectives[0].name.startswith("-")
+    by_factor = counts(case, name)
+    beside = sum(by_factor.values()) - case.search.evaluations
+    last = max(by_factor)
+    finer = f"about {beside}, on up to {last} times the resolution" if last > 1 else f"about {beside}"
     data = {
         "free": {key: _bounds(free) for free in case.free for key in free.keys},
         "objective": wanted,
         "subject_to": [constraint.text for constraint in case.constraints],
         "method": name,
         "cases_per_evaluation": cases,
+        "evaluations_by_resolution": {str(factor): count for factor, count in by_factor.items()},
     }
     tables = (
         TextTable("Free keys", ("key", "start", "range"), rows),
@@ -86,6 +91,7 @@ def check(case: DesignCase) -> CheckResult:
                 *(("subject to", constraint.text) for constraint in case.constraints),
                 ("method", f"{name}: {reason}"),
                 ("evaluations", f"{case.search.evaluations} at most, {cases} cases each"),
+                ("besides, at the end", finer),
             ),
         ),
     )
@@ -131,10 +137,12 @@ def run(
         how: dict[str, Any] = {"scales": scales_of(case, names), "force": replace, "code": computing_digest()}
         record = stack.enter_context(writer(case, path, layout_of(case), room, **how))
 
+        expected = sum(counts(case, name).values())
+
         def keep(candidate: Candidate) -> None:
             record.write(record.written, row_of(case, names, candidate, record.written))
             if progress:
-                progress(min(1.0, record.written / case.search.evaluations))
+                progress(min(1.0, record.written / expected))
 
         @cache
         def at(factor: int) -> Archive:
@@ -163,6 +171,9 @@ def run(
                 return RunResult(record.fail(message, so_far()), "failed", message, so_far())
             about = _about(case, archive, pool, best, before.moved, record)
             summary = so_far(**_resolved(case, at(1), end, best), **about)
+            summary["evaluations_finer"] = end.evaluations
+            every = ("evaluations", "evaluations_finer", "evaluations_about")
+            summary["evaluations_total"] = sum(summary[each] for each in every) + at.cache_info().currsize
         except KeyboardInterrupt as error:
             best = chosen_best(case, archive) if archive else None
             kept = record.fail(str(error) or "interrupted by the user", so_far())
@@ -215,7 +226,6 @@ def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Candida
         "resolution_searched": resolutions(case, 1),
         "objective_searched": signed(case, before),
         "quantity_stands": end.stands,
-        "evaluations_finer": end.evaluations,
     }
 
 
@@ -283,4 +293,7 @@ def _about(
     for (place, name), answer in waiting.items():
         record.put(place, {name: objective(answer.result())})
     confirmed = [objective(answer.result()) for answer in confirming]
-    return {"objective_start_confirmed": confirmed[0], "objective_confirmed": confirmed[1]} if ends else {}
+    summary: dict[str, Any] = {"evaluations_about": 2 * len(places) + len(ends)}
+    if ends:
+        summary |= {"objective_start_confirmed": confirmed[0], "objective_confirmed": confirmed[1]}
+    return summary

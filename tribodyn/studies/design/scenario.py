@@ -88,7 +88,7 @@ class DesignTable(Table):
     robust: RobustTable = written({})
     method: Literal["auto", *METHODS] = "auto"  # pyright: ignore[reportInvalidTypeForm]
     evaluations: Annotated[int, Field(strict=True, ge=2, le=1_000_000)] = Field(
-        200, description="of the duties and samples together, at most"
+        200, description="on the scenario's resolution, at most, of duties and samples together"
     )
     starts: Count = Field(2, description="local searches, from the best of the first evaluations")
     seed: Annotated[int, Field(strict=True, ge=0)] = 0

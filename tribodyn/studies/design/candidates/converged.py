@@ -52,14 +52,23 @@ def converged(case: DesignCase, at: At, method: str) -> Converged:
 
 
 def counts(case: DesignCase, method: str) -> dict[int, int]:
-    """How many candidates a search evaluates by factor, about; the quantities may stand sooner."""
+    """How many evaluations a search takes by factor, about; the quantities may stand sooner.
+
+    The start of every resolution and what is evaluated about the best are among them.
+    """
     most = case.search.evaluations
+    beside = 2 * (len(case.free) + len(case.tolerances)) * case.sensitivities + 2 * bool(case.confirm)
+    finer = FACTORS[1:] if resolutions(case, 1) else ()
     if len(case.objectives) > 1:
-        each = 2 * max(KEPT, case.search.points)
-        return {factor: min(each, most) if factor > 1 else most for factor in FACTORS}
-    about = int(SHARE * most) if method in SMOOTH else 0
-    more = {factor: KEPT for factor in FACTORS[2:]}
-    return {1: most, 2: 1} | more | {SEARCHED: KEPT + about}
+        each = min(2 * max(KEPT, case.search.points), most)
+        found = {1: most} | dict.fromkeys(finer, each)
+    else:
+        about = int(SHARE * most) if method in SMOOTH else 0
+        found = {1: most} | {factor: KEPT + about * (factor == SEARCHED) for factor in finer}
+        found |= dict.fromkeys(finer[:1], 1)
+    found = {factor: count + 1 for factor, count in found.items()}
+    last = SEARCHED if finer else 1
+    return found | {last: found[last] + beside}
 
 
 def _of_best(at: At, smooth: bool) -> tuple[int, bool]:
