@@ -13,6 +13,9 @@ from tribodyn.tribology.pressure_law import asymptotic_coefficient
 
 def named_oil(name: str, temperature: float | None, numbers: tuple[Any, ...]) -> LubricantData:
     """Return the lubricant at its temperature; InputError beside other numbers, or without a temperature."""
+    if not isinstance(name, str):
+        rule, remedy = "not the name of a lubricant", "name a shipped one, or the path of a file: oil.toml"
+        raise InputError("lubricant", quoted(name), rule, remedy)
     keys = ("viscosity", "pressure_viscosity", "viscosity_pressure_index", "temperature_viscosity")
     for key, value in zip(keys, numbers, strict=True):
         if value is not None:

@@ -127,7 +127,7 @@ class Sweep:
 @in_python()
 def sweep(
     source: Source,
-    vary: Mapping[str, Values],
+    vary: Mapping[str, Values] | str | Sequence[str],
     overrides: Mapping[str, Any] | None = None,
     *,
     transient: int | None = None,
@@ -154,8 +154,9 @@ def sweep(
     ----------
     source, overrides
         As `scenario` takes them.
-    vary : mapping
-        Dotted key to its values, see `Values`; several keys span a grid, the last running fastest.
+    vary : mapping, str or list of str
+        Dotted key to its values, see `Values`; several keys span a grid, the last running fastest. Or as
+        ``--vary`` takes them: ``"operating.gear_torque=100:300:50 N*m"``.
     transient : int, optional
         March so many mesh cycles; default: seek the periodic steady state of each case.
     direction : {"up", "down", "both"}, optional
@@ -244,10 +245,16 @@ def open_result(path: str | Path) -> Run | Sweep:
 
 
 def _grid(
-    source: Source, vary: Mapping[str, Values], overrides: Mapping[str, Any] | None, folder: Path
+    source: Source,
+    vary: Mapping[str, Values] | str | Sequence[str],
+    overrides: Mapping[str, Any] | None,
+    folder: Path,
 ) -> Grid:
     changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
-    options = [f"{key}={_values(key, values)}" for key, values in vary.items()]
+    if isinstance(vary, Mapping):
+        options = [f"{key}={_values(key, values)}" for key, values in vary.items()]
+    else:
+        options = [vary] if isinstance(vary, str) else [str(option) for option in vary]
     if isinstance(source, (str, Path)):
         return Grid(str(source), options, changes)
     case = scenario(source)  # with everything written out: no file of its own is needed

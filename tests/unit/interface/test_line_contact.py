@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from tribodyn.errors import InputError
 
 mpl.use("agg")
 
@@ -141,3 +142,15 @@ def test_what_no_oil_bears_is_said():
     assert "limiting" in contact.limits[0]
     assert "limiting" in repr(contact)
     assert td.line_contact(**GIVEN).limits == ()
+
+
+def test_a_lubricant_that_is_no_name():
+    with pytest.raises(InputError, match=r"lubricant = .*: not the name of a lubricant; name a shipped one"):
+        td.line_contact(
+            line_load=2e5,
+            radius=0.01,
+            entrainment_speed=2.0,
+            effective_modulus=2.2e11,
+            oil_temperature=353.0,
+            lubricant={"like": "iso-vg-220-mineral"},  # pyright: ignore[reportArgumentType]
+        )

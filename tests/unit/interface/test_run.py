@@ -13,6 +13,7 @@ from matplotlib.figure import Figure, SubFigure
 
 import tribodyn as td
 from tribodyn.cli.app import app
+from tribodyn.errors import InputError
 from tribodyn.interface.result import Run
 from tribodyn.interface.sweep import Sweep
 
@@ -189,3 +190,18 @@ def test_a_comparison_with_a_paper():
     assert rows.choices in shown.replace("&#x27;", "'")
     assert shown.count("<tr>") == len(rows) + 1
     assert f"{sum(row.verdict == 'pass' for row in rows)} pass" in shown
+
+
+def test_keys_are_varied_as_on_the_command_line(tmp_path: Path):
+    """A text and a list of texts, as --vary takes them, in place of a mapping."""
+    short = {"output.samples_per_cycle": 20}
+    written = "operating.gear_torque=100:200:100 N*m"
+    torques = {"operating.gear_torque": ["100 N*m", "200 N*m"]}
+    many = [
+        td.sweep("efficiency-involute-18-36", vary, short, output=tmp_path / f"{number}.h5")
+        for number, vary in enumerate((torques, written, [written]))
+    ]
+    for one in many[1:]:
+        assert (one.efficiency.values == many[0].efficiency.values).all()
+    with pytest.raises(InputError, match=r"operating\.gear_torqe"):
+        td.sweep("efficiency-involute-18-36", "operating.gear_torqe=1:2/2 N*m", output=tmp_path / "x.h5")
