@@ -13,6 +13,7 @@ EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn list\n"
     "  tribodyn list laws\n"
+    "  tribodyn list --full\n"
     "  tribodyn list plots crc-23-47.h5\n"
     "  tribodyn list models --json"
 )
@@ -36,15 +37,16 @@ class What(StrEnum):
 
 
 def list(
-    what: Annotated[What | None, typer.Argument(help="What to list; everything if left out.")] = None,
+    what: Annotated[What | None, typer.Argument(help="What to list; an overview if left out.")] = None,
     record: Annotated[
         Path | None,
         typer.Argument(help="With plots: the figures that this record, or sweep, holds enough for."),
     ] = None,
+    full: Annotated[bool, typer.Option("--full", help="Everything of all sorts.")] = False,
     json: JsonOption = False,
 ) -> None:
     """List scenarios, models, kinds of study, laws, solvers, plots, papers."""
-    from tribodyn.cli.printing import print_json, print_table
+    from tribodyn.cli.printing import print_json, print_prose, print_table
     from tribodyn.errors import InputError
 
     if record is not None and what is not What.plots:
@@ -62,8 +64,19 @@ def list(
     if json:
         print_json(listed)
         return
+    if what is None and not full:
+        rows = [(sort, str(len(names)), _first(names)) for sort, names in listed.items()]
+        print_table("What there is", ("sort", "number", "such as"), rows)
+        print_prose("All names of a sort: tribodyn list SORT; all of all sorts: tribodyn list --full.")
+        return
     for title, entries in listed.items():
         print_table(title, ("name", "what it is"), entries.items())
+
+
+def _first(names: dict[str, str]) -> str:
+    """The first names of a sort, as many as fit a line of a terminal."""
+    chosen = builtins.list(names)[:3]
+    return ", ".join(chosen) + (", …" if len(names) > len(chosen) else "")
 
 
 def _about(what: What) -> dict[str, str]:

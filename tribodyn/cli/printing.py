@@ -11,7 +11,7 @@ import shlex
 import shutil
 import sys
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -159,6 +159,23 @@ def print_findings(tables: "Iterable[TextTable]", remarks: Iterable[str] = ()) -
         print_table(*table)
     for remark in remarks:
         print_prose(remark)
+
+
+#: Lines of tables, and remarks, with which a long answer begins: with what follows they fill a screen.
+_SCREEN, _REMARKS = 34, 4
+
+
+def begun(tables: "list[TextTable]", remarks: "Sequence[str]") -> "tuple[list[TextTable], list[str]]":
+    """The tables and remarks that fill a screen, and a remark that names the others."""
+    shown, lines = 0, 0
+    while shown < len(tables) and (lines := lines + len(tables[shown].rows) + 4) <= _SCREEN:
+        shown += 1
+    said = list(remarks[:_REMARKS])
+    if len(remarks) > _REMARKS:
+        said.append(f"… and {len(remarks) - _REMARKS} more remarks.")
+    if left := [table.title for table in tables[shown:]]:
+        said.append(f"There is more: {'; '.join(dict.fromkeys(title.partition(', ')[0] for title in left))}.")
+    return tables[:shown], said
 
 
 def print_files(what: str, files: Iterable[Path]) -> None:

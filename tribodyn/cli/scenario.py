@@ -1,11 +1,14 @@
 """Verbs on scenario files: `tribodyn init`, `tribodyn check` and `tribodyn schema`."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tribodyn.cli.options import JsonOption, LargeOption, ScenarioArgument, SetOption, kinds, overrides
+
+if TYPE_CHECKING:
+    from tribodyn.studies.protocol.study import TextTable
 
 INIT_EXAMPLES = (
     "\b\nExamples:\n"
@@ -16,7 +19,8 @@ INIT_EXAMPLES = (
 CHECK_EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn check involute-18-36\n"
-    "  tribodyn check my-drive.toml --set drive.pinion.profile_shift=0.3 --json"
+    "  tribodyn check my-drive.toml --set drive.pinion.profile_shift=0.3 --json\n"
+    "  tribodyn check two-stage-reducer first"
 )
 SCHEMA_EXAMPLE = "\b\nExample:\n  tribodyn schema > scenario.schema.json"
 
@@ -45,13 +49,17 @@ def init(
 
 def check(
     scenario: ScenarioArgument,
+    part: Annotated[
+        str, typer.Argument(help="Of a train: only tables with this in their title, such as a mesh.")
+    ] = "",
     settings: SetOption = None,
+    full: Annotated[bool, typer.Option("--full", help="Of a train: all tables of all meshes.")] = False,
     allow_large: LargeOption = False,
     json: JsonOption = False,
 ) -> None:
     """Check a scenario; print duty, geometry and stiffness."""
     from tribodyn.cli.outcome import complain
-    from tribodyn.cli.printing import print_findings, print_json, print_prose
+    from tribodyn.cli.printing import begun, print_findings, print_json, print_prose
     from tribodyn.post.progress import progress_bar
     from tribodyn.studies.protocol.load import load
 
@@ -64,9 +72,24 @@ def check(
     number = len(checked.warnings)
     unusual = f"can be computed, but has {number} unusual value{'s' * (number > 1)}, see the end"
     print_prose(f"{loaded.path}: {loaded.case.title}: {unusual if number else 'sound'}")
-    print_findings(checked.tables, checked.remarks)
+    if full or part or not checked.details:
+        print_findings(_named(checked.every, part), () if part else checked.remarks)
+    else:
+        print_findings(*begun(checked.every, checked.remarks))
+        print_prose("All of it: --full; some of it: a mesh, or a word of a title, behind the scenario.")
     for warning in checked.warnings:
         complain(f"{loaded.path}: warning: {warning}")
+
+
+def _named(tables: "list[TextTable]", part: str) -> "list[TextTable]":
+    """The tables with a word in their title; InputError where there is none."""
+    from tribodyn.errors import InputError, quoted
+
+    found = [table for table in tables if part.casefold() in table.title.casefold()]
+    if not found:
+        titles = "; ".join(table.title for table in tables)
+        raise InputError("part", quoted(part), "in no title of a table", f"there is: {titles}")
+    return found
 
 
 def schema() -> None:

@@ -232,7 +232,7 @@ def sheet(record: Record | SweepRecord) -> "Sequence[TextTable]":
     """What `check` says of the scenario of a record; nothing where this version cannot make its case."""
     try:
         loaded = loaded_again(record)
-        return loaded.study.check(loaded.case, allow_large=True).tables
+        return loaded.study.check(loaded.case, allow_large=True).every
     except (InputError, SimulationError):
         return ()
 

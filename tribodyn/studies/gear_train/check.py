@@ -61,12 +61,12 @@ def check(case: TrainCase) -> CheckResult:
         *_set_tables(prepared),
         _mode_table(prepared, found, kinds),
         _campbell_table(prepared, found),
-        *_once(names, [checked.tables for checked in of_meshes]),
     ]
+    details = list(_once(names, [checked.tables for checked in of_meshes]))
     remarks = list(_named(names, [checked.remarks for checked in of_meshes]))
     said = _named(names, [checked.warnings for checked in of_meshes])
     warnings = tuple(dict.fromkeys((*jams(prepared), *said)))
-    return CheckResult(data, tables, remarks, warnings)
+    return CheckResult(data, tables, remarks, warnings, details)
 
 
 def _named(names: list[str], said: list[Any]) -> Iterator[str]:

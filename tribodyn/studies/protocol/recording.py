@@ -71,6 +71,12 @@ class CheckResult(NamedTuple):
     tables: Sequence[TextTable]
     remarks: Sequence[str] = ()
     warnings: Sequence[str] = ()  # values that are more often a slip than meant, a sentence each
+    details: Sequence[TextTable] = ()  # tables of single parts, printed where they are asked for
+
+    @property
+    def every(self) -> list[TextTable]:
+        """All tables, those of single parts behind the others."""
+        return [*self.tables, *self.details]
 
 
 def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:

@@ -58,7 +58,7 @@ def page(record: Record) -> str:
         _meshes(summary, "iso"),
         first_page.part_section(study, "Motion at the duty", [done[DUTY]] if done else []),
         "<section><h2>Gears and oil</h2>"
-        + "".join(table(*sheet) for sheet in study.check(case.subject.case, allow_large=True).tables)
+        + "".join(table(*sheet) for sheet in study.check(case.subject.case, allow_large=True).every)
         + "</section>",
         first_page.origin(record),
     ]
