@@ -188,3 +188,18 @@ def test_a_scenario_that_cannot_be_read(refused: Refused, tmp_path: Path):
         assert code == 2
         assert len(lines) == 1
         assert rule in lines[0]
+
+
+def test_a_negative_number_of_teeth_names_the_table_of_that_gear(refused: Refused):
+    code, (line,) = refused("check", "two-stage-reducer", "--set", "gear.wheel-1.teeth=-82")
+    assert code == 2
+    assert "write internal = true in [gear.wheel-1]" in line
+    code, (line,) = refused("check", "crc-23-47", "--set", "drive.gear.teeth=-47")
+    assert "write internal = true in [drive.gear]" in line
+
+
+def test_the_kind_of_a_scenario_is_not_set(refused: Refused):
+    code, (line,) = refused("check", "crc-23-47", "--set", "kind=efficiency")
+    assert code == 2
+    assert line.startswith('--set: kind = "efficiency": the kind of a scenario cannot be set')
+    assert "tribodyn init NAME --kind efficiency" in line

@@ -59,7 +59,12 @@ def refusal(error: InputError, what: str, remedy: str = "") -> InputError:
         return InputError(error.key, error.value, rule, remedy, error.file)
     if what == INTERNAL:
         rule = "the key of an internal gear is internal, of the gear that it is"
-        return InputError(error.key, error.value, rule, _OUTSIDE[INTERNAL][1], error.file)
+        parts = error.key.split(".")
+        named = len(parts) > 2 and parts[-3] == "gear"  # of a train
+        remedy = _OUTSIDE[INTERNAL][1]
+        if named:
+            remedy = remedy.replace("[drive.gear]", f"[{'.'.join(parts[:-1])}]")
+        return InputError(error.key, error.value, rule, remedy, error.file)
     if what == PLANETS:
         rule = f"{PLANETS} are a stage of a train"
         return InputError(error.key, error.value, rule, _OUTSIDE[PLANETS][1], error.file)

@@ -13,12 +13,12 @@ from typing import Annotated, Any, NamedTuple, Union
 import tomli_w
 from pydantic import Field, TypeAdapter, ValidationError
 
-from tribodyn.errors import InputError, InputErrors, unknown_name
+from tribodyn.errors import InputError, InputErrors, quoted, unknown_name
 from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.own_keys import example_of
 from tribodyn.scenario.quantity import LIKE
-from tribodyn.scenario.resolve import Resolved, resolve, resolve_table, unresolved_keys
+from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve, resolve_table, unresolved_keys
 from tribodyn.scenario.scope import outside
 from tribodyn.scenario.sources import file_name, find_scenario
 from tribodyn.scenario.tables.duty import broken_spectrum_rules, in_force, of_duty, spectrum_of
@@ -142,6 +142,10 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
         if isinstance(kind, str) and kind not in STUDIES:
             unknown = unknown_name("kind", kind, STUDIES, STUDIES.what)
             raise outside(unknown, kind, remedy=unknown.remedy) or unknown
+        if origins.of(("kind",)) == OVERRIDES:
+            rule = "the kind of a scenario cannot be set: kinds have other tables"
+            remedy = f"write a scenario of that kind: tribodyn init NAME --kind {kind}"
+            raise InputError("kind", quoted(kind), rule, remedy, OVERRIDES)
         scenario = model.model_validate(data)
     except InputError as error:
         raise origins.locate(error) from None
