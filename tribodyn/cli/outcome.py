@@ -93,6 +93,8 @@ def verb(function: Callable[..., None]) -> Callable[..., None]:
             raise
         except OSError as error:
             if error.errno not in NO_ROOM:
+                if not _has_folder():
+                    end(BAD_INPUT, "the current folder has been removed: change to another one")
                 _report_bug(error)
             silence(sys.stdout)
             end(SIMULATION_FAILED, f"{error.filename or 'the output'}: cannot be written: {error.strerror}")
@@ -100,6 +102,14 @@ def verb(function: Callable[..., None]) -> Callable[..., None]:
             _report_bug(error)
 
     return guarded
+
+
+def _has_folder() -> bool:
+    """Whether the current folder is still there."""
+    try:
+        return os.path.isdir(os.getcwd())
+    except OSError:
+        return False
 
 
 def _report_bug(error: Exception) -> NoReturn:

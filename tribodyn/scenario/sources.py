@@ -14,6 +14,7 @@ from typing import Any, NoReturn
 
 from tribodyn.errors import (
     InputError,
+    harmless,
     names_with,
     near_name,
     printable_path,
@@ -76,13 +77,16 @@ def _refuse_record(path: Path) -> None:
 
 
 def file_name(path: Path, folder: Path) -> str:
-    """How a record in a folder names the scenario's file: relative to it, a shipped one by its name."""
+    """How a record in a folder names the scenario's file: relative to it, a shipped one by its name.
+
+    Bytes that are no text are escaped.
+    """
     path, folder = path.resolve(), folder.resolve()
     if path.parent == shipped(SCENARIOS).resolve():
         return f"shipped: {path.stem}"
     with suppress(ValueError):  # on another drive of Windows
-        return Path(os.path.relpath(path, folder)).as_posix()
-    return path.as_posix()
+        return harmless(Path(os.path.relpath(path, folder)).as_posix())
+    return harmless(path.as_posix())
 
 
 def _missing(key: str, name: str, path: Path, rule: str) -> NoReturn:

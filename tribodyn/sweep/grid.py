@@ -6,7 +6,7 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
-from tribodyn.errors import InputError, InputErrors
+from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.scenario.sources import find_scenario, read_toml
 from tribodyn.scenario.vary import NO_TABLE, VARY, Axis, axes_of, in_si
@@ -143,9 +143,14 @@ class Grid:
 def _put(data: dict[str, Any], key: str, value: Any) -> None:
     place: Any = data
     *above, last = key.split(".")
-    for part in above:
-        place = place[int(part) if isinstance(place, list) else part]
-    place[int(last) if isinstance(place, list) else last] = value
+    try:
+        for part in above:
+            place = place[int(part) if isinstance(place, list) else part]
+        place[int(last) if isinstance(place, list) else last] = value
+    except (IndexError, KeyError, TypeError):
+        rule = "stands in a table that not all cases have"
+        remedy = "vary it in a sweep of its own, where no other key picks tables"
+        raise InputError(key, quoted(value), rule, remedy, VARY) from None
 
 
 def _picked(data: Mapping[str, Any], axis: Axis, value: str) -> list[Any]:

@@ -14,7 +14,7 @@ import numpy as np
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.parameter import Variable
 from tribodyn.record.sensors import Sensed
-from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
+from tribodyn.record.sweep_schema import CASE, DONE, FAILED, OF_EVERY_SWEEP, SweepLayout
 from tribodyn.record.withheld import remarked, warned
 from tribodyn.sensing.data import KINDS
 from tribodyn.signals.resampling import REACH
@@ -127,6 +127,11 @@ class SignalBatch:
         """Signals, the rotation of the reference beside them, and what `OF_CASES` names."""
         variables, scales = {}, {}
         several = len(set(settings.rates)) > 1
+        angles = {_angle_name(settings, rate) for rate in settings.rates}
+        times = {f"time_{rate:.12g}_Hz" for rate in settings.rates}
+        for name in {CASE, "line", *angles, *times, *OF_CASES, *OF_EVERY_SWEEP}.intersection(settings.names):
+            rule = "names something that the data set has beside the signals"
+            raise InputError("sensor", f'"{name}"', rule, "give the sensor another name")
         for rate in dict.fromkeys(settings.rates):
             time = f"time_{rate:.12g}_Hz" if several else "time"
             about = f"time from the first sample on, at {rate:.12g} samples per second"

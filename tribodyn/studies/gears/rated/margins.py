@@ -75,7 +75,8 @@ def bulk_of(assembly: Assembly, quantities: Mapping[str, Any], oil: float, suppl
     if quantities.get("bulk_temperature") is not None:
         return float(quantities["bulk_temperature"])
     centre = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
-    loss, width = float(quantities["power_friction_mean"]), float(assembly.common_width)
+    # over a short window friction may give more than it takes: that heats nothing
+    loss, width = max(float(quantities["power_friction_mean"]), 0.0), float(assembly.common_width)
     factor = micropitting.LUBRICATION_FACTORS[supply]
     return oil + micropitting.bulk_rise(loss, 1.0, 1.0, centre, width, factor)
 
