@@ -225,7 +225,7 @@ def _numbers(case: Any) -> Iterator[tuple[str, float]]:
     assembly = assemble(family(case.family), drive)
     duty, module = nominal_duty(case, assembly), float(drive.module)
     yield "module", module * 1e3
-    yield "face_width", float(assembly.common_width) / (2.0 * float(assembly.path.pinion_pitch_radius))
+    yield "face_width", float(assembly.common_width) / abs(2.0 * float(assembly.path.pinion_pitch_radius))
     yield "gear_ratio", abs(float(drive.gear.teeth) / float(drive.pinion.teeth))
     yield "contact_ratio", duty.contact_ratio
     for side in SIDES:

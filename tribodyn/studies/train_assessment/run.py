@@ -79,15 +79,20 @@ def quantities_of(case: TrainAssessmentCase) -> dict[str, Any]:
         return assessed(case, Path(folder))[1]
 
 
+def name_at(factor: float) -> str:
+    """Name of the run at a share of the speed: no two shares have one."""
+    return f"speed-{factor:.12g}"
+
+
 def tasks_of(case: TrainAssessmentCase) -> list[tuple[Study, Task]]:
     """The train's run at the duty, those at other speeds, and those with other friction laws."""
     subject, settings = case.subject, case.settings
     scenario = tomllib.loads(subject.case.toml)
     found = [Task(DUTY, "motion at the duty", scenario)]
     for factor in factors_of(case):
-        about = f"motion at {factor:.4g} of the speed"
+        about = f"motion at {factor:.12g} of the speed"
         other = _whole(case).at_speed(subject.case, scenario, factor)
-        found.append(Task(f"speed-{factor:.4g}", about, other, needed=False))
+        found.append(Task(name_at(factor), about, other, needed=False))
     for law in settings.friction_laws:
         about, other = f"motion with friction by {law}", {**scenario, "friction": {"law": law}}
         found.append(Task(f"friction-{law}", about, other, needed=False))
@@ -162,9 +167,7 @@ def _in_doubt(own: Mapping[str, Any]) -> list[str]:
 def _over_speed(case: TrainAssessmentCase, done: Mapping[str, TaskResult]) -> dict[str, np.ndarray]:
     """The recorded quantities over the speed of the runs that were done."""
     speed = _whole(case).speed(case.subject.case)
-    runs = {factor: done[f"speed-{factor:.4g}"].summary for factor in factors_of(case)} | {
-        1.0: done[DUTY].summary
-    }
+    runs = {factor: done[name_at(factor)].summary for factor in factors_of(case)} | {1.0: done[DUTY].summary}
     factors = sorted(factor for factor, summary in runs.items() if summary)
     found = {"input_speed": speed * np.array(factors)}
     for name in SAMPLES:

@@ -12,7 +12,7 @@ from tribodyn.errors import InputError
 from tribodyn.record.reader import MESHES, Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.tasks import case_of
-from tribodyn.studies.train_assessment.run import tasks_of
+from tribodyn.studies.train_assessment.run import name_at, tasks_of
 
 SCENARIO = """
 title = "A planetary set, assessed"
@@ -128,3 +128,8 @@ def test_bad_input_is_one_message(changes: dict[str, Any], key: str, tmp_path: P
         load_scenario(tmp_path / "set.toml", changes)
     assert key in str(error.value)
     assert error.value.remedy
+
+
+def test_runs_at_speeds_that_are_near_have_names_of_their_own():
+    assert name_at(1.0015) != name_at(1.002)
+    assert name_at(0.5) == "speed-0.5"
