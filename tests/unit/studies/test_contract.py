@@ -103,7 +103,7 @@ def test_a_case_is_checked(kind: str, tmp_path: Path):
     checked = STUDIES[kind].check(short_case(kind, tmp_path))
     assert isinstance(checked, CheckResult)
     assert checked.data
-    for table in checked.tables:
+    for table in checked.every:
         assert table.title
         assert table.rows
         assert all(len(row) == len(table.columns) for row in table.rows)

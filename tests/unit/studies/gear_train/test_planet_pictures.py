@@ -183,7 +183,7 @@ def test_figures_are_drawn(record: Record, name: str):
 
 def test_a_check_names_every_frequency_once():
     found = check(set_case(SEQUENTIAL, 4))
-    titles = [table.title for table in found.tables]
+    titles = [table.title for table in found.every]
     assert sum(title.startswith("Gears, mesh") for title in titles) == 2
     (campbell,) = [table for table in found.tables if table.title.startswith("Campbell")]
     assert campbell.columns[1:4] == ("set", "set ×2", "set ×3")
