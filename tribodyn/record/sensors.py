@@ -1,7 +1,8 @@
 """Signals of sensors in a record: groups by rate with a time axis of their own, and the lines to be named.
 
 ``sensors/at_20000_Hz`` holds `time`, `reference_angle` and one dataset per sensor of that rate, with its
-unit, its meaning and how it was made; ``sensors/lines`` has the orders of meshes and shafts.
+unit, its meaning and how it was made. A filter needs samples before and behind: sensors of the same rate with
+another one have other times, and a group of their own. ``sensors/lines`` has the orders of meshes and shafts.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -20,7 +21,7 @@ from tribodyn.record.reader import Record
 from tribodyn.signals.lines import SORTS, SignalLine
 
 SENSORS, LINES = "sensors", "lines"
-_RATE = "at_{:.12g}_Hz"
+_RATE, _FILTER = "at_{:.12g}_Hz", "filter"
 #: Orders, rates (Hz) and shares of an interval by which it may differ from others that no sensor exceeds.
 LARGEST_ORDER, LARGEST_RATE, EVEN = 1e6, 1e9, 1e-2
 _TIME = Variable(("time",), "s", "time of the samples of sensors, even")
@@ -77,12 +78,16 @@ def write_sensed(sensed: Sensed, file: h5py.File) -> None:
     order = lines.create_dataset("order", data=np.array([line.order for line in sensed.lines], dtype="<f8"))
     describe(order, _ORDER)
     attach(order, _ORDER, {"line": names})
-    for rate in dict.fromkeys(signal.rate for signal in sensed.signals):
-        _write_rate(group, rate, [signal for signal in sensed.signals if signal.rate == rate])
+    alike: dict[tuple[float, Any], list[SensorSignal]] = {}
+    for signal in sensed.signals:
+        alike.setdefault((signal.rate, signal.made.get(_FILTER)), []).append(signal)
+    for (rate, filtered_by), signals in alike.items():
+        name = _RATE.format(rate)
+        _write_times(group.create_group(f"{name}_{filtered_by}" if name in group else name), rate, signals)
 
 
-def _write_rate(group: h5py.Group, rate: float, signals: Sequence[SensorSignal]) -> None:
-    part = group.create_group(_RATE.format(rate))
+def _write_times(part: h5py.Group, rate: float, signals: Sequence[SensorSignal]) -> None:
+    """Write signals of the same times into a group."""
     part.attrs["rate"], part.attrs["rate_units"] = rate, "Hz"
     scales = {"time": scale(part, "time", _TIME, signals[0].time)}
     arrays = {"reference_angle": (signals[0].angle, _ANGLE)}

@@ -52,7 +52,9 @@ class Sensor(Table):
     rate: Frequency = Field(description="samples per second")
     filter: Literal["kaiser", "none"] = Field("kaiser", description="against aliases")
     noise: Text | None = Field(None, description="RMS, in a unit of what it measures")
-    snr: Number | None = Field(None, description="dB, in place of noise: signal over noise, RMS")
+    snr: Annotated[float, Field(strict=True, ge=-300.0, le=300.0)] | None = Field(
+        None, description="dB, in place of noise: signal over noise, RMS"
+    )
     seed: Annotated[int, Field(strict=True, ge=0)] = Field(0, description="of the noise")
     full_scale: Text | None = Field(None, description="magnitude at which it clips")
     bits: Annotated[int, Field(strict=True, ge=2, le=32)] | None = Field(
@@ -124,7 +126,9 @@ def broken_sensor_rules(sensors: Sequence[Sensor], housing: Housing | None) -> I
             yield InputError(f"{key}.name", quoted(sensor.name), rule, "give it a name of its own")
         for level in ("noise", "full_scale"):
             try:
-                level_in_si(sensor, level)
+                if level_in_si(sensor, level) == 0.0 and level == "full_scale":
+                    rule, remedy = "leaves nothing between −full_scale and full_scale", "leave it out"
+                    yield InputError(f"{key}.{level}", quoted(sensor.full_scale or ""), rule, remedy)
             except NotAQuantity as error:
                 yield InputError(f"{key}.{level}", quoted(getattr(sensor, level)), error.rule, error.remedy)
         if sensor.noise is not None and sensor.snr is not None:

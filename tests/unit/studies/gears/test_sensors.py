@@ -279,6 +279,30 @@ def test_a_record_whose_signal_is_no_number_is_said_to_be_damaged(pair: Path, tm
         read_sensed(record)
 
 
+def test_sensors_of_any_kinds_and_filters_are_read_back_as_they_were_written(tmp_path: Path):
+    """Of one rate or several; each the same as if it were the only one."""
+    kinds = [
+        sensor("a", "force", at="pinion"),
+        sensor("b", "force", at="pinion", filter="none", snr=20.0),
+        sensor("c", "acceleration", at="gear", filter="none", rate="5 kHz", noise="1 m/s**2"),
+        sensor("d", "acceleration", at="gear", rate="5 kHz", bits=8, full_scale="20 m/s**2"),
+        sensor("e", "encoder", at="gear", bits=32, full_scale="1e-3 rad"),
+        sensor("lines", "torque", at="output", full_scale="1 N*m"),
+        sensor("f", "housing", filter="none", rate="5 kHz"),
+    ]
+    short = PAIR | {"solver": {"revolutions": 1}, "output": {"samples_per_cycle": 100, "window": "all"}}
+    with Record(written(tmp_path, short | {"sensor": kinds}, "all")) as record:
+        together = read_sensed(record)
+        assert "signals" in names([record])
+    assert [signal.name for signal in together.signals] == [one["name"] for one in kinds]
+    assert {len(signal.time) for signal in together.signals[:2]} == {771, 801}  # the filter's reach
+    for one, signal in zip(kinds, together.signals, strict=True):
+        with Record(written(tmp_path, short | {"sensor": [one]}, f"only-{one['name']}")) as record:
+            (alone,) = read_sensed(record).signals
+        for name in ("time", "angle", "values"):
+            np.testing.assert_array_equal(getattr(signal, name), getattr(alone, name))
+
+
 @needs_browser
 def test_a_browser_takes_the_page(pair: Path, tmp_path: Path):
     with Record(pair) as record:
@@ -297,6 +321,8 @@ def test_a_browser_takes_the_page(pair: Path, tmp_path: Path):
         ({"noise": "3 N"}, "sensor.0.noise", "not a unit of acceleration"),
         ({"noise": "1 m/s**2", "snr": 3.0}, "sensor.0.snr", "contradicts noise"),
         ({"bits": 12}, "sensor.0.full_scale", "missing"),
+        ({"bits": 12, "full_scale": "0 m/s**2"}, "sensor.0.full_scale", "leaves nothing"),
+        ({"snr": -20000.0}, "sensor.0.snr", "greater than or equal to -300"),
         ({"name": "time"}, "sensor.0.name", "a dataset beside the signals"),
         ({"kind": "ring"}, "sensor.0.kind", "there is none"),
     ],
