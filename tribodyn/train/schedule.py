@@ -129,7 +129,7 @@ def with_teeth(
         lcm(int(turned), *(abs(z) for z in both)) // int(turned)
         for turned, both in zip(in_period, teeth, strict=True)
     ]
-    times = min(lcm(*hunting), -(-cycles // short))
+    times = min(lcm(*hunting), -(-cycles // short) + 1)  # the end of a run belongs to what begins there
     whole = (turns + in_period * np.arange(times)[:, None, None]).reshape(times * count, -1)
     numbers = [
         np.mod(whole + [one[end] for one in first], [abs(both[end]) for both in teeth]) for end in (0, 1)

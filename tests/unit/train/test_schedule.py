@@ -11,7 +11,7 @@ from tests.support.planet_sets import planet_set
 from tests.support.train_scenarios import case_of_table
 from tribodyn.dynamics.parameters import Model
 from tribodyn.studies.gear_train.prepare import prepare
-from tribodyn.train.schedule import of_one_mesh, schedule_of, with_teeth
+from tribodyn.train.schedule import interval_of, of_one_mesh, schedule_of, with_teeth
 
 
 @pytest.mark.parametrize(("first", "second"), [(5, 7), (6, 9), (4, 4)])
@@ -27,9 +27,11 @@ def test_every_pair_that_can_meet_does_so_once_in_a_hunting_period(first: int, s
     assert (schedule.driver_tooth[0, 0], schedule.driven_tooth[0, 0]) == (2, 1)
 
 
-def test_no_more_cycles_than_a_run_has():
+def test_no_more_cycles_than_a_run_has_and_the_one_that_begins_at_its_end():
     schedule = with_teeth(of_one_mesh(np.array([0.0, 1.0])), [(0, 0)], [(23, 47)], 100)
-    assert schedule.period == 100
+    assert schedule.period == 101
+    _, _, at_end = interval_of(np.array([100.0]), schedule)
+    assert (schedule.driver_tooth[at_end, 0], schedule.driven_tooth[at_end, 0]) == (100 % 23, 100 % 47)
 
 
 def test_teeth_of_a_slower_mesh_change_where_it_begins_a_cycle():
@@ -61,6 +63,7 @@ def entries(model: Model, mesh: int, numbers: np.ndarray, tooth: int) -> np.ndar
     schedule = model.schedule
     cycle = np.searchsorted(np.asarray(schedule.first)[1:], np.arange(len(schedule.start)), side="right")
     new = (numbers[:, mesh] == tooth) & (np.roll(numbers[:, mesh], 1) != tooth)
+    new[0] = False  # what is there at the start has entered before
     return (cycle + schedule.start)[new]
 
 
