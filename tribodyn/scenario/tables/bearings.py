@@ -108,9 +108,9 @@ def broken_bearing_rules(bearings: Bearings, drawn: Collection[str] = ()) -> Ite
 
 def broken_bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
     """Go through what is missing in the bearing at a key, or given twice."""
+    yield from broken_matrix(f"{key}.matrix", bearing.matrix, bearing.matrix_units)
     if bearing.matrix is not None:
         yield from _broken_with_matrix(key, bearing)
-        yield from broken_matrix(f"{key}.matrix", bearing.matrix, bearing.matrix_units)
         return
     for name in ("stiffness_x", "stiffness_y"):
         given = getattr(bearing, name)

@@ -111,20 +111,28 @@ def differing(drive: DriveTable) -> Iterator[tuple[str, str]]:
 
 def teeth_alike(drive: DriveTable) -> Iterator[InputError]:
     """Refuse what makes teeth differ, in a study that takes all of them alike."""
+    yield from _idle_angles(drive)
     for key, value in differing(drive):
         rule = "the study takes all teeth of a gear alike"
         yield InputError(key, value, rule, "leave it out, or run the pair over time")
 
 
-def broken_own_teeth(drive: DriveTable, sample: int | None) -> Iterator[InputError]:
-    """Go through what is wrong with what single teeth have of their own."""
+def _idle_angles(drive: DriveTable) -> Iterator[InputError]:
+    """Refuse directions of what is not there."""
     for side in SIDES:
         gear: Gear = getattr(drive, side)
-        table, key = gear.modification, f"drive.{side}.modification"
         for angle, of in (("eccentricity_angle", "eccentricity"), ("wobble_angle", "wobble")):
             if getattr(gear, angle) and not getattr(gear, of):
                 rule, remedy = f"has no effect without {of}", f"add {of}, or leave it out"
                 yield InputError(f"drive.{side}.{angle}", f"{getattr(gear, angle):.4g} rad", rule, remedy)
+
+
+def broken_own_teeth(drive: DriveTable, sample: int | None) -> Iterator[InputError]:
+    """Go through what is wrong with what single teeth have of their own."""
+    yield from _idle_angles(drive)
+    for side in SIDES:
+        gear: Gear = getattr(drive, side)
+        table, key = gear.modification, f"drive.{side}.modification"
         if gear.internal and gear.wobble:
             yield InputError(
                 f"drive.{side}.wobble",

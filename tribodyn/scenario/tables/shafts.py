@@ -240,8 +240,7 @@ def _broken_bearing(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
 
 def _broken_spring(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
     """What a spring or a matrix lacks, and what belongs to rolling bearings."""
-    if bearing.matrix is not None:
-        yield from broken_matrix(f"{key}.matrix", bearing.matrix, bearing.matrix_units)
+    yield from broken_matrix(f"{key}.matrix", bearing.matrix, bearing.matrix_units)
     for name in (*_EXAMPLES, "dynamic_rating", "static_rating"):
         if getattr(bearing, name) is not None:
             rule = "is that of a rolling bearing, and type is missing"

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, quoted
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.scenario.quantity import Number
 
@@ -38,8 +38,15 @@ def _in_si(rows: tuple[tuple[float, ...], ...], unit: str | None) -> Float[Array
     return np.array(rows) * length[:, None] / np.array([metre, metre, metre, 1.0, 1.0, 1.0])
 
 
-def broken_matrix(key: str, rows: tuple[tuple[float, ...], ...], unit: str | None) -> Iterator[InputError]:
+def broken_matrix(
+    key: str, rows: tuple[tuple[float, ...], ...] | None, unit: str | None
+) -> Iterator[InputError]:
     """Go through what is wrong with a matrix at a key, and its units beside it; the first of it alone."""
+    if rows is None:
+        if unit is not None:
+            rule, remedy = "has no effect without matrix", "add the matrix, or leave it out"
+            yield InputError(f"{key}_units", quoted(unit), rule, remedy)
+        return
     if unit is None:
         rule = "missing: a matrix has no meaning without its units"
         yield InputError(f"{key}_units", rule=rule, remedy=f'add {_last(key)}_units = "N, m, rad"')

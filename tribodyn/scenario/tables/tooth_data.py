@@ -109,10 +109,14 @@ def broken_tooth_rules(drive: DriveTable) -> Iterator[InputError]:
 
 
 def _broken_roughness(drive: DriveTable) -> Iterator[InputError]:
-    if drive.roughness is not None or drive.mean_roughness is not None:
+    if drive.mean_roughness is not None:
         return
     lacking = [name for name in ("pinion", "gear") if getattr(drive, name).mean_roughness is None]
-    if lacking:
+    if drive.roughness is not None and len(lacking) == 1:
+        rule = "missing: that of one gear has no effect beside drive.roughness, which is of both flanks"
+        remedy = "add it, or leave out that of the other gear"
+        yield InputError(f"drive.{lacking[0]}.mean_roughness", rule=rule, remedy=remedy)
+    elif drive.roughness is None and lacking:
         key = "drive.roughness" if len(lacking) == 2 else f"drive.{lacking[0]}.mean_roughness"
         both = 'or to [drive] roughness = "0.3 um", composite rms of both flanks'
         yield InputError(key, rule="missing", remedy=f'add mean_roughness = "0.8 um", Ra, {both}')
