@@ -26,6 +26,7 @@ from tribodyn.studies.protocol.load import load_data, table_of
 #: Pattern of a key that may leave the case as it is -> why.
 NO_EFFECT = {
     r"(^|\.)(title|name|source|assumptions|kind)$": "says what the scenario is, and is left out below",
+    r"\.(span_teeth|pin_diameter)$": "choose the dimension that the gear's sheet prints",
     r"^gear\..*\.quality$|^drive\.(pinion|gear)\.quality$": "tolerances of a pair need those of both gears",
 }
 #: What the case has of its own text.
