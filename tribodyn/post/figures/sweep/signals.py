@@ -14,6 +14,8 @@ from tribodyn.record.sweep_schema import DONE
 
 #: Labels that are drawn, cases that a spectrum is the mean of, seconds of a signal that are shown.
 LABELS, CASES, SHOWN = 4, 24, 0.1
+#: Characters of a legend in an inch of its width.
+CHARACTERS = 18.0
 
 
 def signals_figure(records: Sequence[SweepRecord], _at: Mapping[str, float | str]) -> Figure:
@@ -48,7 +50,13 @@ def signals_figure(records: Sequence[SweepRecord], _at: Mapping[str, float | str
         axes.set_ylabel(literal(unit))
         axes.margins(x=0.01)
         mark_panel(axes, "", literal(title))
-    below.legend(fontsize=7, frameon=False, ncols=LABELS)
+    handles, shown = below.get_legend_handles_labels()
+    # in a row of its own: beside the curves, and no wider than the figure
+    room = int(
+        figure.bbox.width / figure.dpi * CHARACTERS / max([len(label) + 6 for label in shown], default=1)
+    )
+    how = {"ncols": max(1, min(LABELS, room)), "fontsize": 7, "frameon": False}
+    figure.legend(handles, shown, loc="outside lower center", **how)
     figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
     return figure
 
