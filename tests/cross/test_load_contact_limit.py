@@ -42,7 +42,9 @@ def test_creeping_run_is_the_load_contact_model(prepared, modified, slices):
     found = recorded(run.model, TransientSettings("radau", 1e-8, 1, 100000, SAMPLES))["normal_load"]
 
     case, cycle = run.case, run.cycle
-    flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=slices > 1)
+    flexible = flexibility(
+        assemble(family(case.family), case.drive), case.materials, lead=slices > 1, held=case.mesh.held
+    )
     pitch = cycle.pitch_angle
     phase = np.arange(SAMPLES) / SAMPLES
     roll = cycle.roll_start + pitch * (phase[:, None] + np.array([1.0, 0.0]))
@@ -85,7 +87,9 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
     power = np.abs(found["friction_force"] * np.nan_to_num(found["sliding_speed"]))
 
     case = run.case
-    flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
+    flexible = flexibility(
+        assemble(family(case.family), case.drive), case.materials, lead=True, held=case.mesh.held
+    )
     flanks = LoadedFlanks(flexible, case.mesh.modifications, 11)
     roll = cycle.roll_start + cycle.pitch_angle * (phase[:, None] + np.arange(cycle.slots - 1.0, -1.0, -1.0))
     shared = flanks.share(roll, case.operating.gear_torque, np.nan_to_num(found["friction_coefficient"]))

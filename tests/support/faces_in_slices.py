@@ -49,7 +49,9 @@ def table(case, modified, slices, **changes):
 
 def model(case, cycle, modified, slices, torque, coupled=True):
     """Loads and deflection of the load contact model at the nodes of the table."""
-    flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=slices > 1)
+    flexible = flexibility(
+        assemble(family(case.family), case.drive), case.materials, lead=slices > 1, held=case.mesh.held
+    )
     pairs = cycle.front_pairs
     position = cycle.phase[..., None] + np.arange(pairs - 1.0, -1.0, -1.0)
     roll = np.clip(cycle.roll_start + cycle.pitch_angle * position, cycle.roll_start, cycle.roll_end)
