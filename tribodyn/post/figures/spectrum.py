@@ -162,12 +162,7 @@ def track(record: Record) -> Track:
     size, step = WINDOW * per_cycle, min(HOP, max(1, count // MOST_HOPPED)) * per_cycle
     signal = record["transmission_error_rotational"][whole.part]
     if signal.size < 2 * size:
-        raise InputError(
-            "record",
-            str(record.path),
-            f"holds {signal.size // per_cycle} mesh cycles, too few to track orders",
-            f"run at least {2 * WINDOW}: solver.cycles = 800",
-        )
+        raise _too_few(record, round(whole.phase[-1]))
     starts = np.arange(0, signal.size - size, step)
     part = starts[:, None] + np.arange(size)
     taper = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(size) / size)
@@ -178,6 +173,23 @@ def track(record: Record) -> Track:
     keep = orders <= SHOWN + 1e-9
     speed, time = _pinion_speed(record)[whole.part], record["time"][whole.part]
     return Track(speed[part].mean(axis=1), time[part].mean(axis=1), orders[keep], amplitudes[:, keep])
+
+
+def _too_few(record: Record, kept: int) -> InputError:
+    """What to say of a record whose cycles are too few, which may be a part of those that were run."""
+    ran = max(kept, int(record.summary.get("cycles_done", kept)))
+    of, remedies = "", []
+    by_turns = record.scenario.get("solver", {}).get("revolutions") is not None
+    if ran < 2 * WINDOW:
+        turns = -(-800 // int(record.mesh_cycle["pinion_teeth"]))
+        longer = f"solver.revolutions = {turns}" if by_turns else "solver.cycles = 800"
+        remedies.append(f"run at least {2 * WINDOW}: {longer}")
+    if ran > kept or by_turns:
+        remedies.append('keep all samples: output.window = "all"')
+    if ran > kept:
+        of = f" of the {ran} that were run"
+    rule = f"holds {kept} mesh cycles{of}, too few to track orders"
+    return InputError("record", str(record.path), rule, ", and ".join(remedies))
 
 
 def orders_figure(records: Sequence[Record], view: View) -> Figure:

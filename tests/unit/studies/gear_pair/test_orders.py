@@ -35,6 +35,7 @@ class RunUp(types.SimpleNamespace):
             path=Path("run-up.h5"),
             label="run-up",
             scenario={"title": "Run-up"},
+            summary={"cycles_done": float(cycles)},
             status="complete",
             trust="",
         )
@@ -83,6 +84,25 @@ def test_the_figure_has_a_map_and_the_orders(against: str):
 def test_a_short_run_is_refused():
     with pytest.raises(InputError, match="too few to track orders"):
         figure("orders", [RunUp(20)])  # type: ignore[list-item]
+
+
+def test_the_cycles_that_were_run_count_beside_those_that_are_kept():
+    """Of a run by revolutions the record keeps the last one, and cycles have no effect."""
+    record = RunUp(TEETH)
+    record.scenario["solver"] = {"revolutions": 4, "cycles": 20}
+    record.summary["cycles_done"] = 4.0 * TEETH
+    with pytest.raises(
+        InputError, match=f"holds {TEETH} mesh cycles of the {4 * TEETH} that were run"
+    ) as found:
+        figure("orders", [record])  # type: ignore[list-item]
+    assert found.value.remedy == 'keep all samples: output.window = "all"'
+    record.scenario["solver"] = {"revolutions": 1}
+    record.summary["cycles_done"] = 1.0 * TEETH
+    with pytest.raises(InputError, match=f"holds {TEETH} mesh cycles, too few") as found:
+        figure("orders", [record])  # type: ignore[list-item]
+    assert found.value.remedy == (
+        'run at least 32: solver.revolutions = 40, and keep all samples: output.window = "all"'
+    )
 
 
 def test_orders_of_a_falling_speed_are_over_time():
