@@ -1,7 +1,9 @@
 """One clear line for every mistake: pydantic's findings, and where the value at fault stands."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from copy import copy
+from math import isclose
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -11,8 +13,11 @@ from tribodyn.scenario import scope
 from tribodyn.scenario.quantity import Reference
 from tribodyn.scenario.schema import holds_by_name, inner_tables, table_at
 from tribodyn.scenario.unit_grammar import range_for_one
+from tribodyn.scenario.units import base_units
 
 Key = tuple[str | int, ...]
+#: By how much rounding changes a value that is shown with three digits.
+_ROUNDED = 5e-3
 
 
 class Origins:
@@ -20,6 +25,13 @@ class Origins:
 
     def __init__(self, file: str):  # the scenario's own
         self._files: dict[Key, str] = {(): file}
+        self._data: Mapping[str, Any] = {}
+
+    def over(self, data: Mapping[str, Any]) -> "Origins":
+        """The same, with the data whose values messages show as they are written there."""
+        origins = copy(self)
+        origins._data = data
+        return origins
 
     def put(self, key: Key, file: str) -> None:
         """Remember that what stands at and below `key` came from `file`, whatever was known before."""
@@ -32,13 +44,14 @@ class Origins:
         return next(self._files[key[:n]] for n in range(len(key), -1, -1) if key[:n] in self._files)
 
     def locate(self, error: InputError) -> InputError:
-        """Return the error with its file, if it had none."""
+        """Return the error with its file and its value in the unit that was typed, if it had no file."""
         if isinstance(error, InputErrors):
             return InputErrors([self.locate(mistake) for mistake in error.errors])
         if error.file:
             return error
         key = tuple(int(part) if part.isdecimal() else part for part in error.key.split("."))
-        return InputError(error.key, error.value, error.rule, error.remedy, self.of(key))
+        value = _as_typed(error.value, value_at(self._data, key))
+        return InputError(error.key, value, error.rule, error.remedy, self.of(key))
 
     @contextmanager
     def naming(self) -> Iterator[None]:
@@ -50,6 +63,26 @@ class Origins:
             if error.file or "." not in error.key:
                 raise
             raise self.locate(error) from None
+
+
+def _as_typed(shown: object, typed: object) -> object:
+    """What a message shows of a quantity; as it was typed, where it is the same in another unit."""
+    if not (isinstance(shown, str) and isinstance(typed, str)) or shown.split()[1:] == typed.split()[1:]:
+        return shown
+    ours, theirs = base_units(shown), base_units(typed)
+    if ours is None or theirs is None or ours[1] != theirs[1]:
+        return shown
+    return quoted(typed)[1:-1] if isclose(ours[0], theirs[0], rel_tol=_ROUNDED) else shown
+
+
+def value_at(data: Any, key: Iterable[str | int]) -> Any:
+    """Return what stands at `key`, or None."""
+    for part in key:
+        if isinstance(data, list) and isinstance(part, int):
+            data = data[part] if part < len(data) else None
+        else:
+            data = data.get(part) if isinstance(data, dict) else None
+    return data
 
 
 def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError, printable_path, quoted
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario import bounds, sources
-from tribodyn.scenario.messages import Key, Origins
+from tribodyn.scenario.messages import Key, Origins, value_at
 from tribodyn.scenario.quantity import LIKE, Reference, Table, csv_file, defaults_written_out
 from tribodyn.scenario.schema import expanded, family_shapes, matches, references
 
@@ -64,7 +64,7 @@ def resolve_table(
             errors.append(origins.locate(error))
     data = defaults_written_out(data, table_of(data))
     errors += [origins.locate(error) for error in bounds.broken_bounds(data)]
-    return Resolved(data, origins, errors)
+    return Resolved(data, origins.over(data), errors)
 
 
 class _References(NamedTuple):
@@ -91,7 +91,7 @@ class _References(NamedTuple):
         """The points that the family of each pair of gears needs."""
         found: dict[Key, Reference] = {}
         for shape in (key for pattern in self.shapes for key in expanded(pattern, self.data)):
-            name = _at(self.data, (*shape[:-1], "family"))
+            name = value_at(self.data, (*shape[:-1], "family"))
             if isinstance(name, str) and name in FAMILIES:
                 paths = [own.name for own in FAMILIES[name].parameters if own.kind == "path"]
                 found |= {(*shape, path): csv_file("x", "y") for path in paths}
@@ -159,7 +159,7 @@ def _put(known: _References, key: Key, value: Any) -> bool:
 
 def _put_content(known: _References, key: Key) -> None:
     """Where the value at `key` names a file, put the file's content in its place."""
-    holder, mark = _at(known.data, key[:-1]), known.at(key)
+    holder, mark = value_at(known.data, key[:-1]), known.at(key)
     if not isinstance(holder, dict) or mark is None:
         return
     name = holder.get(key[-1])
@@ -189,7 +189,7 @@ def _put_content(known: _References, key: Key) -> None:
 
 def _put_model(known: _References, key: Key, file: Path, folder: str, above: tuple[Path, ...] = ()) -> None:
     """Put the content of a model's file in; `above` are the files that are like it."""
-    _at(known.data, key[:-1])[key[-1]] = content = sources.read_toml(file)
+    value_at(known.data, key[:-1])[key[-1]] = content = sources.read_toml(file)
     known.origins.put(key, str(file))
     if LIKE in content:
         _put_under(known, key, folder, (*above, file.resolve()))
@@ -198,10 +198,10 @@ def _put_model(known: _References, key: Key, file: Path, folder: str, above: tup
 def _put_under(known: _References, key: Key, folder: str, above: tuple[Path, ...] = ()) -> None:
     """Put the content of the model that the table at `key` is like under what the table says itself."""
     origins = known.origins
-    table = _at(known.data, key)
+    table = value_at(known.data, key)
     dotted = ".".join(map(str, (*key, LIKE)))
     name = table[LIKE]
-    holder = _at(known.data, key[:-1])
+    holder = value_at(known.data, key[:-1])
     holder[key[-1]] = name  # until it is found: what is missing in the table then is no mistake of its own
     if not isinstance(name, str):
         raise InputError(dotted, quoted(name), "not the name of a model", "write a name in quotes")
@@ -231,13 +231,3 @@ def _leaves(table: Mapping[str, Any], above: Key = ()) -> list[tuple[Key, Any]]:
         inner = isinstance(value, dict) and LIKE not in value
         found += _leaves(value, (*above, name)) if inner else [((*above, name), value)]
     return found
-
-
-def _at(data: Any, key: Iterable[str | int]) -> Any:
-    """Return what stands at `key`, or None."""
-    for part in key:
-        if isinstance(data, list) and isinstance(part, int):
-            data = data[part] if part < len(data) else None
-        else:
-            data = data.get(part) if isinstance(data, dict) else None
-    return data

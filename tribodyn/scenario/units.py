@@ -140,6 +140,19 @@ def scaled(number: float, factor: float) -> float:
     return number / divisor if divisor and abs(1 / factor - divisor) < 1e-9 * divisor else number * factor
 
 
+def base_units(value: Any) -> tuple[float, str] | None:
+    """Magnitude and SI base units of a quantity whose kind only a family of teeth knows; None if none."""
+    match = _NUMBER.fullmatch(value) if isinstance(value, str) else None
+    if match is None or not match["unit"] or not is_unit(match["unit"]):
+        return None
+    try:
+        base = registry().Quantity(1.0, match["unit"]).to_base_units()
+    except Exception:  # pint raises whatever Python's tokenizer and arithmetic do
+        return None
+    value = scaled(float(match["number"]), float(base.magnitude))
+    return (value, f"{base.units:~C}".replace("**", "") or "1") if isfinite(value) else None
+
+
 def _units(text: str, write: str) -> Any:
     """Text to pint's units."""
     import pint

@@ -16,8 +16,8 @@ from tribodyn.scenario.bounds import LONGEST_KEY, broken_bounds
 from tribodyn.scenario.quantity import Draws, InUnit, Reference, Weighed
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.schema import parts_of, table_at
-from tribodyn.scenario.unit_grammar import is_unit, two_ends
-from tribodyn.scenario.units import Kind, NotAQuantity, registry, scaled, to_si
+from tribodyn.scenario.unit_grammar import two_ends
+from tribodyn.scenario.units import Kind, NotAQuantity, base_units, to_si
 
 VARY = "--vary"
 #: Values of one axis; beyond, a range was surely mistyped, and the values alone would fill the memory.
@@ -180,18 +180,6 @@ def _in_si(
 def in_si(value: float, units: str) -> float | str:
     """A value of an axis as TOML holds it, from its SI magnitude and the axis's units."""
     return value if units == "1" else f"{value!r} {re.sub(r'(?<=[A-Za-z])(?=[0-9])', '**', units)}"
-
-
-def base_units(value: Any) -> tuple[float, str] | None:
-    """Magnitude and SI base units of a quantity whose kind only a family of teeth knows; None if none."""
-    match = re.fullmatch(rf"\s*({_NUMBER})\s*(\S.*)", value, re.ASCII) if isinstance(value, str) else None
-    if match is None or not is_unit(match[2]):
-        return None
-    try:
-        base = registry().Quantity(1.0, match[2]).to_base_units()
-    except Exception:  # pint raises whatever Python's tokenizer and arithmetic do
-        return None
-    return scaled(float(match[1]), float(base.magnitude)), f"{base.units:~C}".replace("**", "") or "1"
 
 
 def is_drawn(table: type[BaseModel], key: str) -> bool:

@@ -2,9 +2,12 @@ import math
 
 import pytest
 
+from tribodyn.errors import InputError
 from tribodyn.scenario import units
+from tribodyn.scenario.messages import Origins
 from tribodyn.scenario.unit_grammar import COMMON_UNITS
 from tribodyn.scenario.units import NotAQuantity, factor_to_si, to_si
+from tribodyn.studies.protocol.load import load_scenario
 
 GRAMMAR = "not a unit: names joined by * and /, with exponents from -9 to 9"
 
@@ -132,3 +135,30 @@ def test_what_a_remedy_says_is_read():
         with pytest.raises(NotAQuantity) as refused:
             to_si(text, kind)
         assert to_si(refused.value.remedy.split('"')[1], kind) > 0.0
+
+
+@pytest.mark.parametrize(
+    ("key", "typed"),
+    [("drive.pinion.wobble_angle", "20 deg"), ("drive.gear.eccentricity_angle", "0.2 turn")],
+)
+def test_messages_show_an_angle_in_the_unit_that_was_typed(key: str, typed: str):
+    """The rule of an angle without effect speaks of a number in radians."""
+    with pytest.raises(InputError, match="has no effect without") as found:
+        load_scenario("crc-23-47", {key: typed})
+    assert f"{key} = {typed}: " in str(found.value)
+
+
+@pytest.mark.parametrize(
+    ("shown", "typed", "said"),
+    [
+        ("0.349 rad", "20 deg", "20 deg"),  # rounded
+        ("9 mm", "9000 um", "9000 um"),
+        ("0.349 rad", "0.34906585 rad", "0.349 rad"),  # the unit is the same, and the digits fewer
+        ("0.2 rad", "20 deg", "0.2 rad"),  # not what was typed
+        ("20 mm", "20 deg", "20 mm"),
+        ("a table", "20 deg", "a table"),
+    ],
+)
+def test_a_value_that_was_typed_in_another_unit(shown: str, typed: str, said: str):
+    origins = Origins("a.toml").over({"stage": [{"angle": typed}]})
+    assert origins.locate(InputError("stage.0.angle", shown, "is wrong")).value == said

@@ -135,6 +135,7 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     The data of `resolved` may have been changed since; they are not changed here but for a missing name.
     """
     data, origins, unresolved = resolved
+    origins = origins.over(data)  # the grid of a sweep changes values
     data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")
     study, kind = study_of(data), data.get("kind")
     model = study.table(data)
