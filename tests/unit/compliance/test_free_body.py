@@ -12,14 +12,14 @@ from tests.support.twelve_teeth import GEAR, POISSON, whole_ring
 from tribodyn.compliance.fem.gear import gear_compliance, gear_model
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, meshed_bore
 from tribodyn.compliance.fem.strips import plane_stiffness
-from tribodyn.compliance.foundation import free_foundation, ring_compliance, ring_foundation
+from tribodyn.compliance.foundation import _root_loads, free_foundation, ring_compliance, ring_foundation
 from tribodyn.compliance.free_body import free_shift, free_torsion
 from tribodyn.compliance.iso6336 import pair_of, reference_stiffness
 from tribodyn.compliance.local import freed_of_depth
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody, MaterialData
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 
@@ -28,11 +28,11 @@ STEEL = MaterialData("steel", 206e9, NU, 7850.0, 46.0, 470.0, 6e9)
 jax.config.update("jax_enable_x64", True)
 
 
-def radial_elements(order, bore, count=200):
+def radial_elements(order, bore, count=200, empty=False):
     """Displacement amplitudes (2, 2) at r = 1 per traction there, 2 G = 1, by quadratic elements over r.
 
-    Of an annulus between the bore, which keeps its shape, and r = 1: what is balanced by inertia, against the
-    mean motion.
+    Of an annulus between the bore, which keeps its shape or is `empty`, and r = 1: what is balanced by
+    inertia, against the mean motion; orders from 2 on have none.
     """
     low, high = sorted((bore, 1.0))
     place = np.linspace(low, high, 2 * count + 1)
@@ -54,22 +54,23 @@ def radial_elements(order, bore, count=200):
             stiffness[at, at] += strain.T @ law @ strain * r * part
             mass[at, at] += np.kron(np.outer(shape, shape), np.eye(2)) * r * part
     rigid = np.zeros(2 * len(place))
-    if order:
-        rigid[::2], rigid[1::2] = 1.0, -1.0
-    else:
+    if order == 0:
         rigid[1::2] = place
-    momentum = mass @ rigid / (rigid @ mass @ rigid)
+    elif order == 1:
+        rigid[::2], rigid[1::2] = 1.0, -1.0
+    momentum = mass @ rigid / max(rigid @ mass @ rigid, 1e-300)
     node, inner = (-2, 0) if bore < 1.0 else (0, -2)
-    # the bore is a circle, that moves: in order 0 it does not widen
-    shape_kept = np.zeros((1, len(rigid)))
-    shape_kept[0, inner] = 1.0
-    shape_kept[0, inner + 1] = float(order)
+    # the bore is a circle, that moves: in order 0 it does not widen; all others hold it
+    kept = np.zeros((2 if order > 1 else 1, len(rigid)))
+    kept[0, inner] = 1.0
+    kept[-1, inner + 1] = float(order)
+    rows = ([] if empty else [*kept]) + ([momentum] if order < 2 else [])
+    sums = np.array(rows).reshape(-1, len(rigid))
     ends = np.zeros((len(rigid), 2))
     ends[node, 0] = ends[node + 1, 1] = 1.0
     balanced = ends - np.outer(momentum, rigid @ ends)
-    left = np.block([[stiffness, shape_kept.T, momentum[:, None]], [shape_kept, np.zeros((1, 2))]])
-    left = np.vstack([left, np.append(momentum, [0.0, 0.0])])
-    moved = np.linalg.solve(left, np.vstack([balanced, np.zeros((2, 2))]))
+    left = np.block([[stiffness, sums.T], [sums, np.zeros((len(sums), len(sums)))]])
+    moved = np.linalg.solve(left, np.vstack([balanced, np.zeros((len(sums), 2))]))
     moved = moved[: len(rigid)]
     return moved[-2:] if bore < 1.0 else moved[:2]
 
@@ -114,7 +115,7 @@ def pair(first, second, bores, module=2e-3):
 
 @pytest.mark.parametrize("by", ["sainsot-velex", "ring"])
 def test_compliance_of_a_mesh_does_not_depend_on_the_bore(by):
-    """From a solid body to a bore of half the root radius: 2 %."""
+    """From a solid body to a bore of root radius/2.3: 2 %; 3 % at half the root radius."""
     mesh = MeshData("energy", 0.05, foundation=by)
 
     def mean(bore):
@@ -123,9 +124,35 @@ def test_compliance_of_a_mesh_does_not_depend_on_the_bore(by):
         return np.array([table.compliance.mean(), np.abs(table.coupling).max()])
 
     solid = mean(0.0)
-    for bore in (4e-3, 12.4e-3, 26e-3):
-        assert mean(bore)[0] == pytest.approx(solid[0], rel=0.02 if bore > 5e-3 else 2e-3)
+    for bore, within in ((4e-3, 2e-3), (12.4e-3, 0.01), (59.5e-3 / 2.3, 0.02), (59.5e-3 / 2.0, 0.03)):
+        assert mean(bore)[0] == pytest.approx(solid[0], rel=within)
     np.testing.assert_allclose(mean(1e-9), solid, rtol=1e-6)
+
+
+def test_a_bore_of_half_the_root_radius_stiffens_filled_and_softens_empty():
+    """By 2.6 and 2.3 % of the pair of the test above: no bore, however it is held, is without any effect.
+
+    Filled by a stiff shaft, of which order 1 does most: the ring must not change its circle as it shifts.
+    """
+    angle, whole = 0.0486, 14.88  # half the root's arc of 62 teeth; mean compliance of a pair, times E b
+    load = np.array([0.318, 0.948, 0.031])  # at the pitch point
+
+    def by_order(bore, empty):
+        amplitudes = _root_loads(np.arange(8.0), angle)
+        even, odd = amplitudes[0] * load[0], np.tensordot(load[1:], amplitudes[1:], 1)
+        found = []
+        for n in range(8):
+            moved = radial_elements(n, bore, 100, empty) * (1.0 + NU) * (np.pi if n else np.pi / 2.0)
+            found.append(even[n] @ moved @ even[n] + odd[n] @ moved @ odd[n])
+        return 2.0 * np.array(found) / whole
+
+    solid = by_order(0.01, False)
+    filled, empty = (by_order(0.5, hollow) - solid for hollow in (False, True))
+    assert filled[1] < 2.5 * filled[2:].sum() < 0.0
+    assert filled.sum() == pytest.approx(-0.026, abs=0.002)
+    assert empty.sum() == pytest.approx(0.023, abs=0.002)
+    series = [load @ ring_compliance(0.0, angle, bore, NU, 300) @ load for bore in (0.5, 0.01)]
+    assert filled.sum() == pytest.approx(2.0 * (series[0] - series[1]) / whole, rel=0.03)
 
 
 def test_what_holds_the_bodies_hardly_changes_how_the_deflection_varies():
@@ -178,6 +205,25 @@ def test_solid_gears_are_as_stiff_as_iso_6336_has_them(first, second):
     assert single == pytest.approx(
         reference_stiffness(pair_of(assembly, (STEEL, STEEL), 1e4)).theoretical, rel=0.1
     )
+
+
+@pytest.mark.parametrize("hertz", ["linear", "load-dependent"])
+@pytest.mark.parametrize("by", ["sainsot-velex", "ring"])
+@pytest.mark.parametrize(("first", "second"), [(20, 62), (31, 62), (62, 62), (24, 120)])
+def test_mesh_stiffness_is_within_the_scatter_of_iso_6336(first, second, by, hertz):
+    """Mean over the cycle at 300 N/mm, solid and with bores: within 20 % of c_γα.
+
+    Of two gears with 17 teeth it is up to 1.5 times that, and of elements too: the series has no small discs.
+    """
+    for share in (0.0, 0.2, 0.5):
+        assembly = pair(first, second, [share * (z - 2.5) * 1e-3 for z in (first, second)])
+        mesh, torque = MeshData("energy", 0.05, foundation=by, hertz=hertz), 300e3 * 0.02 * second * 1e-3
+        table = tabulate(assembly, (STEEL, STEEL), mesh, pair_slots(assembly))
+        mean = cycle_mean(table, quasi_static(table, torque).mesh_stiffness)
+        along = np.cos(assembly.path.pressure_angle(0.0)) ** 2 * 0.02
+        load = torque / float(assembly.path.gear_pitch_radius * np.sqrt(along / 0.02))
+        standard = reference_stiffness(pair_of(assembly, (STEEL, STEEL), load)).mesh
+        assert mean / along == pytest.approx(standard, rel=0.2)
 
 
 def mesh_frequency(bore, half_angle, spring):
