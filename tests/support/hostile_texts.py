@@ -36,7 +36,8 @@ def hostile_copy(record: Path, folder: Path, text: str) -> Path:
 def _describe(item: Any, text: str) -> None:
     if "long_name" in item.attrs and not item.name.startswith("/mesh_cycle"):
         item.attrs["long_name"] = text
-        item.attrs["units"] = text
+        if h5py.check_string_dtype(item.dtype) is None:  # a column of texts with a unit is refused
+            item.attrs["units"] = text
 
 
 def _with_texts(table: Any, text: str) -> Any:
