@@ -53,7 +53,7 @@ USUAL = {
         2.0,
         "",
         "AGMA 2001-D04",
-        "Shafts bend and twist along a wider face, which only a misalignment stands for here.",
+        "A wider pinion bends and twists, for which only a misalignment stands here.",
     ),
     "rim": UsualRange(
         "Rim between bore and root over the tooth's height",
