@@ -1,6 +1,7 @@
 """How a run can end badly: bad input, a simulation that could not go on, results that cannot be written."""
 
 import errno
+import os
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -80,6 +81,17 @@ class OutputError(Exception):
 NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO})
 
 
+def no_descriptors(error: BaseException) -> bool:
+    """Whether a process may have no more files open: HDF5's errors have no number, but the system's words."""
+    return getattr(error, "errno", None) in _NO_DESCRIPTORS or any(word in str(error) for word in _TOO_MANY)
+
+
+_NO_DESCRIPTORS = (errno.EMFILE, errno.ENFILE)
+_TOO_MANY = tuple(map(os.strerror, _NO_DESCRIPTORS))
+#: What to say then, and to do.
+TOO_MANY_FILES = "no more files may be open in this process", "raise the limit: ulimit -n 1024"
+
+
 def near_name(name: str, known: Iterable[str]) -> str:
     """Return the known name that looks most like `name`, or ""."""
     from difflib import get_close_matches
@@ -111,7 +123,7 @@ def quoted(value: Any) -> str:
     if isinstance(value, str):
         text = f'"{printable(value)}"'
     elif isinstance(value, dict):
-        text = "{" + ", ".join(f"{printable(key)} = {quoted(item)}" for key, item in value.items()) + "}"
+        text = "{" + ", ".join(f"{printable(str(key))} = {quoted(item)}" for key, item in value.items()) + "}"
     elif isinstance(value, (list, tuple)):
         text = "[" + ", ".join(map(quoted, value)) + "]"
     else:

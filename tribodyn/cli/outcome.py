@@ -12,7 +12,15 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, NoReturn, TextIO
 
-from tribodyn.errors import NO_ROOM, InputError, OutputError, SimulationError, harmless
+from tribodyn.errors import (
+    NO_ROOM,
+    TOO_MANY_FILES,
+    InputError,
+    OutputError,
+    SimulationError,
+    harmless,
+    no_descriptors,
+)
 
 DONE = 0
 BUG = 1
@@ -113,9 +121,11 @@ def _has_folder() -> bool:
 
 
 def _report_bug(error: Exception) -> NoReturn:
-    """Say that this should not have happened; with TRIBODYN_TRACEBACK=1, where."""
+    """Say that this is a bug, unless files are at their limit; with TRIBODYN_TRACEBACK=1, where."""
     if os.environ.get("TRIBODYN_TRACEBACK"):
         raise error
+    if no_descriptors(error):
+        end(BAD_INPUT, "; ".join(TOO_MANY_FILES))
     what = " ".join(f"{type(error).__name__}: {error}".split())
     end(BUG, f"a bug in tribodyn: {what}; set TRIBODYN_TRACEBACK=1 to see the traceback, and report it")
 

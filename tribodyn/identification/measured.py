@@ -66,9 +66,12 @@ def _of_array(name: str, values: Any, rates: Mapping[str, float], start: float) 
     if name not in rates:
         raise unknown_name("measured", name, rates, "sensor")
     try:
-        array = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("measured", name, "is no array of numbers", "give one value per sample") from None
+        array = np.asarray(values)
+        array = array.astype(float) if array.dtype.kind in "biufO" else None
+    except (TypeError, ValueError, OverflowError):
+        array = None
+    if array is None:
+        raise InputError("measured", name, "is no array of real numbers", "give one value per sample")
     if array.ndim != 1 or not array.size or not np.all(np.isfinite(array)):
         rule = (
             f"has shape {array.shape}" if array.ndim != 1 or not array.size else "has samples without value"

@@ -93,7 +93,10 @@ class SignalComparison:
             signal = sensed[one.sensor]
             first = one.first - round(float(signal.time[0]) * signal.rate)
             values = signal.values[first : first + len(one.values)]
-            if first < 0 or len(values) < len(one.values):
+            if first < 0:
+                rule = f"{one.sensor} has its first value {float(signal.time[0]):.4g} s after the run's start"
+                raise InputError("run_in", f"{self._run_in:g}", rule, "leave out more turns")
+            if len(values) < len(one.values):
                 raise SimulationError("the run ends before what was measured", float(signal.time[-1]))
             rest = one.values - values
             found.append(rest - np.mean(rest) if self._without_mean else rest)

@@ -1,7 +1,9 @@
 """Unknowns: keys of a scenario with their ranges, as shares of these and as values."""
 
+import math
 import tomllib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -44,13 +46,20 @@ def unknowns_of(case: Any, wanted: Mapping[Any, Any]) -> tuple[Unknown, ...]:
     data = tomllib.loads(case.toml)
     table = study_of(data).table(data)
     found = tuple(_unknown(key, limits, data, table) for key, limits in wanted.items())
+    every = [key for unknown in found for key in unknown.keys]
+    if twice := next((key for key in every if every.count(key) > 1), ""):
+        raise InputError("unknowns", quoted(twice), "is sought twice", "name it once")
     case_at(case, found, shares_of(found))  # raises where the scenario does not know a key
     return found
 
 
 def _unknown(key: Any, limits: Any, data: Mapping[str, Any], table: Any) -> Unknown:
-    keys = (key,) if isinstance(key, str) else tuple(map(str, key))
+    keys = (key,) if isinstance(key, str) else key
+    if not isinstance(keys, tuple) or not keys or not all(isinstance(each, str) for each in keys):
+        remedy = 'write "mesh.damping_ratio", or a tuple of keys that have one value'
+        raise InputError("unknowns", quoted(key), "is no key of a scenario", remedy)
     name = ", ".join(keys)
+    limits = limits.tolist() if isinstance(limits, np.ndarray) else limits
     if not isinstance(limits, Sequence) or isinstance(limits, str) or len(limits) != 2:
         rule = "is due as (lowest, highest)"
         raise InputError(name, quoted(limits), f"its range {rule}", 'write ("0 um", "30 um")')
@@ -71,14 +80,17 @@ def _unknown(key: Any, limits: Any, data: Mapping[str, Any], table: Any) -> Unkn
 
 
 def _in_si(key: str, value: Any, kind: Any) -> float:
+    value = value.item() if isinstance(value, np.generic) else value
     if isinstance(kind, Kind):
         try:
             # zero as the lower end of what has to be positive is as good a bound as any
             return to_si(value, kind._replace(allowed="any"))
         except NotAQuantity as error:
             raise InputError(key, quoted(value), error.rule, error.remedy) from None
-    if isinstance(value, (int, float)) and not isinstance(value, bool) and np.isfinite(value):
-        return float(value)
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        with suppress(OverflowError):
+            if math.isfinite(value):
+                return float(value)
     raise InputError(key, quoted(value), "a number is due", "only numbers can be sought")
 
 

@@ -22,6 +22,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from tribodyn.errors import no_descriptors
 from tribodyn.numerics.library_settings import ignore_files
 
 if TYPE_CHECKING:
@@ -211,8 +212,8 @@ def copies_are_safe() -> bool:
 def in_a_copy(work: Callable[[], bytes], limit: float, processor: float) -> bytes:
     """Result of a function, at most 64 KiB, that is called in a copy of this process.
 
-    Raises TimeoutError if it does not end within the limit, s, or takes more time of the processor, s, and
-    ChildProcessError if the copy crashes.
+    Where the copy may have no more files open, what the system says of that. Raises TimeoutError if it does
+    not end within the limit, s, or takes more time of the processor, s, and ChildProcessError if it crashes.
     """
     import select
     import warnings
@@ -259,6 +260,10 @@ def _work_as_a_copy(work: Callable[[], bytes], writing: int, limit: float, proce
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # a crash is reported by the parent
         os.write(writing, work()[:65536])
         status = 0
+    except OSError as error:
+        if no_descriptors(error):
+            os.write(writing, str(error).encode(errors="replace")[:65536])
+            status = 0
     finally:
         os._exit(status)
 

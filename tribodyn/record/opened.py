@@ -11,7 +11,7 @@ from typing import Any, Self
 import h5py
 import numpy as np
 
-from tribodyn.errors import InputError, harmless
+from tribodyn.errors import TOO_MANY_FILES, InputError, harmless, no_descriptors
 from tribodyn.record.soundness import UNREADABLE, blamed, check_sound, reason_of
 from tribodyn.record.withheld import samples_withheld
 
@@ -169,6 +169,8 @@ class OpenRecord:
         return samples_withheld(name, values)
 
     def _damaged(self, error: Exception) -> InputError:
+        if no_descriptors(error):
+            return InputError("record", str(self.path), *TOO_MANY_FILES)
         return InputError(
             "record", str(self.path), f"the record is damaged: {reason_of(error)}", self._made_by
         )
@@ -184,6 +186,8 @@ def open_file(path: Path) -> h5py.File:
     except PermissionError as error:
         raise InputError("record", str(path), "may not be read", "change its permissions") from error
     except OSError as error:
+        if no_descriptors(error):
+            raise InputError("record", str(path), *TOO_MANY_FILES) from error
         if h5py.is_hdf5(path):
             raise InputError("record", str(path), f"damaged: {error}", "run the scenario again") from error
         raise InputError("record", str(path), "not an HDF5 file", "name the record of a run") from error

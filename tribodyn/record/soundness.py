@@ -13,7 +13,7 @@ from typing import Any
 
 import h5py
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, no_descriptors
 from tribodyn.record import lookout
 
 #: What a damaged file makes h5py and those who read it raise.
@@ -60,6 +60,8 @@ def blamed(path: Path, error: BaseException | None) -> Exception | None:
     is open, or of the import of a library, as by its settings. With ``TRIBODYN_TRACEBACK=1`` in the
     environment none is: a reader's mistake can be found so.
     """
+    if error is None or no_descriptors(error):
+        return None
     if not (isinstance(error, _MISREAD) or (isinstance(error, OSError) and error.errno is None)):
         return None
     package = __name__.partition(".")[0]
@@ -87,6 +89,8 @@ def check_sound(path: Path) -> None:
     if _identity(path) in _own | _sound:
         return
     reason = lookout.through_a_child(unsound, path)
+    if no_descriptors(failed := OSError(reason)):
+        raise failed
     if reason:
         raise InputError("record", str(path), f"damaged: {reason}", "make it anew")
     _sound.add(_identity(path))
@@ -96,8 +100,9 @@ def unsound(path: Path) -> str:
     """Why a file cannot be read safely; empty where it can, or where opening it says so."""
     try:
         file = h5py.File(path, "r")
-    except (OSError, RuntimeError, ValueError):
-        return ""  # whoever opens it finds the same
+    except (OSError, RuntimeError, ValueError) as error:
+        # whoever opens it finds the same, but for want of descriptors
+        return str(error) if no_descriptors(error) else ""
     with file:
         try:
             _Look(path.stat().st_size).file(file)

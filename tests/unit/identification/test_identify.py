@@ -90,6 +90,15 @@ def test_a_model_that_lacks_something_is_said(rig):
         ({"e": np.zeros(302)}, RANGE, {"run_in": 1.5}, "2 samples for 1 unknowns"),
         (3.0, RANGE, {}, "the path of a record"),
         ({"e": np.zeros(400)}, RANGE, {"method": "guess"}, "no such method"),
+        ({"e": np.zeros(400)}, RANGE, {"run_in": 0.0}, "leave out more turns"),
+        ({"e": [10**400] * 400}, RANGE, {}, "no array of real numbers"),
+        ({"e": np.zeros(400, dtype=complex)}, RANGE, {}, "no array of real numbers"),
+        ({"e": np.zeros(400, dtype="M8[s]")}, RANGE, {}, "no array of real numbers"),
+        ({"e": np.zeros(400)}, {(): (0.0, 1.0)}, {}, "is no key"),
+        ({"e": np.zeros(400)}, {3: (0.0, 1.0)}, {}, "is no key"),
+        ({"e": np.zeros(400)}, {KEY: {1: 2, 3: 4}}, {}, "its range"),
+        ({"e": np.zeros(400)}, {"mesh.damping_ratio": (0, 10**400)}, {}, "only numbers"),
+        ({"e": np.zeros(400)}, RANGE | {(KEY,): ("0 um", "3 um")}, {}, "is sought twice"),
     ],
 )
 def test_bad_input_is_one_message(measured, unknowns, more, said: str):
