@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tribodyn.errors import InputError
+from tribodyn.quantities.quantity import shown
 from tribodyn.scenario.units import ANGULAR_SPEED, to_si
 from tribodyn.scenario.vary import axes_of
 from tribodyn.studies.gear_pair.scenario import Scenario
@@ -152,3 +153,11 @@ def test_a_case_of_the_grid_is_the_scenario_with_its_values_set():
     )
     assert case.operating == same.operating
     assert case.solver == same.solver
+
+
+def test_frequencies_are_in_hertz():
+    """As nobody gives a rate in turns."""
+    rate, mode = axes_of(["sensor.0.rate=10,20kHz", "housing.mode.0.frequency=1:3:1Hz"], Scenario)
+    assert (rate.values, rate.units) == ((10e3, 20e3), "Hz")
+    assert (mode.values, mode.units) == ((1.0, 2.0, 3.0), "Hz")
+    assert shown(rate.values[0], rate.units) == "10000 Hz"

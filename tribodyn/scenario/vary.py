@@ -4,6 +4,7 @@
 ``value,value,…`` lists. A unit stands once, at the end, and holds for every number before it.
 """
 
+import math
 import re
 from decimal import Decimal
 from fractions import Fraction
@@ -17,7 +18,7 @@ from tribodyn.scenario.quantity import Draws, InUnit, Reference, Weighed
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.schema import parts_of, table_at
 from tribodyn.scenario.unit_grammar import two_ends
-from tribodyn.scenario.units import Kind, NotAQuantity, base_units, to_si
+from tribodyn.scenario.units import FREQUENCY, Kind, NotAQuantity, base_units, to_si
 
 VARY = "--vary"
 #: Values of one axis; beyond, a range was surely mistyped, and the values alone would fill the memory.
@@ -164,9 +165,12 @@ def _in_si(
 ) -> tuple[tuple[float, ...] | tuple[str, ...], str]:
     if isinstance(leaf, Kind):
         try:
-            return tuple(to_si(value, leaf) for value in written), leaf.si.replace("**", "")
+            values = tuple(to_si(value, leaf) for value in written)
         except NotAQuantity as error:
             raise InputError(key, quoted(option.partition("=")[2]), error.rule, error.remedy, VARY) from None
+        if leaf.name == FREQUENCY:  # of an axis in hertz, not in the radians of the equations
+            return tuple(float(f"{value / math.tau:.12g}") for value in values), "Hz"
+        return values, leaf.si.replace("**", "")
     if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in written):
         return tuple(float(value) for value in written), "1"
     if any(isinstance(value, (dict, list)) for value in written):
