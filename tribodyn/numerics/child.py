@@ -277,7 +277,9 @@ def installed_program(names: Sequence[str]) -> str | None:
     return next((path for path in found if path and os.path.isabs(path)), None)
 
 
-def run_program(command: Sequence[str], limit: float) -> "subprocess.CompletedProcess[str]":
+def run_program(
+    command: Sequence[str], limit: float, environment: Mapping[str, str] | None = None
+) -> "subprocess.CompletedProcess[str]":
     """Run a program that is not ours to its end, by a child that ends it with this process.
 
     It is killed, with all that it started, and TimeoutError raised, if it does not end within the limit, s.
@@ -286,7 +288,7 @@ def run_program(command: Sequence[str], limit: float) -> "subprocess.CompletedPr
     import pickle
     import subprocess
 
-    process = start(f"{__name__}:_supervise", *command)
+    process = start(f"{__name__}:_supervise", *command, environment=environment)
     try:
         content = answer(process, limit)
     finally:

@@ -31,6 +31,8 @@ QUIET = (
     "--virtual-time-budget=10000",
 )
 TIME_LIMIT = 120.0
+#: Characters of a path to which the browser can add the name of a socket: 45 of 104 at most.
+LONGEST_PROFILE = 58
 
 
 def browser() -> str | None:
@@ -58,7 +60,9 @@ def run_browser(*options: str) -> "subprocess.CompletedProcess[str]":
     sandbox = ("--no-sandbox",) if hasattr(os, "geteuid") and os.geteuid() == 0 else ()
     with tempfile.TemporaryDirectory(prefix="tribodyn-", ignore_cleanup_errors=True) as profile:
         command = [found, *QUIET, *sandbox, f"--user-data-dir={profile}", *options]
-        return run_program(command, TIME_LIMIT)
+        # killed, it leaves what it has in the folder for temporary files, a socket with a long name among it
+        variables = ("TMPDIR", "TMP", "TEMP") if len(profile) < LONGEST_PROFILE else ()
+        return run_program(command, TIME_LIMIT, dict.fromkeys(variables, profile))
 
 
 def print_page(page: Path, *, force: bool = False) -> Path:

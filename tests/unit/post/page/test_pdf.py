@@ -1,7 +1,9 @@
 """A page as PDF: on A4, whole or not at all, and refused before any work where nothing can print it."""
 
+import os
 import re
 import shutil
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +12,8 @@ from typer.testing import CliRunner
 
 from tests.support.short_studies import shortened, written_template
 from tribodyn.cli.app import app
-from tribodyn.post.page.pdf import BROWSERS, browser
+from tribodyn.post.page import pdf
+from tribodyn.post.page.pdf import BROWSERS, browser, run_browser
 
 RECORDS = Path(__file__).parents[3] / "fixtures" / "records-0.2.0"
 
@@ -51,6 +54,27 @@ def test_a_browser_that_fails_leaves_what_was_there(script: str, tmp_path: Path)
     assert "the browser ended with status" in ended.stderr
     assert page.with_suffix(".pdf").read_bytes() == before
     assert {file.name for file in tmp_path.iterdir()} == {"programs", "page.html", "page.pdf"}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="the browser of this test is a script")
+def test_an_interrupted_browser_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Chromium keeps files beside its profile too, and does not remove them when it is killed."""
+    programs, temporary = tmp_path / "programs", tmp_path / "temporary"
+    programs.mkdir()
+    temporary.mkdir()
+    waiting = programs / BROWSERS[0]
+    begun = tmp_path / "begun"
+    script = f'#!/bin/sh\nmkdir "$TMPDIR/scoped"\n: > {begun}\nkill -INT {os.getpid()}\nsleep 60\n'
+    waiting.write_text(script, encoding="utf-8")
+    waiting.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{programs}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("TMPDIR", str(temporary))
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    monkeypatch.setattr(pdf, "LONGEST_PROFILE", 1000)
+    with pytest.raises(KeyboardInterrupt):
+        run_browser()
+    assert begun.is_file()
+    assert not list(temporary.iterdir())
 
 
 @pytest.mark.skipif(browser() is None, reason="no browser is installed")
