@@ -1,8 +1,10 @@
 """Numbers of a drive from what was measured on it."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
+from numbers import Integral, Real
 from typing import Any, Literal
 
 import numpy as np
@@ -154,6 +156,10 @@ def identify(
         raise InputError("kind", f'"{case.kind}"', "has no sensors", 'use kind = "gear-pair" or "gear-train"')
     if method not in ("least-squares", "cma-es"):
         raise InputError("method", quoted(method), "no such method", '"least-squares" or "cma-es"')
+    if not isinstance(run_in, Real) or not 0.0 <= run_in < math.inf:
+        raise InputError("run_in", quoted(run_in), "is no number of turns", "write 0 or more, such as 3")
+    if not isinstance(seed, Integral) or seed < 0:
+        raise InputError("seed", quoted(seed), "is no whole number from 0 on", "write 0 or more")
     sought = unknowns_of(case, unknowns)
     data = measured_of(measured, case, _time(start), run_in * turn_of(case))
     count = sum(len(one.values) for one in data)
