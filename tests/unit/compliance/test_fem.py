@@ -135,7 +135,7 @@ def test_rim_too_thin_for_the_mesh_is_refused():
 
 def solved_ring(teeth):
     """A gear, a basis of its whole ring, loaded at the middle of the flank, and all displacements."""
-    gear = gear_compliance(GEAR._replace(teeth=teeth, depth=DEEP))
+    gear = gear_compliance(GEAR._replace(teeth=teeth, depth=DEEP, held=True))
     basis, mesh = whole_ring(1, teeth)
     place = basis.doflocs
     flank = mesh.nodes[:, mesh.flank]
@@ -204,15 +204,18 @@ def check_inside(_, model, gear, place, u, flank, __):
         assert gear.inside[which, middle] == pytest.approx(expected, rel=1e-5)
 
 
-def test_compliances_are_reciprocal_and_fall_with_distance():
-    gear = gear_compliance(GEAR)
+@pytest.mark.parametrize("held", [True, False])
+def test_compliances_are_reciprocal_and_fall_with_distance(held):
+    """Held teeth all give way to the same side; free ones, whose mean motion is none, to both."""
+    gear = gear_compliance(GEAR._replace(held=held))
     for k in range(NEIGHBOURS + 1):
         np.testing.assert_allclose(
             gear.between[NEIGHBOURS + k], gear.between[NEIGHBOURS - k].T, rtol=1e-9, atol=1e-12
         )
     middle = len(gear.radius) // 2
     near = gear.between[NEIGHBOURS:, middle, middle]
-    assert near[0] > near[1] > near[2] > 0
+    assert near[0] > near[1] > near[2]
+    assert (near[2] > 0) == held
     assert np.all(gear.inside[0] > gear.inside[1])  # the nearer to the load, the more it gives way
 
 
