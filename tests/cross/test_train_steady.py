@@ -225,6 +225,7 @@ def test_a_train_is_followed_along_its_speed(rubbing):
 def test_a_lightly_damped_train_need_not_repeat():
     """Another solver comes by its samples, and they are of whole common periods."""
     light = {"mesh.backlash": "20 um", "mesh.damping_ratio": 0.005, "bearings.default.damping_ratio": 0.003}
+    light["mesh.body"] = "held"  # this speed is in a resonance of these
     model = at_speed(REDUCER, 7800, **RUBBING, **light, **{"operating.output_torque": "150 N*m"}).model
     (steady,) = steady_states([model], samples=10, max_cycles=300)
     assert steady.period == 0

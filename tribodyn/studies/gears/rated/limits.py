@@ -109,7 +109,7 @@ def not_judged(limits: Mapping[str, float | None], stages: Any) -> str:
     ]
     names = "; ".join(LIMITS[name].label for name in missing)
     of = " and ".join(dict.fromkeys(needs[name] for name in missing))
-    return f"Not judged: {names}, for the oil has no FZG load stage of {of}." if missing else ""
+    return f"Not rated: {names}, as the oil has no FZG load stage of {of}." if missing else ""
 
 
 def over_samples(limits: Mapping[str, Mapping[str, Any]], samples: Mapping[str, Any]) -> dict[str, Any]:
