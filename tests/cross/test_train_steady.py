@@ -229,7 +229,8 @@ def test_a_lightly_damped_train_need_not_repeat():
     model = at_speed(REDUCER, 7800, **RUBBING, **light, **{"operating.output_torque": "150 N*m"}).model
     (steady,) = steady_states([model], samples=10, max_cycles=300)
     assert steady.period == 0
-    assert "unstable state of period 1" in steady.message
+    # whether a shot then meets the unstable motion of one period depends on where the march happens to end
+    assert "unstable state of period 1" in steady.message or "Lyapunov exponent +" in steady.message
     assert steady.samples.shape[0] == 10 * 15
     end = by_another_solver(model, steady.state, 3)
     assert scaled(model, end - steady.samples[30]) < 1e-4
