@@ -157,8 +157,8 @@ class _Look:
 
     def _dataset(self, name: str, dataset: h5py.Dataset) -> None:
         text = dataset.dtype.kind == "S"
-        most = 1 if text else MAXIMUM_AXES
-        if dataset.shape is None or len(dataset.shape) > most or not (text or dataset.dtype.kind in "fiu"):
+        known = text or dataset.dtype.kind in "fiu"
+        if dataset.shape is None or len(dataset.shape) > MAXIMUM_AXES or not known:
             raise _Unsound(f"{name!r} is of no type that records have")
         if dataset.external or dataset.is_virtual:
             raise _Unsound(f"the data of {name!r} lie in another file")

@@ -135,9 +135,8 @@ def run(
         names = names_of(case, start)
         room = sum(map(len, before.known.values())) + len(FACTORS) * case.search.evaluations
         how: dict[str, Any] = {"scales": scales_of(case, names), "force": replace, "code": computing_digest()}
-        record = stack.enter_context(writer(case, path, layout_of(case), room, **how))
-
         expected = sum(counts(case, name).values())
+        record = stack.enter_context(writer(case, path, layout_of(case), room, **how))
 
         def keep(candidate: Candidate) -> None:
             record.write(record.written, row_of(case, names, candidate, record.written))
