@@ -80,8 +80,10 @@ def test_a_sweep_has_the_figures_of_single_runs(kind: str, swept, tmp_path: Path
             assert (record.units(name), record.long_name(name)) == (expected.units, expected.long_name)
         found = {name: record[name] for name in figures}
     compared = 0
+    # a sweep has the laws that its base scenario chooses in all its cases
+    laws = {name.replace(".", "__"): law for name, (law, _) in short_case(kind, tmp_path).chosen().items()}
     for i, value in enumerate(values):
-        more: dict[str, Any] = {key.replace(".", "__"): value}
+        more: dict[str, Any] = laws | {key.replace(".", "__"): value}
         summary = run_case(short_case(kind, tmp_path, **more), tmp_path / f"{i}.h5").summary
         for name in figures:
             if summary.get(name) is None:
