@@ -109,9 +109,11 @@ Scenario = EhlScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
     """Return the case of a scenario that has passed schema and rules."""
     contact = scenario.contact
+    oil: dict[str, Any] = oil_fields(scenario)
+    oil["film"] = FilmData()  # the contact is solved
     return EhlCase(
         **gear_fields(scenario, toml, sha256),
-        **oil_fields(scenario) | {"film": FilmData()},  # the contact is solved
+        **oil,
         positions=scenario.output.positions,
         transient=contact.transient,
         loads=contact.loads.in_si() if contact.loads else None,
