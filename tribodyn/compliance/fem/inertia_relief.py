@@ -50,7 +50,7 @@ def relieved(
     loads: Float[Array, "dof load"],
     readers: Float[Array, "reader dof"],
     mirrored: NDArray[np.bool_],
-) -> Complex[Array, "reader load"]:
+) -> Complex[Array, "kept_reader kept_load"]:
     """Readings of the free ring, of those of the held one at the phase of an order.
 
     The last three loads, and readers, are the half's momentum; what is returned has them no more. `opposite`
