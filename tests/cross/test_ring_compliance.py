@@ -108,7 +108,7 @@ def _energy(pair: Assembly, r: Any) -> float:
 
 @pytest.mark.parametrize("name", PAIRS)
 def test_both_methods_agree_on_a_rim_in_its_fit(name: str):
-    """Within 5 %, of held bodies: beam and rim are 2 to 3 % soft. Twice as fine elements are 0.05 % softer."""
+    """Within 5 %, bodies held: beam and rim are 2 to 3 % soft. Twice as fine elements are 0.05 % softer."""
     pair = _pair(name)
     assert _mean(pair, _energy) == pytest.approx(_mean(pair, _elements), rel=0.05)
 
