@@ -129,7 +129,7 @@ ROWS = "0,1\n0.2,2\n0.4,3\n0.6,4\n"
     [
         ("", "line 1: the file is empty"),
         (f"mesh_phase,{ERROR}\n{ROWS}", 'line 1: "mesh_phase" names no column'),
-        (f"mesh_phase [1];{ERROR} [um]\n0;1\n", "line 1"),
+        (f"mesh_phase [1]|{ERROR} [um]\n0|1\n", "line 1"),
         (f"mesh_phase [1]\n{ROWS}", "two columns at least"),
         (f"{HEAD},{ERROR} [um]\n0,1,1\n", "none twice"),
         (f"{HEAD}\n0,1\n0.2\n", 'line 3: "" is not a number'),
