@@ -109,7 +109,8 @@ def test_no_kept_result_depends_on_pages_verbs_the_version_or_laws_it_does_not_c
         others = {name for name in behind if name.split(".")[1] in ELSEWHERE}
         assert others <= set(starts), starts
         laws = {name for name in behind if re.match(r"tribodyn\.tribology\.(film|friction)\.", name)}
-        assert laws <= {f"tribodyn.tribology.{law}" for law in FIRST_LAWS}, starts
+        # what roughness does to a film is the same by several laws
+        assert laws <= {f"tribodyn.tribology.{law}" for law in (*FIRST_LAWS, "film.roughening")}, starts
 
 
 EDITS = """
@@ -269,6 +270,8 @@ def test_own_packages_list_names_and_do_nothing_else_so_that_they_count_only_whe
         done = [
             node
             for node in body
-            if not isinstance(node, kinds) and ast.get_docstring(ast.Module([node], [])) is None
+            if not isinstance(node, kinds)
+            and ast.get_docstring(ast.Module([node], [])) is None
+            and not ast.unparse(node).startswith("without_file(")  # before the library is imported
         ]
         assert not done, f"{file}:{done[0].lineno}"
