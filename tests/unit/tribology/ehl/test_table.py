@@ -341,9 +341,8 @@ def stopped(*_, **__):
 def test_a_solution_of_a_table_is_that_of_its_duty(monkeypatch):
     """Mean gap on the line of centres, friction over load, the asperities' share; NaN where there is none."""
     assert tables.STEP == 0.12
-    monkeypatch.setattr(tables, "STEP", 0.5)
     contact = tables.contact_of(LIU_NI)
-    found = tables.solve_one(contact, np.log([2.7e5, 0.21, 93.0, 0.35]))
+    found = tables.solve_one(contact, np.log([2.7e5, 0.21, 93.0, 0.35]), 0.5)
     problem = LineContact(
         2.7e5, 1 / 93.0, 0.21, contact.fluid, contact.effective_modulus, 0.35 * 0.21, contact.roughness
     )
