@@ -16,13 +16,13 @@ PITCH_ERRORS = f"{PINION}.pitch_errors={['1 um'] * 18}"
 MISTAKES = {
     "relief larger than the tooth": (
         (f"{PINION}.tip_relief=3 mm", f"{PINION}.tip_relief_length=4 mm"),
-        f"{PINION}.tip_relief = 3000 um",
+        f"{PINION}.tip_relief = 3 mm",
         "at most",
         "give",
     ),
     "crowning deeper than a modification": (
         (f"{PINION}.crowning=0.4 mm",),
-        f"{PINION}.crowning = 400 um",
+        f"{PINION}.crowning = 0.4 mm",
         "at most 300 um, the tenth of the module",
         "give",
     ),
