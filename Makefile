@@ -2,7 +2,7 @@
 # make test   lint, types and all tests, the slow ones and the speed ratios included
 # make quick  the shortest tests, under a minute (docs/development.md)
 # make soak   512 random drives, duties and options, and other long checks: an hour and a half (docs/soak.md)
-# make fuzz   100 000 mutated inputs: scenarios, options, curves, records, the cache (docs/fuzz.md)
+# make fuzz   30 000 mutated inputs: scenarios, options, curves, records, the cache (docs/fuzz.md)
 # make elsewhere  the tests as on other machines: other BLAS, vectors, compilers' targets, threads, load (an hour)
 # make docs   the documentation site, into docs/_build/html
 # make wheel  what a package index gets, into dist: wheel and source distribution, checked
@@ -66,7 +66,7 @@ soak: $(VENV)/.testing
 	  $(BIN)/python -m pytest -m "soak and bench" tests/bench; ratios=$$?; [ $$tests$$cases$$ratios = 000 ]
 
 fuzz: $(VENV)/.testing
-	nice $(BIN)/python -m tools.fuzz --count 100000 --jobs 2 --into docs/fuzz.md
+	nice $(BIN)/python -m tools.fuzz --jobs 2 --into docs/fuzz.md
 
 # twice: where the first user of something expensive is not quick, the next one prepares it
 durations: $(VENV)/.testing

@@ -35,7 +35,7 @@ class InputError(Exception):
         key = cut(self.key, LONGEST_KEY)
         given = f" = {self.value}" if self.value is not None else ""
         remedy = f"; {self.remedy}" if self.remedy else ""
-        return f"{place}{key}{given}: {self.rule}{remedy}"
+        return printable(f"{place}{key}{given}: {self.rule}{remedy}")
 
 
 class InputErrors(InputError):

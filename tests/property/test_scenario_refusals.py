@@ -6,14 +6,12 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tools.fuzz.inputs import keys_of
+from tools.by_schema.keys import patterns
 from tribodyn.errors import InputError, InputErrors
-from tribodyn.scenario.schema import references
 from tribodyn.studies.gear_pair.scenario import Scenario
 from tribodyn.studies.protocol.load import load_scenario
 
-REFERENCES = [".".join(key) for key in references(Scenario)]
-KEYS = [*keys_of(Scenario), *REFERENCES, "nonsense", "mesh.nonsense.more"]
+KEYS = [*map(".".join, patterns(Scenario)), "nonsense", "mesh.nonsense.more"]
 QUANTITY = r"-?[0-9]{1,3}(\.[0-9])? ?(mm|N\*m|rad/s|deg|kg|Pa|1/K|%|m\*\*[0-9]|/)"
 SCALARS = st.one_of(
     st.text(st.characters(codec="utf-8"), max_size=8),

@@ -33,6 +33,15 @@ def test_a_scenario_with_such_a_text_is_refused(key: str):
     assert harmless(str(error.value)) == str(error.value)
 
 
+def test_a_key_with_such_a_text_is_named_on_one_line():
+    with pytest.raises(InputError) as error:
+        load_scenario("crc-23-47", {f"operating.gear_torque.{EVIL}\n.x": 1})
+    assert error.value.key.endswith(".x")
+    said = str(error.value)
+    assert harmless(said) == said
+    assert len(said.splitlines()) == 1
+
+
 def test_messages_are_harmless(tmp_path: Path):
     ended = CliRunner().invoke(app, ["run", f"{EVIL}.toml"])
     assert ended.exit_code == 2

@@ -13,6 +13,8 @@ from tools.fuzz.runs import Result, run_corpus, run_numbers
 from tools.marked_block import made_by, put
 from tools.marked_block import table as table_of
 
+#: Inputs of `make fuzz`.
+COUNT = 30_000
 #: Inputs between two reports.
 BLOCK = 1000
 
@@ -22,7 +24,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m tools.fuzz", description=__doc__)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="number of the first input")
-    parser.add_argument("--count", type=int, default=100_000)
+    parser.add_argument("--count", type=int, default=COUNT)
     parser.add_argument("--jobs", type=int, default=1, help="processes")
     parser.add_argument("--input", type=int, help="print this input alone, and what becomes of it")
     parser.add_argument("--into", type=Path, help="page with the marked block for the table")

@@ -19,6 +19,29 @@ NUMBERS = (
     *("1" + "0" * 5000, "0x" + "f" * 64, "1e99999", "0.1e-99999", "1979-05-27T07:32:00Z"),
     *("1979-05-27", "07:32:00", "true"),
 )
+#: Formulas of errors.
+FORMULAS = (
+    *("5 * sin(2 * pi * i / z)", "(-8)**(1/3)", "max(0.5, h, 1-h)", "sin(h, h)", "1e308 * 10", "h / 0"),
+    *("__import__('os')", "h.__class__", "[1, 2]", "lambda: 1", "h if f else i", "2**99999", "abs()", "()"),
+    *(
+        "i" + " + i" * 5000,
+        "(" * 300 + "h" + ")" * 300,
+        "sqrt(h - 1)",
+        "log(0)",
+        "1 < h < 2",
+        "h[0]",
+        "not h",
+    ),
+    *(
+        "loss >= 0",
+        "contact_ratio >= start",
+        "loss",
+        "film_min <= 1 um",
+        "x = 1",
+        "min(h, f)",
+        "exp(1e9 * h)",
+    ),
+)
 #: Names of files and models.
 NAMES = (
     *("..", "/", "/dev/zero", "/dev/stdin", "/etc/passwd", "../../../../etc/passwd", "\\0"),

@@ -1,30 +1,39 @@
 """What is drawn: an input for one of the targets, from a seed and a number."""
 
 import tomllib
+from collections.abc import Sequence
 from functools import cache
-from pathlib import Path
 from random import Random
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import tomli_w
+
+from tools.by_schema.changes import changed, keys_of, opened
+from tools.by_schema.keys import SchemaKey
+from tools.by_schema.values import Surroundings, drawn_value
 from tools.fuzz import corpus
-from tribodyn.geometry.families import FAMILIES
-from tribodyn.scenario.quantity import Table
-from tribodyn.scenario.schema import references
+from tools.fuzz.records import FIXTURES, RUNS
+from tribodyn.scenario.quantity import Reference
+from tribodyn.scenario.schema import EACH, parts_of
 from tribodyn.scenario.sources import shipped
-from tribodyn.studies import STUDIES, study_of
+from tribodyn.studies import study_of
 
-ROOT = Path(__file__).parents[2]
-FIXTURES = ROOT / "tests" / "fixtures"
-CURVE = "load-step.csv"
 #: Targets and how often each is drawn.
-SHARES = {"toml": 45, "set": 17, "curve": 8, "vary": 5, "record": 6, "cache": 17, "check": 2}
-#: What is checked: every family, and studies whose check needs no finite elements: those take too long.
-CHECKED = (
-    *("involute-23-47", "crc-23-47", "cycloidal-23-47", "parabolic-23-47", "s-gear-23-47", "points-23-47"),
-    *("spline-23-47", "circular-arc-23-47", "efficiency-crc-23-47", "ehl-crc-23-47"),
-)
-#: What is swept: scenarios of every kind that can be.
-SWEPT = ("crc-23-47", "efficiency-oil-18-36", "load-contact-18-36", "ehl-crc-23-47", "irefc", "spline-23-47")
+SHARES = {
+    "toml": 30,
+    "set": 18,
+    "key": 15,
+    "curve": 8,
+    "vary": 5,
+    "signals": 2,
+    "record": 6,
+    "run": 4,
+    "cache": 10,
+}
+#: Between a scenario and the CSV file that it names.
+CURVE = b"\n# curve.csv\n"
+#: Texts that are formulas, by the end of their key.
+FORMULAS = ("tooth_formula", "subject_to", "minimise", "maximise")
 #: Bytes that a mutation likes to put somewhere.
 INTERESTING = (0, 1, 7, 8, 10, 13, 27, 34, 39, 46, 61, 91, 123, 127, 128, 194, 254, 255)
 #: Changes of one input, at most.
@@ -53,10 +62,14 @@ def of_corpus() -> list[Input]:
     found += [
         Input("set", "load-step", f"operating.gear_torque_table={text}".encode()) for text in corpus.NAMES
     ]
+    formula = "drive.gear.modification.tooth_formula"
+    found += [Input("set", "crack-18-36", f"{formula}={text}".encode()) for text in corpus.FORMULAS]
+    found += [Input("signals", "sensors-18-36", text.encode()) for text in corpus.QUANTITIES]
     found += [Input("set", "crc-23-47", f"solver.cycles={text}".encode()) for text in corpus.NUMBERS]
     found += [Input("vary", "crc-23-47", f"operating.pinion_speed={text}".encode()) for text in corpus.RANGES]
     found += [Input("vary", name, text.encode()) for name, text in corpus.AXES]
-    found += [Input("curve", "load-step", text.encode()) for text in corpus.CURVES]
+    step = scenarios()["load-step"].replace(b"load-step.csv", b"curve.csv")
+    found += [Input("curve", "load-step", step + CURVE + text.encode()) for text in corpus.CURVES]
     whole = scenarios()["crc-23-47"]
     for piece in corpus.PIECES:
         found += [Input("toml", "crc-23-47", before + piece.encode()) for before in (whole, b"")]
@@ -70,29 +83,33 @@ def scenarios() -> dict[str, bytes]:
 
 
 @cache
-def records() -> dict[str, bytes]:
-    """Records by name: one per kind of layout."""
-    return {path.stem: path.read_bytes() for path in sorted(FIXTURES.glob("records-*/*.h5"))}
+def data_of(name: str) -> dict[str, Any]:
+    """A shipped scenario with all that it names written out."""
+    return opened(name)
 
 
 @cache
-def keys(kind: str) -> tuple[str, ...]:
-    """All dotted keys of the scenarios of a kind, and some that are none."""
-    table = STUDIES[kind].table()
-    named = (".".join(map(str, key)) for key in references(table))
-    none = "nonsense", "mesh.nonsense.more", "a..b", "", "operating.0", "solver.cycles.1"
-    return *keys_of(table), *named, *none
+def files_of(name: str) -> list[tuple[SchemaKey, Reference]]:
+    """Keys of a shipped scenario that may name a CSV file."""
+    marks = ((key, parts_of(key.field)) for key in keys_of(data_of(name)) if not key.owner)
+    named = ((key, mark) for key, found in marks for mark in found if isinstance(mark, Reference))
+    return [(key, mark) for key, mark in named if mark.columns]
 
 
-def keys_of(table: type[Table], above: str = "") -> list[str]:
-    """Dotted keys of a schema, those of the tables inside it too."""
-    found = []
-    for name, field in table.model_fields.items():
-        found.append(above + name)
-        inner = field.annotation
-        if isinstance(inner, type) and hasattr(inner, "model_fields"):
-            found += keys_of(inner, f"{above}{name}.")
-    return found
+def any_key(random: Random, name: str) -> str:
+    """A dotted key that a shipped scenario may have, or one that there is none of."""
+    if random.random() < 0.1:
+        return random.choice(("nonsense", "mesh.nonsense.more", "a..b", "", "operating.0", "solver.cycles.1"))
+    data: Any = data_of(name)
+    parts = []
+    for part in random.choice(keys_of(data)).pattern:
+        inside = (
+            list(data) if isinstance(data, dict) else list(range(len(data))) if isinstance(data, list) else []
+        )
+        parts.append(random.choice([*inside, 0, "a"]) if part == EACH else part)
+        last = parts[-1]
+        data = data.get(last) if isinstance(data, dict) else data[last] if last in inside else None
+    return ".".join(map(str, parts))
 
 
 def mutated(random: Random, content: bytes, pieces: list[bytes]) -> bytes:
@@ -132,19 +149,52 @@ def _toml(random: Random) -> Input:
 
 def _set(random: Random) -> Input:
     name = random.choice(list(scenarios()))
-    kind = random.choice(list(STUDIES))
-    value = random.choice(list(corpus.texts()))
+    key = any_key(random, name)
+    texts = list(corpus.FORMULAS if key.endswith(FORMULAS) else corpus.texts())
+    value = random.choice(texts)
     if random.random() < 0.5:
         value = mutated(random, value.encode()[:400], _pieces()[-40:]).decode(errors="replace")
     equals = random.choice(("=", "=", "=", "=", " = ", ""))
-    return Input("set", name, f"{random.choice(keys(kind))}{equals}{value}".encode())
+    return Input("set", name, f"{key}{equals}{value}".encode())
+
+
+def _key(random: Random) -> Input:
+    """A value of its type at any key of any kind."""
+    name = random.choice(list(scenarios()))
+    data = data_of(name)
+    for _ in range(random.choice((1, 1, 2, 4))):
+        _, data = changed(random, data, random.choice(keys_of(data)))
+    return Input("key", name, tomli_w.dumps(data).encode())
 
 
 def _curve(random: Random) -> Input:
-    given = (shipped("scenarios") / CURVE).read_bytes()
-    if random.random() < 0.3:
-        given = random.choice(corpus.CURVES).encode()[:2000]
-    return Input("curve", "load-step", mutated(random, given, _pieces()))
+    """A CSV file at any key that may name one."""
+    name = random.choice([name for name in scenarios() if files_of(name)])
+    key, mark = random.choice(files_of(name))
+    dotted, data = changed(random, data_of(name), key)
+    *above, last = dotted.split(".")
+    place: Any = data
+    for part in above:
+        place = place[int(part)] if isinstance(place, list) else place[part]
+    content = _written(random, place[last], mark.columns)
+    place[last] = "curve.csv"
+    if random.random() < 0.2:
+        content = random.choice(corpus.CURVES).encode()[:2000]
+    if random.random() < 0.8:
+        content = mutated(random, content, _pieces())
+    return Input("curve", name, tomli_w.dumps(data).encode() + CURVE + content)
+
+
+def _written(random: Random, value: Any, names: Sequence[str]) -> bytes:
+    """Columns as a CSV file has them; of a list its one column."""
+    if isinstance(value, list):
+        pairs = [str(text).partition(" ") for text in value]
+        head, rows = [f"{names[0]} [{pairs[0][2]}]" if pairs else names[0]], [[pair[0]] for pair in pairs]
+    else:
+        head = [f"{name} [{value[name]['unit']}]" for name in names]
+        rows = zip(*(map(str, value[name]["values"]) for name in names), strict=False)
+    separator = random.choice((",", ",", ",", ";", "\t"))
+    return "\n".join(separator.join(row) for row in (head, *rows)).encode()
 
 
 def _vary(random: Random) -> Input:
@@ -152,16 +202,37 @@ def _vary(random: Random) -> Input:
     if random.random() < 0.7:
         pieces = [b":", b",", b"/", b"e9", b" rpm"]
         text = mutated(random, text.encode()[:200], pieces).decode(errors="replace")
-    name = random.choice(SWEPT)
-    return Input("vary", name, f"{random.choice(keys(kind_of(name)))}={text}".encode())
+    name = random.choice(list(scenarios()))
+    key = any_key(random, name)
+    if random.random() < 0.3:  # values of its type
+        keys = [key for key in keys_of(data_of(name)) if not key.owner and EACH not in key.pattern]
+        chosen = random.choice(keys)
+        values = [drawn_value(random, chosen, Surroundings()) for _ in range(random.randint(1, 3))]
+        key, text = ".".join(chosen.pattern), ",".join(map(str, values))
+    return Input("vary", name, f"{key}={text}".encode())
+
+
+def _signals(random: Random) -> Input:
+    """How long the signals of a data set are."""
+    text = random.choice(("1s", "0.05 s", "3 rev", *corpus.QUANTITIES))
+    pieces = [text.encode() for text in corpus.NUMBERS]
+    given = text.encode()[:200]
+    return Input(
+        "signals", "sensors-18-36", mutated(random, given, pieces) if random.random() < 0.7 else given
+    )
 
 
 def _record(random: Random) -> Input:
-    name = random.choice(list(records()))
-    given = records()[name]
+    name = random.choice(list(FIXTURES))
+    given = FIXTURES[name].read_bytes()
     if random.random() < 0.2:
         return Input("record", name, given[: random.randrange(len(given))])
     return Input("record", name, mutated(random, given, []))
+
+
+def _run(random: Random) -> Input:
+    """A record of this version whose parts are exchanged, and the verb that reads it."""
+    return Input("run", random.choice(RUNS), random.randbytes(16))
 
 
 def _cache(random: Random) -> Input:
@@ -169,22 +240,7 @@ def _cache(random: Random) -> Input:
     return Input("cache", base, random.randbytes(16))
 
 
-def _check(random: Random) -> Input:
-    name = random.choice(CHECKED)
-    key = random.choice([key for key in keys(kind_of(name)) if key.startswith("drive.")] + shapes())
-    values = "0", "1", "-1", "0.5", "1e3", "1e-9", "7", "1e308", '"3 mm"', '"1e-9 m"', '"1 km"', '"20 deg"'
-    value = random.choice(values)
-    return Input("check", name, f"{key}={value}".encode())
-
-
 @cache
 def kind_of(name: str) -> str:
     """Kind of a shipped scenario."""
     return study_of(tomllib.loads(scenarios()[name].decode())).kind
-
-
-@cache
-def shapes() -> list[str]:
-    """Keys of the paths of contact, of every family; of lists the first."""
-    found = {key.name for family in FAMILIES for key in FAMILIES[family].parameters}
-    return [key for name in sorted(found) for key in (f"drive.shape.{name}", f"drive.shape.{name}.0")]

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import NamedTuple, NoReturn
 
 from tools.fuzz.inputs import Input, drawn, of_corpus
+from tools.fuzz.records import record_of
 
 #: Seconds of the processor that an input may take, and seconds by the clock of one that only waits.
 TIME_LIMIT, WAITING_LIMIT = 10.0, 300
@@ -65,6 +66,8 @@ def _in_a_child(part: Sequence[tuple[str, Input]]) -> tuple[list[str], int]:
     from tools.fuzz.targets import warm_up
 
     warm_up()
+    for base in {given.base for _, given in part if given.target == "run"}:
+        record_of(base)  # with the kernels that others have compiled
     scratch = Path(tempfile.mkdtemp(prefix="fuzz-"))
     try:
         with warnings.catch_warnings():

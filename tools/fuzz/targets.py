@@ -8,8 +8,11 @@ from random import Random
 from typing import Any
 
 import numpy as np
+from typer.testing import CliRunner
 
-from tools.fuzz.inputs import CURVE, Input, mutated, scenarios
+from tools.fuzz.inputs import CURVE, Input, mutated
+from tools.fuzz.records import exchange, record_of
+from tribodyn.cli.app import app
 from tribodyn.cli.options import overrides
 from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.errors import InputError, InputErrors, SimulationError
@@ -21,10 +24,14 @@ from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
 from tribodyn.studies.pages import summary_json, summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.sweep.data_set import data_set_of
 from tribodyn.sweep.grid import Grid
 from tribodyn.tribology.ehl.table import ContactTable
 
 TAKEN, REFUSED = "taken", "refused"
+#: Kinds that are also checked, but for scenarios with these words, which need finite elements.
+CHECKED = ("gear-pair", "gear-train", "efficiency", "ehl", "irefc", "backlash-oscillator")
+LONG = '"fem"', "helix_angle", "internal = true"
 #: Characters that a message has at most: whoever reads it sees what is wrong, and not a file.
 LONGEST = 4000
 
@@ -60,6 +67,10 @@ def _readable(error: InputError) -> None:
     text = str(error)
     if not error.key or not error.rule:
         raise Fault(f"a message without key or rule: {text[:200]}")
+    _one_line(text)
+
+
+def _one_line(text: str) -> None:
     if len(text.splitlines()) != 1 or len(text) > LONGEST:
         raise Fault(f"a message of {len(text.splitlines())} lines, {len(text)} characters: {text[:200]}")
 
@@ -74,10 +85,22 @@ def _set(given: Input, folder: Path) -> None:
     load_scenario(given.base, overrides([os.fsdecode(given.content)]))
 
 
-def _curve(given: Input, folder: Path) -> None:
-    (folder / CURVE).write_bytes(given.content)
+def _key(given: Input, folder: Path) -> None:
     path = folder / "case.toml"
-    path.write_bytes(scenarios()[given.base])
+    path.write_bytes(given.content)
+    case = load_scenario(path)
+    if case.kind in CHECKED and not any(word in case.toml for word in LONG):
+        try:
+            STUDIES[case.kind].check(case)
+        except SimulationError:
+            return
+
+
+def _curve(given: Input, folder: Path) -> None:
+    scenario, _, curve = given.content.partition(CURVE)
+    (folder / "curve.csv").write_bytes(curve)
+    path = folder / "case.toml"
+    path.write_bytes(scenario)
     load_scenario(path)
 
 
@@ -85,12 +108,27 @@ def _vary(given: Input, folder: Path) -> None:
     Grid(given.base, [os.fsdecode(given.content)], {})
 
 
-def _check(given: Input, folder: Path) -> None:
-    case = load_scenario(given.base, overrides([os.fsdecode(given.content)]))
-    try:
-        STUDIES[case.kind].check(case)
-    except SimulationError:
-        return
+def _signals(given: Input, folder: Path) -> None:
+    asked = data_set_of(os.fsdecode(given.content), 3.0, 0, 0.25, "none")
+    if asked:
+        Grid(given.base, ["operating.gear_torque=100,200N*m"], {}).hearing(asked.signals)
+
+
+def _run(given: Input, folder: Path) -> None:
+    """A verb that reads a record whose parts were exchanged."""
+    random, path = Random(given.content), folder / "run.h5"
+    path.write_bytes(record_of(given.base))
+    exchange(random, path)
+    verb = random.choice(
+        (["show"], ["show", "--json"], ["report"], ["listen"], ["signals", "--wav"], ["compare"])
+    )
+    words = [verb[0], *[str(path)] * (1 + (verb[0] == "compare")), *verb[1:]]
+    ended = CliRunner().invoke(app, words)
+    if ended.exit_code not in (0, 2):
+        raise Fault(f"{' '.join(verb)}: status {ended.exit_code}, {ended.exception!r} {ended.output[-200:]}")
+    if ended.exit_code == 2:
+        _one_line(ended.stderr.strip())
+        raise InputError("record", None, "refused")
 
 
 def _record(given: Input, folder: Path) -> None:
@@ -143,7 +181,9 @@ _TARGETS = {
     "set": _set,
     "curve": _curve,
     "vary": _vary,
-    "check": _check,
+    "key": _key,
+    "signals": _signals,
+    "run": _run,
     "record": _record,
     "cache": _cache,
 }

@@ -44,10 +44,8 @@ def check(family: Family, drive: Drive) -> Assembly:
 
     Raises InputError, which names the key, the rule and, where known, a value that obeys it.
     """
+    check_path(family, drive)
     with np.errstate(all="ignore"):
-        check_sizes(as_written(family, drive), family.pressure_angle)
-        _check_centre_distance(family, drive)
-        family.check(drive)
         assembly = Assembly(family, drive)
         for side in SIDES:
             _check_root(assembly, side)
@@ -64,6 +62,14 @@ def check(family: Family, drive: Drive) -> Assembly:
             _keep_tip(assembly, ring, tips_collide)
             _keep_tip(assembly, ring, rack_without_flank, mate_of(ring))
     return assembly
+
+
+def check_path(family: Family, drive: Drive) -> None:
+    """Refuse sizes that cannot be, and what makes no path of contact of the family; the first of `check`."""
+    with np.errstate(all="ignore"):
+        check_sizes(as_written(family, drive), family.pressure_angle)
+        _check_centre_distance(family, drive)
+        family.check(drive)
 
 
 def _check_centre_distance(family: Family, drive: Drive) -> None:

@@ -68,7 +68,9 @@ class Modification(quantity.Table):
         Field(None, description="of single teeth over their flank; over time")
     )
     tooth_formula: quantity.Text | None = Field(
-        None, description="of every tooth, um, over i, z, h and f; over time"
+        None,
+        description="of every tooth, um, over i, z, h and f; over time",
+        examples=["5 * sin(2 * pi * i / z)"],
     )
     both_flanks: quantity.Switch = Field(
         False, description="whether all of it but pitch errors is on the back flanks too"

@@ -51,12 +51,14 @@ class Sensor(Table):
     window: Literal["hann", "hamming"] = Field("hann", description="how it hears planets that pass")
     rate: Frequency = Field(description="samples per second")
     filter: Literal["kaiser", "none"] = Field("kaiser", description="against aliases")
-    noise: Text | None = Field(None, description="RMS, in a unit of what it measures")
+    noise: Text | None = Field(
+        None, description="RMS, in a unit of what it measures", examples=["0.5 m/s**2"]
+    )
     snr: Annotated[float, Field(strict=True, ge=-300.0, le=300.0)] | None = Field(
         None, description="dB, in place of noise: signal over noise, RMS"
     )
     seed: Annotated[int, Field(strict=True, ge=0)] = Field(0, description="of the noise")
-    full_scale: Text | None = Field(None, description="magnitude at which it clips")
+    full_scale: Text | None = Field(None, description="magnitude at which it clips", examples=["50 m/s**2"])
     bits: Annotated[int, Field(strict=True, ge=2, le=32)] | None = Field(
         None, description="of its converter, over full_scale; default: exact"
     )

@@ -13,6 +13,7 @@ from tribodyn.scenario import fields, units
 from tribodyn.scenario.quantity import (
     Count,
     InUnit,
+    Names,
     NotNegative,
     Positive,
     Table,
@@ -25,7 +26,7 @@ from tribodyn.scenario.tables.drive_data import backlash_of
 from tribodyn.scenario.tables.laws import FrictionTable
 from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.own_teeth import ToothSampleNumber
-from tribodyn.solve.methods import SOLVERS, SolverData
+from tribodyn.solve.methods import AUTO, SOLVERS, SolverData
 from tribodyn.studies.gears.case import OutputData
 from tribodyn.studies.gears.scenario import (
     FaceSlices,
@@ -111,7 +112,7 @@ class Friction(FrictionTable):
 class Solver(Table):
     """How the equations are solved."""
 
-    method: Text = "auto"
+    method: Annotated[Text, Names(SOLVERS)] = AUTO
     rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
     cycles: Count = Field(20, description="mesh cycles to run")
     revolutions: Positive | None = Field(

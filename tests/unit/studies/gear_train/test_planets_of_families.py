@@ -26,6 +26,8 @@ SHARED: dict[str, dict[str, Any]] = {
         }
     },
 }
+#: Of a path that stands still.
+POINTS = {name: {"unit": "mm", "values": [0.0, 0.0, 0.0, 1.0]} for name in "xy"}
 
 
 def stage(family: str, keys: dict[str, Any], **changes: Any) -> dict[str, Any]:
@@ -63,6 +65,8 @@ def test_teeth_of_sun_planets_and_ring_touch_where_they_are_said_to(family: str,
             "stage.0.centre_distance",
             "one centre",
         ),
+        ("s-gear", {"shape": {"form_factor": 0.6, "exponent": 1.8}}, "stage.0.shape.form_factor", "above 1"),
+        ("points", {"pressure_angle": "20 deg", "shape": {"points": POINTS}}, "stage.0.shape.points", ""),
     ],
 )
 def test_planets_that_sun_and_ring_cannot_share(family: str, keys: dict[str, Any], key: str, says: str):

@@ -1,14 +1,15 @@
 """A train as its scenario draws it: parts, speeds, the pair of every mesh, axes, and room for the gears."""
 
+from collections.abc import Callable
 from itertools import count
 from math import pi, remainder
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from tribodyn.errors import InputError, InputErrors
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Drive, Side, tip_circle_radius
-from tribodyn.geometry.families import family
-from tribodyn.geometry.limits.checks import check
+from tribodyn.geometry.families import Family, family
+from tribodyn.geometry.limits.checks import check, check_path
 from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable
 from tribodyn.studies.gear_train.described.structure import (
@@ -28,6 +29,9 @@ from tribodyn.train.positions import Centres, Disc, Distance, check_room, joined
 #: decimals moves axes less, and backlash changes by 0.7 of it.
 LOOP_TOLERANCE = 0.01
 SENSES = {"clockwise": -1, "counter-clockwise": 1}
+
+
+_Checked = TypeVar("_Checked")
 
 
 class Moving(NamedTuple):
@@ -98,9 +102,12 @@ def drawn(train: Moving) -> Drawn:
     parts = train.parts
     for own in parts.sets:
         planet = next(number for number, gear in enumerate(parts.gears) if gear.body == own.planets[0])
-        met: list[tuple[Drive, Side]] = [
-            (drive_of(train.drives[mesh]), side) for mesh, side in train.meshes_of(planet)
-        ]
+        met: list[tuple[Drive, Side]] = []
+        for mesh, side in train.meshes_of(planet):
+            drive = train.drives[mesh]
+            if not (drive.pinion.internal or drive.gear.internal):  # the ring may need another path
+                _checked(train, mesh, check_path)
+            met.append((drive_of(drive), side))
         check_planet(f"{own.key}.family", own.table.family, met)
     assemblies = _assemblies(train)
     for number, gear in enumerate(parts.gears):
@@ -126,13 +133,16 @@ def drawn(train: Moving) -> Drawn:
 
 
 def _assemblies(train: Moving) -> tuple[Assembly, ...]:
-    found = []
-    for mesh, table in enumerate(train.drives):
-        try:
-            found.append(check(family(table.family), drive_of(table)))
-        except InputError as error:
-            raise in_terms_of_train(error, train, mesh) from None
-    return tuple(found)
+    return tuple(_checked(train, mesh, check) for mesh in range(len(train.drives)))
+
+
+def _checked(train: Moving, mesh: int, check: Callable[[Family, Drive], _Checked]) -> _Checked:
+    """What a check of the teeth of a mesh returns; its errors have the keys of the train's scenario."""
+    table = train.drives[mesh]
+    try:
+        return check(family(table.family), drive_of(table))
+    except InputError as error:
+        raise in_terms_of_train(error, train, mesh) from None
 
 
 def in_terms_of_train(error: InputError, train: Moving, mesh: int) -> InputError:
