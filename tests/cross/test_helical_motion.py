@@ -123,7 +123,7 @@ def test_even_slices_and_a_whole_overlap_make_no_transmission_error():
 
 def test_mean_error_converges_with_the_square_of_the_slices_width():
     found = []
-    for slices in (6, 12, 24):
+    for slices in (12, 24, 48):  # with 6 errors of either sign still cancel
         model = pair(**{"mesh.slices": slices, "friction.law": "none"}).model
         turn, tilt = turn_of(1, model.layout), place_in_space(0, 4, model.layout)
         last = marched(model, cycles=10)[-40:]

@@ -42,7 +42,7 @@ WHOLE_LOAD = 25  # elastic load if the whole width touched, N
 LINE_LOAD = 26  # normal load per width of the slot, N/m
 LEAN_COS = 27  # of the angle of the normal to the transverse plane
 LEAN_SIN = 28  # positive where the driver pushes the driven flank along +z
-AXIAL_PLACE = 29  # z of the slot from the middle of the face, m
+AXIAL_PLACE = 29  # z where the load of the slot acts, from the middle of the face, m
 OWN_FRICTION = 30  # what single teeth add to 1 as a factor on the friction coefficient, where they differ
 COUPLING = 31  # deflection per load on slot 0, and on from here per load on the other slots, m/N
 QUANTITIES = 31  # and one more for every slot
@@ -53,7 +53,7 @@ _DISTANCE, _RADIUS = CHANNELS.index("signed_distance"), CHANNELS.index("equivale
 _SPEED = CHANNELS.index("pinion_speed")
 _COMPLIANCE, _GAP = CHANNELS.index("compliance"), CHANNELS.index("gap")
 PEAK = CHANNELS.index("line_load_peak")
-_SHARE = CHANNELS.index("share")
+_SHARE, _PLACE = CHANNELS.index("share"), CHANNELS.index("face_place")
 
 
 class MeshPlace(NamedTuple):
@@ -164,15 +164,18 @@ def approach(place, motion, mesh, work):
         gap, gap_slope = cubic_and_slope(c, segment, cell, i, _GAP, u)
         compliance, compliance_slope = cubic_and_slope(c, segment, cell, i, _COMPLIANCE, u)
         distance, distance_slope = cubic_and_slope(c, segment, cell, i, _DISTANCE, u)
-        z = 0.0 * cosine
+        z, z_slope = 0.0 * cosine, 0.0 * cosine
         if sliced(mesh):
-            z = z + mesh.hand * table.face_position[i % table.face_position.shape[0]]
+            z, z_slope = cubic_and_slope(c, segment, cell, i, _PLACE, u)
+            z, z_slope = mesh.hand * z, mesh.hand * z_slope
         along = side * (motion.towards + z * motion.lean_along)
         across = motion.across + z * motion.lean_across
         along_rate = side * (motion.along_rate + z * motion.lean_along_rate)
         across_rate = motion.across_rate + z * motion.lean_across_rate
         error = along * cosine + across * sine
         slope = along * cosine_slope + across * sine_slope
+        if sliced(mesh):
+            slope = slope + z_slope * (side * motion.lean_along * cosine + motion.lean_across * sine)
         rate = (along_rate + side * motion.turning_rate) * cosine + across_rate * sine
         lean_cos, lean_sin = 1.0 + z * 0.0, z * 0.0
         if sliced(mesh):

@@ -8,6 +8,7 @@ from tribodyn.dynamics.approach import (
     APPROACH,
     APPROACH_RATE,
     COMPLIANCE,
+    COS,
     COUPLING,
     DRIVEN_SPEED,
     DRIVER_SPEED,
@@ -33,6 +34,7 @@ from tribodyn.dynamics.approach import (
 from tribodyn.dynamics.parameters import HERTZ_POWER_LAW, SLIDING_DYNAMIC
 from tribodyn.dynamics.smooth import (
     load_with_damping,
+    mean_sign,
     onset,
     positive_part,
     power_law_force,
@@ -191,4 +193,9 @@ def contact_forces(place, motion, reversals, mesh, model, work):
             coefficient = coefficient * (1.0 + work[OWN_FRICTION, i])
         work[FRICTION_COEFFICIENT, i] = coefficient
         work[TURNED, i] = sliding * reversals
-        work[FRICTION_FORCE, i] = coefficient * work[NORMAL_LOAD, i] * sign(work[TURNED, i])
+        turned = sign(work[TURNED, i])
+        if sliced(mesh):
+            # the part of the slice on either side of the pitch line
+            reach = 0.5 * work[PRESENT, i] * mesh.table.slice_width * mesh.table.pitch_slope * work[COS, i]
+            turned = mean_sign(work[TURNED, i], reach / model.operation.reversal_width)
+        work[FRICTION_FORCE, i] = coefficient * work[NORMAL_LOAD, i] * turned

@@ -54,7 +54,9 @@ def over_faces(
             result[name] = np.take_along_axis(face, chosen, axis=2)[:, :, 0]
     load = result["normal_load"]
     with np.errstate(invalid="ignore", divide="ignore"):
-        total = np.sum(np.abs(slots["friction_force"]).reshape(count, pairs, slices), axis=2)
+        # not the friction force: where the pitch line crosses a slice it acts to either side
+        rubbing = np.nan_to_num(slots["friction_coefficient"] * slots["normal_load"])
+        total = np.sum(rubbing.reshape(count, pairs, slices), axis=2)
         result["friction_coefficient"] = np.where(load > 0.0, total / load, np.nan)
     result["line_load"] = np.where(known, loaded, 0.0)
     return result

@@ -184,7 +184,7 @@ def _mean_of_slices(model: Model, m: int, cycle: MeshCycle, torque: float) -> Fl
     cosine, sine = np.cos(cycle.pressure_angle), np.sin(cycle.pressure_angle)
     steep = cycle.side * hand * cycle.pitch_slope * cosine
     lean = 1.0 / np.sqrt(1.0 + steep**2)
-    z = hand * np.tile(cycle.face_position, cycle.slots // cycle.slices)
+    z = hand * np.asarray(cycle.face_place)
     along, across, axial = cycle.side * cosine * lean, sine * lean, steep * lean
     at_along, at_across = cycle.side * cycle.signed_distance * cosine, cycle.signed_distance * sine
     normal = np.stack(

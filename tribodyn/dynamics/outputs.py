@@ -115,6 +115,12 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         surface, limits = surface_and_limits(contacts, model.closure(m))
     friction = per_pair(contact.FRICTION_FORCE)
     _, _, axial, _, _, resisting, driving, *_ = resultants(place, mesh, model, work)
+    rubbing = load
+    if (
+        np.shape(table.face_position)[0] > 1
+    ):  # where the pitch line crosses a slice friction acts to either side
+        full = load * per_pair(contact.FRICTION_COEFFICIENT)
+        rubbing = np.where(full > 0.0, load * np.abs(friction) / np.where(full > 0.0, full, 1.0), load)
     arm = per_pair(contact.LEAN_COS) * per_pair(contact.COS)
     stiffness = per_pair(contact.PRESENT) * per_pair(contact.STIFFNESS)
     result = {name: contacting(values) for name, values in surface._asdict().items()}
@@ -149,7 +155,7 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
         # power_friction, the work on the moving bodies, is another
         "sliding_loss": np.sum(friction * contacts.sliding, axis=1),
         # what that would be with a friction coefficient of 1
-        "sliding_load": np.sum(load * np.abs(contacts.sliding), axis=1, where=touching),
+        "sliding_load": np.sum(rubbing * np.abs(contacts.sliding), axis=1, where=touching),
         "mesh_power_friction": np.sum(friction * per_pair(contact.RELATIVE_VELOCITY), axis=1, where=inside),
     }
     if shares:

@@ -1,9 +1,11 @@
 """Smoothed versions of the model's non-smooth functions, each C1 with its width stated."""
 
-from tribodyn.numerics.elementary import exp, law, log, maximum, minimum, skippable, where
+from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum, skippable, where
 
 #: Share of a width below which none falls, so that nothing is divided by zero.
 SMALLEST_SHARE = 1e-30
+#: Half a width, over that of the reversal, below which a mean is the value in the middle: within 1e-6.
+SMALLEST_HALF = 1e-3
 
 
 @law
@@ -52,6 +54,23 @@ def sign(x):
     """Sign of x made C1: (3x − x³)/2 for |x| < 1, exact outside."""
     inner = minimum(maximum(x, -1.0), 1.0)
     return 0.5 * inner * (3.0 - inner * inner)
+
+
+@law
+def sign_integral(x):
+    """The integral of `sign` from 0 to x."""
+    size = absolute(x)
+    inner = minimum(size, 1.0)
+    square = inner * inner
+    return square * (0.75 - 0.125 * square) + (size - inner)
+
+
+@law
+def mean_sign(x, half):
+    """Mean of `sign` from x − half to x + half, half ≥ 0; of a width below `SMALLEST_HALF` that at x."""
+    wide = maximum(half, SMALLEST_HALF)
+    mean = (sign_integral(x + wide) - sign_integral(x - wide)) / (2.0 * wide)
+    return where(half > SMALLEST_HALF, mean, sign(x))
 
 
 @law

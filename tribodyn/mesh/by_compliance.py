@@ -7,10 +7,9 @@ from tribodyn.compliance.energy import loaded_tooth, polynomials_over_ring
 from tribodyn.compliance.foundation import outside_fitted_range
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, MaterialData
-from tribodyn.mesh.coupled_slices import tabulate_helical
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.helical import slice_layout
-from tribodyn.mesh.slice_number import slices_needed
+from tribodyn.mesh.fine_slices import tabulate_integrated
+from tribodyn.mesh.slice_number import slices_needed, too_few
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 
@@ -40,8 +39,7 @@ def mesh_cycle_of(
         return tabulate_loaded(assembly, materials, mesh, gear_torque, back)
     if assembly.drive.helix_angle or mesh.slices > 1:
         mesh, _ = with_slices(assembly, materials, mesh, gear_torque)
-        layout = slice_layout(assembly, mesh, mesh.slices, back)
-        return tabulate_helical(assembly, materials, mesh, layout, gear_torque)
+        return tabulate_integrated(assembly, materials, mesh, gear_torque, back)
     return tabulate(assembly, materials, mesh, pair_slots(assembly), back)
 
 
@@ -50,10 +48,14 @@ def with_slices(
 ) -> tuple[MeshData, str]:
     """Count the slices that a helical pair needs where they are left open; the remark says why, or is empty.
 
-    Of `compliance = "fem"`, and of spur gears, the number stays.
+    Where too few are given the remark says so: judged by the energy method, also of `compliance = "fem"`, of
+    which the number stays, as of spur gears.
     """
-    if mesh.at_load or not assembly.drive.helix_angle or mesh.slices > 1:
+    if not assembly.drive.helix_angle or (mesh.at_load and mesh.slices == 1):
         return mesh, ""
+    if mesh.slices > 1:
+        judged = replace(mesh, compliance="energy") if mesh.at_load else mesh
+        return mesh, too_few(assembly, materials, judged, gear_torque)
     found = slices_needed(assembly, materials, mesh, gear_torque)
     return replace(mesh, slices=found.slices), found.remark
 

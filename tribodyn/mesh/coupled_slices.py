@@ -92,24 +92,53 @@ def couple_slices(
     xp = namespace(*cycle, force, wave)
     # a slice touches with its early part while it enters, with its late part while it leaves
     middle = (np.arange(share.shape[1]) % slices + 0.5 + xp.sign(r) * (1.0 - share) / 2.0) / slices
+    near = _near_contact(share)
     found = []
     count = _ROWS if xp is np else r.shape[0]  # one program for all
     for first in range(0, r.shape[0], count):
         rows = np.s_[first : first + count]
-        along = [spread(middle[rows], share[rows], factor, slices) for factor in falling]
-        matrix = slices * _matrix(teeth[rows], bodies[rows], between[rows], along)
+        slot = near[rows]
+        at = np.arange(len(slot))[:, None]
+        fields = teeth, bodies, even, own, arms, cycle.gap[front], share, middle
+        line, body, whole, contact, arm, gap, part, place = (field[rows][at, slot] for field in fields)
+        along = [spread(place, part, factor, slices) for factor in falling]
+        matrix = slices * _matrix(line, body, between[rows], along, slot)
         if not mesh.held:  # what a load over the whole face does not meet
-            relief = even[rows] - bodies[rows], even_between[rows] - between[rows]
-            matrix = matrix + _over_the_face(*relief)
-        gaps = cycle.gap[front][rows]
-        found.append(
-            _lumped(matrix, own[rows], arms[rows], gaps, share[rows], force, cycle.hertz_coefficient)
-        )
+            matrix = matrix + _over_the_face(whole - body, even_between[rows] - between[rows], slot)
+        lumped = _lumped(matrix, contact, arm, gap, part, force, cycle.hertz_coefficient)
+        table = cycle.compliance[front][rows], cycle.gap[front][rows]
+        found.append([_put(xp, field, at, slot, value) for field, value in zip(table, lumped, strict=True)])
     fields = {
         name: xp.concatenate([xp.concatenate(parts), getattr(cycle, name)[0, :, fronts:]], axis=1)[None]
         for name, parts in zip(("compliance", "gap"), zip(*found, strict=True), strict=True)
     }
     return cycle._replace(**fields)
+
+
+def near_contact(share: Float[Array, "node slot"]) -> Array:
+    """Where slots touch, or do at the node before or after."""
+    touching = np.asarray(share) > 0.0
+    near = touching.copy()
+    near[1:] |= touching[:-1]
+    near[:-1] |= touching[1:]
+    return near
+
+
+def _near_contact(share: Float[Array, "node slot"]) -> Array:
+    """Numbers of the slots that are `near_contact`, and of as many others as make rows alike; traced: all."""
+    if is_jax(share):
+        return np.broadcast_to(np.arange(share.shape[1]), share.shape)
+    near = near_contact(share)
+    most = int(np.max(near.sum(axis=-1)))
+    return np.sort(np.argsort(~near, axis=-1, kind="stable")[:, :most], axis=-1)
+
+
+def _put(xp: Any, whole: Any, at: Any, slot: Any, value: Any) -> Any:
+    if xp is not np:
+        return value
+    result = np.array(whole)
+    result[at, slot] = value
+    return result
 
 
 def spread(
@@ -160,36 +189,38 @@ def _parts(
 
 
 def _matrix(
-    teeth: Float[Array, "node slot"],
-    bodies: Float[Array, "node slot"],
+    teeth: Float[Array, "node place"],
+    bodies: Float[Array, "node place"],
     between: Float[Array, "node slice pair pair"],
-    along: list[Float[Array, "node slot slot"]],
-) -> Float[Array, "node slot slot"]:
-    """Deflection of slots per load on slots over the number of slices, without the contact."""
-    slices, pairs = between.shape[1:3]
-    matrix = _by_slots(between) * along[1]
-    number = np.arange(pairs * slices) // slices
+    along: list[Float[Array, "node place place"]],
+    slot: Any,
+) -> Float[Array, "node place place"]:
+    """Deflection of slots per load on slots over the number of slices, without the contact.
+
+    `slot` (node, place): the slots' numbers.
+    """
+    matrix, same = _by_slots(between, slot)
+    matrix = matrix * along[1]
     for part, spreading in zip((teeth, bodies), along, strict=True):
         root = sqrt(part)
-        matrix = matrix + (number[:, None] == number) * root[:, :, None] * spreading * root[:, None, :]
+        matrix = matrix + same * root[:, :, None] * spreading * root[:, None, :]
     return matrix
 
 
 def _over_the_face(
-    bodies: Float[Array, "node slot"], between: Float[Array, "node slice pair pair"]
-) -> Float[Array, "node slot slot"]:
+    bodies: Float[Array, "node place"], between: Float[Array, "node slice pair pair"], slot: Any
+) -> Float[Array, "node place place"]:
     """Deflection of slots per load on slots that depends on the load of the whole face alone."""
-    slices, pairs = between.shape[1:3]
-    number = np.arange(pairs * slices) // slices
-    same = number[:, None] == number
-    return _by_slots(between) + same * (bodies[:, :, None] + bodies[:, None, :]) / 2.0
+    matrix, same = _by_slots(between, slot)
+    return matrix + same * (bodies[:, :, None] + bodies[:, None, :]) / 2.0
 
 
-def _by_slots(between: Float[Array, "node slice pair pair"]) -> Float[Array, "node slot slot"]:
-    """What couples pairs in a slice as between slots, in the mean of both slices."""
-    count = between.shape[1] * between.shape[2]
-    mean = (between[:, :, None] + between[:, None, :]) / 2.0  # (node, slice, slice, pair, pair)
-    return mean.transpose(0, 3, 1, 4, 2).reshape(-1, count, count)
+def _by_slots(between: Float[Array, "node slice pair pair"], slot: Any) -> tuple[Any, Any]:
+    """What couples pairs in a slice as between slots, in the mean of both slices; and whether of one pair."""
+    pair, part = np.divmod(slot, between.shape[1])
+    node, one, other = np.arange(len(slot))[:, None, None], pair[:, :, None], pair[:, None, :]
+    matrix = between[node, part[:, :, None], one, other] + between[node, part[:, None, :], one, other]
+    return matrix / 2.0, one == other
 
 
 def _lumped(

@@ -78,6 +78,9 @@ class MeshCycle(NamedTuple):
     share: Any = 1.0  # part of a slice's width that is on the path of contact
     face_position: Any = np.zeros(1)  # (K,), middles of the slices, m from the middle of the face
     pitch_slope: Any = 0.0  # tan β_w ≥ 0
+    face_place: Any = (
+        0.0  # z in the middle of the part of a slice that touches, m from the middle of the face
+    )
 
     @property
     def slices(self) -> int:
@@ -146,7 +149,10 @@ CHANNELS = (
     "line_load_friction",
     "line_load_peak",
     "share",
+    "face_place",
 )
+#: Channels that spur gears have none of.
+_OF_SLICES = ("face_place",)
 _IS_SHARE = np.array([[name == "share"] for name in CHANNELS])
 
 
@@ -202,9 +208,9 @@ def slopes(values: Any, slices: int = 1) -> Any:
         return xp.einsum("nm,sm...->sn...", derivative_matrix(nodes), values) / (nodes - 1)
     rise = values[:, 1:] - values[:, :-1]
     before, after = rise[:, :-1], rise[:, 1:]
-    both = before + after
-    rising = before * after > 0.0
-    inner = xp.where(rising, 2.0 * before * after / xp.where(rising, both, 1.0), 0.0)
+    steepest = 3.0 * xp.minimum(xp.abs(before), xp.abs(after))
+    central = 0.5 * (before + after)
+    inner = xp.where(before * after > 0.0, xp.clip(central, -steepest, steepest), 0.0)
     return xp.concatenate([rise[:, :1], inner, rise[:, -1:]], axis=1)
 
 
@@ -236,7 +242,8 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     if cycle.compliance.dtype != np.float64:
         raise TypeError(f"the mesh cycle is {cycle.compliance.dtype}, not float64: enable jax_enable_x64")
     angle = {"cosine": xp.cos(cycle.pressure_angle), "sine": xp.sin(cycle.pressure_angle)}
-    columns = [angle[name] if name in angle else getattr(cycle, name) for name in CHANNELS]
+    names = CHANNELS if cycle.slices > 1 else [name for name in CHANNELS if name not in _OF_SLICES]
+    columns = [angle[name] if name in angle else getattr(cycle, name) for name in names]
     columns = [xp.broadcast_to(values, cycle.compliance.shape) for values in columns]
     channels = xp.stack(columns, axis=-1)
     kept = {name: getattr(cycle, name) for name in Polynomials._fields if hasattr(cycle, name)}

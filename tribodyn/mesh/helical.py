@@ -37,7 +37,7 @@ from tribodyn.geometry.helix import (
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh import table
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.slice_gaps import face_positions, modified, slice_gap
+from tribodyn.mesh.slice_gaps import TouchingPart, face_positions, modified_gap, slice_gap
 from tribodyn.mesh.tabulate import RollCurve, check_options, pair_compliance, tabulate
 from tribodyn.numerics.elementary import absolute, cos, is_jax, namespace, within
 from tribodyn.numerics.shapes import Array, Float
@@ -108,13 +108,19 @@ def tabulate_slices(
     if not is_jax(assembly.drive.helix_angle) and assembly.drive.helix_angle == 0.0:
         return _spur_slices(assembly, materials, mesh, layout)
     path = assembly.path
-    at, share = _slots(assembly, layout, phase)
+    at, share, place = _slots(assembly, layout, phase)
     slope = absolute(pitch_slope(assembly))
     curve = RollCurve(*assembly.roll_limits)
     r_nodes = path.signed_distance(curve.nodes())
-    r = curve.interpolate(r_nodes, at.roll)
-    if assembly.family.corner:
-        r = r - (path.rotation(r) - at.roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
+
+    def distance(roll: Any) -> Any:
+        r = curve.interpolate(r_nodes, roll)
+        if assembly.family.corner:
+            r = r - (path.rotation(r) - roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
+        return r
+
+    r = distance(at.roll)
+    slots = layout.pairs * layout.slices, layout.slices
     motion = kinematics(path, r)
     faces = Faces(slope, normal_slope(slope, motion.pressure_angle), line_stretch(slope, path, r))
     speed = speed_share(slope, path, r)
@@ -125,7 +131,8 @@ def tabulate_slices(
         table.Elasticity(
             slice_compliance(assembly, materials, mesh, curve, r_nodes, at.roll, faces, layout),
             np.zeros((*at.phase.shape, 1, 1)),
-            slice_gap(assembly, mesh, at, motion, slope, layout),
+            slice_gap(assembly, mesh, at, motion, slope, layout.back)
+            + modified_gap(assembly, mesh, TouchingPart(at.roll, place, share), distance, slope, slots),
             _hertz_coefficient(assembly, materials, mesh, slope, layout.slices),
             line_load_friction=1.0 / faces.stretch,
             line_load_peak=1.0 / faces.stretch,
@@ -135,6 +142,7 @@ def tabulate_slices(
         equivalent_radius=cycle.equivalent_radius / curvature_share(slope, path, r),
         share=share,
         face_position=face_positions(assembly.common_width, layout.slices),
+        face_place=place,
         pitch_slope=slope,
     )
 
@@ -155,13 +163,20 @@ def _spur_slices(
         if name in ("in_contact", "side") or np.shape(value) == shape
     }
     cycle = pair._replace(**fields, face_position=face_positions(assembly.common_width, count))
-    gap = modified(assembly, mesh, cycle.gap, cycle.signed_distance, 0.0, layout)
+    even = np.ones_like(cycle.compliance)
+    place = np.tile(cycle.face_position, even.shape[-1] // count) * even
+    rolls = assembly.path.rotation(cycle.signed_distance)
+    extent = TouchingPart(rolls, place, even)
+    gap = cycle.gap + modified_gap(
+        assembly, mesh, extent, assembly.path.signed_distance, 0.0, (layout.pairs * count, count)
+    )
     return cycle._replace(
         compliance=cycle.compliance * count,
         hertz_coefficient=pair.hertz_coefficient * count**0.9,
         coupling=np.zeros((*shape[:2], 1, 1)),
         gap=gap,
-        share=np.ones_like(cycle.compliance),
+        share=even,
+        face_place=place,
     )
 
 
@@ -223,8 +238,8 @@ def _fraction(phase: Any) -> Any:
 
 def _slots(
     assembly: Assembly, layout: SliceLayout, phases: Float[Array, " node"] | None
-) -> tuple[table.Slots, Float[Array, "segment node slot"]]:
-    """Where the slices stand, in the middle of the part that touches, and its share of the slice."""
+) -> tuple[table.Slots, Float[Array, "segment node slot"], Float[Array, "segment node slot"]]:
+    """Where the slices stand, in the middle of the part that touches, its share of the slice, and its z."""
     start, end = assembly.roll_limits
     pitch, count = assembly.pitch_angle, layout.slices
     xp = namespace(start, end, assembly.drive)
@@ -248,7 +263,11 @@ def _slots(
     side = np.repeat([1.0, -1.0], [layout.pairs * count, len(layout.back) * count])
     limits = begin, end + whole / 2.0
     present = np.ones((1, side.size))
-    return table.Slots(np.array([0.0, 1.0]), phase, present, side, (low + high) / 2.0, limits), share
+    touched = (low + high) / 2.0
+    beside = within(touched - roll, -width / 2.0, width / 2.0) / width  # slices, from the slice's middle
+    z = face_positions(1.0, count)
+    place = assembly.common_width * (np.tile(z, side.size // count) - side * beside / count)
+    return table.Slots(np.array([0.0, 1.0]), phase, present, side, touched, limits), share, place
 
 
 def slice_compliance(

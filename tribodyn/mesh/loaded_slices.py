@@ -25,6 +25,7 @@ from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import back_flanks, turned_round
 from tribodyn.geometry.helix import pitch_slope, roll_shift, speed_share
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.fine_slices import parts_of_slices, summed_up
 from tribodyn.mesh.helical import slice_layout
 from tribodyn.mesh.table import Elasticity, MeshData, Slots, mesh_table, unloaded_gap
 from tribodyn.numerics.shapes import Array, Float
@@ -33,6 +34,9 @@ from tribodyn.numerics.shapes import Array, Float
 _LEAST_GROWTH = 0.02
 # Share of the mean line load at which a slice that carries nothing is linearised.
 _UNLOADED = 0.1
+
+#: As in `fine_slices`, a little wider.
+WIDTH, PER_CYCLE = 0.45, 16.0
 
 
 class LoadedSlots(NamedTuple):
@@ -45,6 +49,7 @@ class LoadedSlots(NamedTuple):
     face: Float[Array, " slice"]  # m
     start: float  # pinion angle of the newest pair in mid-face at phase 0, rad
     share: Float[Array, "node slot"]
+    touched: Float[Array, "node slot"]  # z in the middle of the part that touches, m
 
 
 def tabulate_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, back: bool) -> MeshCycle:
@@ -61,19 +66,37 @@ def tabulate_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, ba
         sides.append(_with_helix(front, -float(assembly.drive.helix_angle))._replace(modifications=behind))
     reaches = [reach(side, gear_torque, early=mesh.early) for side in sides]
     limits = min(start for start, _ in reaches), max(end for _, end in reaches)
-    nodes = slice_layout(assembly, mesh, front.slices).nodes
+    parts = parts_of_slices(assembly, front.slices, WIDTH, PER_CYCLE)
+    # every second of those nodes that resolve a slice's entry: each costs as much as all of the energy method
+    nodes = slice_layout(assembly, mesh, max(front.slices, front.slices * parts // 2)).nodes
+    fine = [side._replace(slices=parts * side.slices) for side in sides]
+    loaded = _table(assembly, mesh, _places(assembly, limits, fine[0].face(), nodes, back), fine, gear_torque)
+    if parts == 1:
+        return loaded
     places = _places(assembly, limits, front.face(), nodes, back)
+    return summed_up(_table(assembly, mesh, places), loaded, gear_torque)
 
+
+def _table(
+    assembly: Assembly,
+    mesh: MeshData,
+    places: LoadedSlots,
+    sides: list[LoadedFlanks] | None = None,
+    gear_torque: float = 0.0,
+) -> MeshCycle:
+    """The table of slices at their places; without flanks of unit compliance."""
     at = places.slots
     motion = pair_geometry(assembly, at.roll).motion
-    begin = (float(assembly.roll_limits[0]) - places.start) / float(assembly.pitch_angle)
-    error = unloaded_gap(assembly, mesh, at, motion.pressure_angle, begin=begin)[0]
-    first, parts = 0, []
-    for side, roll in zip(sides, places.roll, strict=True):
-        part = slice(first, first + roll.shape[1] * front.slices)
-        parts.append(_lumped(side, gear_torque, roll, error[:, part], places.share[:, part]))
-        first = part.stop
-    compliance, gap = (np.concatenate(field, axis=1)[None] for field in zip(*parts, strict=True))
+    compliance, gap = np.ones_like(at.roll), np.zeros_like(at.roll)
+    if sides is not None:
+        begin = (float(assembly.roll_limits[0]) - places.start) / float(assembly.pitch_angle)
+        error = unloaded_gap(assembly, mesh, at, motion.pressure_angle, begin=begin)[0]
+        first, parts = 0, []
+        for side, roll in zip(sides, places.roll, strict=True):
+            part = slice(first, first + roll.shape[1] * side.slices)
+            parts.append(_lumped(side, gear_torque, roll, error[:, part], places.share[:, part]))
+            first = part.stop
+        compliance, gap = (np.concatenate(field, axis=1)[None] for field in zip(*parts, strict=True))
     seen = oblique_faces(assembly, at.roll)
     across = speed_share(pitch_slope(assembly), assembly.path, motion.signed_distance)
     elastic = Elasticity(
@@ -85,6 +108,7 @@ def tabulate_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, ba
         gear_speed=motion.gear_speed * across,
         share=places.share[None],
         face_position=places.face,
+        face_place=places.touched[None],
         pitch_slope=float(pitch_slope(assembly)),
     )
 
@@ -133,7 +157,11 @@ def _places(
         (0.5 * (low + high))[None],
         (start, limits[1] + half_face),
     )
-    return LoadedSlots(at, tuple(rolls), face, start, share)
+    beside = np.clip(((low + high) / 2.0 - middle) / half_slice, -1.0, 1.0)  # half slices
+    touched = np.tile(face, len(side) // slices) - side * beside * float(assembly.common_width) / (
+        2.0 * slices
+    )
+    return LoadedSlots(at, tuple(rolls), face, start, share, touched)
 
 
 def _lumped(

@@ -41,6 +41,7 @@ MESH_CYCLE: dict[str, Variable] = {
     "line_load_peak": Variable(_PAIR, "1", "maximum line load along the face over the mean, K_Hbeta"),
     "share": Variable(_PAIR, "1", "part of the slot's width that is on the path of contact"),
     "face_position": Variable(("slice",), "m", "middles of slices, from the middle of the face"),
+    "face_place": Variable(_PAIR, "m", "where the slot's load acts along the face, from its middle"),
     "coupling": Variable(
         ("phase", "pair", "other_pair"),
         "m/N",
@@ -81,7 +82,7 @@ def described(slices: int) -> dict[str, Variable]:
 # 1 wherever the load is even along the face, and then a number may stand for the table.
 _RATIOS = ("line_load_friction", "line_load_peak", "share")
 # Fields that records of spur gears may lack.
-_FACE = ("share", "face_position", "pitch_slope")
+_FACE = ("share", "face_position", "face_place", "pitch_slope")
 _OF_SLICES = (*_RATIOS, *_FACE, "coupling")
 
 
@@ -130,5 +131,8 @@ def from_arrays(arrays: dict[str, Any]) -> MeshCycle:
         elif name not in ("boundary", "side", "face_position") and value.ndim >= 1:
             value = value.reshape(segments, nodes, *value.shape[1:])
         fields[name] = value if value.ndim else float(value)
+    if slices > 1 and "face_place" not in fields:
+        place = np.tile(fields["face_position"], fields["compliance"].shape[-1] // slices)
+        fields["face_place"] = np.broadcast_to(place, fields["compliance"].shape)
     fields.setdefault("coupling", np.zeros((segments, nodes, 1, 1)))
     return MeshCycle(**fields)

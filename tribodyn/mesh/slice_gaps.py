@@ -1,18 +1,30 @@
 """Gaps between unloaded slices along the face: transmission error, backlash, modifications, misalignment."""
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.compliance.sharing.flank_gap import oblique_gap
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
-from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
-from tribodyn.geometry.helix import normal_slope
+from tribodyn.geometry.flanks.modification import UNMODIFIED, back_flanks, uneven_teeth
+from tribodyn.geometry.helix import normal_slope, roll_shift
 from tribodyn.geometry.path import Kinematics, kinematics
 from tribodyn.mesh import table
 from tribodyn.numerics.elementary import namespace, sqrt
 from tribodyn.numerics.shapes import Array, Float
+
+#: Points and weights, on −½ … ½ of the part of a slice that touches, of the mean gap along it.
+_AT, _WEIGHT = (0.5 * each for each in np.polynomial.legendre.leggauss(4))
+
+
+class TouchingPart(NamedTuple):
+    """The parts of slices that touch, (S, N, Q)."""
+
+    roll: Any  # pinion angle in the middle of the part, rad
+    place: Any  # z there, m from the middle of the face
+    share: Any  # length over the slice's
 
 
 def face_positions(width: Any, slices: int) -> Float[Array, " slice"]:
@@ -21,61 +33,53 @@ def face_positions(width: Any, slices: int) -> Float[Array, " slice"]:
 
 
 def slice_gap(
-    assembly: Assembly,
-    mesh: table.MeshData,
-    at: table.Slots,
-    motion: Kinematics,
-    slope: Any,
-    layout: Any,
+    assembly: Assembly, mesh: table.MeshData, at: table.Slots, motion: Kinematics, slope: Any, back: range
 ) -> Float[Array, "segment node slot"]:
-    """Gap between the unloaded slices along the true normal, m.
+    """Gap between the unmodified, unloaded slices along the true normal, m.
 
     A given transmission error is along the true normal; the backlash is that at the pitch point.
     """
     gap = table.unloaded_gap(assembly, mesh, at, motion.pressure_angle)
-    if layout.back:
+    if back:
         # conjugate back flanks touch after the same rotation: the distance goes like the arm cos α cos β_n
         pitch_point = normal_slope(slope, assembly.path.pressure_angle(0.0 * assembly.r_start))
         leaning = normal_slope(slope, motion.pressure_angle)
         turned = sqrt((1.0 + pitch_point**2) / (1.0 + leaning**2))
         gap = namespace(gap, turned).where(at.side > 0, gap, gap * turned)
-    return modified(assembly, mesh, gap, motion.signed_distance, slope, layout)
-
-
-def modified(
-    assembly: Assembly, mesh: table.MeshData, gap: Any, r: Any, slope: Any, layout: Any
-) -> Float[Array, "segment node slot"]:
-    """Add to a gap of slices at the signed distances r (m) what is taken off the flanks, and misalignment.
-
-    Raises InputError where teeth differ.
-    """
-    if mesh.modifications == UNMODIFIED:
-        return gap
-    for broken in uneven_teeth(mesh.modifications):
-        raise broken
-    fronts = layout.pairs * layout.slices
-    behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
-    for side, own, flanks in (
-        (1, np.s_[..., :fronts], mesh.modifications),
-        (-1, np.s_[..., fronts:], behind),
-    ):
-        if r[own].size:
-            gap[own] += modified_gap(assembly, flanks, r[own], slope, layout.slices, side)
     return gap
 
 
 def modified_gap(
     assembly: Assembly,
-    modifications: Modifications,
-    r: Float[Array, "segment node slot"],
-    slope: float,
-    slices: int,
-    side: int,
-) -> Float[Array, "segment node slot"]:
-    """What modifications and misalignment leave open at slices of one side, m along the true normal.
+    mesh: table.MeshData,
+    extent: TouchingPart,
+    distance: Callable[[Any], Any],
+    slope: Any,
+    slots: tuple[int, int],
+) -> Any:
+    """Mean along each slice of what is taken off the flanks, and of misalignment, m along the true normal.
 
-    Plain numbers; r is the signed distance (m).
+    `distance` gives r (m) of roll angles; `slots`: how many are of driving flanks, and of a pair. With the
+    mean over the part that touches, the loads of slices add up to what the line of contact carries, wherever
+    its ends and the kinks of reliefs are in a slice. Plain numbers only where there is something. Raises
+    InputError where teeth differ.
     """
-    z = np.tile(face_positions(float(assembly.common_width), slices), r.shape[-1] // slices)
-    place = PairGeometry(kinematics(assembly.path, r), np.zeros_like(r), r, r, r, r)
-    return oblique_gap(assembly, modifications, place, z, slope, side)
+    if mesh.modifications == UNMODIFIED:
+        return 0.0
+    for broken in uneven_teeth(mesh.modifications):
+        raise broken
+    behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
+    fronts, slices = slots
+    total = np.zeros(np.shape(extent.roll))
+    width = float(assembly.common_width) / slices
+    for side, own, flanks in (
+        (1, np.s_[..., :fronts], mesh.modifications),
+        (-1, np.s_[..., fronts:], behind),
+    ):
+        roll, place, share = (field[own] for field in extent)
+        for at, weight in zip(_AT, _WEIGHT, strict=True):
+            beside = at * share * width
+            r = distance(roll - side * roll_shift(assembly, beside))
+            seen = PairGeometry(kinematics(assembly.path, r), np.zeros_like(r), r, r, r, r)
+            total[own] += weight * oblique_gap(assembly, flanks, seen, place + beside, slope, side)
+    return total

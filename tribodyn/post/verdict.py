@@ -199,6 +199,8 @@ def in_doubt_by(summary: Mapping[str, Any], what: str) -> float:
 def advised(summary: Mapping[str, Any]) -> Iterable[str]:
     """What to do, the most urgent first."""
     found = numbers(summary)
+    if "is too few" in str(summary.get("slice_remark")):
+        yield f"To do: {summary['slice_remark']}"
     for what in ("film", "friction"):
         if isinstance(summary.get(f"{what}_judged"), Mapping) and in_doubt_by(summary, what) >= IN_DOUBT:
             nearest = "" if summary.get(f"{what}_chosen") else f'{what}.law = "auto" takes the nearest law; '

@@ -42,7 +42,8 @@ def row_by_hand(slot, work, mesh, layout, at):
     normal /= np.linalg.norm(normal)
     z = float(work[contact.AXIAL_PLACE, slot])
     late = float(np.asarray(mesh.table.face_position)[slot % len(mesh.table.face_position)])
-    assert np.sign(-trace @ along * z) == np.sign(late)  # late: the tooth is behind
+    # late: the tooth is behind; the middle slice touches beside the middle while it enters or leaves
+    assert np.sign(-trace @ along * z) == np.sign(late) or late == 0.0
     row = np.zeros(layout.half)
     for body, (sign, centre) in enumerate(((1.0, radii[0]), (-1.0, -radii[1]))):
         arm = centre * across + r * transverse + (places[body] + z) * E_Z
@@ -170,11 +171,11 @@ def test_modes_are_those_of_hand_assembled_matrices(pair):
             at = -ends[1] + (phases + pair_number) * pitch - z * np.tan(base)
             low, high = (np.clip(at + by, -ends[1], ends[0]) for by in (-half, half))
             share, middle = (high - low) / (2.0 * half), (low + high) / 2.0
+            # where the part touches
+            beside = np.clip((at - middle) / half, -1.0, 1.0) * width / slices / 2.0
             rows = np.zeros((len(phases), 11))
             for body, (sign, centre) in enumerate(((1.0, radii[0]), (-1.0, -radii[1]))):
-                arm = np.stack(
-                    [middle * np.cos(angle), middle * np.sin(angle) + centre, np.full(len(phases), z)], axis=1
-                )
+                arm = np.stack([middle * np.cos(angle), middle * np.sin(angle) + centre, z + beside], axis=1)
                 moved = (np.broadcast_to(e, arm.shape) for e in (E_X, E_Y, E_Z))
                 columns = [*moved, np.cross(E_X, arm), np.cross(E_Y, arm)]
                 rows[:, 5 * body : 5 * body + 5] = sign * np.stack([c @ normal for c in columns], axis=1)

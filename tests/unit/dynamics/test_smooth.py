@@ -3,6 +3,7 @@ import pytest
 
 from tribodyn.dynamics.smooth import (
     load_with_damping,
+    mean_sign,
     onset,
     onset_integral,
     positive_part,
@@ -33,6 +34,14 @@ def test_smoothed_functions_are_c1_and_exact_outside_their_width(function, exact
     outside = np.abs(X) > 1.0001
     np.testing.assert_allclose(function(X)[outside], exact(X)[outside], atol=1e-14)
     assert np.all(np.diff(function(X)) >= -1e-15)
+
+
+@pytest.mark.parametrize("half", [0.0, 1e-4, 0.3, 1.0, 20.0])
+def test_the_mean_sign_is_that_of_a_fine_sum(half):
+    at = np.linspace(-25.0, 25.0, 41)
+    within = half * np.linspace(-1.0, 1.0, 40001)
+    expected = [np.trapezoid(sign(x + within), dx=1.0 / 40000) for x in at]
+    np.testing.assert_allclose(mean_sign(at, half), expected, atol=1e-7)
 
 
 def test_positive_part_has_no_force_without_contact():

@@ -17,7 +17,6 @@ from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief,
 from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.coupled_slices import BODIES_LENGTH, TEETH_LENGTH, couple_slices, spread
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
-from tribodyn.mesh.slice_number import slices_needed
 
 MATERIALS = (STEEL, STEEL)
 TORQUE = 300.0
@@ -104,10 +103,14 @@ def test_slices_open_by_the_bias_of_their_places():
     cycle = sliced(pair, replace(ENERGY, modifications=made), slices, nodes=65)
     gap = (cycle.gap - sliced(pair, ENERGY, slices, nodes=65).gap)[0]
     place = np.broadcast_to(cycle.signed_distance, cycle.gap.shape)[0]
-    late = (2.0 * place - pair.r_start - pair.r_end) / (pair.r_end - pair.r_start)
-    z = np.tile((2.0 * np.arange(slices) + 1.0) / slices - 1.0, gap.shape[1] // slices)
+    length, width = float(pair.r_end - pair.r_start), float(pair.common_width)
+    late, z = (2.0 * place - pair.r_start - pair.r_end) / length, 2.0 * cycle.face_place[0] / width
+    # the mean of a product that is linear in both along the part that touches
+    along = cycle.share[0] * width / slices
+    fall = cycle.pitch_slope * np.cos(cycle.pressure_angle[0])
+    late_by_z = late * z - (2.0 * fall * along / length) * (2.0 * along / width) / 12.0
     touching = np.broadcast_to(cycle.share, cycle.gap.shape)[0] > 0.0
-    np.testing.assert_allclose(gap[touching], (10e-6 * late * z)[touching], atol=1e-15)
+    np.testing.assert_allclose(gap[touching], (10e-6 * late_by_z)[touching], atol=1e-12)
 
 
 def test_back_flanks_keep_their_compliance():
@@ -115,26 +118,12 @@ def test_back_flanks_keep_their_compliance():
     cycle = mesh_cycle_of(pair, MATERIALS, replace(mesh, slices=5), TORQUE, back=True)
     apart = mesh_cycle_of(pair, MATERIALS, replace(mesh, slices=5, slice_coupling=False), TORQUE, back=True)
     fronts = cycle.front_slots
-    np.testing.assert_array_equal(cycle.compliance[..., fronts:], apart.compliance[..., fronts:])
-    assert np.any(cycle.compliance[..., :fronts] != apart.compliance[..., :fronts])
+    nodes = np.interp(cycle.phase[0], apart.phase[0], np.arange(apart.phase.shape[1]))
+    same = np.isclose(nodes, np.round(nodes))
+    at = np.round(nodes[same]).astype(int)
+    inside = apart.share[0, at, fronts:] > 0.0
+    found, expected = cycle.compliance[0, same, fronts:], apart.compliance[0, at, fronts:]
+    np.testing.assert_allclose(found[inside], expected[inside], rtol=3e-3)
+    assert np.max(np.abs(cycle.compliance[0, same, :fronts] / apart.compliance[0, at, :fronts] - 1.0)) > 0.1
     means = [cycle_mean(c, quasi_static(c, TORQUE).mesh_stiffness) for c in (cycle, apart)]
     assert means[0] == pytest.approx(means[1], rel=0.1)
-
-
-@pytest.mark.parametrize(("overlap", "coupled"), [(0.4, False), (1.1, False), (1.1, True)])
-def test_number_of_slices_is_that_of_one_per_cent(overlap, coupled):
-    """Against a face in many more slices."""
-    pair, mesh = helical_pair(overlap), replace(ENERGY, slice_coupling=coupled)
-    count, remark = slices_needed(pair, MATERIALS, mesh, TORQUE)
-    assert count % 2 == 1
-    assert remark.startswith(f"{count} slices along the face: twice as many change")
-    taken, exact = (
-        couple_slices(pair, MATERIALS, mesh, cycle, TORQUE) if coupled else cycle
-        for cycle in (sliced(pair, mesh, k, nodes=129) for k in (count, 39 if coupled else 167))
-    )
-    error, reference = (quasi_static(cycle, TORQUE).deflection[0] for cycle in (taken, exact))
-    error, size = error - reference, max(np.ptp(reference), 0.1 * np.mean(reference))
-    assert np.max(np.abs(error - np.mean(error))) < 0.015 * size
-    assert (
-        quasi_static(mesh_cycle_of(pair, MATERIALS, mesh, TORQUE), TORQUE).normal_load.shape[-1] % count == 0
-    )

@@ -86,6 +86,12 @@ def test_what_to_do_goes_by_what_is_worst():
     assert "carry much of the load" in next(iter(pressed(rough)))
 
 
+def test_too_few_slices_are_named():
+    few = "mesh.slices = 5 is too few for the motion: friction takes more."
+    assert list(advised({"slice_remark": few})) == [f"To do: {few}"]
+    assert not list(advised({"slice_remark": "15 slices along the face: twice as many change nothing."}))
+
+
 def test_what_is_not_known_is_left_out():
     assert said({}) == ""
     assert not list(lost({"power_in_mean": 0.0, "power_friction_mean": 1.0}))

@@ -221,20 +221,31 @@ def _add_free_ends(
     pairs, slices = matrix.shape[1:3]
     along, place = end_modes(ends, length, slices), at_radii(ends.radius, radius)
     for parity in (0, 1):
-        seen = along[parity][:, :, None] * place[..., None, :]  # (position, pair, slice, K, M)
+        # between slices first: they are few against the waves, and the same at all positions
+        waves = along[parity]
+        spread = np.einsum("sk,klpmn,ul->psmun", waves, ends.between[parity], waves, optimize=True)
+        itself = np.einsum("sk,klm,ul->smu", waves, ends.own[parity], waves, optimize=True)
         for later in range(pairs):
             for earlier in range(max(0, later - NEIGHBOURS), later + 1):
-                rows = ends.between[parity, :, :, NEIGHBOURS + sign * (later - earlier)]
-                rows = rows.swapaxes(1, 2).reshape(seen.shape[3] * seen.shape[4], -1)
-                first, second = (seen[:, pair].reshape(len(seen), slices, -1) for pair in (earlier, later))
-                value = first @ rows @ second.swapaxes(1, 2) / modulus
+                rows = spread[NEIGHBOURS + sign * (later - earlier)]
                 if earlier == later:
                     at = place[:, later]
-                    missed = np.einsum("tsm,klm->tskl", at, ends.own[parity])
-                    rows = ends.between[parity, :, :, NEIGHBOURS]
-                    missed -= np.einsum("tsm,klmn,tsn->tskl", at, rows, at, optimize=True)
-                    half = np.einsum("sk,tskl,ul->tsu", along[parity], missed, along[parity], optimize=True)
-                    value += (half + half.swapaxes(1, 2)) / (2.0 * modulus)
-                    matrix[:, later, :, later] += value
+                    missed = np.einsum("tsm,smu->tsu", at, itself, optimize=True)
+                    missed -= np.einsum("tsm,smun,tsn->tsu", at, rows, at, optimize=True)
+                    value = _between(at, rows, at) + (missed + missed.swapaxes(1, 2)) / 2.0
+                    matrix[:, later, :, later] += value / modulus
                 else:
-                    _add_both(matrix, earlier, later, value)
+                    value = _between(place[:, earlier], rows, place[:, later])
+                    _add_both(matrix, earlier, later, value / modulus)
+
+
+def _between(
+    first: Float[Array, "position slice radius"],
+    rows: Float[Array, "slice radius slice radius"],
+    second: Float[Array, "position slice radius"],
+) -> Float[Array, "position slice slice"]:
+    """Deflection of slices at the radii of the second per load on slices at those of the first."""
+    half = (first.swapaxes(0, 1) @ rows.reshape(*rows.shape[:2], -1)).reshape(
+        first.shape[1], len(first), *second.shape[1:]
+    )
+    return np.einsum("stun,tun->tsu", half, second, optimize=True)

@@ -43,6 +43,8 @@ def tables(case: LubricatedCase) -> Tabulated:
 
     @cache
     def split() -> MeshCycle:
+        if assembly.drive.helix_angle and not back:
+            return cycle  # friction turns within slices, not at the ends of segments
         turning = Assembly(assembly.family._replace(corner=True), assembly.drive)
         return mesh_cycle_of(turning, case.materials, mesh, torque)
 
