@@ -21,7 +21,8 @@ from tribodyn.derivatives.quantities import ALSO, QUANTITIES, Fixed, PairEvaluat
 from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.limits.limits import beyond
 from tribodyn.mesh.by_compliance import with_slices
-from tribodyn.mesh.helical import slice_layout
+from tribodyn.mesh.fine_slices import fine_layout
+from tribodyn.mesh.helical import most_touching
 from tribodyn.mesh.tabulate import pair_slots
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.closure import laws_of
@@ -143,11 +144,12 @@ def fixed_of(case: Any) -> Fixed:
     with np.errstate(all="ignore"):
         ratio = float(gears.contact_ratio)
         pairs = pair_slots(gears) if np.isfinite(ratio) and ratio > 0.0 else 1
-        vanishing, layout = bool(float(gears.path.pressure_angle(0.0)) < 1e-9), None
+        vanishing, layout, parts = bool(float(gears.path.pressure_angle(0.0)) < 1e-9), None, 1
         if gears.drive.helix_angle and np.isfinite(ratio) and ratio > 0.0:
             mesh, _ = with_slices(gears, case.materials, case.mesh, case.operating.gear_torque)
-            layout = slice_layout(gears, mesh, mesh.slices)._replace(nodes=0)  # `mean_nodes`
-        return Fixed(pairs, vanishing, layout)
+            layout, parts = fine_layout(gears, mesh, case.operating.gear_torque)
+            layout = layout._replace(nodes=0, touching=most_touching(gears, layout))  # `mean_nodes`
+        return Fixed(pairs, vanishing, layout, parts)
 
 
 def check_keys(keys: Sequence[str], numbers: Mapping[str, Any]) -> None:

@@ -16,9 +16,9 @@ from tribodyn.geometry.flanks.modification import UNMODIFIED
 from tribodyn.geometry.helix import curvature_share, line_stretch, normal_slope, pitch_slope
 from tribodyn.geometry.limits.limits import distances
 from tribodyn.geometry.path import kinematics
-from tribodyn.mesh.coupled_slices import tabulate_helical
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
+from tribodyn.mesh.fine_slices import tabulate_fine
 from tribodyn.mesh.helical import SliceLayout, between_nodes, mean_nodes
 from tribodyn.mesh.quasi_static import (
     QuasiStatic,
@@ -41,7 +41,8 @@ class Fixed(NamedTuple):
 
     pairs: int  # pairs in contact at most
     vanishing: bool  # whether radius and rolling speeds are zero at the pitch point
-    layout: SliceLayout | None = None  # of helical gears
+    layout: SliceLayout | None = None  # of helical gears: of the fine slices
+    parts: int = 1  # fine slices of each slice
 
 
 class PairEvaluation:
@@ -107,7 +108,8 @@ class PairEvaluation:
         if layout is None:
             return tabulate(gears, case.materials, case.mesh, self.fixed.pairs)
         phase = mean_nodes(gears, layout.slices).phase
-        return tabulate_helical(gears, case.materials, case.mesh, layout, case.operating.gear_torque, phase)
+        torque = case.operating.gear_torque
+        return tabulate_fine(gears, case.materials, case.mesh, layout, self.fixed.parts, torque, phase)
 
 
 class Differentiated(NamedTuple):

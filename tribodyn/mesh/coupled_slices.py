@@ -32,7 +32,7 @@ from tribodyn.mesh.quasi_static import normal_arms
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import RollCurve, body_coupling
 from tribodyn.numerics.elementary import absolute, cos, is_jax, maximum, namespace, sqrt, within
-from tribodyn.numerics.iteration import newton
+from tribodyn.numerics.iteration import by_rows, newton
 from tribodyn.numerics.shapes import Array, Float
 
 #: ℓ_t and ℓ_b over the normal module.
@@ -61,7 +61,9 @@ def tabulate_helical(
     cycle = tabulate_slices(assembly, materials, mesh, layout, phase)
     held = mesh.compliance == "energy" and mesh.slice_coupling
     loaded = all(is_jax(number) or number for number in (assembly.drive.helix_angle, gear_torque))
-    return couple_slices(assembly, materials, mesh, cycle, gear_torque) if held and loaded else cycle
+    if not held or not loaded:
+        return cycle
+    return couple_slices(assembly, materials, mesh, cycle, gear_torque, layout.touching)
 
 
 def couple_slices(
@@ -70,10 +72,12 @@ def couple_slices(
     mesh: MeshData,
     cycle: MeshCycle,
     gear_torque: float,
+    touching: int = 0,
 ) -> MeshCycle:
     """Lump slices that hold each other at a torque T_g ≠ 0 (N m) into a table of uncoupled ones.
 
-    Driving flanks at the torque. Back flanks keep the compliance of slices by themselves.
+    Driving flanks at the torque. Back flanks keep the compliance of slices by themselves. Of a traced table
+    `touching` is the greatest number of slots that touch at once, 0: all may.
     """
     fronts, slices = cycle.front_slots, cycle.slices
     front = np.s_[0, :, :fronts]
@@ -92,27 +96,40 @@ def couple_slices(
     xp = namespace(*cycle, force, wave)
     # a slice touches with its early part while it enters, with its late part while it leaves
     middle = (np.arange(share.shape[1]) % slices + 0.5 + xp.sign(r) * (1.0 - share) / 2.0) / slices
-    near = _near_contact(share)
-    found = []
-    count = _ROWS if xp is np else r.shape[0]  # one program for all
-    for first in range(0, r.shape[0], count):
-        rows = np.s_[first : first + count]
-        slot = near[rows]
+
+    def at_nodes(rows: Any) -> list[Any]:
+        slot, between, even_between, compliance, gaps, *fields = rows
         at = np.arange(len(slot))[:, None]
-        fields = teeth, bodies, even, own, arms, cycle.gap[front], share, middle
-        line, body, whole, contact, arm, gap, part, place = (field[rows][at, slot] for field in fields)
+        gap, line, body, whole, contact, arm, part, place = (field[at, slot] for field in (gaps, *fields))
         along = [spread(place, part, factor, slices) for factor in falling]
-        matrix = slices * _matrix(line, body, between[rows], along, slot)
+        matrix = slices * _matrix(line, body, between, along, slot)
         if not mesh.held:  # what a load over the whole face does not meet
-            matrix = matrix + _over_the_face(whole - body, even_between[rows] - between[rows], slot)
+            matrix = matrix + _over_the_face(whole - body, even_between - between, slot)
         lumped = _lumped(matrix, contact, arm, gap, part, force, cycle.hertz_coefficient)
-        table = cycle.compliance[front][rows], cycle.gap[front][rows]
-        found.append([_put(xp, field, at, slot, value) for field, value in zip(table, lumped, strict=True)])
-    fields = {
-        name: xp.concatenate([xp.concatenate(parts), getattr(cycle, name)[0, :, fronts:]], axis=1)[None]
-        for name, parts in zip(("compliance", "gap"), zip(*found, strict=True), strict=True)
+        table = compliance, gaps
+        return [_put(xp, field, at, slot, value) for field, value in zip(table, lumped, strict=True)]
+
+    near, gap = _near_contact(share, touching), cycle.gap[front]
+    fields = (
+        near,
+        between,
+        even_between,
+        cycle.compliance[front],
+        gap,
+        teeth,
+        bodies,
+        even,
+        own,
+        arms,
+        share,
+        middle,
+    )
+    found = by_rows(at_nodes, fields, _ROWS)
+    whole = {
+        name: xp.concatenate([part, getattr(cycle, name)[0, :, fronts:]], axis=1)[None]
+        for name, part in zip(("compliance", "gap"), found, strict=True)
     }
-    return cycle._replace(**fields)
+    return cycle._replace(**whole)
 
 
 def near_contact(share: Float[Array, "node slot"]) -> Array:
@@ -124,10 +141,11 @@ def near_contact(share: Float[Array, "node slot"]) -> Array:
     return near
 
 
-def _near_contact(share: Float[Array, "node slot"]) -> Array:
-    """Numbers of the slots that are `near_contact`, and of as many others as make rows alike; traced: all."""
+def _near_contact(share: Float[Array, "node slot"], touching: int) -> Array:
+    """Numbers of the slots that are `near_contact`, and of as many others as make rows alike."""
     if is_jax(share):
-        return np.broadcast_to(np.arange(share.shape[1]), share.shape)
+        xp = namespace(share)
+        return xp.sort(xp.argsort(share <= 0.0, axis=-1)[:, : touching or share.shape[1]], axis=-1)
     near = near_contact(share)
     most = int(np.max(near.sum(axis=-1)))
     return np.sort(np.argsort(~near, axis=-1, kind="stable")[:, :most], axis=-1)
@@ -135,7 +153,7 @@ def _near_contact(share: Float[Array, "node slot"]) -> Array:
 
 def _put(xp: Any, whole: Any, at: Any, slot: Any, value: Any) -> Any:
     if xp is not np:
-        return value
+        return whole.at[at, slot].set(value)
     result = np.array(whole)
     result[at, slot] = value
     return result
@@ -217,7 +235,7 @@ def _over_the_face(
 
 def _by_slots(between: Float[Array, "node slice pair pair"], slot: Any) -> tuple[Any, Any]:
     """What couples pairs in a slice as between slots, in the mean of both slices; and whether of one pair."""
-    pair, part = np.divmod(slot, between.shape[1])
+    pair, part = slot // between.shape[1], slot % between.shape[1]
     node, one, other = np.arange(len(slot))[:, None, None], pair[:, :, None], pair[:, None, :]
     matrix = between[node, part[:, :, None], one, other] + between[node, part[:, None, :], one, other]
     return matrix / 2.0, one == other

@@ -11,6 +11,7 @@ each slice:
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -20,10 +21,12 @@ from tribodyn.geometry.flanks.modification import UNMODIFIED
 from tribodyn.geometry.helix import normal_module, overlap_ratio
 from tribodyn.mesh.coupled_slices import near_contact, tabulate_helical
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.helical import slice_layout
+from tribodyn.mesh.helical import SliceLayout, slice_layout
 from tribodyn.mesh.quasi_static import normal_arms, quasi_static, sliding_side
 from tribodyn.mesh.table import MeshData
 from tribodyn.numerics.blas_threads import one_blas_thread
+from tribodyn.numerics.elementary import absolute, cos, maximum, namespace
+from tribodyn.numerics.shapes import Array, Float
 
 #: Maximum width of fine slices along the tooth, normal modules, and minimum number of them per mesh cycle.
 WIDTH, PER_CYCLE = 0.35, 20.0
@@ -40,7 +43,6 @@ def parts_of_slices(
     return math.ceil(max(along, per_cycle * float(overlap_ratio(assembly))) / slices)
 
 
-@one_blas_thread()
 def tabulate_integrated(
     assembly: Assembly,
     materials: tuple[MaterialData, MaterialData],
@@ -53,67 +55,99 @@ def tabulate_integrated(
 
     With as many nodes as the fine slices take, unless their number is given.
     """
-    layout = slice_layout(assembly, mesh, mesh.slices, back)
+    layout, parts = fine_layout(assembly, mesh, gear_torque, back)
+    layout = layout if nodes is None else layout._replace(nodes=nodes)
+    return tabulate_fine(assembly, materials, mesh, layout, parts, gear_torque)
+
+
+def fine_layout(
+    assembly: Assembly, mesh: MeshData, gear_torque: float, back: bool = False
+) -> tuple[SliceLayout, int]:
+    """Lay out the fine slices of a pair of plain numbers, so many for each of its slices."""
     held = mesh.compliance == "energy" and mesh.slice_coupling
-    parts = parts_of_slices(assembly, mesh.slices) if assembly.drive.helix_angle else 1
-    if parts == 1 or gear_torque == 0.0 or not (held or mesh.modifications != UNMODIFIED):
-        layout = layout if nodes is None else layout._replace(nodes=nodes)
-        return tabulate_helical(assembly, materials, mesh, layout, gear_torque)
-    finer = slice_layout(assembly, mesh, mesh.slices * parts, back)
-    finer = finer if nodes is None else finer._replace(nodes=nodes)
+    slice_layout(assembly, mesh, mesh.slices)  # refuses too few
+    parts = 1
+    if assembly.drive.helix_angle and gear_torque and (held or mesh.modifications != UNMODIFIED):
+        parts = parts_of_slices(assembly, mesh.slices)
+    return slice_layout(assembly, mesh, mesh.slices * parts, back), parts
+
+
+@one_blas_thread()
+def tabulate_fine(
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: MeshData,
+    layout: SliceLayout,
+    parts: int,
+    gear_torque: Any,
+    phase: Float[Array, " node"] | None = None,
+) -> MeshCycle:
+    """Tabulate slices of so many fine ones each, which are laid out; may be traced as `tabulate_helical`."""
+    fine = tabulate_helical(assembly, materials, mesh, layout, gear_torque, phase)
+    if parts == 1:
+        return fine
     # of the slices themselves only where they stand counts
     apart = replace(mesh, modifications=UNMODIFIED, slice_coupling=False)
-    own = tabulate_helical(assembly, materials, apart, layout._replace(nodes=finer.nodes), gear_torque)
-    return summed_up(own, tabulate_helical(assembly, materials, mesh, finer, gear_torque), gear_torque)
+    whole = layout._replace(slices=layout.slices // parts)
+    own = tabulate_helical(assembly, materials, apart, whole, gear_torque, phase)
+    return summed_up(own, fine, gear_torque)
 
 
-def summed_up(cycle: MeshCycle, fine: MeshCycle, gear_torque: float) -> MeshCycle:
+def summed_up(cycle: MeshCycle, fine: MeshCycle, gear_torque: Any) -> MeshCycle:
     """A table of slices with the loads of one of finer slices at the same nodes.
 
     Exact at the operating torque T_g ≠ 0 (N m) in slow rotation without friction; to first order elsewhere.
     """
-    torque = float(cycle.gear_sense) * abs(gear_torque)
+    xp = namespace(*cycle, *fine, gear_torque)
+    torque = cycle.gear_sense * absolute(gear_torque)
     solved, arms = quasi_static(fine, torque), normal_arms(cycle)
     load, deflection = solved.normal_load, solved.deflection[..., None] + 0.0 * cycle.compliance
-    if np.any(fine.side < 0):  # back flanks at the same torque
+    if np.any(np.asarray(fine.side) < 0):  # back flanks at the same torque
         behind = quasi_static(fine._replace(side=-fine.side), torque)
         load = load + behind.normal_load
-        deflection = np.where(cycle.side > 0, deflection, behind.deflection[..., None])
+        deflection = xp.where(cycle.side > 0, deflection, behind.deflection[..., None])
     shape = (*cycle.compliance.shape, fine.slices // cycle.slices)
     load, share, compliance, gap, place = (
-        np.broadcast_to(field, fine.compliance.shape).reshape(shape)
+        xp.broadcast_to(field, fine.compliance.shape).reshape(shape)
         for field in (load, fine.share, fine.compliance, fine.gap, fine.face_place)
     )
     carried, part = load.sum(axis=-1), share.mean(axis=-1)
     carries = (carried > 0.0) & (part > 0.0)
-    whole = np.where(part > 0.0, part, 1.0)
+    whole = xp.where(part > 0.0, part, 1.0)
 
     # what does not carry lies as far away and is as soft as its parts together, or as those that are next
-    near = near_contact(share[0].reshape(shape[1], -1)).reshape(shape)
-    near = np.where(np.any(near, axis=-1, keepdims=True), near, True)
-    weight = np.where(part[..., None] > 0.0, share, near) / compliance
+    near = True | (share > 0.0)
+    if xp is np:
+        beside = near_contact(share[0].reshape(shape[1], -1)).reshape(shape)
+        near = beside | ~np.any(beside, axis=-1, keepdims=True)
+    weight = xp.where(part[..., None] > 0.0, share, near) / compliance
     stiffness = weight.sum(axis=-1)
-    soft = np.where(part > 0.0, part, near.mean(axis=-1)) / stiffness
+    soft = xp.where(part > 0.0, part, near.mean(axis=-1)) / stiffness
     away = (weight * gap).sum(axis=-1) / stiffness
 
-    mean = np.where(carries, carried, 1.0) / whole
-    each = np.where(load > 0.0, load, 1.0) / np.where(share > 0.0, share, 1.0)
-    contact = float(fine.hertz_coefficient) * each**-0.1
-    growth = (np.where(load > 0.0, share, 0.0) / (compliance + 0.9 * contact)).sum(axis=-1)
-    together = whole / np.where(carries, growth, 1.0)
-    contact = float(cycle.hertz_coefficient) * mean**-0.1
-    tangent = np.maximum(together - 0.9 * contact, _LEAST * together)
+    mean = xp.where(carries, carried, 1.0) / whole
+    each = xp.where(load > 0.0, load, 1.0) / xp.where(share > 0.0, share, 1.0)
+    contact = fine.hertz_coefficient * each**-0.1
+    growth = (xp.where(load > 0.0, share, 0.0) / (compliance + 0.9 * contact)).sum(axis=-1)
+    together = whole / xp.where(carries, growth, 1.0)
+    contact = cycle.hertz_coefficient * mean**-0.1
+    tangent = maximum(together - 0.9 * contact, _LEAST * together)
     reached = deflection * arms
-    middle = np.asarray(cycle.face_place)
-    all_of_it = np.where(carries, carried, 1.0)
+    middle = cycle.face_place
+    all_of_it = xp.where(carries, carried, 1.0)
     at = (load * place).sum(axis=-1) / all_of_it
     # while the pitch line crosses a slice it stands where the sign of its sliding is that of its load's parts
     sign = (load * sliding_side(fine).reshape(shape)).sum(axis=-1) / all_of_it
-    half = 0.5 * part * cycle.slice_width * cycle.pitch_slope * np.cos(cycle.pressure_angle)
-    distance = np.where(carries & (np.abs(sign) < 1.0 - 1e-9), sign * half, cycle.signed_distance)
+    cosine = cos(cycle.pressure_angle)
+    half = 0.5 * part * cycle.slice_width * cycle.pitch_slope * cosine
+    crossed = carries & (xp.abs(sign) < 1.0 - 1e-9)
+    moved = xp.where(crossed, sign * half - cycle.signed_distance, 0.0)
+    across = moved * cycle.line_load_friction * cosine / arms  # speeds are across the line of contact
     return cycle._replace(
-        signed_distance=distance,
-        compliance=np.where(carries, tangent, soft),
-        gap=np.where(carries, reached - (tangent + contact) * mean, away),
-        face_place=np.where(carries, at, middle),
+        signed_distance=cycle.signed_distance + moved,
+        pinion_speed=cycle.pinion_speed + across,
+        gear_speed=cycle.gear_speed - across * cycle.pinion_pitch_radius / cycle.gear_pitch_radius,
+        compliance=xp.where(carries, tangent, soft),
+        gap=xp.where(carries, reached - (tangent + contact) * mean, away),
+        face_place=xp.where(carries, at, middle),
     )

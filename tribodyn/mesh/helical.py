@@ -58,6 +58,7 @@ class SliceLayout(NamedTuple):
     nodes: int
     pairs: int  # of driving flanks that can be in contact at once, ⌈ε_γ⌉
     back: range = range(0)  # pitches by which back pairs stand apart from the one that enters
+    touching: int = 0  # slots that touch at once at most, where the drive is traced; 0: not counted
 
 
 def minimum_slices(assembly: Assembly) -> int:
@@ -213,6 +214,15 @@ def mean_nodes(assembly: Assembly, slices: int) -> MeanNodes:
     points, weights = kinks[:-1, None] + length * at, length * share
     edges = _fraction(xp.concatenate([comes + _BESIDE, goes - _BESIDE]))
     return MeanNodes(xp.concatenate([points.ravel(), edges]), xp.concatenate([weights.ravel(), 0.0 * edges]))
+
+
+def most_touching(assembly: Assembly, layout: SliceLayout) -> int:
+    """How many slots touch at once at most at `mean_nodes`, rounded up to eights; of plain numbers."""
+    phase = mean_nodes(assembly, layout.slices).phase
+    return min(
+        -(-int(np.max(np.sum(_slots(assembly, layout, phase)[1] > 0.0, axis=-1))) // 8) * 8,
+        layout.pairs * layout.slices,
+    )
 
 
 def between_nodes(values: Float[Array, " node"], slices: int) -> Float[Array, " point"]:

@@ -42,6 +42,23 @@ def iterate(step: Callable[[State], State], state: State, steps: int, differenti
     return jax.lax.fori_loop(0, steps, lambda _, current: step(current), state)
 
 
+def by_rows(function: Callable[[Any], Any], rows: tuple[Any, ...], count: int) -> list[Any]:
+    """Apply a function of arrays, which takes each row by itself, to so many rows at a time.
+
+    It takes a list of arrays and returns one. Under JAX one loop of the compiled program, whose last part is
+    filled up with the last row: memory is that of some rows, for derivatives too.
+    """
+    xp, length = namespace(*rows), len(rows[0])
+    if xp is np:
+        found = [function([row[i : i + count] for row in rows]) for i in range(0, length, count)]
+        return [xp.concatenate(parts) for parts in zip(*found, strict=True)]
+    import jax
+
+    place = np.minimum(np.arange(-(-length // count) * count), length - 1).reshape(-1, count)
+    found = jax.lax.map(function, [xp.asarray(row)[place] for row in rows])
+    return [part.reshape(-1, *part.shape[2:])[:length] for part in found]
+
+
 def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -> Any:
     """Apply a Newton step a fixed number of times; with NumPy, until it changes nothing.
 
