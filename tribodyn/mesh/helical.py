@@ -234,10 +234,11 @@ def between_nodes(values: Float[Array, " node"], slices: int) -> Float[Array, " 
 
 @lru_cache(maxsize=8)
 def _gauss(slices: int) -> tuple[Float[Array, " node"], Float[Array, " node"], Float[Array, "node point"]]:
-    """Points and weights on 0 … 1, and the matrix from there to 65 even points."""
+    """Points and weights on 0 … 1, and the matrix from there to 65 even points between the outermost."""
     count = max(_FEWEST, -(-_POINTS // (3 * slices + 4)))
     points, weights = np.polynomial.legendre.leggauss(count)
-    basis, even = np.polynomial.legendre.legvander, np.linspace(-1.0, 1.0, 65)
+    # not beyond the outermost points: there a kink between them would be overshot most
+    basis, even = np.polynomial.legendre.legvander, np.linspace(points[0], points[-1], 65)
     between = basis(even, count - 1) @ np.linalg.inv(basis(points, count - 1))
     return 0.5 + 0.5 * points, 0.5 * weights, between.T
 
