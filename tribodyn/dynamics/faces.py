@@ -26,7 +26,8 @@ def over_faces(
 ) -> dict[str, np.ndarray]:
     """Datasets of pairs (n, pairs, …) of those of slots (n, slots, …); what has no slots stays, as `others`.
 
-    The friction coefficient is that of the whole face; what is neither a sum nor an extreme is of the slice
+    The friction coefficient is that of the whole face, the transmission error the mean weighted by the load
+    (of a pair without load over the path of contact). What is neither a sum nor an extreme is of the slice
     with the largest line load, N/m, of a pair without load of the first one on the path of contact.
     """
     count, slots_of_all = line_load.shape
@@ -42,7 +43,9 @@ def over_faces(
             result[name] = values
             continue
         face = values.reshape(count, pairs, slices, *values.shape[2:])
-        if name in SUMMED:
+        if name == "transmission_error_normal":
+            result[name] = _weighted_mean(face, slots["normal_load"].reshape(face.shape))
+        elif name in SUMMED:
             result[name] = np.sum(np.nan_to_num(face), axis=2)
         elif name in SMALLEST:
             result[name] = np.fmin.reduce(face, axis=2)
@@ -60,3 +63,15 @@ def over_faces(
         result["friction_coefficient"] = np.where(load > 0.0, total / load, np.nan)
     result["line_load"] = np.where(known, loaded, 0.0)
     return result
+
+
+def _weighted_mean(
+    face: Float[Array, "sample pair slice"], load: Float[Array, "sample pair slice"]
+) -> Float[Array, "sample pair"]:
+    """Mean over the slices that are not NaN; those without load count where none of the pair has any."""
+    known = ~np.isnan(face)
+    weight = np.where(known, np.nan_to_num(load), 0.0)
+    weight = np.where(np.sum(weight, axis=2, keepdims=True) > 0.0, weight, known)
+    total = np.sum(weight, axis=2)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(total > 0.0, np.sum(weight * np.nan_to_num(face), axis=2) / total, np.nan)

@@ -42,7 +42,7 @@ TEETH_LENGTH, BODIES_LENGTH = 1.4, 3.0
 _SMALL, _LEAST = 0.05, 0.02
 _STEPS = 15
 _ROWS = 32  # nodes that are solved at a time
-_WAVES = 6  # waves of the face per slice
+_WAVES = 4  # waves of the face per slice
 
 
 def tabulate_helical(
@@ -101,7 +101,7 @@ def couple_slices(
         slot, between, even_between, compliance, gaps, *fields = rows
         at = np.arange(len(slot))[:, None]
         gap, line, body, whole, contact, arm, part, place = (field[at, slot] for field in (gaps, *fields))
-        along = [spread(place, part, factor, slices) for factor in falling]
+        along = spread(place, part, falling, slices)
         matrix = slices * _matrix(line, body, between, along, slot)
         if not mesh.held:  # what a load over the whole face does not meet
             matrix = matrix + _over_the_face(whole - body, even_between - between, slot)
@@ -162,18 +162,18 @@ def _put(xp: Any, whole: Any, at: Any, slot: Any, value: Any) -> Any:
 def spread(
     middle: Float[Array, "node slot"],
     share: Float[Array, "node slot"],
-    factor: Float[Array, " wave"],
+    factors: tuple[Float[Array, " wave"], ...],
     slices: int,
-) -> Float[Array, "node slot slot"]:
-    """Share of what a slice's load moves at another, of a compliance that falls by a factor with the wave.
+) -> list[Float[Array, "node slot slot"]]:
+    """Share of what a slice's load moves at another, of compliances that fall by factors with the wave.
 
     The waves are the cosines of the face, from the even one on; middles of the parts that touch are over its
     width. Of slices that touch over their whole width the shares of all loads sum up to 1.
     """
-    xp, number = namespace(middle, share, factor), np.arange(len(factor))
+    xp, number = namespace(middle, share, *factors), np.arange(len(factors[0]))
     basis = xp.cos(np.pi * number * middle[..., None]) * xp.sinc(number * share[..., None] / (2.0 * slices))
-    weight = np.where(number > 0, 2.0, 1.0) * factor / slices
-    return (basis * weight) @ xp.swapaxes(basis, -1, -2)
+    weight = np.where(number > 0, 2.0, 1.0) / slices
+    return [(basis * (weight * factor)) @ xp.swapaxes(basis, -1, -2) for factor in factors]
 
 
 def _parts(

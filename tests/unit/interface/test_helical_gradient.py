@@ -44,7 +44,8 @@ def value(case, name):
 
 
 def quantities(case):
-    return np.array([value(case, name) for name in OF])
+    at = PairEvaluation(case, fixed_of(case))
+    return np.array([float(quantity_of(case, name).function(at)) for name in OF])
 
 
 @pytest.mark.slow

@@ -54,14 +54,14 @@ def test_an_even_load_is_met_by_the_whole_compliance():
     slices = 7
     middle, share = ((np.arange(slices) + 0.5) / slices)[None], np.ones((1, slices))
     falling = 1.0 / (1.0 + 0.3 * np.arange(6 * slices))
-    np.testing.assert_allclose(spread(middle, share, falling, slices).sum(axis=-1), 1.0, rtol=1e-12)
+    np.testing.assert_allclose(spread(middle, share, (falling,), slices)[0].sum(axis=-1), 1.0, rtol=1e-12)
 
 
 def test_slices_that_do_not_hold_each_other_meet_their_own_compliance():
     """Also while they touch in part: then over less than the slice's width, at its early end."""
     slices, share = 5, np.array([[0.5, 1.0, 1.0, 0.25, 1.0]])
     middle = (np.arange(slices) + 0.5 - (1.0 - share) / 2.0) / slices
-    found = spread(middle, share, np.ones(6000), slices)[0]
+    found = spread(middle, share, (np.ones(6000),), slices)[0][0]
     np.testing.assert_allclose(found, np.diag(1.0 / share[0]), atol=5e-3)
 
 

@@ -62,7 +62,7 @@ def softer(
     middle = ((np.arange(count) + 0.5) / count)[None]
     wave = np.pi * np.arange(_WAVES * count) / gear.width * gear.module
     falling = 1.0 / (1.0 + (TEETH_LENGTH * wave) ** 2), 1.0 / (1.0 + BODIES_LENGTH * wave)
-    of_teeth, of_bodies = (spread(middle, np.ones_like(middle), factor, count)[0] for factor in falling)
+    of_teeth, of_bodies = (along[0] for along in spread(middle, np.ones_like(middle), falling, count))
     held = teeth[:, None, None] * of_teeth + bodies[:, None, None] * of_bodies
     matrix = count * held + contact * count * np.eye(count) / carries.T[:, :, None]
     loads = np.linalg.solve(matrix, np.ones((len(teeth), count, 1)))[..., 0]
