@@ -31,6 +31,7 @@ from tribodyn.mesh.helical import SliceLayout, tabulate_slices
 from tribodyn.mesh.quasi_static import normal_arms
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate import RollCurve, body_coupling
+from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.elementary import absolute, cos, is_jax, maximum, namespace, sqrt, within
 from tribodyn.numerics.iteration import by_rows, newton
 from tribodyn.numerics.shapes import Array, Float
@@ -66,6 +67,7 @@ def tabulate_helical(
     return couple_slices(assembly, materials, mesh, cycle, gear_torque, layout.touching)
 
 
+@one_blas_thread()
 def couple_slices(
     assembly: Assembly,
     materials: tuple[MaterialData, MaterialData],

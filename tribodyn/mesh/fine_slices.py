@@ -24,7 +24,6 @@ from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.helical import SliceLayout, slice_layout
 from tribodyn.mesh.quasi_static import normal_arms, quasi_static, sliding_side
 from tribodyn.mesh.table import MeshData
-from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.elementary import absolute, cos, maximum, namespace
 from tribodyn.numerics.shapes import Array, Float
 
@@ -72,7 +71,6 @@ def fine_layout(
     return slice_layout(assembly, mesh, mesh.slices * parts, back), parts
 
 
-@one_blas_thread()
 def tabulate_fine(
     assembly: Assembly,
     materials: tuple[MaterialData, MaterialData],
