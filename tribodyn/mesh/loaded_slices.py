@@ -35,8 +35,8 @@ _LEAST_GROWTH = 0.02
 # Share of the mean line load at which a slice that carries nothing is linearised.
 _UNLOADED = 0.1
 
-#: As in `fine_slices`, a little wider.
-WIDTH, PER_CYCLE = 0.45, 16.0
+#: As in `fine_slices`.
+WIDTH, PER_CYCLE = 0.3, 16.0
 
 
 class LoadedSlots(NamedTuple):
@@ -68,7 +68,7 @@ def tabulate_slices(flanks: LoadedFlanks, mesh: MeshData, gear_torque: float, ba
     limits = min(start for start, _ in reaches), max(end for _, end in reaches)
     parts = parts_of_slices(assembly, front.slices, WIDTH, PER_CYCLE)
     # every second of those nodes that resolve a slice's entry: each costs as much as all of the energy method
-    nodes = slice_layout(assembly, mesh, max(front.slices, front.slices * parts // 2)).nodes
+    nodes = slice_layout(assembly, mesh, max(front.slices, front.slices * parts // 4)).nodes
     fine = [side._replace(slices=parts * side.slices) for side in sides]
     loaded = _table(assembly, mesh, _places(assembly, limits, fine[0].face(), nodes, back), fine, gear_torque)
     if parts == 1:

@@ -29,7 +29,7 @@ FEWEST, MOST = 5, 31
 _GROWTH = 1.45  # 5, 7, 11, 15, 21, 31
 #: Slices per overlap ratio that are taken at least, and below which they are too few: coefficients of
 #: friction are those of the speeds in the middles of slices.
-PER_OVERLAP, TOO_FEW_PER_OVERLAP = 13.0, 5.0
+PER_OVERLAP, TOO_FEW_PER_OVERLAP = 13.0, 7.0
 _NODES = 129
 _WHAT = "transmission error", "tilting moment", "friction"
 
