@@ -12,9 +12,9 @@ from tribodyn.post.page.pdf import run_browser
 
 
 def main() -> None:
-    """Run an involute pair, write its page, take a picture of its upper part."""
+    """Run the pair of `make demo`, write its page, take a picture of its upper part."""
     with TemporaryDirectory() as folder:
-        page = td.run("spur-25-51", {"solver.cycles": 6}).report(Path(folder) / "pair.html")
+        page = td.run("spur-25-51").report(Path(folder) / "pair.html")
         size = ("--window-size=1180,1080", "--hide-scrollbars")
         ended = run_browser(*size, f"--screenshot={PICTURES / 'report.png'}", f"{page.as_uri()}#at=11.7")
     if ended.returncode:
