@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import tribodyn as td
 from tests.support.helical_motion import EVEN, HELICAL, mirrored
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.support.states import altered, recorded, sampled
@@ -140,3 +141,17 @@ def test_a_steady_state_is_that_of_a_long_run():
         last = marched(model, rtol=1e-9, cycles=200)[-41:-1]
         scale = np.max(np.abs(last), axis=0)[free]
         assert np.max(np.abs(steady.samples - last)[:, free] / scale) < 2e-5
+
+
+@pytest.mark.parametrize("speed", ["200 rpm", pytest.param("6000 rpm", marks=pytest.mark.soak)])
+def test_motion_and_friction_are_those_of_three_times_as_many_slices(speed):
+    """Of the number that is chosen; with a law whose friction follows the speed."""
+    keys = {"operating.pinion_speed": speed, "friction.law": "xu", "solver.cycles": 16}
+    chosen, many = (
+        td.run("helical-23-47", keys | {"mesh.slices": slices}).summary for slices in ("auto", 39)
+    )
+    assert chosen["slices"] == 13
+    for name in ("transmission_error_peak_to_peak", "power_friction_mean", "friction_coefficient_mean"):
+        assert chosen[name] == pytest.approx(many[name], rel=0.02)
+    orders, exact = (np.array(s["transmission_error_harmonics"]) for s in (chosen, many))
+    np.testing.assert_allclose(orders, exact, rtol=0.05, atol=0.005 * exact.max())
