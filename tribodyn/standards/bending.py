@@ -1,9 +1,9 @@
 """Tooth bending strength of involute gears: ISO 6336-3, method B, as functions of numbers.
 
-Formulas are those of the edition of 2006, from memory of the standard; section 12's worked example of a
-published design report confirms them (`tests/validation/test_rating.py`). The critical section is that of the
-tooth as it is cut, by rack or pinion-type cutter (`geometry.root_section`). The edition of 2019 has a factor
-f_ε ≤ 1 in Y_F: not taken here.
+Formulas are those of the editions of 2006 and 2019, from memory of the standards; listings of two programs
+confirm those of 2019 for spur gears, those of 2006 for helical ones (`tribodyn validate`). In 2019 Y_F has a
+factor f_ε ≤ 1, and Y_β is over cos³ β. The critical section is that of the tooth as it is cut, by rack or
+pinion-type cutter (`geometry.root_section`).
 """
 
 import math
@@ -43,6 +43,7 @@ class BendingGear(NamedTuple):
     quality: float  # grade by ISO 1328-1
     roughness: float  # Rz of the root, m
     reversed: bool = False  # both flanks carry in every turn: an idler, a planet
+    edition: int = 2019  # of ISO 6336-3, or 2006
 
 
 class Stress(NamedTuple):
@@ -55,6 +56,7 @@ class Stress(NamedTuple):
     deep: float  # Y_DT
     notch: float  # q_s
     nominal: float  # σ_F0, Pa
+    distribution: float = 1.0  # f_ε, within Y_F; 1 in the edition of 2006
 
 
 class Relative(NamedTuple):
@@ -73,10 +75,26 @@ class Relative(NamedTuple):
 
 
 def form_factor(gear: BendingGear) -> float:
-    """Y_F = 6 h_Fe/m_n cos α_Fen/((s_Fn/m_n)² cos α_n): (9)."""
+    """Y_F = 6 h_Fe/m_n cos α_Fen/((s_Fn/m_n)² cos α_n), in the edition of 2019 times f_ε: (9)."""
     section, module = gear.section, gear.normal_module
     lever = 6.0 * section.arm / module * math.cos(section.load_angle)
-    return lever / ((section.thickness / module) ** 2 * math.cos(gear.normal_pressure_angle))
+    plain = lever / ((section.thickness / module) ** 2 * math.cos(gear.normal_pressure_angle))
+    return plain * distribution_factor(gear)
+
+
+def distribution_factor(gear: BendingGear) -> float:
+    """f_ε, how pairs share the load at the outer point of single pair contact: ISO 6336-3:2019, (10) to (14).
+
+    Spur gears 1, from ε_αn = 2 on 0.7; helical ones √(1 − ε_β + ε_β/ε_αn), from ε_αn = 2 on
+    √((1 − ε_β)/2 + ε_β/ε_αn), ε_β ≤ 1. The edition of 2006 has 1. From memory; printed for spur gears only.
+    """
+    if gear.edition < 2019:
+        return 1.0
+    overlap, deep = min(gear.overlap_ratio, 1.0), gear.virtual_contact_ratio >= 2.0
+    if overlap <= 0.0:
+        return 0.7 if deep else 1.0
+    alone = (1.0 - overlap) / 2.0 if deep else 1.0 - overlap
+    return math.sqrt(alone + overlap / gear.virtual_contact_ratio)
 
 
 def stress_correction(section: RootSection) -> tuple[float, float]:
@@ -90,15 +108,27 @@ def stress_correction(section: RootSection) -> tuple[float, float]:
 
 
 def nominal_stress(gear: BendingGear, tangential_load: float) -> Stress:
-    """σ_F0 = F_t/(b m_n) Y_F Y_S Y_β Y_B Y_DT, Pa: (3); F_t at the reference circle, N."""
+    """σ_F0 = F_t/(b m_n) Y_F Y_S Y_β Y_B Y_DT, Pa: (3); F_t at the reference circle, N.
+
+    Y_β = 1 − ε_β β/120° with ε_β ≤ 1 and β ≤ 30°, in the edition of 2019 over cos³ β.
+    """
     form = form_factor(gear)
     correction, notch = stress_correction(gear.section)
     overlap, helix = min(gear.overlap_ratio, 1.0), min(math.degrees(gear.helix_angle), 30.0)
     helical = 1.0 - overlap * helix / 120.0
+    if gear.edition >= 2019:
+        helical /= math.cos(math.radians(helix)) ** 3
     rim, deep = rim_factor(gear), deep_tooth_factor(gear.virtual_contact_ratio, gear.quality)
     load = tangential_load / (gear.face_width * gear.normal_module)
     return Stress(
-        form, correction, helical, rim, deep, notch, load * form * correction * helical * rim * deep
+        form,
+        correction,
+        helical,
+        rim,
+        deep,
+        notch,
+        load * form * correction * helical * rim * deep,
+        distribution_factor(gear),
     )
 
 

@@ -6,8 +6,10 @@ type C: FVA information sheet 54/7). The permissible film follows by recomputing
 """
 
 import math
+from collections.abc import Sequence
+from typing import NamedTuple
 
-from tribodyn.standards.contact_path import ContactPath
+from tribodyn.standards.contact_path import ContactPath, load_share
 from tribodyn.standards.micropitting import Flanks, Load, Oil, method_b, permissible_film
 
 _MODULE, _TEETH, _CENTRES, _ANGLE = 4.5e-3, (16.0, 24.0), 91.5e-3, math.radians(20.0)
@@ -19,6 +21,9 @@ _ROUGHNESS = 0.5e-6
 _STEEL = Flanks(_ROUGHNESS, 226.4e9, (13780.0, 13780.0), 5.0)
 #: Speed at the working pitch circles, m/s, and temperature of the sprayed oil, K, of C-GF/8,3/90.
 _PITCH_SPEED, _OIL = 8.3, 363.15
+#: Product of the load factors of the test rig: the printed line load of 236.3 N/mm at A at load stage 10 is
+#: that many times a third of F_bt/b.
+_RIG_FACTOR = 1.2665
 #: Pinion's torque by load stage of the micropitting test, N m: FVA information sheet 54/7, from memory.
 MICROPITTING_TORQUES = {5: 70.0, 6: 98.9, 7: 132.5, 8: 171.6, 9: 215.6, 10: 265.1}
 
@@ -41,13 +46,20 @@ def micropitting_torque(load_stage: float) -> float:
     return low + (stage - below) * (high - low)
 
 
-def permissible_specific_film(
-    load_stage: float, oil: Oil, material_factor: float = 1.0, oil_temperature: float = _OIL
-) -> float:
-    """Permissible λ_GFP of an oil that fails the micropitting test C-GF/8,3/90 at a load stage.
+class MicropittingTest(NamedTuple):
+    """The test gears at A, where their film is thinnest."""
 
-    The minimum specific film of the test gears at that stage and oil temperature (K), oil sprayed, K factors
-    1, times 1.4: ISO/TR 15144-1:2014, annex A, which shows it as curves over the viscosity of mineral oils.
+    line_load: float  # F_bb, N/m
+    bulk_temperature: float  # θ_M, K
+    contact_temperature: float  # θ_B, K
+    film_thickness: float  # h, m
+    specific_film: float  # λ_GFT
+
+
+def micropitting_test(load_stage: float, oil: Oil, oil_temperature: float = _OIL) -> MicropittingTest:
+    """The gears of type C in C-GF/8,3/90 at a load stage and oil temperature (K), oil sprayed.
+
+    ISO/TR 15144-1:2014, annex A: unmodified flanks of Ra 0.5 µm, method B with the load factors of the rig.
     """
     path = test_path()
     load = Load(
@@ -55,14 +67,88 @@ def permissible_specific_film(
         _PITCH_SPEED / path.pitch_radius[0],
         _WIDTH,
         oil_temperature,
+        _RIG_FACTOR,
         lubrication="spray",
     )
-    return permissible_film(float(min(method_b(path, _STEEL, load, oil).specific_film)), material_factor)
+    films = method_b(path, _STEEL, load, oil)
+    normal = load.factor * load.pinion_torque / path.base_radius[0] / _WIDTH
+    return MicropittingTest(
+        normal * float(load_share(path, 0.0)),
+        films.bulk_temperature,
+        films.bulk_temperature + float(films.flash_rise[0]),
+        float(films.film_thickness[0]),
+        float(films.specific_film[0]),
+    )
+
+
+def permissible_specific_film(
+    load_stage: float, oil: Oil, material_factor: float = 1.0, oil_temperature: float = _OIL
+) -> float:
+    """Permissible λ_GFP of an oil that fails the micropitting test C-GF/8,3/90 at a load stage.
+
+    The specific film of the test gears at that stage and oil temperature (K) times 1.4 and W_W of the pair's
+    materials: ISO/TR 15144-1:2014, annex A, which shows it as curves over the viscosity of mineral oils.
+    """
+    test = micropitting_test(load_stage, oil, oil_temperature)
+    return permissible_film(test.specific_film, material_factor)
+
+
+#: W_W by treatment: ISO/TR 15144-1:2014, table A.1, from memory; of a pair the mean of both gears.
+_MATERIAL_FACTORS = {
+    "case-hardened": 1.0,
+    "nitrided": 1.5,
+    "nitrided-through-hardened": 1.5,
+    "induction-hardened": 0.65,
+    "through-hardened": 0.5,
+    "through-hardened-carbon": 0.5,
+}
+
+
+def material_factor(treatments: Sequence[str | None]) -> float:
+    """W_W of a pair: the mean of both gears' (printed: 0.75 of case-hardened with through-hardened).
+
+    A treatment that the table has not counts as case-hardened where it is surface-hardened or unknown, as
+    through-hardened where it is soft.
+    """
+    if not treatments:
+        return 1.0
+    return sum(
+        1.0 if each is None else _MATERIAL_FACTORS.get(each, 1.0 if each == "nitrocarburized" else 0.5)
+        for each in treatments
+    ) / len(treatments)
+
+
+#: T_1 of A/8,3/90 by load stage, N m: ISO 14635-1, table 2; 13 and 14, beyond it, from memory.
+SCUFFING_TORQUES = (
+    3.3,
+    13.7,
+    35.3,
+    60.8,
+    94.1,
+    135.3,
+    183.4,
+    239.3,
+    302.0,
+    372.6,
+    450.1,
+    534.5,
+    626.9,
+    714.2,
+)
 
 
 def scuffing_torque(load_stage: float) -> float:
-    """T_1T = 3.726 S_FZG², the pinion's torque at a load stage of A/8,3/90, N m: ISO/TS 6336-21, (97)."""
-    return 3.726 * load_stage**2
+    """T_1T, the pinion's torque at a load stage of A/8,3/90, N m: of the table, in between as 3.726 S_FZG².
+
+    Printed: 135.3 at stage 6; θ_intS at stage 14 implies 714.2. The quadratic law of ISO/TS 6336-21 (97)
+    scales between two stages of the table, and holds outside it.
+    """
+    low = min(max(int(load_stage), 1), len(SCUFFING_TORQUES))
+    first = SCUFFING_TORQUES[low - 1]
+    if low == len(SCUFFING_TORQUES) or load_stage <= low:
+        return first * (load_stage / low) ** 2
+    share = (load_stage**2 - low**2) / ((low + 1) ** 2 - low**2)
+    return first + share * (SCUFFING_TORQUES[low] - first)
 
 
 def scuffing_temperature(load_stage: float, lubricant: float, structure: float = 1.0) -> float:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.standards.metals import SURFACE_HARDENED, Treatment
 
 #: Ends of the ranges of the resonance ratio: main resonance, supercritical.
 _MAIN, _SUPERCRITICAL = 1.15, 1.5
@@ -13,6 +14,46 @@ _MAIN, _SUPERCRITICAL = 1.15, 1.5
 _LOW_LOAD = 100e3
 #: Grade by ISO 1328-1 from which tip relief is not credited: B_k = 1.
 _UNCREDITED = 6.0
+
+
+class FlankRunIn(NamedTuple):
+    """How much of a deviation running in takes off one gear's flanks."""
+
+    share: float  # y over the deviation
+    most: float = math.inf  # m
+
+    def of(self, deviation: float) -> float:
+        """Running-in allowance y of a deviation, m."""
+        return min(self.share * deviation, self.most)
+
+
+#: y_α = 0.075 f_pb ≤ 3 µm of case-hardened, induction-hardened and nitrided gears.
+_HARD_FLANK = FlankRunIn(0.075, 3e-6)
+
+
+def running_in(treatment: Treatment | None, contact_limit: float, speed: float) -> FlankRunIn:
+    """y_α of f_pb, and y_f of f_fα, of one gear: ISO 6336-1:2019, (77) to (79), from memory.
+
+    Structural and through-hardened steel and ductile iron (taken as pearlitic) 160 N/mm²/σ_Hlim, grey iron
+    0.275, surface-hardened steel 0.075 up to 3 µm. The former two are limited by what f_pb = 80 µm gives
+    where the pitch line (m/s) runs above 5 m/s, 40 µm above 10 m/s. None, unknown: as surface-hardened.
+    """
+    if treatment is None or treatment in SURFACE_HARDENED:
+        return _HARD_FLANK
+    share = 0.275 if treatment == "grey-iron" else min(160e6 / contact_limit, 1.0)
+    widest = math.inf if speed <= 5.0 else 80e-6 if speed <= 10.0 else 40e-6
+    return FlankRunIn(share, share * widest)
+
+
+def helix_running_in(treatment: Treatment | None, contact_limit: float, speed: float) -> FlankRunIn:
+    """y_β of F_βx of one gear: ISO 6336-1:2019, (46) to (51): twice y_α and its limits, from memory."""
+    found = running_in(treatment, contact_limit, speed)
+    return FlankRunIn(min(2.0 * found.share, 1.0), 2.0 * found.most)
+
+
+def run_in(deviation: float, gears: tuple[FlankRunIn, FlankRunIn]) -> float:
+    """Running-in allowance of a pair, m: the mean of both gears'."""
+    return (gears[0].of(deviation) + gears[1].of(deviation)) / 2.0
 
 
 class DynamicMesh(NamedTuple):
@@ -32,8 +73,7 @@ class DynamicMesh(NamedTuple):
     total_contact_ratio: float  # ε_γ
     tip_relief: float  # C_a, m; of unmodified gears that of running in, `run_in_relief`
     quality: float  # grade by ISO 1328-1 of the coarser gear
-    #: y_p = y_f over the deviation: 0.075 of case-hardened and nitrided gears, at most 3 µm
-    run_in: float = 0.075
+    run_in: tuple[FlankRunIn, FlankRunIn] = (_HARD_FLANK, _HARD_FLANK)  # of pinion and gear: y_p and y_f
 
 
 class DynamicFactor(NamedTuple):
@@ -86,7 +126,7 @@ def dynamic_factor(mesh: DynamicMesh) -> DynamicFactor:
     ratio = mesh.pinion_speed / speed
     deflection = mesh.line_load / mesh.single_stiffness
     pitch, profile = (
-        (deviation - min(mesh.run_in * deviation, 3e-6)) / deflection
+        (deviation - run_in(deviation, mesh.run_in)) / deflection
         for deviation in (mesh.pitch_deviation, mesh.profile_deviation)
     )
     relief = 1.0 if mesh.quality >= _UNCREDITED else abs(1.0 - mesh.tip_relief / deflection)
@@ -105,6 +145,33 @@ def dynamic_factor(mesh: DynamicMesh) -> DynamicFactor:
     else:
         found, name = beyond, "supercritical"
     return DynamicFactor(max(found, 1.0), ratio, speed, name)
+
+
+def disc_mass(
+    base_diameter: float,
+    middle_diameter: float,
+    ratio: float,
+    density: tuple[float, float],
+    bores: tuple[float, float] = (0.0, 0.0),
+) -> float:
+    """m_red of two discs per face width, kg/m: (30) to (32), from diameters d_b, d_m = (d_a + d_f)/2 (m).
+
+    π/8 (d_m1/d_b1)² d_m1²/(1/((1 − q_1⁴) ρ_1) + 1/((1 − q_2⁴) ρ_2 u²)), the bores q over d_m of each gear.
+    """
+    resistance = sum(
+        1.0 / ((1.0 - bore**4) * mass * by)
+        for bore, mass, by in zip(bores, density, (1.0, ratio**2), strict=True)
+    )
+    return math.pi / 8.0 * (middle_diameter / base_diameter) ** 2 * middle_diameter**2 / resistance
+
+
+def face_load_factor_c(misalignment: float, mesh_stiffness: float, line_load: float) -> float:
+    """K_Hβ by method C: 1 + F_βy c_γβ/(2 F_m/b), √(2 F_βy c_γβ/(F_m/b)) from 2 on: (41), (42).
+
+    F_βy after running in (m), c_γβ per face width (Pa), F_m/b = F_t K_A K_γ K_v/b (N/m).
+    """
+    opened = misalignment * mesh_stiffness / line_load
+    return 1.0 + opened / 2.0 if opened < 2.0 else math.sqrt(2.0 * opened)
 
 
 def transverse_load_factor(load: float, accurate_load: float) -> float:

@@ -1,8 +1,9 @@
 """Surface durability (pitting) of involute gears: ISO 6336-2, method B, as functions of numbers.
 
-Formulas are those of the edition of 2006, from memory of the standard; section 12's worked example of a
-published design report confirms them (`tests/validation/test_rating.py`). The edition of 2019 has Z_B = Z_D
-above 1 for helical gears without profile modification (its factor f_ZCa): not taken here.
+Formulas are those of the editions of 2006 and 2019, from memory of the standards; listings of two programs
+confirm them (`tribodyn validate`). Between the editions Z_B and Z_D differ: helical gears without suitable
+profile modification have √f_ZCa in place of 1 in 2019; the speed of Z_v is that at the working pitch circle
+in the listing of 2019, at the reference circle in reports of 2006. No other factor is known to differ.
 """
 
 import math
@@ -16,6 +17,11 @@ from tribodyn.standards.metals import SURFACE_HARDENED, VICKERS, Metal, contact_
 _SOFT, _HARD = 850.0, 1200.0
 #: Brinell hardness between which softer gears harden at work, and that of the formula's end.
 _SOFTEST, _HARDEST = 130.0, 470.0
+
+
+#: f_ZCa of ISO 6336-2:2019 by the profile modification of the flanks: suitable for the duty by a contact
+#: analysis, usual without one, none.
+UNMODIFIED_FACTOR = {"suitable": 1.0, "usual": 1.07, "none": 1.2}
 
 
 class PittingMesh(NamedTuple):
@@ -33,6 +39,13 @@ class PittingMesh(NamedTuple):
     viscosity_40: float  # ν40 of the oil, m²/s
     #: mean peak-to-valley roughness of the flanks Rz1, Rz2, m
     roughness: tuple[float, float]
+    edition: int = 2019  # of ISO 6336-2, or 2006
+    modification: str = "none"  # one of `UNMODIFIED_FACTOR`, of the edition of 2019
+
+    @property
+    def unmodified_factor(self) -> float:
+        """f_ZCa; 1 in the edition of 2006."""
+        return UNMODIFIED_FACTOR[self.modification] if self.edition >= 2019 else 1.0
 
 
 class Geometry(NamedTuple):
@@ -83,7 +96,8 @@ def geometry(mesh: PittingMesh) -> Geometry:
     pressed = tangential_load(mesh) / (2.0 * mesh.reference_radius[0] * mesh.face_width)
     curved = (ratio + 1.0) / ratio  # of the sign of the diameter, both < 0 of an internal pinion
     nominal = zone * elasticity * shared * helix * math.sqrt(pressed * curved)
-    return Geometry(zone, elasticity, shared, helix, single_pair_factors(path), nominal)
+    single = single_pair_factors(path, mesh.unmodified_factor)
+    return Geometry(zone, elasticity, shared, helix, single, nominal)
 
 
 def contact_ratio_factor(transverse: float, overlap: float) -> float:
@@ -92,11 +106,11 @@ def contact_ratio_factor(transverse: float, overlap: float) -> float:
     return math.sqrt((4.0 - transverse) / 3.0 * (1.0 - part) + part / transverse)
 
 
-def single_pair_factors(path: ContactPath) -> tuple[float, float]:
+def single_pair_factors(path: ContactPath, unmodified: float = 1.0) -> tuple[float, float]:
     """Z_B and Z_D: stress at the inner points B and D of single pair contact over that at the pitch point.
 
-    Quotients M_1 and M_2 (15), (16) of spur gears, at least 1; they fall to 1 with the overlap ratio. An
-    internal gear has 1.
+    Quotients M_1 and M_2 (15), (16) of spur gears, at least 1; with the overlap ratio they go over to √f_ZCa
+    (`unmodified`; 1 in 2006), which wide helical gears have. An internal gear has 1.
     """
     tangent = math.tan(path.pressure_angle)
     whole = 2.0 * math.pi
@@ -111,7 +125,8 @@ def single_pair_factors(path: ContactPath) -> tuple[float, float]:
         inner = (roots[own] - pitches[own]) * (roots[other] - beyond * pitches[other])
         found.append(tangent / math.sqrt(inner) if inner > 0.0 else 1.0)
     part = min(path.overlap_ratio, 1.0)
-    own = [max(m - part * (m - 1.0), 1.0) if z > 0 else 1.0 for m, z in zip(found, path.teeth, strict=True)]
+    wide = math.sqrt(unmodified)
+    own = [max(m - part * (m - wide), 1.0) if z > 0 else 1.0 for m, z in zip(found, path.teeth, strict=True)]
     return own[0], own[1]
 
 
@@ -123,7 +138,7 @@ def contact_stress(found: Geometry, load_factor: float) -> tuple[float, float]:
 
 def influences(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> Influences:
     """Z_L (34), Z_v (37), Z_R (39), of both gears by σ_Hlim of the softer, and Z_W (42) to (46)."""
-    speed = mesh.pinion_speed * abs(mesh.reference_radius[0])
+    speed = mesh.pinion_speed * abs(_speed_radius(mesh))
     limit = 1e-6 * min(metals, key=lambda metal: metal.hardness).contact_limit
     share = min(max((limit - _SOFT) / (_HARD - _SOFT), 0.0), 1.0)
     c_l = 0.83 + 0.08 * share
@@ -134,6 +149,11 @@ def influences(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> Influences:
     rough = (3.0 / (1e6 * _reference_roughness(mesh, sum(mesh.roughness) / 2.0))) ** c_r
     hardened = work_hardening(mesh, metals)
     return Influences((lubricant, lubricant), (velocity, velocity), (rough, rough), hardened)
+
+
+def _speed_radius(mesh: PittingMesh) -> float:
+    """Radius, m, at which the speed of Z_v is taken: reference circle, working pitch circle in 2019."""
+    return mesh.path.pitch_radius[0] if mesh.edition >= 2019 else mesh.reference_radius[0]
 
 
 def _reduced_radius(mesh: PittingMesh) -> float:

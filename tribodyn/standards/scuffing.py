@@ -72,10 +72,33 @@ _LINE_LOAD, _FASTEST = 150e3, 50.0
 _BULK, _FLASH = 0.7, 1.5
 
 
+def tip_relief_factor(tip_contact_ratios: tuple[float, float], share: float) -> float:
+    """X_Ca over C_a/C_eff, which counts up to 1: ISO/TR 13989-2:2000, (32).
+
+    1 + (0.06 + 0.18 C_a/C_eff) ε_max + (0.02 + 0.69 C_a/C_eff) ε_max²: above 1 without relief too.
+    """
+    longest, relief = max(tip_contact_ratios), min(max(share, 0.0), 1.0)
+    return 1.0 + (0.06 + 0.18 * relief) * longest + (0.02 + 0.69 * relief) * longest**2
+
+
+def effective_tip_relief(line_load: float, stiffness: tuple[float, float], *, helical: bool) -> float:
+    """C_eff = K_A F_t/(b c′) of spur, K_A F_t/(b c_γ) of helical gears, m: ISO/TR 13989-2:2000.
+
+    Of K_A F_t/b at the reference circle (N/m) and (c′, c_γα) per face width (Pa).
+    """
+    return line_load / stiffness[1 if helical else 0]
+
+
+def load_safety(scuffing: float, integral: float, oil_temperature: float) -> float:
+    """S_SL = (θ_intS − θ_oil)/(θ_int − θ_oil), K: about the factor by which the load may grow."""
+    return (scuffing - oil_temperature) / (integral - oil_temperature)
+
+
 class IntegralTemperature(NamedTuple):
     """Friction coefficient μ_mC, then temperatures in K."""
 
     friction_coefficient: float  # μ_mC at the pitch point
+    at_tip: float  # θ_flaE of the pinion's tip under the whole load
     flash_rise: float  # θ_flaint, mean over the path
     bulk: float  # θ_M-C
     integral: float  # θ_int
@@ -171,7 +194,7 @@ def integral_temperature(path: ContactPath, mesh: ScuffingMesh) -> IntegralTempe
     at_tip *= running_in / ((1e3 * path.centre_distance) ** 0.25 * approach_factor(first, second))
     mean = at_tip / mesh.tip_relief * contact_ratio_factor(first, second)
     bulk = mesh.oil_temperature + _BULK * mesh.lubrication * mean
-    return IntegralTemperature(friction, mean, bulk, bulk + _FLASH * mean)
+    return IntegralTemperature(friction, at_tip / mesh.tip_relief, mean, bulk, bulk + _FLASH * mean)
 
 
 def integral_safety(scuffing: float, integral: float) -> float:

@@ -149,7 +149,7 @@ def test_a_notch_like_the_test_gears_has_factor_1():
 
 def test_lubricant_velocity_and_roughness_count_by_the_softer_material():
     """A planet of 1500 MPa against a ring of 700 MPa: both C_ZL = 0.83, C_Zv = 0.85, C_ZR = 0.15."""
-    mixed = pitting.influences(mesh(), (CASE, SOFT))
+    mixed = pitting.influences(mesh(edition=2006), (CASE, SOFT))
     speed, tangent = 38e-3 * 980 * math.pi / 30, math.tan(mesh().path.pressure_angle)
     curvature = sum(1 / (base * tangent) for base in mesh().path.base_radius)
     rough = 4.0 * (10e-3 * curvature) ** (1 / 3)
@@ -157,6 +157,41 @@ def test_lubricant_velocity_and_roughness_count_by_the_softer_material():
     assert mixed.speed == pytest.approx((0.85 + 2 * 0.15 / math.sqrt(0.8 + 32 / speed),) * 2, rel=1e-12)
     assert mixed.roughness == pytest.approx(((3 / rough) ** 0.15,) * 2, rel=1e-12)
     assert pitting.influences(mesh(), (SOFT, CASE)).lubricant == mixed.lubricant
+    # the edition of 2019 takes the speed at the working pitch circle
+    working = speed / 38e-3 * mesh().path.pitch_radius[0]
+    newer = pitting.influences(mesh(), (CASE, SOFT))
+    assert newer.speed[0] == pytest.approx(0.85 + 2 * 0.15 / math.sqrt(0.8 + 32 / working), rel=1e-12)
     hard = pitting.influences(mesh(), (CASE, CASE))
     assert hard.lubricant[0] < mixed.lubricant[0]
     assert hard.speed[0] > mixed.speed[0]
+
+
+def test_wide_helical_gears_without_suitable_modification_press_more_in_2019():
+    """√f_ZCa: 1.2 unmodified, 1.07 usual, 1 suitable; ε_β between 0 and 1 goes over to it from M_1."""
+    wide = mesh().path._replace(overlap_ratio=1.2)
+    for modification, factor in (("none", 1.2), ("usual", 1.07), ("suitable", 1.0)):
+        found = pitting.geometry(mesh(path=wide, modification=modification))
+        assert found.single_pair == pytest.approx((math.sqrt(factor),) * 2)
+    assert pitting.geometry(mesh(path=wide, edition=2006)).single_pair == (1.0, 1.0)
+    spur, half = (
+        pitting.geometry(mesh(path=mesh().path._replace(overlap_ratio=overlap))).single_pair[0]
+        for overlap in (0.0, 0.5)
+    )
+    assert half == pytest.approx((spur + math.sqrt(1.2)) / 2.0)
+
+
+def test_pairs_share_the_bending_load_of_helical_teeth_in_2019():
+    """f_ε 1/√ε_αn from ε_β = 1 on; Y_β is over cos³ β; neither in 2006, nor of spur teeth."""
+    helix = math.radians(20.0)
+    wide = gear(overlap_ratio=1.3, helix_angle=helix)
+    old, new = (bending.nominal_stress(wide._replace(edition=year), 1e3) for year in (2006, 2019))
+    assert new.distribution == pytest.approx(1.0 / math.sqrt(1.5))
+    assert new.form / old.form == pytest.approx(new.distribution)
+    assert new.helix / old.helix == pytest.approx(1.0 / math.cos(helix) ** 3)
+    assert old.distribution == 1.0
+    assert (
+        bending.nominal_stress(gear(), 1e3).nominal == bending.nominal_stress(gear(edition=2006), 1e3).nominal
+    )
+    deep = gear(overlap_ratio=0.5, virtual_contact_ratio=2.1)
+    assert bending.distribution_factor(deep) == pytest.approx(math.sqrt(0.25 + 0.5 / 2.1))
+    assert bending.distribution_factor(gear(virtual_contact_ratio=2.1)) == 0.7

@@ -98,3 +98,22 @@ def test_mean_flash_over_the_path_is_continuous_over_the_cases():
     assert scuffing.approach_factor(1.0, 1.5) == pytest.approx(1.0)
     assert scuffing.approach_factor(1.0, 3.0) == pytest.approx(0.6)
     assert scuffing.approach_factor(1.0, 0.5) == 1.0
+
+
+def test_tip_relief_factor_has_its_ends():
+    """X_Ca of ISO/TR 13989-2 (32) with ε_max 0.8: 1.0608 without relief, 1.6464 with the effective one."""
+    assert scuffing.tip_relief_factor((0.8, 0.6), 0.0) == pytest.approx(1.0608)
+    assert scuffing.tip_relief_factor((0.6, 0.8), 1.0) == pytest.approx(1.6464)
+    assert scuffing.tip_relief_factor((0.8, 0.6), 3.0) == pytest.approx(1.6464)
+    # K_A F_t/b 200 N/mm on c' 14 and c_γ 20 N/(mm µm)
+    assert scuffing.effective_tip_relief(200e3, (14e9, 20e9), helical=False) == pytest.approx(
+        14.286e-6, rel=1e-4
+    )
+    assert scuffing.effective_tip_relief(200e3, (14e9, 20e9), helical=True) == pytest.approx(10e-6)
+
+
+def test_micropitting_reference_of_material_pairs():
+    """ISO/TR 15144-1, annex A: a planet of case-hardened steel on a through-hardened ring has 0.75."""
+    assert fzg.material_factor(["case-hardened", "through-hardened"]) == pytest.approx(0.75)
+    assert fzg.material_factor(["nitrided", "case-hardened"]) == pytest.approx(1.25)
+    assert fzg.material_factor([]) == 1.0

@@ -7,11 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import reference_radius
 from tribodyn.geometry.families import family
 from tribodyn.studies import STUDIES
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.unknowns import Draw, drawn
-from tribodyn.studies.gears.by_standard import base_pitch_deviation
+from tribodyn.studies.gears.by_standard import base_pitch_deviation, running_in_of
 from tribodyn.studies.protocol.part import Contribution, Findings, Request, Task, TaskResult
 from tribodyn.studies.protocol.study import Study
 from tribodyn.tribology.law import AUTO
@@ -42,7 +43,9 @@ def request_of(case: AssessmentCase) -> Request:
     if found.film.law is not None:
         tables["film"] = {"law": found.film.law}
     assembly = Assembly(family(case.family), case.drive)
-    _, pitch_deviation = base_pitch_deviation(assembly, case.quality)
+    speed = case.operating.pinion_speed * abs(float(reference_radius(case.drive, "pinion")))
+    gears = running_in_of(case.materials, speed)
+    _, pitch_deviation = base_pitch_deviation(assembly, case.quality, gears)
     return Request(
         case.title,
         tables,

@@ -192,7 +192,7 @@ def concluded(
         case,
         by_standard,
         capacity,
-        strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor),
+        strength_of(case.lubricant, case.oil_temperature, case.settings.structure_factor, case.materials),
         strength.safeties() if strength else {},
         local,
         found,

@@ -7,9 +7,18 @@ from typing import NamedTuple
 from tribodyn.compliance.iso6336 import ReferenceStiffness, pair_of, reference_stiffness
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import MaterialData, reference_radius
-from tribodyn.geometry.helix import overlap_ratio
+from tribodyn.geometry.helix import base_helix_angle, overlap_ratio
 from tribodyn.standards.flank_tolerances import FlankTolerances
-from tribodyn.standards.load_factors import DynamicFactor, DynamicMesh, dynamic_factor, reduced_mass
+from tribodyn.standards.load_factors import (
+    DynamicFactor,
+    DynamicMesh,
+    FlankRunIn,
+    dynamic_factor,
+    reduced_mass,
+    run_in,
+    running_in,
+)
+from tribodyn.studies.gears.metals import metal_of
 
 
 class Quality(NamedTuple):
@@ -44,16 +53,30 @@ def quality_of(
     )
 
 
-def base_pitch_deviation(assembly: Assembly, quality: Quality) -> tuple[float, float]:
-    """f_pb and f_pb − y_α, m: new and after running in; f_pb = f_pT cos α, y_α = 0.075 f_pb up to 3 µm.
+def running_in_of(materials: Sequence[MaterialData], pitch_speed: float) -> tuple[FlankRunIn, FlankRunIn]:
+    """Laws of running in of both gears, by treatment and σ_Hlim, at a pitch line speed, m/s."""
+    pinion, gear = (metal_of(material) for material in materials)
+    laws = [
+        running_in(None, 0.0, pitch_speed)
+        if metal is None
+        else running_in(metal.treatment, metal.contact_limit, pitch_speed)
+        for metal in (pinion, gear)
+    ]
+    return laws[0], laws[1]
 
-    y_α is that of case-hardened and nitrided teeth. α is the transverse pressure angle at the reference
-    circle of involutes; of other families it is that of the pitch point.
+
+def base_pitch_deviation(
+    assembly: Assembly, quality: Quality, gears: tuple[FlankRunIn, FlankRunIn]
+) -> tuple[float, float]:
+    """f_pb and f_pb − y_α, m: new and after running in; f_pb = f_pT cos α.
+
+    α is the transverse pressure angle at the reference circle of involutes; of other families it is that of
+    the pitch point.
     """
     path = assembly.path
     base = float(path.pinion_pitch_radius) * math.cos(float(path.pressure_angle(0.0)))
     new = quality.single_pitch * base / float(reference_radius(assembly.drive, "pinion"))
-    return new, new - min(0.075 * new, 3e-6)
+    return new, new - run_in(new, gears)
 
 
 def rated(
@@ -74,11 +97,13 @@ def rated(
     speed, torque = duty
     cosine = math.cos(float(path.pressure_angle(0.0)))
     base = float(path.pinion_pitch_radius) * cosine, float(path.gear_pitch_radius) * cosine
-    pair = pair_of(assembly, materials, torque / abs(base[1]))
+    normal = torque / abs(base[1]) / math.cos(float(base_helix_angle(drive)))
+    pair = pair_of(assembly, materials, normal)
     pair = pair._replace(line_load=pair.line_load * application_factor, blank=blank or pair.blank)
     stiffness = reference_stiffness(pair)
     inertias = float(bodies[0][1]), float(bodies[1][1])
-    pitch, after_running_in = base_pitch_deviation(assembly, quality)
+    gears = running_in_of(materials, speed * abs(float(reference_radius(drive, "pinion"))))
+    pitch, after_running_in = base_pitch_deviation(assembly, quality, gears)
     dynamic = dynamic_factor(
         DynamicMesh(
             abs(float(drive.pinion.teeth)),
@@ -92,6 +117,7 @@ def rated(
             float(assembly.contact_ratio) + float(overlap_ratio(assembly)),
             0.0,
             max(quality.grade, 6.0),
+            gears,
         )
     )
     return Rated(dynamic, stiffness, pair.line_load, after_running_in)

@@ -231,7 +231,7 @@ def _of_mesh(case: TrainAssessmentCase, mesh: MeshAtDuty, own: Mapping[str, Any]
     duty = rated_duty(settings, oil, face=1.0, mesh=share)
     duty = duty._replace(mesh=share, face=settings.face_of(mesh.name))
     standard = standard_of(pair, assembly, duty)
-    strength = strength_of(pair.lubricant, oil, settings.structure_factor)
+    strength = strength_of(pair.lubricant, oil, settings.structure_factor, pair.materials)
     found["load_factors"] |= factors_by_name(standard.factors)
     bins = life_bins(pair, assembly, standard.factors)
     capacity = capacity_of(pair, assembly, standard.factors, bins, settings, mesh.meshing)

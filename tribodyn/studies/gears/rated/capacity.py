@@ -163,7 +163,18 @@ def _mesh(case: OiledCase, assembly: Assembly, settings: RatingTable) -> pitting
         flanks_of(case).reduced_modulus,
         float(sheet.viscosity_40),
         (rz, rz),
+        settings.edition,
+        _modification(case, settings),
     )
+
+
+def _modification(case: OiledCase, settings: RatingTable) -> str:
+    """How suitable the profile modification is, for f_ZCa: see `pitting.UNMODIFIED_FACTOR`."""
+    if settings.adequate_tip_relief:
+        return "suitable"
+    flanks = case.mesh.modifications
+    reliefs = [end.amount for flank in (flanks.pinion, flanks.gear) for end in (flank.tip, flank.root)]
+    return "usual" if any(amount > 0.0 for amount in reliefs) else "none"
 
 
 def _failures_by_name(
@@ -264,6 +275,7 @@ def _root(
         case.quality.grade,
         settings.root_roughness,
         turns.reversed,
+        settings.edition,
     )
 
 

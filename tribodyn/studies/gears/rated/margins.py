@@ -1,7 +1,7 @@
 """Margins against scuffing and micropitting: what an oil stands by its FZG tests, and what a motion takes."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -46,10 +46,15 @@ def _contact(material: MaterialData) -> float:
     return math.sqrt(material.thermal_conductivity * material.density * material.specific_heat)
 
 
-def strength_of(lubricant: LubricantData, oil_temperature: float, structure: float = 1.0) -> Strength:
+def strength_of(
+    lubricant: LubricantData,
+    oil_temperature: float,
+    structure: float = 1.0,
+    materials: Sequence[MaterialData] = (),
+) -> Strength:
     """Scuffing temperatures and permissible film of an oil of a data sheet that enters at a temperature (K).
 
-    `structure` is X_W of the teeth's material, see `fzg.scuffing_temperature`.
+    `structure` is X_W of the teeth's material, see `fzg.scuffing_temperature`; W_W is that of `materials`.
     """
     stages, sheet, factor = lubricant.fzg, lubricant.sheet, lubricant.lubricant_factor
     assert sheet is not None, "refused by the rules"
@@ -62,7 +67,10 @@ def strength_of(lubricant: LubricantData, oil_temperature: float, structure: flo
         )
     if stages.micropitting is not None:
         film = fzg.permissible_specific_film(
-            stages.micropitting, oil_of(lubricant), oil_temperature=stages.micropitting_temperature
+            stages.micropitting,
+            oil_of(lubricant),
+            fzg.material_factor([material.treatment for material in materials]),
+            stages.micropitting_temperature,
         )
     return Strength(flash, integral, film)
 
@@ -95,7 +103,7 @@ def margins_of(
     if case.lubricant.sheet is None or temperature is None or not flash > 0.0:
         return {}
     oil, found = float(temperature), dict[str, float]()
-    strength = strength_of(case.lubricant, oil)
+    strength = strength_of(case.lubricant, oil, materials=case.materials)
     bulk = bulk_of(assembly, quantities, oil)
     if strength.scuffing is not None:
         found["S_B"] = scuffing.flash_safety(strength.scuffing, bulk + flash, oil)

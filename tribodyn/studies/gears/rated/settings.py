@@ -12,6 +12,7 @@ from tribodyn.scenario.quantity import InUnit, Positive, Switch, Table, written
 
 AtLeastOne = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=1, le=100)]
 Hours = Annotated[float, InUnit(units.positive(units.TIME), "20000 h")]
+Relief = Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 um")]
 Roughness = Annotated[float, InUnit(units.positive(units.LENGTH), "4.8 um")]
 #: Mean peak-to-valley roughness over Ra where the former is not given: ISO 6336-2.
 PEAKS_OVER_MEAN = 6.0
@@ -22,12 +23,19 @@ _LIFE, _SAFETY_PITTING, _SAFETY_BENDING = 20000.0 * 3600.0, 1.0, 1.4
 class RatingTable(Table):
     """What the standards need to know."""
 
+    edition: Literal[2019, 2006] = Field(
+        2019, description="of ISO 6336-1, -2, -3, by which stresses are computed"
+    )
     application_factor: Positive = Field(1.0, description="K_A, what the driven and the driving machine add")
     lubrication: Literal["dip", "spray", "submerged"] = Field(
         "dip", description="how the oil gets to the mesh"
     )
     structure_factor: Positive = Field(
         1.0, description="X_W: 1 of case-hardened steel, 1.5 nitrided (ISO/TS 6336-20, table 2)"
+    )
+    run_in: Switch = Field(True, description="whether flanks are run in, for scuffing (X_E)")
+    tip_relief: Relief | None = Field(
+        None, description="C_a that the standard credits, for scuffing (X_Ca); default: none"
     )
     adequate_tip_relief: Switch = Field(
         False, description="whether the standards may count on the tip relief that the flanks have"

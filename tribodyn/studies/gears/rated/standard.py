@@ -46,6 +46,9 @@ class RatedDuty(NamedTuple):
     blank: float | None = None
     lubrication: str = "dip"  # one of `micropitting.LUBRICATION_FACTORS`
     adequate_tip_relief: bool = False
+    #: tip_relief, run_in: C_a that is credited for scuffing, m; whether flanks are run in there
+    tip_relief: float = 0.0
+    run_in: bool = True
 
 
 def rated_duty(settings: RatingTable, oil_temperature: float, *, face: float, mesh: float = 1.0) -> RatedDuty:
@@ -61,6 +64,8 @@ def rated_duty(settings: RatingTable, oil_temperature: float, *, face: float, me
         settings.gear_blank_factor,
         settings.lubrication,
         settings.adequate_tip_relief,
+        settings.tip_relief or 0.0,
+        settings.run_in,
     )
 
 
@@ -100,7 +105,7 @@ class Standard(NamedTuple):
     #: flash_bulk, flash_contact: θ_M and θ_Bmax of ISO/TS 6336-20, K
     flash_bulk: float
     flash_contact: float
-    integral: float | None  # θ_int of ISO/TS 6336-21, K; None of a ring and its planet
+    integral: scuffing.IntegralTemperature | None  # ISO/TS 6336-21; None of a ring and its planet
 
 
 def load_factors(
@@ -166,18 +171,20 @@ def standard_of(case: OiledCase, assembly: Assembly, duty: RatedDuty) -> Standar
     flanks, oil = flanks_of(case), oil_of(case.lubricant)
     films = micropitting.method_b(path, flanks, loaded, oil)
     bulk, contact = _flash(case, path, loaded, flanks, oil)
-    raised = factors.line_load * factors.dynamic_factor * duty.face * factors.transverse
-    integral = _integral(case, path, loaded, raised, flanks, oil) if path.ratio > 0.0 else None
+    integral = _integral(case, path, loaded, factors, flanks, oil) if path.ratio > 0.0 else None
     return Standard(path, films, factors, loss_factor(path), bulk, contact, integral)
 
 
 def _integral(
-    case: OiledCase, path: ContactPath, loaded: Load, line_load: float, flanks: Flanks, oil: Oil
-) -> float:
-    """Integral temperature of ISO/TS 6336-21 of two external gears, K; `line_load` with all factors, N/m."""
-    drive = case.drive
+    case: OiledCase, path: ContactPath, loaded: Load, factors: LoadFactors, flanks: Flanks, oil: Oil
+) -> scuffing.IntegralTemperature:
+    """Integral temperature of ISO/TS 6336-21 of two external gears."""
+    drive, duty = case.drive, factors.duty
+    stiffness = factors.stiffness.single_pair, factors.stiffness.mesh
+    effective = scuffing.effective_tip_relief(factors.line_load, stiffness, helical=drive.helix_angle != 0.0)
+    credited = 1.0 if duty.adequate_tip_relief else duty.tip_relief / effective
     mesh = scuffing.ScuffingMesh(
-        line_load,
+        factors.line_load * factors.dynamic_factor * duty.face * factors.transverse,
         loaded.pinion_speed * float(reference_radius(drive, "pinion")),
         float(oil.viscosity(loaded.oil_temperature)),
         loaded.oil_temperature,
@@ -188,9 +195,10 @@ def _integral(
         abs(float(drive.helix_angle)),
         lubricant=oil.lubricant_factor,
         lubrication=micropitting.LUBRICATION_FACTORS[loaded.lubrication],
-        tip_relief=loaded.tip_relief,
+        tip_relief=scuffing.tip_relief_factor(path.tip_contact_ratios, credited),
+        run_in=float(duty.run_in),
     )
-    return scuffing.integral_temperature(path, mesh).integral
+    return scuffing.integral_temperature(path, mesh)
 
 
 def _flash(case: OiledCase, path: ContactPath, load: Load, flanks: Flanks, oil: Oil) -> tuple[float, float]:
@@ -273,13 +281,13 @@ def margins_by_standard(found: Standard, strength: Strength, oil_temperature: fl
         "theta_B": found.flash_contact - ZERO_CELSIUS,
     }
     if found.integral is not None:
-        margins["theta_int"] = found.integral - ZERO_CELSIUS
+        margins["theta_int"] = found.integral.integral - ZERO_CELSIUS
     if strength.scuffing is not None and strength.scuffing_integral is not None:
         margins["theta_S"] = strength.scuffing - ZERO_CELSIUS
         margins["theta_intS"] = strength.scuffing_integral - ZERO_CELSIUS
         margins["S_B"] = scuffing.flash_safety(strength.scuffing, found.flash_contact, oil_temperature)
         if found.integral is not None:
-            margins["S_intS"] = scuffing.integral_safety(strength.scuffing_integral, found.integral)
+            margins["S_intS"] = scuffing.integral_safety(strength.scuffing_integral, found.integral.integral)
     if strength.specific_film is not None:
         worst = float(np.min(found.films.specific_film))
         margins |= {"lambda_GFP": strength.specific_film, "S_lambda": worst / strength.specific_film}
