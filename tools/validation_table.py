@@ -16,7 +16,8 @@ from tribodyn.validation.rows import Otherwise, Row, counted, of_part, per_cent
 
 VALIDATION = DOCS / "validation.md"
 #: Pages of the papers that do not stand on the page of validation.
-PAGES = {"efremenkov-2024": DOCS / "rolling-elements.md", "helical-report-2017": DOCS / "standards.md"}
+PAGES = {"efremenkov-2024": DOCS / "rolling-elements.md"}
+PAGES |= {name: DOCS / "standards.md" for name, paper in PAPERS.items() if paper.source}
 #: A bar that ends no cell.
 BAR = "\\|"
 #: Pages with the counts of all papers.
@@ -61,7 +62,27 @@ def other(row: Row, otherwise: Otherwise | None) -> str:
 
 
 def table(paper: str, rows: list[Row]) -> str:
-    """Rows of a paper under the choices that they are computed with, and their counts."""
+    """Rows of a paper under the choices that they are computed with, and their counts.
+
+    Of a book only rows that do not agree, with their reason.
+    """
+    source = PAPERS[paper].source
+    if source:
+        lines = [
+            [
+                f"`{row.id.partition('/')[2]}`",
+                row.quantity,
+                row.printed,
+                row.written("computed"),
+                row.unit,
+                row.note,
+            ]
+            for row in rows
+            if row.verdict != "pass"
+        ]
+        body = table_of(["row", "quantity", "printed", "here", "unit", "reason"], lines, "llrrll")
+        said = f"{source.said()} Computed {PAPERS[paper].choices}."
+        return f"{said}\n\nIn all: {counted(rows)}.\n\n{body}"
     head = ["row", "published", "ours", "difference", "tolerance", "verdict", "under another choice"]
     lines = []
     for row in rows:

@@ -9,10 +9,11 @@ from tribodyn.cli.options import JsonOption, ReplaceOption, papers
 from tribodyn.numerics.output_files import check_output, make_folder
 
 EXAMPLES = (
-    "\b\nExit status 4 if a value is outside its tolerance. Examples:\n"
+    "\b\nExit status 4 if a value is outside its tolerance or a claim no longer holds. Examples:\n"
     "  tribodyn validate liu-ni-2022\n"
     "  tribodyn validate liu-ni-2022 --json -o records\n"
-    "  tribodyn validate diez-ibarbia --plots pictures"
+    "  tribodyn validate diez-ibarbia --plots pictures\n"
+    "  tribodyn validate stplus-fzg-c"
 )
 
 
@@ -53,14 +54,18 @@ def validate(
         if plots is not None and records is not None:
             with progress_bar("drawing") as progress:
                 pictures = validation.draw(paper, plots, records, progress, force=force)
+    source = validation.PAPERS[paper].source
     if json:
         drawn = {"pictures": [str(picture) for picture in pictures]} if plots is not None else {}
         head = {"choices": validation.PAPERS[paper].choices, "counts": counts(rows)}
+        head |= {"source": source._asdict()} if source else {}
         print_json({**head, "rows": [row.plain() for row in rows], **drawn})
     else:
         title = f"{paper}: {validation.PAPERS[paper].choices}"
         print_table(title, SHOWN, [[row.written(name) for name in SHOWN] for row in rows])
         typer.echo(counted(rows))
+        if source:
+            typer.echo(source.said())
         print_files("picture", pictures)
     failed = [row.id for row in rows if row.verdict == "fail"]
     if failed:

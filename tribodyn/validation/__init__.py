@@ -9,6 +9,21 @@ from tribodyn.errors import InputError, unknown_name
 from tribodyn.validation.rows import Row
 
 
+class Listing(NamedTuple):
+    """Where the numbers of a book are from."""
+
+    program: str  # with its version; of a standard's own example the standard
+    editions: str  # standards, and of which year, that it computes by
+    licence: str  # of the public copy that the numbers were read in
+    copy: str  # where that is
+    left_out: str = ""  # what of the listing is no row, and why
+
+    def said(self) -> str:
+        """All of it in sentences."""
+        left_out = f" No rows: {self.left_out}." if self.left_out else ""
+        return f"{self.program}: {self.editions}. Read in {self.copy}; licence: {self.licence}.{left_out}"
+
+
 class Paper(NamedTuple):
     """Where the numbers of a paper are compared."""
 
@@ -16,6 +31,7 @@ class Paper(NamedTuple):
     about: str  # who, where, and what is compared
     choices: str  # under which its rows are computed, the head of its table
     figures: str | None = None  # module that draws its figures
+    source: Listing | None = None  # of a book: a listing of another program or of a standard
 
 
 #: By the name on the command line.
@@ -53,9 +69,53 @@ PAPERS = {
         "tribodyn.validation.jia_figures",
     ),
     "helical-report-2017": Paper(
-        "tribodyn.validation.helical_report",
-        "Design report of a helical stage (KISSsoft 2017): ISO 6336 and ISO/TS 6336-22 factor by factor",
-        "with the load factors as printed",
+        "tribodyn.validation.books.helical_report_2017",
+        "Design report of a helical stage (KISSsoft 2017): ISO 6336 and its parts, row by row",
+        "as the report does: load factors from its tolerances, roots with tips in the middle of theirs",
+        source=Listing(
+            "KISSsoft, release 03/2017 A",
+            "ISO 6336:2006, ISO/TR 15144-1:2014, ISO/TR 13989:2000, ISO/DTR 19042-1 (2016), DIN 3960:1987, "
+            "ISO 1328-1:1995",
+            "none named (academic licence of the program, NTNU)",
+            "github.com/gfsReboucas/Drivetrain, @NREL_5MW/stage_03.rtf",
+            "inputs; hardening depth by DNV 41.2, pin measures by AGMA 2002, reliability after Bertsche, "
+            "sound after Masuda, lives beyond 10^6 h: not computed here",
+        ),
+    ),
+    "stplus-fzg-c": Paper(
+        "tribodyn.validation.books.stplus_fzg_c",
+        "FZG gears of type C in the listing of STplus 11.1F: geometry, ISO 6336 of 2019, scuffing",
+        "as the listing does: K_v K_Hbeta by its pressures, endurance, flanks that are not run in",
+        source=Listing(
+            "FVA STplus 11.1F (2025-12-01)",
+            "ISO 6336-1, -2, -3:2019, ISO/TS 6336-4:2019, ISO/TS 6336-20 and -21:2017, DIN 3960:1987",
+            "MIT",
+            "github.com/tkuhn39/semesterthesis, commit edc71655, gearcore/data/stplus/fzg_c/report.sta.txt",
+            "inputs; Lewis parabola: not computed here",
+        ),
+    ),
+    "iso-tr-6336-30": Paper(
+        "tribodyn.validation.books.iso_tr_6336_30",
+        "ISO/TR 6336-30, example 1: a helical pair by ISO 6336-1 and -2, and its geometry",
+        "with the face load factor as printed, discs without bore",
+        source=Listing(
+            "ISO/TR 6336-30",
+            "2017 (ISO 6336:2006), geometry of 2022",
+            "none named; MIT (geometry)",
+            "github.com/gfsReboucas/Drivetrain, MATISO_6336.m; github.com/tkuhn39/semesterthesis",
+        ),
+    ),
+    "iso-6336-6-annex-c": Paper(
+        "tribodyn.validation.books.iso_6336_6_annex_c",
+        "ISO 6336-6, annex C: stresses, cycles and Miner's sum of a load spectrum of 42 classes",
+        "with torque, time and face load factor of every class as printed",
+        source=Listing(
+            "ISO 6336-6",
+            "2019",
+            "none named",
+            "github.com/gfsReboucas/Drivetrain, data/table_C2.csv",
+            "six classes without load cycles or without load",
+        ),
     ),
 }
 

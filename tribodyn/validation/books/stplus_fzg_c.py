@@ -1,0 +1,291 @@
+"""The FZG gears of type C in the listing of FVA STplus 11.1F: ISO 6336:2019 and its parts, factor by factor.
+
+K_Hβ is what the printed pressures imply: f_sh is printed with one digit, the shaft behind it not at all.
+Strength is that of endurance, as there: N_L is printed, and life factors are 1. Lengths in mm here.
+"""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from tribodyn.compliance import iso6336
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.root_section import critical_section
+from tribodyn.geometry.sheet import geometry_sheet
+from tribodyn.geometry.tooth import thickness_half_angle
+from tribodyn.standards import contact_path, fzg, load_factors, micropitting
+from tribodyn.standards.flank_tolerances import flank_tolerances_1995
+from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
+from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
+from tribodyn.studies.protocol.load import load_data
+from tribodyn.validation.books import book_rows
+from tribodyn.validation.books import stplus_geometry as shape
+from tribodyn.validation.books.stplus_geometry import pair
+from tribodyn.validation.books.stplus_scuffing import scuffed
+from tribodyn.validation.rows import Row
+
+BOOK = "stplus-fzg-c"
+_M, _ALPHA, _WIDTH, _TEETH, _SHIFTS = shape.MODULE, shape.ALPHA, shape.WIDTH, shape.TEETH, shape.SHIFTS
+_TIPS, _TORQUE, _SPEED, _LIMIT = (82.45, 118.35), 130.0, 1500.0, 1510.0
+#: K_v K_Hβ from the pressure at B (1374.113 N/mm² on 7.253 mm), over our K_v.
+_K = 1.358343
+_BASE: dict[str, Any] = {
+    "dedendum": 1.39,
+    "fillet_radius": 0.25,
+    "face_width": "14 mm",
+    "bore_radius": "1 um",
+}
+SCENARIO = {
+    "title": "FZG type C",
+    "kind": "assessment",
+    "drive": {
+        "family": "involute",
+        "module": "4.5 mm",
+        "pressure_angle": "20 deg",
+        "centre_distance": "91.5 mm",
+        "mean_roughness": "0.3 um",
+        "quality": 5,
+        "material": {
+            "like": "18CrNiMo7-6",
+            "contact_stress_limit": "1510 MPa",
+            "bending_stress_limit": "475 MPa",
+            "youngs_modulus": "210 GPa",
+            "poisson_ratio": 0.3,
+            "density": "7850 kg/m**3",
+            "specific_heat": "482.1019 J/(kg*K)",  # with 50 W/(m K) the printed B_M of 435
+            "thermal_conductivity": "50 W/(m*K)",
+        },
+        **{
+            side: _BASE
+            | {"teeth": z, "profile_shift": x, "tip_diameter": f"{tip} mm", "thickness_allowance": "-85 um"}
+            for side, z, x, tip in zip(SIDES, _TEETH, _SHIFTS, _TIPS, strict=True)
+        },
+    },
+    "lubricant": {
+        "type": "mineral",
+        "viscosity_40": "90.02 mm**2/s",
+        "viscosity_100": "10.41 mm**2/s",
+        "density_15": "884.1 kg/m**3",
+        "fzg_scuffing_stage": 6,
+    },
+    "operating": {
+        "pinion_torque": "130 N*m",
+        "pinion_speed": "1500 rpm",
+        "oil_temperature": "60 degC",
+    },
+    "assessment": {"peak_roughness": "1.8 um", "root_roughness": "20 um", "run_in": False},
+}
+
+
+def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
+    """All rows; nothing needs a run, and nothing is written into `folder`."""
+    found = book_rows(BOOK, _values())
+    if progress:
+        progress(1.0)
+    return found
+
+
+def _values() -> dict[str, Any]:
+    stiffness = _stiffness()
+    dynamic = _dynamic(stiffness)
+    factor = float(dynamic["K_v"])
+    case = load_data(SCENARIO, BOOK, {"assessment.face_load_factor": _K / factor}).case
+    assembly = assembled(case)
+    duty = rated_duty(case.settings, case.oil_temperature, face=1.0)._replace(dynamic=factor)
+    standard = standard_of(case, assembly, duty)
+    factors = standard.factors._replace(stiffness=stiffness)
+    capacity = capacity_of(case, assembly, factors, life_bins(case, assembly, factors), case.settings)
+    assert capacity is not None, "the material has a heat treatment"
+    sheet, named = geometry_sheet(assembly), capacity.by_name()
+    found = shape.geometry(sheet) | shape.measures() | _loads(standard) | _roots(assembly) | dynamic
+    return found | _strength(named, standard) | scuffed(case, standard, stiffness, _K)
+
+
+def _loads(standard: Any) -> dict[str, Any]:
+    """Loads and losses."""
+    tangential, working = 2e3 * _TORQUE / 72.0, 2e3 * _TORQUE / 73.2
+    at_base, speed = tangential / math.cos(_ALPHA), math.pi * _SPEED / 60.0 * 73.2e-3
+    power = _TORQUE * _SPEED * math.pi / 30.0
+    radius = contact_path.equivalent_radius(standard.path, contact_path.point_distances(standard.path)[3])
+    sliding = 2.0 * speed * math.sin(standard.path.pressure_angle)
+    # FVA 166, after Schlenk, in N/mm, m/s, mm, mPa s, µm
+    friction = 0.048 * (at_base / _WIDTH / (sliding * 1e3 * float(radius))) ** 0.2 * 30.93**-0.05 * 0.3**0.25
+    loss = power * friction * standard.losses
+    return {
+        "P": 1e-3 * power,
+        "T": (_TORQUE, 1.5 * _TORQUE),
+        "F_t": tangential,
+        "F_tw": working,
+        "F_tb": at_base,
+        "n": (_SPEED, _SPEED / 1.5),
+        "v_w": speed,
+        "mu_mz": friction,
+        "H_v": standard.losses,
+        "P_VzP": loss,
+        "eta_zP": 1.0 - loss / power,
+        "K_star": tangential / (_WIDTH * 72.0) * 2.5 / 1.5,
+        "U": tangential / (_WIDTH * _M),
+        "T_1T": fzg.scuffing_torque(6),
+    }
+
+
+def _roots(assembly: Assembly) -> dict[str, Any]:
+    """The critical section, under a load at the outer point of single pair contact and at the tip."""
+    sections = [critical_section(assembly, side) for side in SIDES]
+    bases = [1e3 * float(z) * _M / 2e3 * math.cos(_ALPHA) for z in _TEETH]
+    places = [
+        base / math.cos(each.load_angle) - 1e3 * each.arm for base, each in zip(bases, sections, strict=True)
+    ]
+
+    def at_tip(gear: int) -> float:
+        tip = _TIPS[gear] / 2.0
+        tooth = assembly.tooth(SIDES[gear])
+        return math.acos(bases[gear] / tip) - float(thickness_half_angle(tooth, tip * 1e-3))
+
+    return {
+        "alpha_Fan": pair(lambda i: math.degrees(at_tip(i))),
+        "alpha_Fen": pair(lambda i: math.degrees(sections[i].load_angle)),
+        "h_Fa": pair(lambda i: (bases[i] / math.cos(at_tip(i)) - places[i]) / _M),
+        "d_sF": pair(lambda i: 2.0 * math.hypot(places[i], 500.0 * sections[i].thickness)),
+    }
+
+
+def _stiffness() -> iso6336.ReferenceStiffness:
+    """c′ of the teeth as cut: the dedendum is that below the reference line of the nominal shift."""
+    deeper = 0.085 / (2.0 * math.tan(_ALPHA) * _M)
+    pair = iso6336.ReferencePair(
+        (16.0, 24.0),
+        _SHIFTS,
+        (1.39 + deeper, 1.39 + deeper),
+        _ALPHA,
+        1.43615,
+        3611.1e3 / 14.0,
+        (210e9, 210e9),
+    )
+    return iso6336.reference_stiffness(pair)
+
+
+def _dynamic(stiffness: iso6336.ReferenceStiffness) -> dict[str, Any]:
+    """Load factors from discs without a bore and from exact tolerances of 1995."""
+    gear = flank_tolerances_1995(5, _M * 1e-3, 108e-3, _WIDTH * 1e-3, ranges=False)
+    hard = load_factors.running_in("case-hardened", 1510e6, 5.749)
+    base_pitch = gear.single_pitch  # not times cos α there
+    mass = load_factors.disc_mass(67.658e-3, (82.45e-3 + 60.893e-3) / 2.0, 1.5, (7850.0, 7850.0))
+    line_load = 3611.1e3 / 14.0
+    relief = load_factors.run_in_relief(_LIMIT * 1e6)
+    mesh = load_factors.DynamicMesh(
+        16.0,
+        _SPEED * math.pi / 30.0,
+        mass,
+        stiffness.single_pair,
+        stiffness.mesh,
+        line_load,
+        base_pitch,
+        gear.profile_form,
+        1.43615,
+        relief,
+        5.0,
+        (hard, hard),
+    )
+    found = load_factors.dynamic_factor(mesh)
+    crooked = 1.33 * 6e-6 + gear.total_helix
+    straightened = load_factors.helix_running_in("case-hardened", 1510e6, 5.749).of(crooked)
+    raised = line_load * found.factor
+    face = load_factors.face_load_factor_c(crooked - straightened, stiffness.mesh_face, raised)
+    after = base_pitch - hard.of(base_pitch)
+    across = load_factors.transverse_factor_b((1.43615, 0.0), stiffness.mesh, after, raised * 1.32)
+    return {
+        "K_v": found.factor,
+        "N": found.resonance_ratio,
+        "m_red": 1e-3 * mass,
+        "c_gamma_alpha": 1e-9 * stiffness.mesh,
+        "c_gamma_beta": 1e-9 * stiffness.mesh_face,
+        "c_prime": 1e-9 * stiffness.single_pair,
+        "C_B": stiffness.rack,
+        "C_M": stiffness.correction,
+        "C_R": stiffness.blank,
+        "f_pb": 1e6 * base_pitch,
+        "f_pe": 4.0 + 0.315 * (_M + 0.25 * math.sqrt(108.0)),  # DIN 3961, quality 5
+        "y_p": 1e6 * hard.of(base_pitch),
+        "y_alpha": 1e6 * hard.of(base_pitch),
+        "f_falpha": 1e6 * gear.profile_form,
+        "y_f": 1e6 * hard.of(gear.profile_form),
+        "C_ay": 1e6 * relief,
+        "f_ma": 1e6 * gear.total_helix,
+        "y_beta": 1e6 * straightened,
+        "K_Hbeta": face,
+        "K_Halpha": across,
+        "K_Falpha": across,
+    }
+
+
+def _strength(named: dict[str, Any], standard: Any) -> dict[str, Any]:
+    """ISO 6336-2 and -3 for endurance, and the path of ISO/TS 6336-4."""
+
+    def both(name: str, unit: float = 1.0) -> tuple[float, float]:
+        return named[name]["pinion"] / unit, named[name]["gear"] / unit
+
+    contact, root = both("sigma_H", 1e6), both("sigma_F", 1e6)
+    influence = [both(name) for name in ("Z_L", "Z_v", "Z_R")]
+    product = math.prod(each[0] for each in influence)
+    permitted = _LIMIT * product * named["Z_X"]
+    relative = pair(lambda i: 950.0 * both("Y_delta_relT")[i] * both("Y_R_relT")[i] * both("Y_X")[i])
+    rz10 = 1.8 * (10.0 / 8.38205) ** (1.0 / 3.0)
+    found: dict[str, Any] = {
+        "K_Fbeta": named["K_Fbeta"],
+        "N_L": both("N_L", 1e6),
+        "sigma_H": contact,
+        "sigma_H0": 1e-6 * named["sigma_H0"],
+        "f_ZCa": named["f_ZCa"],
+        "Z_B": (named["Z_B"], named["Z_D"]),
+        "Z_H": named["Z_H"],
+        "Z_E": 1e-3 * named["Z_E"],
+        "Z_eps": named["Z_epsilon"],
+        "Z_beta": named["Z_beta"],
+        "Z_L": influence[0][0],
+        "Z_v": influence[1][0],
+        "Z_R": influence[2][0],
+        "R_z10": rz10,
+        "Z_LRv": product,
+        "Z_W": both("Z_W")[0],
+        "Z_X": (named["Z_X"], named["Z_X"]),
+        "Z_N": (1.0, 1.0),
+        "sigma_HP": (permitted, permitted),
+        "S_H": pair(lambda i: permitted / contact[i]),
+        "S_HMo": pair(lambda i: (permitted / contact[i]) ** 2),
+        "sigma_F": root,
+        "sigma_F0": both("sigma_F0", 1e6),
+        "f_epsilon": both("f_epsilon"),
+        "Y_F": both("Y_F"),
+        "Y_beta": both("Y_beta")[0],
+        "Y_B": both("Y_B"),
+        "Y_DT": both("Y_DT")[0],
+        "Y_S": both("Y_S"),
+        "q_s": pair(lambda i: both("s_Fn")[i] / (2.0 * both("rho_F")[i])),
+        "Y_X": both("Y_X"),
+        "Y_delrelT": both("Y_delta_relT"),
+        "Y_RrelT": both("Y_R_relT"),
+        "Y_N": (1.0, 1.0),
+        "sigma_FP": relative,
+        "S_F": pair(lambda i: relative[i] / root[i]),
+        "s_Fn": pair(lambda i: 1e3 * both("s_Fn")[i] / _M),
+        "h_Fe": pair(lambda i: 1e3 * both("h_F")[i] / _M),
+        "rho_F": pair(lambda i: 1e3 * both("rho_F")[i] / _M),
+        "rho_slip": (0.003, 0.003),
+    }
+    path = standard.path
+    places = contact_path.point_distances(path)
+    radii = contact_path.equivalent_radius(path, places)
+    load = _K * _TORQUE / path.base_radius[0] / (_WIDTH * 1e-3) * contact_path.load_share(path, places, 5.0)
+    modulus = 210e9 / (1.0 - 0.09)
+    pressure = micropitting.hertz_pressure(load, radii, modulus)
+    for number, (p, rho) in enumerate(zip(pressure, radii, strict=True), 1):
+        found |= {
+            f"p_H_{number}": 1e-6 * float(p),
+            f"rho_{number}": 1e3 * float(rho),
+            f"b_H_{number}": 1e3 * 4.0 * float(rho * p) / modulus,
+        }
+    return found
