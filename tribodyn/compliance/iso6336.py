@@ -74,13 +74,13 @@ def theoretical_stiffness(
 
     Of z and x of the gear with fewer teeth and of its mate; valid for x1 ≥ x2, −0.5 ≤ x1 + x2 ≤ 2 and line
     loads from 100 to 1600 N/mm. Of helical gears the virtual numbers of teeth z/(cos² β_b cos β) count. An
-    internal mate, z2 < 0, counts as a rack, z_n2 = ∞, without a shift of its own.
+    internal mate, z2 < 0, has z_n2 = ∞ and its own x2, positive where it makes the tooth thicker.
     ISO 6336-1:2019, 9.3.2: c'_th = 1/q', q' the series (82).
     """
     base = math.asin(math.sin(helix_angle) * math.cos(pressure_angle))
     z1, z2 = (z / (math.cos(base) ** 2 * math.cos(helix_angle)) for z in teeth)
     x1, x2 = profile_shift
-    z2, x2 = (z2, x2) if z2 > 0.0 else (math.inf, 0.0)
+    z2 = z2 if z2 > 0.0 else math.inf
     flexibility = (
         0.04723
         + 0.15551 / z1

@@ -236,7 +236,10 @@ def test_the_loss_of_a_mesh_cycle_is_the_integral_over_the_path(study: Any):
 def test_an_internal_mate_counts_as_a_rack_in_the_standard(model: DriveModel, ring: Assembly):
     shifts = 0.5039, 0.1171
     found = theoretical_stiffness((36.0, -93.0), shifts)
-    assert found == pytest.approx(theoretical_stiffness((36.0, 1e12), (0.5039, 0.0)), rel=1e-9)
+    assert found == pytest.approx(theoretical_stiffness((36.0, 1e12), shifts), rel=1e-9)
+    # printed in a design report: c' 15.416 of z 17/-56, x 0.8021/-0.5013, h_fP 1.25; without x_2 it is 15.857
+    stage = 0.8 * 0.975 * theoretical_stiffness((17.0, -56.0), (0.8021, -0.5013))
+    assert stage == pytest.approx(15.416e9, rel=5e-4)
     pair = pair_of(ring, model.materials, 654e3)
     assert pair.teeth == (36.0, -93.0)
     assert pair.line_load == pytest.approx(654e3 * 0.9176112 / 0.9765 / 0.55, rel=1e-5)

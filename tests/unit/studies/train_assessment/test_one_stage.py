@@ -18,6 +18,7 @@ RATED = {
     "application_factor": 1.25,
     "face_load_factor": 1.2,
     "required_safety_pitting": 1.1,
+    "edition": 2006,  # with which the life is between 5e7 and 1e10 cycles
 }
 GEARS = (
     {"teeth": 19, "profile_shift": 0.35, "face_width": "47 mm"},
