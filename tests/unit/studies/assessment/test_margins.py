@@ -14,7 +14,7 @@ FOUND = cast(
     SimpleNamespace(
         flash_bulk=373.15,
         flash_contact=423.15,
-        integral=393.15,
+        integral=SimpleNamespace(integral=393.15),
         films=SimpleNamespace(specific_film=np.array([0.9, 0.6, 1.2])),
     ),
 )
