@@ -12,7 +12,7 @@ import pytest
 from tribodyn.kernels.native import store
 
 COMMAND = "import sys; from tribodyn.cli import main; sys.exit(main())"
-#: Values that numba, matplotlib, ezdxf, JAX or XLA refuse, print endlessly for, or end the process for.
+#: Values that numba, matplotlib, ezdxf, JAX, XLA or Dask refuse, print endlessly for, or end the process for.
 VARIABLES = {
     "NUMBA_OPT": "none",
     "NUMBA_DUMP_LLVM": "1",
@@ -21,6 +21,7 @@ VARIABLES = {
     "JAX_ENABLE_X64": "none",
     "XLA_FLAGS": "--no_such_flag=1",
     "SOURCE_DATE_EPOCH": "none",
+    "DASK_DISTRIBUTED__LOGGING": "3",
 }
 #: A kernel in a file, compiled from Python, and what the file of the cache says it was compiled for.
 SCRIPT = """

@@ -18,9 +18,10 @@ from typing import Any
 
 #: Library -> file of settings that it reads in the current folder.
 FILES = {"numba": ".numba_config.yaml", "matplotlib": "matplotlibrc", "ezdxf": "ezdxf.ini"}
-#: Beginnings of variables that the program drops, but for those that say for which machine it computes.
-#: Dask's stay: they say how to reach a cluster.
-DROPPED = ("NUMBA_", "MATPLOTLIB", "MPLBACKEND", "EZDXF_", "JAX_", "SOURCE_DATE_EPOCH")
+#: Beginnings of variables that the program drops, but for those that say for which machine it computes, and
+#: how a cluster of Dask is reached: files of settings of one's own, addresses and certificates.
+DROPPED = ("NUMBA_", "MATPLOTLIB", "MPLBACKEND", "EZDXF_", "JAX_", "SOURCE_DATE_EPOCH", "DASK_")
+CLUSTER = ("DASK_CONFIG", "DASK_DISTRIBUTED__COMM__")
 MACHINE = {"NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NUMBA_NUM_THREADS", "NUMBA_DISABLE_JIT", "JAX_PLATFORMS"}
 #: Flags of XLA that stay for the same reason; it ends the process where it does not know one.
 XLA_FLAGS = ("--xla_cpu_max_isa=", "--xla_force_host_platform_device_count=")
@@ -29,7 +30,7 @@ XLA_FLAGS = ("--xla_cpu_max_isa=", "--xla_force_host_platform_device_count=")
 def ignore_settings() -> None:
     """Keep a process of the program, at its begin, from settings of libraries."""
     for name in list(os.environ):
-        if name.startswith(DROPPED) and name not in MACHINE:
+        if name.startswith(DROPPED) and not (name in MACHINE or name.startswith(CLUSTER)):
             del os.environ[name]
     if flags := os.environ.get("XLA_FLAGS"):
         os.environ["XLA_FLAGS"] = " ".join(flag for flag in flags.split() if flag.startswith(XLA_FLAGS))
