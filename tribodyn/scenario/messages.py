@@ -1,5 +1,6 @@
 """One clear line for every mistake: pydantic's findings, and where the value at fault stands."""
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from copy import copy
@@ -50,8 +51,18 @@ class Origins:
         if error.file:
             return error
         key = tuple(int(part) if part.isdecimal() else part for part in error.key.split("."))
-        value = _as_typed(error.value, value_at(self._data, key))
-        return InputError(error.key, value, error.rule, error.remedy, self.of(key))
+        typed = value_at(self._data, key)
+        rule, value = _ranges_as_typed(error.rule, typed), _as_typed(error.value, typed)
+        remedy = error.remedy + self._which_table(key)
+        return InputError(error.key, _ranges_as_typed(value, typed), rule, remedy, self.of(key))
+
+    def _which_table(self, key: Key) -> str:
+        """Which table of a list, counted from one, a key stands in: keys count from zero."""
+        for depth, part in enumerate(key[:-1]):
+            if isinstance(part, int) and isinstance(value_at(self._data, key[:depth]), list):
+                list_name = ".".join(map(str, key[:depth]))
+                return f" ({list_name}.{part} is {_ordinal(part + 1)} [[{list_name}]])"
+        return ""
 
     @contextmanager
     def naming(self) -> Iterator[None]:
@@ -75,6 +86,31 @@ def _as_typed(shown: object, typed: object) -> object:
     return quoted(typed)[1:-1] if isclose(ours[0], theirs[0], rel_tol=_ROUNDED) else shown
 
 
+_NUMBER = r"[+-]?\d[\d.]*(?:e[+-]?\d+)?"
+_RADIANS = re.compile(rf"({_NUMBER}) (…|to) ({_NUMBER}) rad\b")
+
+
+def _ranges_as_typed(text: Any, typed: object) -> Any:
+    """A text whose ranges of an angle are in the unit of the table that was typed, where it has another."""
+    columns = typed.values() if isinstance(typed, Mapping) else ()
+    units = [str(column["unit"]) for column in columns if isinstance(column, Mapping) and "unit" in column]
+    found = [(unit, base) for unit in units if (base := base_units(f"1 {unit}")) and base[1] == "rad"]
+    if not found or not isinstance(text, str):
+        return text
+    (unit, (factor, _)), *_ = found
+
+    def converted(match: re.Match[str]) -> str:
+        first, last = (f"{float(match[place]) / factor:.6g}" for place in (1, 3))
+        return f"{first} {match[2]} {last} {unit}"
+
+    return _RADIANS.sub(converted, text)
+
+
+def _ordinal(number: int) -> str:
+    words = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
+    return f"the {words[number - 1]}" if number <= len(words) else f"number {number}"
+
+
 def value_at(data: Any, key: Iterable[str | int]) -> Any:
     """Return what stands at `key`, or None."""
     for part in key:
@@ -90,7 +126,8 @@ def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
 
     Of a file that describes gears which its kind of study has not only that is said, once.
     """
-    found = [dict(one) for one in error.errors(include_url=False)]
+    # a text that is no Unicode is out of bounds, and complained of with them
+    found = [dict(one) for one in error.errors(include_url=False) if one["type"] != "string_unicode"]
     errors = [_explain_one(one, model) for one in found]
     several = "stage" in model.model_fields
     refused = (_outside(one, error, several) for one, error in zip(found, errors, strict=True))

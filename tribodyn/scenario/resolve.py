@@ -131,6 +131,10 @@ def _override(known: _References, dotted: str, value: Any) -> None:
     key: Key = tuple(int(part) if part.isdecimal() else part for part in dotted.split("."))
     if not _put(known, key, toml_value(value) if isinstance(value, str) else value):
         rule = f"{'.'.join(map(str, key[:-1]))} is not a table"
+        for depth, part in enumerate(key):
+            if isinstance(part, int) and isinstance(some := value_at(known.data, key[:depth]), list):
+                name = ".".join(map(str, key[:depth]))
+                rule = f"there is no {name}.{part}: {name} has {len(some)}, counted from 0"
         raise InputError(dotted, quoted(value), rule, "see the keys with: tribodyn schema", OVERRIDES)
     known.origins.put(key, OVERRIDES)
 

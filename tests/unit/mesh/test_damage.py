@@ -249,3 +249,10 @@ def test_bad_damage_is_one_message(wrong: str):
         td.scenario(NAME, {"damage": [WHOLE | damage]})
     assert key in str(caught.value)
     assert said in str(caught.value)
+    assert str(caught.value).endswith("(damage.0 is the first [[damage]])")
+
+
+def test_a_table_that_a_list_does_not_have_is_refused_with_how_many_there_are():
+    crack = WHOLE | {"kind": "crack", "depth": "1 mm"}
+    with pytest.raises(td.InputError, match=r"there is no damage\.5: damage has 2, counted from 0"):
+        td.scenario(NAME, {"damage": [crack, crack], "damage.5.depth": "2 mm"})

@@ -1,8 +1,10 @@
 import math
 
+import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.curve import check_cover
 from tribodyn.scenario import units
 from tribodyn.scenario.messages import Origins
 from tribodyn.scenario.unit_grammar import COMMON_UNITS
@@ -162,3 +164,13 @@ def test_messages_show_an_angle_in_the_unit_that_was_typed(key: str, typed: str)
 def test_a_value_that_was_typed_in_another_unit(shown: str, typed: str, said: str):
     origins = Origins("a.toml").over({"stage": [{"angle": typed}]})
     assert origins.locate(InputError("stage.0.angle", shown, "is wrong")).value == said
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("deg", math.pi / 180.0), ("mrad", 1e-3), ("rad", 1.0)])
+def test_messages_show_a_table_s_range_in_its_own_unit(unit: str, factor: float):
+    table = {"roll_angle": {"unit": unit, "values": [-2, 3]}, "error": {"unit": "um", "values": [0, 0]}}
+    origins = Origins("file").over({"mesh": {"table": table}})
+    with pytest.raises(InputError) as error, origins.naming():
+        check_cover(np.array([-2.0, 3.0]) * factor, -4.0 * factor, 5.0 * factor, "mesh.table")
+    assert f"mesh.table = -2 … 3 {unit}: " in str(error.value)
+    assert f"from -4 to 5 {unit} of pinion rotation" in str(error.value)
