@@ -1,6 +1,7 @@
 """Whether a drive can be made and can run: one clear message for the first rule that it breaks."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -232,7 +233,9 @@ def _tip_key(assembly: Assembly, side: Side) -> tuple[str, Any]:
     return f"drive.{side}.tip_radius", millimetres(abs(body.tip_radius))
 
 
-def _refuse_tip(assembly: Assembly, side: Side, rule: str, holds: Callable[[Assembly], bool]) -> None:
+def _refuse_tip(
+    assembly: Assembly, side: Side, rule: str, holds: Callable[[Assembly], bool], otherwise: str = ""
+) -> None:
     """Refuse a tip circle that is too large, naming the largest usable one above the form circle."""
     body = _written(assembly, side)
 
@@ -248,7 +251,7 @@ def _refuse_tip(assembly: Assembly, side: Side, rule: str, holds: Callable[[Asse
     inwards = body.teeth < 0 and body.tip_radius is not None  # its key is the radius without sign
     smaller, most = ("larger", "least") if inwards else ("smaller", "most")
     remedy = f"use a {smaller} one" if usable is None else f"use at {most} {abs(usable):.7g}{unit}"
-    raise InputError(*_tip_key(assembly, side), rule, remedy)
+    raise InputError(*_tip_key(assembly, side), rule, remedy + otherwise)
 
 
 def _keep_tip(
@@ -256,7 +259,18 @@ def _keep_tip(
 ) -> None:
     """Refuse a tip, that of `side` or another, with which a rule of `side` is broken."""
     if rule := broken(assembly, side):
-        _refuse_tip(assembly, tip or side, rule, lambda pair: not broken(pair, side))
+        otherwise = _smaller_fillet(assembly, side, broken) if tip else ""
+        _refuse_tip(assembly, tip or side, rule, lambda pair: not broken(pair, side), otherwise)
+
+
+def _smaller_fillet(assembly: Assembly, side: Side, broken: Callable[[Assembly, Side], str]) -> str:
+    """What to write otherwise where the mate's tip meets a fillet: a smaller one leaves more of the flank."""
+    body = _written(assembly, side)
+    if body.teeth < 0:
+        return ""
+    changed = partial(_changed, assembly, side)
+    usable = boundary(lambda value: not broken(changed(fillet_radius=value), side), body.fillet_radius, 0.0)
+    return "" if usable is None else f", or drive.{side}.fillet_radius of at most {usable:.4g}"
 
 
 def _check_clearance(assembly: Assembly, side: Side) -> None:
