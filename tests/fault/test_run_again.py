@@ -79,7 +79,8 @@ def test_a_search_that_was_edited_stopped_and_resumed(tmp_path: Path):
     file.write_text(SEARCH.replace("= 48", "= 8"))
 
     def stop(share: float) -> None:
-        if share > 0.1:  # of as many evaluations as there may be
+        # the share is of all that may be evaluated, finer resolutions too: a tenth is among the first eight
+        if share > 0.1:
             raise KeyboardInterrupt
 
     loaded = load(file).recorded_in(tmp_path)

@@ -123,7 +123,7 @@ def test_a_verb_says_what_is_kept(verb: str, asked: signal.Signals, tmp_path: Pa
     wait(lambda: list(tmp_path.glob(sign)), process)
     process.send_signal(asked)
     _, complaint = process.communicate(timeout=60)
-    *beforehand, last = complaint.splitlines()
+    *beforehand, last = complaint.splitlines()  # long parts say beforehand what they take, nothing else does
     assert process.returncode == STATUS[asked], complaint
     assert all(line.endswith("of one core") or "of one core each" in line for line in beforehand), complaint
     assert last.startswith("interrupted" if asked is signal.SIGINT else "terminated")

@@ -85,7 +85,8 @@ def test_sections_bear_together_what_the_lines_of_contact_do(study):
     for at in range(cycle.slices):
         nodes, loads = along_path.section_line_loads(cycle, at, 300.0, None, limits)
         means.append(float(np.mean(np.interp(turned, nodes, loads))) * stretch)
-    assert np.ptp(means) > 3e-3 * np.mean(means)  # neighbours on both sides carry for a section in the middle
+    # neighbours on both sides carry for a section in the middle; free bodies hand on less than held ones
+    assert np.ptp(means) > 3e-3 * np.mean(means)
     path = (limits[1] - limits[0]) / float(cycle.pitch_angle)
     base = 47 * 3e-3 / math.cos(HELIX) / 2.0 * math.cos(math.atan(math.tan(RACK) / math.cos(HELIX)))
     normal = 300.0 / base * stretch
