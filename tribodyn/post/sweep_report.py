@@ -110,7 +110,7 @@ def _tables_over_all(record: SweepRecord, quantities: Sequence[Quantity]) -> lis
         for quantity in quantities:
             found = spread(record, quantity.name)
             if found is not None and np.isfinite(found["median"]):
-                cells = [quantity.written(float(found[name])) for name in SPREAD]
+                cells = [_written(record, quantity, float(found[name])) for name in SPREAD]
                 rows.append([quantity.title, *cells, quantity.unit])
         parts += [Text(""), _table((f"scatter of {done} samples", *titles, ""), (1, 2, 3), rows)]
     if weights and all(dim in weights for dim in record.dims):
@@ -118,7 +118,7 @@ def _tables_over_all(record: SweepRecord, quantities: Sequence[Quantity]) -> lis
         for quantity in quantities:
             mean = weighted_mean(record, quantity.name)
             if mean is not None and np.isfinite(mean):
-                rows.append([quantity.title, quantity.written(float(mean)), quantity.unit])
+                rows.append([quantity.title, _written(record, quantity, float(mean)), quantity.unit])
         parts += [Text(""), _table((f"weighted mean of {done} cases", "", ""), (1,), rows)]
     return parts
 
@@ -138,9 +138,22 @@ def sweep_rows(record: SweepRecord, quantities: Sequence[Quantity]) -> list[list
         row = [quantity.title]
         for find in (np.nanargmin, np.nanargmax):
             place = tuple(int(i) for i in np.unravel_index(int(find(values)), values.shape))
-            row += [quantity.written(float(values[place])), _place(record, record.at(place))]
+            row += [
+                _written(record, quantity, float(values[place]), place),
+                _place(record, record.at(place)),
+            ]
         rows.append([*row, quantity.unit])
     return rows
+
+
+def _written(
+    record: SweepRecord, quantity: Quantity, value: float, place: tuple[int, ...] | None = None
+) -> str:
+    """A value of a case, or of all cases together, of which one that is a lower bound makes another such."""
+    name = f"{quantity.name}_unlimited"
+    bounds = record[name] == 1.0 if name in record else np.zeros(1, dtype=bool)
+    unlimited = bounds[place] if place is not None and name in record else bounds.any()
+    return quantity.written_of({quantity.name: value, name: unlimited})
 
 
 def _head(record: SweepRecord) -> list[str]:

@@ -132,6 +132,9 @@ ASSESSMENT = (
         "the simulation's; where the stress is endured without end, the larger of the required life and "
         "10^10 load cycles."
     ),
+    Quantity("life_unlimited", "Life is a lower bound", digits=".0f").defined_as(
+        "1 where the stress is endured without end: the life is at least the number that is printed."
+    ),
     Quantity("pinion_speed", "Speed of the pinion", "rpm", ".5g").defined_as("Of the duty."),
     Quantity("point_angles", "Roll angles of the points A to E", "°").defined_as("From the pitch point."),
 )

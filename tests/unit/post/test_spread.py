@@ -1,9 +1,13 @@
 """Scatter of a sweep's figures over samples, against NumPy's percentiles of the recorded values."""
 
+import shutil
+
+import h5py
 import numpy as np
 import pytest
 
-from tribodyn.post.sweep_report import spread, sweep_as_json
+from tribodyn.post.sweep_report import spread, sweep_as_json, sweep_rows
+from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.sweep.engines import engine_of
 from tribodyn.sweep.grid import Grid
@@ -31,3 +35,20 @@ def test_percentiles_are_over_the_samples_alone(swept):
     assert found["p5"] == pytest.approx(np.percentile(values, 5, axis=0))
     assert found["p95"] == pytest.approx(np.percentile(values, 95, axis=0))
     assert set(sweep_as_json(swept)["spread"]) >= {"efficiency", "hertz_pressure_max", "film_min"}
+
+
+def test_a_lower_bound_is_marked_where_it_stands(swept, tmp_path):
+    """As an assessment's life without end: of the case alone, and of what is taken over all of them."""
+    path = tmp_path / "bound.h5"
+    shutil.copyfile(swept.path, path)
+    name = "hertz_pressure_max"
+    with h5py.File(path, "r+") as file:
+        file.copy(name, f"{name}_unlimited")
+        largest = np.unravel_index(np.argmax(file[name]), file[name].shape)
+        file[f"{name}_unlimited"][...] = np.nan
+        file[f"{name}_unlimited"][largest] = 1.0
+    with SweepRecord(path) as record:
+        ((_, least, _, most, *_),) = sweep_rows(record, [QUANTITIES[name]])
+    with SweepRecord(swept.path) as record:
+        ((_, before, _, unmarked, *_),) = sweep_rows(record, [QUANTITIES[name]])
+    assert (least, most) == (before, f"≥ {unmarked}")

@@ -48,7 +48,7 @@ SWEPT = quantities(
     *("efficiency", "power_friction_mean", "dynamic_factor", "dynamic_factor_max"),
     *("hertz_pressure_max", "specific_film_min", "contact_temperature_max"),
     *("loaded_transmission_error_peak_to_peak", "pinion_root_tension_max", "gear_root_tension_max"),
-    *("S_H", "S_F", "life"),
+    *("S_H", "S_F", "life", "life_unlimited"),
 )
 
 PANELS = ("hertz_pressure", "contact_temperature", "specific_film")

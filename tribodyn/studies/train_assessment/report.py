@@ -27,7 +27,8 @@ REPORTED: Reported = {
 }
 SWEPT = quantities(
     *("efficiency", "power_friction_mean", "dynamic_factor", "dynamic_factor_max"),
-    *("hertz_pressure_max", "film_parameter_min", "S_H", "S_F", "life", "S_B", "S_lambda"),
+    *("hertz_pressure_max", "film_parameter_min", "S_H", "S_F", "S_B", "S_lambda"),
+    *("life", "life_unlimited"),
 )
 PANELS = ("dynamic_factor", "efficiency")
 #: Part of a mesh's summary -> its quantities in the table of meshes.
