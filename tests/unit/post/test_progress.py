@@ -4,8 +4,14 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.numerics.work import foretold
+from tribodyn.studies import STUDIES
+from tribodyn.studies.protocol.load import load_scenario
 
 SWEEP = (
     "import tribodyn as td\n"
@@ -96,3 +102,20 @@ def test_what_takes_longer_than_a_minute_is_said_beforehand():
     assert piped(LONG.replace("PROGRESS", "None")) == f"{said}\n"
     assert piped(LONG.replace("PROGRESS", "False")) == ""
     assert said in " ".join(on_a_terminal(LONG.replace("PROGRESS", "None")).split())
+
+
+@pytest.mark.parametrize(
+    ("scenario", "keys"),
+    [
+        ("assessment-helical-24-95", {"assessment.speeds": 460}),
+        # 30 runs of 14 meshes, each of them longer than a second
+        ("wind-turbine-gearbox-assessment", {"assessment.speeds": 30}),
+        ("design-quiet-range-18-36", {}),
+    ],
+)
+def test_long_assessments_and_searches_say_so_before_they_begin(scenario: str, keys, tmp_path: Path):
+    case, said = load_scenario(scenario, keys), list[str]()
+    with foretold(said.append), pytest.raises(InputError, match="output"):
+        STUDIES[case.kind].run(case, tmp_path / "no-such-folder" / "record.h5", allow_large=True)
+    assert len(said) == 1
+    assert re.fullmatch(r"takes about .* and [\d.]+ (s|minutes|hours) of one core", said[0])

@@ -10,6 +10,9 @@ from tribodyn.studies.protocol import cost
 _WINDOW_HELD = 2.0
 #: Cycles of a common period that are usual; bytes and s of an interval of its layout, per mesh.
 _USUAL_PERIOD, _INTERVAL_BYTES, _INTERVAL = 200.0, 120.0, 1e-6
+#: Seconds of a mesh for its equilibria, its temperatures and the extremes of the last cycles: two helical
+#: meshes take 2.5 s.
+_A_MESH = 1.2
 
 
 def estimate(case: TrainCase) -> cost.Estimate:
@@ -33,6 +36,7 @@ def estimate(case: TrainCase) -> cost.Estimate:
         *marching_of(case, cycles, together=False),
         cost.in_memory(block * sides * meshes, cost.SAMPLE_BYTES),
         cost.in_memory(_WINDOW_HELD * window, record.record / kept),
+        cost.Estimate(seconds=_A_MESH * meshes),
     )
 
 
