@@ -7,11 +7,13 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.identification.fit import MARGIN
 from tribodyn.identification.measured import MeasuredSignal
-from tribodyn.identification.unknowns import Unknown, case_at
+from tribodyn.identification.unknowns import Unknown, case_at, shares_of
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.sensors import Sensed
 from tribodyn.studies import study_of
+from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.signals import SignalRequest
 
 
@@ -51,11 +53,36 @@ class SignalComparison:
         self.failure = ""
         base = replace(case, sensors=tuple(self._sensors.values()))
         self._batch.check(base, self._batch.settings([base], None, "native"))  # what no values will mend
+        self._earliest = run_in * turn_of(case)
 
     @property
     def names(self) -> tuple[str, ...]:
         """Sensors that are compared."""
         return tuple(one.sensor for one in self._measured)
+
+    def estimate(self, evaluations: int) -> Estimate:
+        """What so many runs take at the dearest end of the ranges, each unknown moved by itself.
+
+        Raises InputError for an end at which no run can be listened to.
+        """
+        own, ends = shares_of(self._unknowns), []
+        for i, unknown in enumerate(self._unknowns):
+            for end, share in (("lower", MARGIN), ("upper", 1.0 - MARGIN)):
+                place = own.copy()
+                place[i] = share
+                try:
+                    case = case_at(self._case, self._unknowns, place)
+                except InputError:  # an end that no scenario has, such as no speed at all
+                    continue
+                case = replace(case, sensors=tuple(self._sensors.values()))
+                try:
+                    ends.append(self._batch.taken(case, self._earliest, self._last, evaluations))
+                except InputError as error:
+                    value = f"{unknown.low:g} to {unknown.high:g}"
+                    raise InputError(
+                        unknown.name, value, f"near its {end} end {error.rule}", "narrow the range"
+                    ) from None
+        return max(ends, key=lambda one: one.seconds, default=Estimate())
 
     def apart(self, shares: Float[Array, "place unknown"]) -> list[list[Float[Array, " sample"]]]:
         """Residuals of each sensor at places, in its own unit."""
@@ -71,7 +98,7 @@ class SignalComparison:
         sound = [i for i, case in enumerate(cases) if not isinstance(case, str)]
         heard: dict[int, Sensed | str] = dict(enumerate(cases)) if len(sound) < len(cases) else {}
         if sound:
-            found = self._batch.heard([cases[i] for i in sound], self._run_in, self._last, self._workers)
+            found = self._batch.heard([cases[i] for i in sound], self._earliest, self._last, self._workers)
             heard |= dict(zip(sound, found, strict=True))
         return [self._residuals(heard[i]) for i in range(len(cases))]
 

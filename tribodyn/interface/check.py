@@ -4,12 +4,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import Source, in_python, scenario
 from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies import STUDIES
 
 
 @in_python()
+@checked
 def check(source: Source, overrides: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Check a scenario and compute what needs no run: the data of ``tribodyn check --json``.
 

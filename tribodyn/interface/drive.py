@@ -15,6 +15,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.limits.limits import plain_distances
 from tribodyn.interface import shown
+from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import in_python, in_toml
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.table import MeshData
@@ -185,6 +186,7 @@ class GearPair:
 
 
 @in_python()
+@checked
 def drive(model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> GearPair:
     """Make a gear pair, without a load or a speed.
 
@@ -208,6 +210,7 @@ def drive(model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | 
 
 
 @in_python()
+@checked
 def constraints(
     model: str | Path | Mapping[str, Any] | GearPair, overrides: Mapping[str, Any] | None = None
 ) -> dict[str, float]:

@@ -11,6 +11,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
 from tribodyn.interface import shown
+from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import Source, in_python, scenario
 from tribodyn.studies import study_of
 from tribodyn.tribology.closure import closure_of
@@ -76,6 +77,7 @@ def _with_unit(value: float, unit: str) -> str:
 
 
 @in_python()
+@checked
 def gradient(
     source: Source, of: str, wrt: str | Sequence[str], overrides: Mapping[str, Any] | None = None
 ) -> Gradient:
@@ -126,6 +128,7 @@ def gradient(
 
 
 @in_python()
+@checked
 def differentiable(
     source: Source,
     of: str | Sequence[str],

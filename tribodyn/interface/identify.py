@@ -1,10 +1,8 @@
 """Numbers of a drive from what was measured on it."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
-from numbers import Integral, Real
 from typing import Any, Literal
 
 import numpy as np
@@ -15,10 +13,12 @@ from tribodyn.identification.measured import measured_of
 from tribodyn.identification.simulated import SignalComparison, turn_of
 from tribodyn.identification.unknowns import Unknown, case_at, shares_of, unknowns_of
 from tribodyn.interface import shown
+from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.scenario import units
 from tribodyn.scenario.units import NotAQuantity, to_si
+from tribodyn.studies.protocol.cost import refuse_large, say_beforehand
 from tribodyn.studies.sweeping.signals import RUN_IN
 
 #: Level of the intervals, and starts that are tried beside the scenario's own: a power of two, per unknown.
@@ -93,6 +93,7 @@ class Identified:
 
 
 @in_python()
+@checked
 def identify(
     source: Source,
     measured: Any,
@@ -106,6 +107,7 @@ def identify(
     seed: int = 0,
     workers: int | None = None,
     progress: Report | bool | None = None,
+    allow_large: bool = False,
 ) -> Identified:
     """Find numbers of a drive from the signals of its sensors, through the simulation of its scenario.
 
@@ -134,6 +136,8 @@ def identify(
         Threads; default: one per core.
     progress : callable or bool, optional
         As `run` takes it; the share is of the most evaluations.
+    allow_large : bool
+        Allow what is above the resource limits.
 
     Returns
     -------
@@ -156,10 +160,6 @@ def identify(
         raise InputError("kind", f'"{case.kind}"', "has no sensors", 'use kind = "gear-pair" or "gear-train"')
     if method not in ("least-squares", "cma-es"):
         raise InputError("method", quoted(method), "no such method", '"least-squares" or "cma-es"')
-    if not isinstance(run_in, Real) or not 0.0 <= run_in < math.inf:
-        raise InputError("run_in", quoted(run_in), "is no number of turns", "write 0 or more, such as 3")
-    if not isinstance(seed, Integral) or seed < 0:
-        raise InputError("seed", quoted(seed), "is no whole number from 0 on", "write 0 or more")
     sought = unknowns_of(case, unknowns)
     data = measured_of(measured, case, _time(start), run_in * turn_of(case))
     count = sum(len(one.values) for one in data)
@@ -167,13 +167,21 @@ def identify(
         rule = f"{count} samples for {len(sought)} unknowns"
         raise InputError("measured", count, rule, "measure longer, or seek less")
     compare = SignalComparison(case, sought, data, run_in, without_mean, workers)
+    estimate = compare.estimate(_most(sought))
+    refuse_large(estimate, allow_large)
     with progress_of(progress, case.name) as report:
+        say_beforehand(estimate)
         fit = _fit(compare, sought, method, seed, report)
     return _identified(case, sought, compare, fit)
 
 
+def _most(sought: Sequence[Unknown]) -> int:
+    """Runs that an estimate usually takes at most."""
+    return (16 + STARTS) * len(sought) + 40
+
+
 def _fit(compare: SignalComparison, sought: Sequence[Unknown], method: str, seed: int, report: Report) -> Fit:
-    most = 16.0 * len(sought) + STARTS * len(sought) + 40.0
+    most = _most(sought)
     done = 0
 
     def residuals(places: np.ndarray) -> list[np.ndarray]:

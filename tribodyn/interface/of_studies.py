@@ -6,6 +6,7 @@ from functools import cache, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tribodyn.interface.arguments import checked
 from tribodyn.interface.result import Run
 from tribodyn.interface.run import recorded, run_class
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
@@ -68,4 +69,4 @@ def _function(verb: "Verb") -> Callable[..., Any]:
     rest = [parameter for parameter in own[1:] if parameter.name not in names]
     shown = [*added, *rest] if verb.answers else [*own, *added]
     vars(function)["__signature__"] = inspect.Signature(sorted(shown, key=lambda parameter: parameter.kind))
-    return in_python()(function)
+    return in_python()(checked(function))

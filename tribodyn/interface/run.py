@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tribodyn.interface.arguments import checked
 from tribodyn.interface.result import Run
 from tribodyn.interface.scenario import Source, in_python, scenario
 from tribodyn.post.progress import progress_of
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 
 @in_python()
+@checked
 def run(
     source: Source,
     overrides: Mapping[str, Any] | None = None,

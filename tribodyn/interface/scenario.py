@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError, OutputError
+from tribodyn.interface.arguments import checked
 from tribodyn.scenario.resolve import OVERRIDES, resolve_table
 from tribodyn.scenario.vary import VARY
 from tribodyn.studies.protocol.load import load_scenario, loaded_from, table_of
@@ -67,6 +68,7 @@ _FILE = Path("scenario")
 
 
 @in_python()
+@checked
 def scenario(source: Source, overrides: Mapping[str, Any] | None = None) -> Any:
     """Make a case, which `run` and `sweep` take.
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.interface import shown
+from tribodyn.interface.arguments import checked
 from tribodyn.interface.result import Run
 from tribodyn.interface.run import open_run
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
@@ -125,6 +126,7 @@ class Sweep:
 
 
 @in_python()
+@checked
 def sweep(
     source: Source,
     vary: Mapping[str, Values] | str | Sequence[str],
@@ -224,6 +226,7 @@ def sweep(
 
 
 @in_python()
+@checked
 def open_result(path: str | Path) -> Run | Sweep:
     """Open the record of a run or of a sweep.
 

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from tribodyn import validation
+from tribodyn.interface.arguments import checked
 from tribodyn.interface.scenario import in_python
 from tribodyn.post.progress import Report, progress_of
 from tribodyn.validation.rows import SHOWN, Row, counted
@@ -28,6 +29,7 @@ class PaperComparison(list[Row]):
 
 
 @in_python()
+@checked
 def validate(
     paper: str, progress: Report | bool | None = None, folder: str | Path | None = None
 ) -> PaperComparison:

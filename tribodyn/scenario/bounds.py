@@ -65,6 +65,10 @@ def _depth(data: Any) -> int:
     return depth
 
 
+#: Rule and remedy of a text that a terminal would obey.
+OBEYED = "holds a control character or a mark that turns the direction of writing", "remove it"
+
+
 def broken_bounds(value: Any, key: Key = ()) -> Iterator[InputError]:
     """Go through what is out of bounds in a scenario's data, or would be obeyed by a terminal."""
     if isinstance(value, Mapping):
@@ -72,6 +76,8 @@ def broken_bounds(value: Any, key: Key = ()) -> Iterator[InputError]:
             if len(str(name)) > LONGEST_KEY:
                 rule = f"a key of {len(str(name))} characters"
                 yield InputError(_dotted((*key, name)), None, rule, "remove it")
+            elif harmless(str(name)) != name:
+                yield InputError(_dotted((*key, name)), None, *OBEYED)
             else:
                 yield from broken_bounds(item, (*key, name))
     elif isinstance(value, (list, tuple)):
@@ -88,7 +94,7 @@ def _broken(value: Any) -> tuple[str, str] | None:
         if len(value) > LONGEST_TEXT:
             return f"a text of {len(value)} characters", f"write at most {LONGEST_TEXT}"
         if harmless(value) != value:
-            return "holds a control character or a mark that turns the direction of writing", "remove it"
+            return OBEYED
     elif isinstance(value, int) and not LEAST_WHOLE <= value <= GREATEST_WHOLE:
         return "a whole number beyond 64 bits", "write a smaller number"
     elif isinstance(value, float) and is_extreme(value) and value - value == 0.0:

@@ -75,8 +75,10 @@ def to_si(value: Any, kind: Kind) -> float:
     """
     write = f'write a quantity with a unit of {kind.name}, such as "{kind.example}"'
     if isinstance(value, (bool, dict, list)) or not isinstance(value, (int, float, str)):
-        names = {bool: "a true/false value", dict: "a table", list: "a list"}
-        raise NotAQuantity(f"not a quantity but {names.get(type(value), 'a date')}", write)
+        names = {"bool": "a true/false value", "dict": "a table", "NoneType": "nothing", "datetime": "a date"}
+        name = type(value).__name__
+        what = names.get(name, f"{'an' if name[0] in 'aeiou' else 'a'} {name}")  # a list, a date
+        raise NotAQuantity(f"not a quantity but {what}", write)
     if not isinstance(value, str):
         raise NotAQuantity("a number without a unit", write)
     if len(value) > LONGEST:

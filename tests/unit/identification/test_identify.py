@@ -102,6 +102,12 @@ def test_a_model_that_lacks_something_is_said(rig):
         ({"e": np.zeros(400)}, {3: (0.0, 1.0)}, {}, "is no key"),
         ({"e": np.zeros(400)}, {KEY: {1: 2, 3: 4}}, {}, "its range"),
         ({"e": np.zeros(400)}, {"mesh.damping_ratio": (0, 10**400)}, {}, "only numbers"),
+        (
+            {"e": np.zeros(400)},
+            {"operating.pinion_speed": ("0 rpm", "10 rpm")},
+            {},
+            "near its lower end a mesh cycle takes 16.7 s",  # 60 s over 18 teeth and 0.2 rpm
+        ),
         ({"e": np.zeros(400)}, RANGE | {(KEY,): ("0 um", "3 um")}, {}, "is sought twice"),
     ],
 )

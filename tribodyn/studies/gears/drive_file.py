@@ -23,7 +23,7 @@ from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.geometry.spline_fit import fit_spline, flank_deviation
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.quantity import Table
-from tribodyn.scenario.resolve import resolve_table, unresolved_keys
+from tribodyn.scenario.resolve import OVERRIDES, resolve_table, unresolved_keys
 from tribodyn.scenario.sources import find_drive_or_scenario, read_toml
 from tribodyn.scenario.tables.drive_data import drive_of, masses_of, materials_of, rounded_distance_of
 from tribodyn.scenario.tables.drive_rules import broken_drive_rules
@@ -95,6 +95,10 @@ def load_drive(model: str | Mapping[str, Any], overrides: Mapping[str, Any] | No
 
 
 def _of_table(written: dict[str, Any], path: Path, overrides: Mapping[str, Any]) -> DriveModel:
+    for key, value in overrides.items():
+        if key.partition(".")[0] != "drive":
+            rule, remedy = "is no key of a drive", 'begin with drive, as in "drive.pinion.profile_shift"'
+            raise InputError(key, quoted(value), rule, remedy, OVERRIDES)
     data, origins, unresolved = resolve_table({"drive": written}, path, overrides, lambda _: _DriveAlone)
     try:
         table = _DriveAlone.model_validate({"drive": data["drive"]}).drive

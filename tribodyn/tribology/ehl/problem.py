@@ -165,7 +165,10 @@ def _parabola(place: Array, value: Array, at: int) -> tuple[float, float]:
 def number(name: str, value: Any) -> float:
     """Return a value as a float; raise InputError if it is none, or not finite."""
     real = isinstance(value, numbers.Real) and not isinstance(value, bool)
-    known = float(value) if real else math.nan
+    try:
+        known = float(value) if real else math.nan
+    except OverflowError:  # a whole number of hundreds of digits
+        known = math.inf
     if not math.isfinite(known):
         raise InputError(name, quoted(value), "is not a finite number", "give a number in SI units")
     if abs(known) > LARGEST:

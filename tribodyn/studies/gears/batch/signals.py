@@ -6,7 +6,7 @@ damaged tooth does is then not at the same place of every signal.
 
 import dataclasses
 from collections.abc import Hashable, Sequence
-from math import ceil, floor, pi
+from math import pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,8 +17,15 @@ from tribodyn.record.sensors import Sensed
 from tribodyn.record.sweep_schema import CASE, DONE, FAILED, OF_EVERY_SWEEP, SweepLayout
 from tribodyn.record.withheld import remarked, warned
 from tribodyn.sensing.data import KINDS
-from tribodyn.signals.resampling import REACH
-from tribodyn.studies.gears.batch.kind import Pace, SweptKind
+from tribodyn.studies.gears.batch.kind import SweptKind
+from tribodyn.studies.gears.batch.stretch import (
+    HeardStretch,
+    ListenedStretch,
+    between,
+    few_enough,
+    samples_per_cycle,
+    stretch_of,
+)
 from tribodyn.studies.gears.check import remarks_in_brief
 from tribodyn.studies.gears.sensed.heard import BLOCK, Heard, listen
 from tribodyn.studies.gears.sensed.places import FEWEST
@@ -27,12 +34,8 @@ from tribodyn.studies.protocol.cost import Estimate
 from tribodyn.studies.sweeping.batch import Chunk
 from tribodyn.studies.sweeping.signals import SignalRequest
 
-#: Cases that are marched together, and samples of the motion for each of a sensor's. What the motion has
-#: above half of them folds back; of accelerations at 20 kHz 0.2 % of the signal, 6 % with 1.5 samples.
-TOGETHER, OVERSAMPLED = 32, 6.0
-FEWEST_SAMPLES = 16
-#: What filters take before and behind a sample, in their `REACH` over the rate; half as much again to spare.
-_AROUND = 3.0
+#: Cases that are marched together.
+TOGETHER = 32
 #: Seconds of one core in which a second of a sensor's signal is filtered, per sample.
 _FILTERED = 8e-6
 
@@ -62,15 +65,6 @@ class SignalSettings(NamedTuple):
     cycles: int  # of the longest run, at the ends of the axes
 
 
-class ListenedStretch(NamedTuple):
-    """When a case is listened to."""
-
-    first: int  # cycles before
-    blocks: int
-    start: float  # s, at which its signals begin: the slowest sensor has a sample there
-    noise_seed: int
-
-
 class SignalBatch:
     """See `sweeping.batch.Batch`."""
 
@@ -93,9 +87,9 @@ class SignalBatch:
             raise InputError("sensor", None, "missing: what a data set holds is what sensors hear", remedy)
         rates = [sensor.rate for sensor in base.sensors]
         paces = [self.kind.pace(case) for case in cases]
-        samples = _samples(rates, paces)
+        samples = samples_per_cycle(rates, paces)
         plain = SignalSettings(duration, run_in, seed, samples, (), (), (), tuple(rates), (), 0)
-        longest = max(stretch_of(case, 0, plain, self.kind).blocks for case in cases)
+        longest = max(stretch_of(case, 0, self.request, rates, self.kind).blocks for case in cases)
         plain = plain._replace(cycles=round(run_in * max(p.cycles for p in paces)) + BLOCK * (longest + 1))
         prepared = self._prepared(base, plain)
         listener = self.kind.listener(prepared)
@@ -180,9 +174,10 @@ class SignalBatch:
         rows = self.layout(settings).empty_rows(len(chunk.cases))
         ready: dict[int, Heard] = {}
         stretches: dict[int, ListenedStretch] = {}
+        asked = SignalRequest(settings.duration, settings.run_in, settings.seed)
         made = {i: case for i, case in enumerate(chunk.cases) if not isinstance(case, str)}
         for i, case in made.items():
-            stretches[i] = stretch_of(case, int(chunk.numbers[i]), settings, self.kind)
+            stretches[i] = stretch_of(case, int(chunk.numbers[i]), asked, settings.rates, self.kind)
         # of one length, so that the tables of their teeth's numbers have one shape
         ends = [stretch.first + BLOCK * stretch.blocks for stretch in stretches.values()]
         for i, case in enumerate(chunk.cases):
@@ -215,36 +210,57 @@ class SignalBatch:
         return rows
 
     def heard(
-        self, cases: Sequence[Any], run_in: float, last: float, workers: int | None = None
+        self, cases: Sequence[Any], earliest: float, last: float, workers: int | None = None
     ) -> list[Sensed | str]:
-        """Signals of cases from a turn of the reference body on to a time, s; a text where one fails: why.
+        """Signals of cases from one time of their runs to another, s; a text where one fails: why.
 
-        The motion is sampled for the first of the cases, as its `output` says or finer.
+        The motion is sampled as a case's `output` says or finer, for its sensors at its speed.
         """
-        rates = [sensor.rate for sensor in cases[0].sensors]
-        samples = max(_samples(rates, [self.kind.pace(cases[0])]), cases[0].output.samples_per_cycle)
-        plain = SignalSettings(last, run_in, 0, samples, *_NOBODY, 0)
-        paces = [self.kind.pace(case) for case in cases]
-        reach = _AROUND * REACH / min(rates)
-        rate = max(pace.speed * pace.cycles for pace in paces) / (2.0 * pi)  # reference cycles per second
-        first = max(0, floor(run_in * paces[0].cycles - reach * rate))
-        blocks = ceil(((last + reach) * rate - first) / BLOCK)
         found: list[Sensed | str] = [""] * len(cases)
-        ready: dict[int, Heard] = {}
-        for i, case in enumerate(cases):
-            try:
-                own = self._prepared(case, plain._replace(cycles=first + BLOCK * blocks))
-                listener = self.kind.listener(own)
-                ready[i] = Heard(own.model, listener, own.case.solver, first, blocks, samples)
-            except (InputError, SimulationError) as error:
-                found[i] = str(error)
-        for i, sensed in zip(ready, listen(list(ready.values()), workers), strict=True):
-            found[i] = sensed
+        stretches = [between(self.kind, case, earliest, last) for case in cases]
+        cycles = max(stretch.cycles for stretch in stretches)
+        for part in range(0, len(cases), TOGETHER):
+            ready: dict[int, Heard] = {}
+            for i in range(part, min(part + TOGETHER, len(cases))):
+                try:
+                    ready[i] = self._ready(cases[i], stretches[i], cycles)
+                except (InputError, SimulationError) as error:
+                    found[i] = str(error)
+            for i, sensed in zip(ready, listen(list(ready.values()), workers), strict=True):
+                found[i] = sensed
         return found
+
+    def taken(self, case: Any, earliest: float, last: float, total: int) -> Estimate:
+        """What so many cases take of which `heard` gives the signals; InputError for one that is too slow."""
+        stretch = between(self.kind, case, earliest, last)
+        samples = few_enough(stretch)
+        one = cost.total(
+            self.kind.drivers(case),
+            *self.kind.marching(case, float(stretch.cycles)),
+            cost.in_memory(min(total, TOGETHER) * stretch.block * samples, 8.0 * self.kind.most_states),
+            cost.in_memory(stretch.block * samples, cost.SAMPLE_BYTES),
+            cost.Estimate(seconds=_FILTERED * last * sum(sensor.rate for sensor in case.sensors)),
+        )
+        return one._replace(seconds=total * one.seconds)
+
+    def _ready(self, case: Any, stretch: HeardStretch, cycles: int) -> Heard:
+        """Prepare a case to be listened to, its schedule so many cycles long."""
+        samples = few_enough(stretch)
+        plain = SignalSettings(0.0, 0.0, 0, samples, *_NOBODY, cycles)
+        own = self._prepared(case, plain)
+        return Heard(
+            own.model,
+            self.kind.listener(own),
+            own.case.solver,
+            stretch.first,
+            stretch.blocks,
+            samples,
+            stretch.block,
+        )
 
     def _finer(self, case: Any, settings: SignalSettings) -> int:
         """Samples of a cycle of a case: those of the settings, doubled while it is too slow for so few."""
-        needed, samples = _samples(settings.rates, [self.kind.pace(case)]), settings.samples
+        needed, samples = samples_per_cycle(settings.rates, [self.kind.pace(case)]), settings.samples
         while samples < needed:
             samples *= 2
         return samples
@@ -257,35 +273,16 @@ class SignalBatch:
         output = dataclasses.replace(case.output, samples_per_cycle=settings.samples)
         solver = dataclasses.replace(case.solver, cycles=settings.cycles)
         own = dataclasses.replace(case, sensors=sensors, output=output, solver=solver)
-        return self.kind.prepare(own, self.kind.tabulated(case))
+        return self.kind.prepare(own, self.kind.tables(case))
 
 
 #: Sensors and lines of settings that need none.
 _NOBODY = (), (), (), (), ()
 
 
-def _samples(rates: Sequence[float], paces: Sequence[Pace]) -> int:
-    """Samples of a reference cycle that the fastest sensor asks of the slowest case."""
-    slowest = min(pace.speed * pace.cycles for pace in paces) / (2.0 * pi)  # reference cycles per second
-    return max(FEWEST_SAMPLES, ceil(OVERSAMPLED * max(rates) / slowest))
-
-
 def samples_of(settings: SignalSettings, rate: float) -> int:
     """Samples of a signal of so many in a second."""
     return max(1, round(settings.duration * rate))
-
-
-def stretch_of(case: Any, number: int, settings: SignalSettings, kind: SweptKind) -> ListenedStretch:
-    """When the case of a number is listened to: from the moment drawn for it, as long as signals are."""
-    random = np.random.default_rng([settings.seed, number])
-    pace = kind.pace(case)
-    turn = 2.0 * pi / pace.speed
-    reach = _AROUND * REACH / min(settings.rates)
-    start = (settings.run_in + random.random()) * turn + reach
-    start = ceil(start * min(settings.rates)) / min(settings.rates)
-    first = floor(settings.run_in * pace.cycles)
-    cycles = ceil((start + settings.duration + reach) / turn * pace.cycles) - first
-    return ListenedStretch(first, ceil(cycles / BLOCK), start, int(random.integers(2**31)))
 
 
 def _angle_name(settings: SignalSettings, rate: float) -> str:

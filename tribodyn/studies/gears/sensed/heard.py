@@ -33,8 +33,9 @@ class Heard(NamedTuple):
     listener: Listener
     solver: Any  # a `methods.SolverData`
     first: int  # reference cycles before it is listened to
-    blocks: int  # of `BLOCK` cycles, in which it is
+    blocks: int  # in which it is
     samples: int  # of a reference cycle
+    block: int = BLOCK  # cycles of a block
 
 
 def listen(cases: Sequence[Heard], workers: int | None = None) -> list[Sensed | str]:
@@ -45,25 +46,25 @@ def listen(cases: Sequence[Heard], workers: int | None = None) -> list[Sensed | 
     found: list[Sensed | str] = [""] * len(cases)
     groups: dict[tuple[Any, ...], list[int]] = {}
     for i, case in enumerate(cases):
-        key = case.first, case.samples, case.solver.rtol, case.solver.method, case.solver.max_steps
+        solver = case.solver
+        key = case.first, case.samples, case.block, solver.rtol, solver.method, solver.max_steps
         groups.setdefault(key, []).append(i)
-    for (first, samples, rtol, method, max_steps), places in groups.items():
+    for (*_, rtol, method, max_steps), places in groups.items():
         how = {"rtol": rtol, "method": method, "max_steps": max_steps, "workers": workers}
-        for place, result in zip(
-            places, _listen([cases[i] for i in places], first, samples, how), strict=True
-        ):
+        for place, result in zip(places, _listen([cases[i] for i in places], how), strict=True):
             found[place] = result
     return found
 
 
-def _listen(cases: Sequence[Heard], first: int, samples: int, how: dict[str, Any]) -> list[Sensed | str]:
-    """March cases of one solver and one `first`, block by block; those at their ends drop out."""
+def _listen(cases: Sequence[Heard], how: dict[str, Any]) -> list[Sensed | str]:
+    """March cases of one solver, `first` and block, block by block; those at their ends drop out."""
+    first, samples, block = cases[0].first, cases[0].samples, cases[0].block
     states = np.array([initial_state(case.model, case.solver.initial) for case in cases])
     failed: dict[int, str] = {}
     going = list(range(len(cases)))
     done = 0
     while going:
-        count, kept = (first, 0) if done < first else (BLOCK, BLOCK)
+        count, kept = (first, 0) if done < first else (block, block)
         part = march(
             [cases[i].model for i in going],
             states[going],
@@ -89,7 +90,7 @@ def _listen(cases: Sequence[Heard], first: int, samples: int, how: dict[str, Any
 
             in_threads(hear, sound, how["workers"] or usable_cores())
         done += count
-        going = [i for _, i in sound if first + BLOCK * cases[i].blocks > done]
+        going = [i for _, i in sound if first + block * cases[i].blocks > done]
     return [failed[i] if i in failed else case.listener.sensed() for i, case in enumerate(cases)]
 
 
