@@ -115,7 +115,7 @@ def test_a_case_does_not_start_from_where_another_stands(different):
     evaluate = import_module("tribodyn.studies.gears.batch.evaluate")
     cases = [case_at(1480, **keys) for keys in different]
     settings, kind = BATCH.settings(cases, None, "native"), Trains()
-    ready = [kind.prepare(case, kind.tabulated(case)) for case in cases]
+    ready = [kind.prepare(case, kind.tables(case)) for case in cases]
 
     def starts(order):
         evaluate._equilibria.cache_clear()

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Protocol
 
 import numpy as np
@@ -9,6 +11,7 @@ import numpy as np
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.evaluated import OneByOne
+from tribodyn.studies.protocol.scratch import kept_in
 from tribodyn.studies.sweeping.batch import Chunk
 from tribodyn.studies.sweeping.cluster import client_of, workers_of
 
@@ -42,8 +45,11 @@ class LocalEngine:
 
     def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
         """See `Engine`."""
-        for chunk in chunks:
-            yield chunk, evaluate(kind, chunk, settings, self.workers)
+        with TemporaryDirectory(prefix="tribodyn-", ignore_cleanup_errors=True) as folder:
+            for chunk in chunks:
+                with kept_in(Path(folder)):
+                    block = evaluate(kind, chunk, settings, self.workers)
+                yield chunk, block
 
 
 class DaskEngine:

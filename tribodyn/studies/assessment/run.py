@@ -3,7 +3,6 @@
 from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import perf_counter
 from types import MappingProxyType
 from typing import Any
@@ -41,6 +40,7 @@ from tribodyn.studies.gears.rated.strength import metal_remarks
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.part import TaskResult
 from tribodyn.studies.protocol.recording import TextTable
+from tribodyn.studies.protocol.scratch import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult
 
 #: What is no number, or has the unit of what is compared; what ends the name of a scatter.
@@ -98,9 +98,9 @@ def run(
 
 
 def quantities_of(case: AssessmentCase) -> dict[str, Any]:
-    """Quantities of a case without a record; nothing is kept of its parts."""
-    with TemporaryDirectory(prefix="tribodyn-") as folder:
-        _, summary = assessed(case, Path(folder))
+    """Quantities of a case without a record; see `scratch` for its parts."""
+    with scratch() as folder:
+        _, summary = assessed(case, folder)
     return summary
 
 

@@ -1,5 +1,6 @@
 """From a case of a search to its record: every evaluation, the best, and what was evaluated about it."""
 
+from collections.abc import Mapping
 from contextlib import ExitStack, suppress
 from functools import cache
 from pathlib import Path
@@ -135,13 +136,15 @@ def run(
         names = names_of(case, start)
         room = sum(map(len, before.known.values())) + len(FACTORS) * case.search.evaluations
         how: dict[str, Any] = {"scales": scales_of(case, names), "force": replace, "code": computing_digest()}
-        expected = sum(counts(case, name).values())
+        expected = counts(case, name)
+        stages = dict.fromkeys(expected, 0)  # evaluations by resolution
         record = stack.enter_context(writer(case, path, layout_of(case), room, **how))
 
         def keep(candidate: Candidate) -> None:
             record.write(record.written, row_of(case, names, candidate, record.written))
+            stages[candidate.factor] = stages.get(candidate.factor, 0) + 1
             if progress:
-                progress(min(1.0, record.written / expected))
+                progress(_share(stages, expected))
 
         @cache
         def at(factor: int) -> Archive:
@@ -181,10 +184,20 @@ def run(
                 error.add_note(f"the best so far: {files[0]}")
             error.add_note(f"the {record.written} evaluations so far: {kept}, --resume goes on")
             raise
+        if progress:
+            progress(1.0)
         files = write_best(case, {**best.values, **archive.more}, path, force)
         kinds = [*(f"toml_{name}" if name else "toml" for name in case.scenarios), "dxf"]
         summary["files"] = dict(zip(kinds, map(str, files), strict=False))
         return RunResult(record.finish(summary, trim=True), "complete", "", summary)
+
+
+def _share(done: Mapping[int, int], expected: Mapping[int, int]) -> float:
+    """Share of a search that is done: a resolution that ended before its expected evaluations is whole."""
+    last = max(factor for factor, count in done.items() if count)
+    behind = sum(count for factor, count in expected.items() if factor < last)
+    here = min(done[last], expected.get(last, 0))
+    return min(1.0, (behind + here) / sum(expected.values()))
 
 
 def quantities_of(case: DesignCase) -> dict[str, Any]:

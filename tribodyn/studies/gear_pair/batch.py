@@ -14,12 +14,12 @@ from tribodyn.studies.gear_pair.sensed import listener_of
 from tribodyn.studies.gear_pair.summary import mesh_of_run, steady_quantities
 from tribodyn.studies.gears.batch import MotionBatch
 from tribodyn.studies.gears.batch.kind import Form, Pace, SweptKind
-from tribodyn.studies.gears.batch.same_table import table_key
 from tribodyn.studies.gears.batch.swept import SweepSettings
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.running import MeshOfRun
 from tribodyn.studies.gears.over_time.sampled import Sampled
 from tribodyn.studies.gears.prepare import at_own_temperature, thermal_quantities
+from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.gears.sensed.listening import Listener
 from tribodyn.studies.gears.tabulated import Tabulated, tables
 from tribodyn.studies.protocol.cost import Driver, Estimate

@@ -29,7 +29,7 @@ def resonance_speeds(case: Case, span: tuple[float, float], most: int) -> list[f
     most, none near another; of one that is near an end of the span, beyond it, that end. Raises InputError or
     SimulationError where the case cannot be prepared.
     """
-    prepared = _PAIRS.prepare(case, _PAIRS.tabulated(case))
+    prepared = _PAIRS.prepare(case, _PAIRS.tables(case))
     found = modes(prepared.model, [prepared.cycle])
     _, of_links = linearised(prepared.model, [])
     angular = 2.0 * math.pi * found.frequency

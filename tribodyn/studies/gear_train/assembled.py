@@ -12,9 +12,9 @@ from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.gear_train.case import HOUSING, LinkData, TrainCase
 from tribodyn.studies.gear_train.described.teeth import engagement
-from tribodyn.studies.gears.batch.same_table import table_key
 from tribodyn.studies.gears.model import tilting_inertia
 from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.same_table import table_key
 from tribodyn.train.phases import Engagement, Phases, nominal_phases
 
 

@@ -21,11 +21,11 @@ from tribodyn.studies.gear_train.summary import meshes_of_run, steady_quantities
 from tribodyn.studies.gear_train.warmth import at_own_temperatures
 from tribodyn.studies.gears.batch import MotionBatch
 from tribodyn.studies.gears.batch.kind import Form, Pace, SweptKind
-from tribodyn.studies.gears.batch.same_table import table_key
 from tribodyn.studies.gears.batch.swept import SweepSettings, state_names
 from tribodyn.studies.gears.over_time.extremes import RunningExtremes
 from tribodyn.studies.gears.over_time.running import MeshOfRun
 from tribodyn.studies.gears.over_time.sampled import Sampled
+from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.gears.sensed.listening import Listener
 from tribodyn.studies.gears.tabulated import Tabulated
 from tribodyn.studies.protocol.cost import Driver, Estimate
@@ -53,7 +53,7 @@ class Trains(SweptKind):
     def form(self, cases: Sequence[TrainCase]) -> Form:
         """That of the first case."""
         short = replace(cases[0], max_period=1)  # nothing of it depends on how much is laid out
-        prepared = self.prepare(short, self.tabulated(short))
+        prepared = self.prepare(short, self.tables(short))
         layout, meshes = prepared.model.layout, tuple(mesh.name for mesh in cases[0].meshes)
         states = state_names(prepared.names, layout.planar, meshes, layout.spatial)
         return Form(int(layout.half) - 1, states, cases[0].period, meshes)

@@ -1,8 +1,9 @@
 """What the geometry and elasticity of a pair of gears make of it: costly, and the same for every speed."""
 
-from collections.abc import Callable
-from functools import cache
-from typing import NamedTuple
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
+from functools import cache, lru_cache
+from typing import Any, NamedTuple
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
@@ -10,6 +11,7 @@ from tribodyn.mesh.equilibrium import contacts, elastic, settled
 from tribodyn.mesh.quasi_static import friction_loss
 from tribodyn.studies.gears.case import LubricatedCase
 from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.same_table import table_key
 from tribodyn.train.schedule import Schedule, of_one_mesh
 from tribodyn.tribology.closure import closure_of
 
@@ -29,8 +31,30 @@ class Tabulated(NamedTuple):
     slice_remark: str = ""  # why a helical pair has so many slices, where it was not told
 
 
+#: Tables kept in a process; a table is about 100 kB.
+TABLES_KEPT = 32
+
+
+@dataclass(frozen=True)
+class MadeOnce:
+    """A result that is made once: everything that it depends on, and how it is made."""
+
+    key: Hashable
+    make: Callable[[], Any] = field(compare=False)
+
+
+_kept = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
+
+
 def tables(case: LubricatedCase) -> Tabulated:
-    """Check the geometry and tabulate the mesh cycle; raises as `prepare` does."""
+    """Check the geometry and tabulate the mesh cycle; raises as `prepare` does.
+
+    The last tables of this process are kept: cases at another speed, with another oil, have the same.
+    """
+    return _kept(MadeOnce(table_key(case), lambda: _tabulated(case)))
+
+
+def _tabulated(case: LubricatedCase) -> Tabulated:
     from tribodyn.geometry.body import body_masses
     from tribodyn.mesh.by_compliance import mesh_cycle_of, with_slices
 

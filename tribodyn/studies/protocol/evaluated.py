@@ -17,6 +17,7 @@ from tribodyn.record.trust import TRUST, number
 from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.studies.gears.check import remarks_in_brief
 from tribodyn.studies.protocol.cost import Estimate, variable_bytes
+from tribodyn.studies.protocol.scratch import within
 from tribodyn.studies.protocol.study import Study
 from tribodyn.studies.sweeping.batch import Chunk
 from tribodyn.studies.sweeping.signals import SignalRequest, no_signals
@@ -53,7 +54,10 @@ def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) ->
     states, evaluated by so many threads; default: one per core.
     """
     batch = study.batch()
-    found = _together(study, batch, cases, workers) if batch else [alone(study, case) for case in cases]
+    if batch:
+        found = _together(study, batch, cases, workers)
+    else:
+        found = [alone(study, case, number) for number, case in enumerate(cases)]
     if not study.has_gears:
         return found
     return [
@@ -62,10 +66,14 @@ def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) ->
     ]
 
 
-def alone(study: Study, case: Any) -> dict[str, Any] | str:
-    """Quantities of one case of a study without a `batch`; a text instead where it fails: why."""
+def alone(study: Study, case: Any, number: int = 0) -> dict[str, Any] | str:
+    """Quantities of one case, of a number among several, of a study without a `batch`.
+
+    A text instead where it fails: why.
+    """
     try:
-        return case if isinstance(case, str) else study.quantities_of(case)
+        with within(number):
+            return case if isinstance(case, str) else study.quantities_of(case)
     except InputError as error:
         return str(error)
     except SimulationError as error:

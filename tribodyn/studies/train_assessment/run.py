@@ -5,7 +5,6 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any
 
@@ -30,6 +29,7 @@ from tribodyn.studies.gears.rated.standard import (
 from tribodyn.studies.gears.rated.strength import metal_remarks
 from tribodyn.studies.protocol import tasks
 from tribodyn.studies.protocol.part import MeshAtDuty, Task, TaskResult, WholeDrive
+from tribodyn.studies.protocol.scratch import scratch
 from tribodyn.studies.protocol.study import CheckResult, Progress, RunResult, Study
 from tribodyn.studies.train_assessment.case import LAYOUT, SAMPLES, TrainAssessmentCase
 
@@ -74,9 +74,9 @@ def run(
 
 
 def quantities_of(case: TrainAssessmentCase) -> dict[str, Any]:
-    """Quantities of a case without a record; nothing is kept of its runs."""
-    with TemporaryDirectory(prefix="tribodyn-") as folder:
-        return assessed(case, Path(folder))[1]
+    """Quantities of a case without a record; see `scratch` for its runs."""
+    with scratch() as folder:
+        return assessed(case, folder)[1]
 
 
 def name_at(factor: float) -> str:

@@ -93,6 +93,6 @@ def test_a_case_of_a_sweep_starts_from_its_own_equilibrium():
     cases = [load_scenario("helical-23-47", {**SHORT, **keys}) for keys in held]
     settings, kind = BATCH.settings(cases, None, "native"), GearPairs()
     for case in cases:
-        ready = kind.prepare(case, kind.tabulated(case))
+        ready = kind.prepare(case, kind.tables(case))
         expected = static_equilibrium(frictionless(ready.model))
         assert evaluate._start(ready, settings)[:12] == pytest.approx(expected[:12], rel=1e-3, abs=1e-9)

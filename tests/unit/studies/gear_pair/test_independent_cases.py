@@ -27,7 +27,7 @@ def test_a_moving_error_does_not_carry_one_speed_over_to_another(torque: str):
     def starts(order: list[int]) -> dict[int, bytes]:
         evaluate._equilibria.cache_clear()
         kind = GearPairs()
-        ready = {i: kind.prepare(cases[i], kind.tabulated(cases[i])) for i in order}
+        ready = {i: kind.prepare(cases[i], kind.tables(cases[i])) for i in order}
         return {i: evaluate._start(ready[i], settings).tobytes() for i in order}
 
     assert starts([0, 1]) == starts([1, 0]) == {**starts([0]), **starts([1])}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.gears.batch.same_table import table_key
+from tribodyn.studies.gears.same_table import table_key
 from tribodyn.studies.gears.tabulated import tables
 from tribodyn.studies.protocol.load import load_scenario
 

@@ -12,6 +12,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from math import isfinite
 from pathlib import Path
 from queue import PriorityQueue
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from tribodyn.errors import InputError, SimulationError
@@ -25,6 +26,7 @@ from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.sources import own
 from tribodyn.studies.protocol.evaluated import evaluated
 from tribodyn.studies.protocol.load import Loaded, loaded_from, table_of
+from tribodyn.studies.protocol.scratch import kept_in, within
 from tribodyn.studies.sweeping.cluster import workers_of
 
 if TYPE_CHECKING:
@@ -67,12 +69,13 @@ def evaluate(
     `scenarios` are by their names as sources; `workers` are threads of a study that evaluates cases together.
     """
     found: Results = [{} for _ in several]
-    for name, data in scenarios.items():
+    for number, (name, data) in enumerate(scenarios.items()):
         schema = study_of(data).table(data)
         requests = [own(name, schema, overrides, scenarios) for overrides in several]
         keys = [json.dumps(request, sort_keys=True) for request in requests]
         once = dict(zip(keys, requests, strict=True))
-        known = dict(zip(once, _found(data, list(once.values()), workers), strict=True))
+        with within(number):
+            known = dict(zip(once, _found(data, list(once.values()), workers), strict=True))
         found = [_with(whole, name, known[key]) for whole, key in zip(found, keys, strict=True)]
     return found
 
@@ -124,11 +127,13 @@ def numbers(quantities: Mapping[str, Any]) -> dict[str, float]:
 
 
 def serve() -> None:
-    """Evaluate what comes in as lines of JSON: first the scenarios, then lists of overrides."""
+    """Evaluate what comes in as lines of JSON: first scenarios and folder, then lists of overrides."""
     answers, sys.stdout = sys.stdout, sys.stderr  # what a library prints is no answer
-    scenarios = json.loads(sys.stdin.readline())
+    scenarios, folder = json.loads(sys.stdin.readline())
     for line in sys.stdin:
-        answers.write(json.dumps(evaluate(scenarios, json.loads(line), workers=1)) + "\n")
+        with kept_in(Path(folder)):
+            found = evaluate(scenarios, json.loads(line), workers=1)
+        answers.write(json.dumps(found) + "\n")
         answers.flush()
 
 
@@ -146,6 +151,8 @@ class Pool:
         self._processes: dict[int, subprocess.Popen[bytes]] = {}
         for seat in range(workers):
             self._seats.put(seat)
+        # of the parts of cases, by seat; its own, as processes that are ended cannot remove theirs
+        self._folder = TemporaryDirectory(prefix="tribodyn-", ignore_cleanup_errors=True)
 
     def __enter__(self) -> Self:
         return self
@@ -154,6 +161,7 @@ class Pool:
         self._threads.shutdown(wait=False, cancel_futures=True)
         for process in self._processes.values():
             child.end(process)
+        self._folder.cleanup()
 
     def submit(self, several: Sequence[Mapping[str, Any]]) -> "Future[Results]":
         """Evaluate cases by their overrides, as `evaluate` does."""
@@ -163,7 +171,8 @@ class Pool:
         seat = self._seats.get()
         try:
             if seat == 0:
-                return evaluate(self._scenarios, several, None if self.workers == 1 else 1)
+                with kept_in(self._place(seat)):
+                    return evaluate(self._scenarios, several, None if self.workers == 1 else 1)
             answer = self._answer(seat, several)
         except OSError:
             answer = b""
@@ -177,10 +186,14 @@ class Pool:
         """What the process of a seat answers; it is started for its first question."""
         if seat not in self._processes:
             self._processes[seat] = child.start(f"{evaluate.__module__}:serve")
-            child.tell(self._processes[seat], _line(self._scenarios))
+            child.tell(self._processes[seat], _line([self._scenarios, str(self._place(seat))]))
         process = self._processes[seat]
         child.tell(process, _line(several))
         return process.stdout.readline() if process.stdout else b""
+
+    def _place(self, seat: int) -> Path:
+        """Where the parts of the cases of a seat lie."""
+        return Path(self._folder.name) / str(seat)
 
 
 def _line(message: Any) -> bytes:

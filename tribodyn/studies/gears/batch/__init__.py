@@ -116,7 +116,7 @@ class MotionBatch:
 
     def check(self, case: Any, settings: SweepSettings) -> None:
         """Prepare a case; a steady state needs a load that does not change with time."""
-        model = self.kind.prepare(at_length(case, settings), self.kind.tabulated(case)).model
+        model = self.kind.prepare(at_length(case, settings), self.kind.tables(case)).model
         if settings.steady:
             self.kind.refuse_steady(case)
             refuse_time_dependent(model)

@@ -19,7 +19,7 @@ from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.solve.branch.gear_pairs import UnstableRange
 from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.solve.right_hand_side import engage_next
-from tribodyn.studies.gears.batch.kind import REFERENCE, TABLES_KEPT, MadeOnce, SweptKind
+from tribodyn.studies.gears.batch.kind import REFERENCE, SweptKind
 from tribodyn.studies.gears.batch.steady import (
     CaseWindow,
     Outcome,
@@ -36,6 +36,7 @@ from tribodyn.studies.gears.over_time.running import add_extremes, judge_run
 from tribodyn.studies.gears.over_time.sampled import sampled_with_extremes
 from tribodyn.studies.gears.over_time.steady import warning_of
 from tribodyn.studies.gears.prepare import MOST_MOTIONS
+from tribodyn.studies.gears.tabulated import TABLES_KEPT, MadeOnce
 from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, PREFIX, fill_branch, fill_ends
 from tribodyn.train.links.chain import numbers_of
@@ -151,7 +152,7 @@ def _evaluate(
         try:
             if settings.steady:
                 kind.refuse_steady(case)
-            prepared = kind.prepare(at_length(case, settings), kind.tabulated(case))
+            prepared = kind.prepare(at_length(case, settings), kind.tables(case))
             places = kind.places(prepared, settings)
             given = None if chunk.states is None or np.isnan(chunk.states[i, 0]) else chunk.states[i]
             ready[i] = prepared, _start(prepared, settings) if given is None else given[places]
@@ -161,7 +162,7 @@ def _evaluate(
             _fail(rows, i, str(error))
     for numbers in _alike({i: prepared.case for i, (prepared, _) in ready.items()}):
         ways = [chunk.ways[i] if chunk.ways else None for i in numbers]
-        between = partial(prepared_between, tabulated=kind.tabulated, prepare=kind.prepare)
+        between = partial(prepared_between, tabulated=kind.tables, prepare=kind.prepare)
         prepared_at = between([ready[i][0] for i in numbers], ways)
         outcomes = _solve(kind, [ready[i] for i in numbers], ways, prepared_at, settings, workers)
         for line, (i, outcome) in enumerate(zip(numbers, outcomes, strict=True)):

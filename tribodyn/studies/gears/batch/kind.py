@@ -1,8 +1,6 @@
 """What differs between the kinds of motions that are swept: how cases are prepared, what is told of them."""
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import lru_cache
+from collections.abc import Hashable, Mapping, Sequence
 from math import ceil
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -21,21 +19,6 @@ from tribodyn.studies.protocol.cost import Driver, Estimate
 
 #: The mesh whose transmission error a sweep samples.
 REFERENCE = 0
-
-
-#: Tables kept in a process; a table is about 100 kB.
-TABLES_KEPT = 32
-
-
-@dataclass(frozen=True)
-class MadeOnce:
-    """A result that is made once: everything that it depends on, and how it is made."""
-
-    key: Hashable
-    make: Callable[[], Any] = field(compare=False)
-
-
-_tables = lru_cache(maxsize=TABLES_KEPT)(lambda wanted: wanted.make())
 
 
 class Pace(NamedTuple):
@@ -71,12 +54,8 @@ class SweptKind:
         raise NotImplementedError
 
     def tables(self, case: Any) -> Any:
-        """The case's tables; raises as `prepare` does."""
+        """The case's tables, made once for all cases that share them; raises as `prepare` does."""
         raise NotImplementedError
-
-    def tabulated(self, case: Any) -> Any:
-        """The same, made once for all cases that share them."""
-        return _tables(MadeOnce(self.table_key(case), lambda: self.tables(case)))
 
     def prepare(self, case: Any, tabulated: Any) -> Any:
         """Prepare a case with tables of its `table_key`; raises InputError."""

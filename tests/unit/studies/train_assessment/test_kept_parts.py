@@ -1,0 +1,45 @@
+"""Candidates of a search over assessments: runs that no free key changes are made once."""
+
+import tomllib
+from pathlib import Path
+
+from tribodyn.studies.design.candidates.evaluation import evaluate
+from tribodyn.studies.protocol.scratch import kept_in
+
+SCENARIO = tomllib.loads(
+    """
+    title = "A planetary set, assessed"
+    kind = "train-assessment"
+    [scenario]
+    like = "planetary-24-84"
+    quality = 6
+    [scenario.solver]
+    cycles = 8
+    [scenario.output]
+    samples_per_cycle = 60
+    [assessment]
+    speed_range = [0.5, 1.0]
+    speeds = 2
+    """
+)
+OTHER_DUTY, LONGER = {"assessment.application_factor": 1.5}, {"scenario.solver.cycles": 9}
+
+
+def test_runs_that_a_key_does_not_change_stay_and_the_numbers_are_those_of_a_new_case(tmp_path: Path):
+    def run_times() -> dict[str, int]:
+        return {str(path): path.stat().st_mtime_ns for path in tmp_path.rglob("*.h5")}
+
+    def quantities(overrides: dict[str, object]) -> dict[str, float]:
+        (found,) = evaluate({"": SCENARIO}, [overrides])
+        assert not isinstance(found, str), found
+        return {name: value for name, value in found.items() if name != "wall_time"}
+
+    with kept_in(tmp_path):
+        quantities({})
+        first = run_times()
+        assert first
+        kept = quantities(OTHER_DUTY)
+        assert run_times() == first
+        quantities(LONGER)
+        assert all(first[name] != time for name, time in run_times().items())
+    assert kept == quantities(OTHER_DUTY)
