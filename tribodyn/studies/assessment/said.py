@@ -49,6 +49,12 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     if by_standard:
         sentences += metal_remarks(case)
         sentences.append(life_said(settings, len(case.spectrum)))
+    if len(case.spectrum) > 1:
+        sentences.append(
+            "The simulation runs the duty that is assessed alone, one of "
+            f"{len(case.spectrum)}: at the others its stresses part from the standard's as there. Its own "
+            "safeties and lives hang on which duty that is; those by the standard do not."
+        )
     sentences += bearing_remarks(case, case.lubricant)
     scatter = ""
     if settings.samples:
