@@ -22,7 +22,8 @@ def table_key(case: GearCase) -> Hashable:
     left_out = (*_NOT_IN_TABLE, "mesh")
     parts: list[Any] = [getattr(case, f.name) for f in dataclasses.fields(case) if f.name not in left_out]
     parts.append(dataclasses.replace(case.mesh, **_MESH_NOT_IN_TABLE))
-    if case.mesh.at_load:
+    # slices of helical pairs, and of all that have several, hold each other and are counted under load
+    if case.mesh.at_load or case.drive.helix_angle or case.mesh.slices > 1:
         parts.append(case.operating.gear_torque)
     return _hashable(parts)
 
