@@ -60,11 +60,8 @@ def test_every_key_is_drawn_with_a_value_of_its_type():
     for name, key in every_field().items():
         if isinstance(key.field, Parameter):
             continue
-        adapter = TypeAdapter(
-            Annotated[(key.field.annotation, *key.field.metadata)]
-            if key.field.metadata
-            else key.field.annotation
-        )
+        marked: Any = Annotated[(key.field.annotation, *key.field.metadata, None)]
+        adapter = TypeAdapter(marked)
         random, around = Random(str(name)), Surroundings(("pinion", "gear"))
         if not any(valid(adapter, drawn_value(random, key, around)) for _ in range(DRAWS)):
             lacking.append(name)

@@ -216,7 +216,7 @@ def _followed(random: Random, data: dict[str, Any], wanted: str, error: InputErr
         (name, value), *_ = assigned
         there = re.search(r"to \[([\w.]+)\]", error.remedy)
         if "." in name:
-            return _put(data, name, value)
+            return put(data, name, value)
         target = at(data, there[1]) if there else holder
         if not there and name not in _siblings(data, key) and name in _siblings(data, name):
             target = data
@@ -250,7 +250,7 @@ def _siblings(data: dict[str, Any], dotted: str) -> set[str]:
     return {name for key in _known(data, dotted) for name in key.holder.model_fields}
 
 
-def _put(data: dict[str, Any], dotted: str, value: Any) -> bool:
+def put(data: dict[str, Any], dotted: str, value: Any) -> bool:
     """Put a value at a dotted key, with tables on the way; False where something else is on the way."""
     *above, last = dotted.split(".")
     place: Any = data
@@ -270,7 +270,7 @@ def _added(random: Random, data: dict[str, Any], dotted: str) -> bool:
     if not found:
         return False
     value = drawn_value(random, random.choice(found), Surroundings(tuple(sorted(names_in(data)))))
-    return _put(data, dotted, value)
+    return put(data, dotted, value)
 
 
 def _known(data: dict[str, Any], dotted: str) -> Iterator[SchemaKey]:

@@ -135,7 +135,7 @@ def near(random: Random, value: Any) -> Any:
         return random.choice((random.choice(FACTORS) * value, 0.1, 0.0))
     number = _NUMBER.match(value) if isinstance(value, str) else None
     if number and number[2] and _is_number(number[1]):
-        size = float(number[1]) or random.choice((0.0, 1.0, 10.0))
+        size = float(number[1]) or random.choice((1.0, 10.0))
         return f"{random.choice(FACTORS) * size:.6g} {number[2]}"
     if isinstance(value, list) and value:
         return [near(random, item) for item in value]
@@ -241,9 +241,7 @@ def _bounds(marks: Sequence[Any], annotation: type) -> tuple[Any, Any]:
 def _quantity(random: Random, kind: units.Kind, present: Any) -> str:
     known = [text for text in (present, kind.example) if isinstance(text, str) and _NUMBER.match(text)]
     value = near(random, random.choice(known))
-    if kind.allowed != "any" and value.startswith("-"):
-        value = value[1:]
-    return f"0{value[1:]}" if kind.allowed == "any" and value.startswith("-0 ") else value
+    return value.removeprefix("-") if kind.allowed != "any" else value
 
 
 def _list(

@@ -29,9 +29,9 @@ from tribodyn.sweep.grid import Grid
 from tribodyn.tribology.ehl.table import ContactTable
 
 TAKEN, REFUSED = "taken", "refused"
-#: Kinds that are also checked, but for scenarios with these words, which need finite elements.
+#: Kinds that are also checked, and words of scenarios that are not: finite elements and solved contacts.
 CHECKED = ("gear-pair", "gear-train", "efficiency", "ehl", "irefc", "backlash-oscillator")
-LONG = '"fem"', "helix_angle", "internal = true"
+LONG = '"fem"', '"solved"', "helix_angle", "internal = true"
 #: Characters that a message has at most: whoever reads it sees what is wrong, and not a file.
 LONGEST = 4000
 

@@ -9,6 +9,7 @@ import tomli_w
 from tools.soak import duties, searches, studies, trains
 from tools.soak.draw import Draw
 from tools.soak.drives import FAMILIES, drive
+from tools.soak.keyed import keyed
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.checks import check
@@ -16,10 +17,11 @@ from tribodyn.studies.protocol.load import load_scenario
 
 #: A drive that cannot be made is drawn again, so often at most; what was refused is looked into as well.
 MOST_DRAWS = 40
+#: Cases of shipped scenarios with other values at their keys.
+KEYS = "keys"
 #: What a case is, and its share of all: so many of `SHARES` groups.
 SORTS = {
     "gear-pair": 20,
-    "gear-train": 4,
     "efficiency": 4,
     "load-contact": 6,
     "ehl": 4,
@@ -29,8 +31,7 @@ SORTS = {
     "design": 6,
     "sweep, steady": 3,
     "sweep, transient": 3,
-    "backlash-oscillator": 2,
-    "irefc": 2,
+    KEYS: 8,
 }
 SHARES = sum(SORTS.values())
 #: Cases of a group, of one sort: one of every tooth family.
@@ -61,10 +62,8 @@ def case(seed: int, number: int, folder: Path, short: bool = False) -> SoakCase:
     """
     draw = Draw(seed, number)
     sort = "gear-pair" if short else sort_of(number)
-    if sort == "backlash-oscillator":
-        return SoakCase(sort, studies.oscillator(draw), ())
-    if sort == "irefc":
-        return SoakCase(sort, studies.rolling(draw), ())
+    if sort == KEYS:
+        return SoakCase(sort, keyed(seed, number).change.data, ())
     make = _MAKERS.get(sort, lambda draw, table: duties.gear_pair(draw, table, short))
     table, refused = _drive(draw, FAMILIES[number % GROUP], folder)
     return SoakCase(sort, make(draw, table), refused)
@@ -81,7 +80,6 @@ def sort_of(number: int) -> str:
 
 
 _MAKERS: dict[str, Callable[[Draw, dict[str, Any]], dict[str, Any]]] = {
-    "gear-train": trains.train,
     "efficiency": studies.efficiency,
     "load-contact": studies.load_contact,
     "ehl": studies.solved_contact,

@@ -139,7 +139,8 @@ def _means(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
     summary = record.summary
     samples = record.scenario["output"]["samples_per_cycle"]
     cycles = record.scenario["solver"]["cycles"]
-    if record.samples != samples * cycles + 1:
+    whole = "window" not in record.scenario["output"] and "revolutions" not in record.scenario["solver"]
+    if whole and record.samples != samples * cycles + 1:
         yield f"{record.samples} samples of {cycles} cycles"
     window = slice(record.samples - 1 - samples * summary["averaging_cycles"], record.samples)
     names = "work_in", "work_out", "work_friction", "time"

@@ -1,11 +1,9 @@
 """Runs a case and says what became of it."""
 
 import logging
-import signal
 import traceback
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
 from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,9 +12,11 @@ from typing import Any, NamedTuple
 
 from rich.console import Console
 
-from tools.soak.cases import SoakCase, case, written
+from tools.by_schema.effects import limited
+from tools.soak.cases import KEYS, SoakCase, case, written
 from tools.soak.gear_records import faults as gear_faults
 from tools.soak.gear_records import train_faults
+from tools.soak.keyed import changes, unread
 from tools.soak.other_records import FAULTS, any_faults, sweep_against_run, sweep_faults
 from tools.soak.refusals import untrue
 from tribodyn.errors import InputError, SimulationError
@@ -52,6 +52,8 @@ class Outcome(NamedTuple):
     drives_refused: int  # drives drawn before one that can be made
     residual: float  # energy residual over the relative tolerance, of a complete run; else NaN
     seconds: float  # of processor time
+    compared: str = ""  # key whose values were compared
+    idle: bool = False  # whether they gave the same results
 
 
 def outcome(seed: int, number: int, folder: Path, short: bool = False) -> Outcome:
@@ -62,13 +64,20 @@ def outcome(seed: int, number: int, folder: Path, short: bool = False) -> Outcom
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         status, reason, faults, residual = _tried(made, folder)
+        compared = ("", False)
+        if made.sort == KEYS and status == COMPLETE:
+            try:
+                compared = changes(seed, number)
+            except Exception as error:
+                faults.append(f"another value ended in {error!r}")
     wrong += faults
     searched = made.scenario.get("scenario", made.scenario)
     family = searched.get("drive", {}).get("family", "")
     status = FAULTY if wrong else status
     seconds = round(process_time() - begun, 3)
+    refused, faults = len(made.refused), tuple(wrong)
     return Outcome(
-        seed, number, made.sort, family, status, reason, tuple(wrong), len(made.refused), residual, seconds
+        seed, number, made.sort, family, status, reason, faults, refused, residual, seconds, *compared
     )
 
 
@@ -80,7 +89,7 @@ def run_one(seed: int, number: int, short: bool = False) -> Outcome:
 
 def _tried(made: SoakCase, folder: Path) -> tuple[str, str, list[str], float]:
     try:
-        with _limited():
+        with limited(LONGEST):
             return _run(made, folder)
     except InputError as error:
         return REFUSED, str(error), _unclear(error), float("nan")
@@ -101,6 +110,8 @@ def _run(made: SoakCase, folder: Path) -> tuple[str, str, list[str], float]:
     with Record(result.path) as written_record:
         faults = list(_faults(made, written_record))
         faults += _printed(summary_table(written_record, full=True))
+    if made.sort == KEYS:
+        faults += unread(result.path)
     if result.status == "complete":
         residual = result.summary.get("energy_residual", float("nan"))
         return COMPLETE, "", faults, abs(residual) / _rtol(made)
@@ -109,12 +120,13 @@ def _run(made: SoakCase, folder: Path) -> tuple[str, str, list[str], float]:
 
 
 def _faults(made: SoakCase, record: Record) -> Iterator[str]:
-    if made.sort == "gear-pair":
+    kind = str(made.scenario.get("kind", "gear-pair"))
+    if kind == "gear-pair":
         yield from gear_faults(record, _rtol(made))
-    elif made.sort == "gear-train":
+    elif kind == "gear-train":
         yield from train_faults(record, _rtol(made))
     elif record.status == "complete":
-        yield from FAULTS.get(made.sort, any_faults)(record)
+        yield from FAULTS.get(kind, any_faults)(record)
 
 
 def _swept(made: SoakCase, path: Path, target: Path) -> tuple[str, str, list[str], float]:
@@ -167,19 +179,3 @@ def _doubtful(made: SoakCase, summary: dict[str, Any], message: str) -> list[str
     if "stopped being finite" in message or "solver gave up" in message or "step size fell" in message:
         return [message]
     return []
-
-
-@contextmanager
-def _limited() -> Iterator[None]:
-    """Raise TimeoutError where a case takes too long."""
-
-    def hangs(_number: int, _frame: Any) -> None:
-        raise TimeoutError(f"still running after {LONGEST} s")
-
-    before = signal.signal(signal.SIGPROF, hangs)
-    signal.setitimer(signal.ITIMER_PROF, LONGEST)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, before)

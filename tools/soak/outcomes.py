@@ -59,6 +59,9 @@ def table(outcomes: Sequence[Outcome]) -> str:
         f"{table_of(['refused or stopped because', 'cases'], reasons.most_common())}\n\n"
         f"Drives drawn before those that can be made: {refused}, each refusal put to the test.\n"
     )
+    compared = [o for o in outcomes if o.compared]
+    text += f"Keys whose values were compared by runs: {len(compared)}; that changed nothing: "
+    text += (", ".join(sorted({f"`{o.compared}`" for o in compared if o.idle})) or "none") + ".\n"
     residuals = np.array([o.residual for o in outcomes if o.sort == "gear-pair"])
     residuals = residuals[~np.isnan(residuals)]
     if residuals.size:

@@ -171,45 +171,6 @@ def _modification(draw: Draw, teeth: int, module: float, width: float) -> dict[s
     return table
 
 
-def oscillator(draw: Draw) -> dict[str, Any]:
-    """Return the scenario of an oscillator with backlash."""
-    low = draw.decades(0.2, 2.0)
-    return {
-        "title": "A random oscillator",
-        "kind": "backlash-oscillator",
-        "damping": draw.decades(0.01, 0.5),
-        "mean_force": draw.choice((0.0, draw.decades(0.01, 3.0)), (1, 6)),
-        "error_amplitude": draw.choice((0.0, draw.decades(0.01, 2.0)), (1, 3)),
-        "stiffness_variation": draw.choice((0.0, draw.between(0.0, 1.0)), (1, 3)),
-        "frequency": {"from": low, "to": round(2.0 * low, 6), "step": round(low / draw.choice((4, 10)), 6)},
-        "solver": {"max_periods": 200},
-    }
-
-
-def rolling(draw: Draw) -> dict[str, Any]:
-    """Return the scenario of a gear with rolling elements."""
-    radius, elements, displacement = draw.decades(2e-3, 1.0), draw.whole(3, 60), draw.between(1.02, 3.0)
-    arm = draw.choice((0.0, draw.decades(1e-6, 1e-3)))
-    return {
-        "title": "A random gear with rolling elements",
-        "kind": "irefc",
-        "drive": {
-            "title": "A random gear",
-            "source": "random numbers",
-            "pitch_radius": quantity(1e3 * radius, "mm"),
-            "elements": elements,
-            "displacement": displacement,
-            "element_radius": quantity(1e3 * radius * displacement / elements * draw.between(0.2, 2.5), "mm"),
-        },
-        "operating": {
-            "input_power": quantity(draw.decades(0.1, 1e5), "W"),
-            "input_speed": quantity(draw.decades(0.1, 1e4), "rpm"),
-        },
-        "friction": {"rolling_arm": quantity(1e3 * arm, "mm"), "sliding_coefficient": draw.between(0.0, 0.3)},
-        "output": {"samples_per_cycle": draw.choice((8, 24))},
-    }
-
-
 def steady(scenario: dict[str, Any]) -> dict[str, Any]:
     """Return the duty of a gear pair without what a steady state cannot have: loads over time."""
     operating = {

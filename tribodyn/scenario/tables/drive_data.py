@@ -17,6 +17,7 @@ from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import SIDES, BodyMass, Drive, MaterialData, body_of
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.geometry.families.involute import overlap, shift_sensitivity, tight_centre_distance
+from tribodyn.geometry.limits.checks import check_path
 from tribodyn.geometry.rack_section import from_written
 from tribodyn.scenario.quantity import shift_rounding
 from tribodyn.scenario.tables.model_files import DriveTable, Gear, Material
@@ -136,6 +137,7 @@ def drive_of(drive: DriveTable) -> Drive:
     rounded = sharp
     for side in SIDES:
         if rounding := getattr(drive, side).tip_rounding:
+            check_path(teeth, sharp)
             with np.errstate(all="ignore"):  # refused where the pair is put together
                 height = float(tip_break(teeth, sharp, side, rounding))
             body = body_of(sharp, side)._replace(tip_break=height)
@@ -170,8 +172,10 @@ def backlash_of(drive: DriveTable, given: float | None) -> float | None:
     """Return the normal backlash (m): as `given`, else of the drive; None where that says nothing."""
     if given is not None or not gives_backlash(drive):
         return given
+    teeth, made = family(drive.family), drive_of(drive)
+    check_path(teeth, made)
     with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
-        return max(float(normal_backlash(Assembly(family(drive.family), drive_of(drive)))), 0.0)
+        return max(float(normal_backlash(Assembly(teeth, made))), 0.0)
 
 
 def materials_of(drive: DriveTable) -> tuple[MaterialData, MaterialData]:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import View, record_label, record_title
+from tribodyn.post.figures.scale import scale
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
@@ -104,7 +105,10 @@ def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
     low, high = np.min(every), np.quantile(every, 0.95)
     if start is not None:
         high = max(high, seen[-1][0])
-    axes.set_ylim(low - 0.08 * (high - low), high + 0.1 * (high - low))
+    if high > low:
+        axes.set_ylim(low - 0.08 * (high - low), high + 0.1 * (high - low))
+    else:
+        scale(axes, [every])
     axes.set_xlabel("Evaluation (× not feasible)")
     axes.set_ylabel(shown.label)
     axes.set_title("History", loc="left")

@@ -9,6 +9,8 @@ from collections.abc import Iterator, Sequence
 from math import pi
 from typing import Any, NamedTuple, cast
 
+import numpy as np
+
 from tribodyn.geometry.families import family
 from tribodyn.scenario.quantity import Printed
 from tribodyn.scenario.tables.bearings import Bearing
@@ -295,7 +297,8 @@ def _distance_of_set(scenario: Any, parts: Structure, mesh: MeshPart) -> Printed
     """Distance of the planets' axes from the sun's where none is written: that of both without backlash."""
     at_sun = next(other for other in parts.meshes if other.of_set == mesh.of_set)
     drive = drive_of(drive_table(scenario, parts, at_sun, *at_sun.gears))
-    path = family(cast(PlanetaryStage, at_sun.table).family).working_path(drive)
+    with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
+        path = family(cast(PlanetaryStage, at_sun.table).family).working_path(drive)
     return Printed(float(path.pinion_pitch_radius + path.gear_pitch_radius), 0.0)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.scenario.tables.bearings import bearing_of
+from tribodyn.scenario.tables.bearings import bearing_of, broken_bearing
 from tribodyn.studies.gear_train.described.tables import PlanetaryStage
 from tribodyn.train.planetary import MEMBERS, SetTeeth, check_assembly
 
@@ -162,6 +162,8 @@ def _bearings(scenario: Any, of_sets: dict[str, str]) -> Iterator[InputError]:
                 yield InputError(f"bearings.{name}", None, rule, remedy)
     for name, bearing in scenario.bearings.by_name.items():
         if name not in of_sets and not (name == "default" and of_sets):
+            continue
+        if any(broken_bearing("", bearing)):
             continue
         data = bearing_of(bearing)
         both = (data.stiffness_x, data.damping_ratio_x), (data.stiffness_y, data.damping_ratio_y)
