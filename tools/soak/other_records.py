@@ -40,8 +40,10 @@ def efficiency_faults(record: Record) -> Iterator[str]:
         yield f"energy residual {summary['energy_residual']:.3g}"
     yield from _negative(record, "normal_load")
     names = "central_film_thickness hertz_pressure friction_coefficient flash_temperature_rise"
+    # of helical pairs a part of the face may carry where its middle is beyond the path
+    carries = (record["normal_load"] > 0) & np.isfinite(record["pressure_angle"])
     for name in names.split():
-        values = record[name][record["normal_load"] > 0]
+        values = record[name][carries]
         if not np.all(np.isfinite(values)) or not np.all(values >= 0):
             yield f"{name} is negative or no number under load"
     film = ("film_min", "central_film_thickness", -1)
