@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import signal
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -71,8 +72,12 @@ def test_an_interrupted_browser_leaves_nothing(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setenv("TMPDIR", str(temporary))
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     monkeypatch.setattr(pdf, "LONGEST_PROFILE", 1000)
-    with pytest.raises(KeyboardInterrupt):
-        run_browser()
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background of a shell
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            run_browser()
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert begun.is_file()
     assert not list(temporary.iterdir())
 
