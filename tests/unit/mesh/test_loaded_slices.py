@@ -16,6 +16,7 @@ from tribodyn.geometry.flanks.modification import (
     turned_round,
 )
 from tribodyn.mesh.fine_slices import parts_of_slices
+from tribodyn.mesh.loaded_slices import PER_CYCLE, WIDTH
 from tribodyn.mesh.table import MeshData
 from tribodyn.mesh.tabulate_loaded import flanks_of, tabulate_loaded
 
@@ -43,7 +44,7 @@ def model(modified):
     start = -float(cycle.pitch_point_phase) * pair.pitch_angle
     phase = cycle.phase[0][:, None] + np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
     flanks = flanks_of(pair, (STEEL, STEEL), mesh)
-    finer = flanks._replace(slices=SLICES * parts_of_slices(pair, SLICES))
+    finer = flanks._replace(slices=SLICES * parts_of_slices(pair, SLICES, WIDTH, PER_CYCLE))
     return finer.share(start + pair.pitch_angle * phase, TORQUE)
 
 
