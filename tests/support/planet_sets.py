@@ -7,6 +7,21 @@ from tribodyn.studies.gear_train.case import TrainCase
 
 #: Teeth of sun, planet and ring, for three or four planets: all meshes in phase, or one after another.
 IN_PHASE, SEQUENTIAL = (24, 30, 84), (25, 29, 83)
+#: An assessment of a shipped set, made short; further tables may follow.
+ASSESSED_SET = """
+title = "A planetary set, assessed"
+kind = "train-assessment"
+[scenario]
+like = "planetary-24-84"
+quality = 6
+[scenario.solver]
+cycles = 8
+[scenario.output]
+samples_per_cycle = 60
+[assessment]
+speed_range = [0.5, 1.0]
+speeds = 2
+"""
 
 
 def planet_set(

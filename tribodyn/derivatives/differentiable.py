@@ -20,7 +20,7 @@ from tribodyn.derivatives.numbers import Number, numbers_of
 from tribodyn.derivatives.quantities import ALSO, QUANTITIES, Fixed, PairEvaluation, quantity_of
 from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.limits.limits import beyond
-from tribodyn.mesh.by_compliance import with_slices
+from tribodyn.mesh.by_compliance import in_slices
 from tribodyn.mesh.fine_slices import fine_layout
 from tribodyn.mesh.helical import most_touching
 from tribodyn.mesh.tabulate import pair_slots
@@ -146,7 +146,7 @@ def fixed_of(case: Any) -> Fixed:
         pairs = pair_slots(gears) if np.isfinite(ratio) and ratio > 0.0 else 1
         vanishing, layout, parts = bool(float(gears.path.pressure_angle(0.0)) < 1e-9), None, 1
         if gears.drive.helix_angle and np.isfinite(ratio) and ratio > 0.0:
-            mesh, _ = with_slices(gears, case.materials, case.mesh, case.operating.gear_torque)
+            mesh = in_slices(gears, case.materials, case.mesh, case.operating.gear_torque)
             layout, parts = fine_layout(gears, mesh, case.operating.gear_torque)
             layout = layout._replace(nodes=0, touching=most_touching(gears, layout))  # `mean_nodes`
         return Fixed(pairs, vanishing, layout, parts)

@@ -116,9 +116,8 @@ def mesh_outputs(m: int, samples: Evaluated, shares: bool = False) -> dict[str, 
     friction = per_pair(contact.FRICTION_FORCE)
     _, _, axial, _, _, resisting, driving, *_ = resultants(place, mesh, model, work)
     rubbing = load
-    if (
-        np.shape(table.face_position)[0] > 1
-    ):  # where the pitch line crosses a slice friction acts to either side
+    # where the pitch line crosses a slice friction acts to either side
+    if np.shape(table.face_position)[0] > 1:
         full = load * per_pair(contact.FRICTION_COEFFICIENT)
         rubbing = np.where(full > 0.0, load * np.abs(friction) / np.where(full > 0.0, full, 1.0), load)
     arm = per_pair(contact.LEAN_COS) * per_pair(contact.COS)

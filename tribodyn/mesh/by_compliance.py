@@ -38,9 +38,16 @@ def mesh_cycle_of(
 
         return tabulate_loaded(assembly, materials, mesh, gear_torque, back)
     if assembly.drive.helix_angle or mesh.slices > 1:
-        mesh, _ = with_slices(assembly, materials, mesh, gear_torque)
+        mesh = in_slices(assembly, materials, mesh, gear_torque)
         return tabulate_integrated(assembly, materials, mesh, gear_torque, back)
     return tabulate(assembly, materials, mesh, pair_slots(assembly), back)
+
+
+def in_slices(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: MeshData, gear_torque: float
+) -> MeshData:
+    """Count the slices that a helical pair needs where they are left open; a given number is not judged."""
+    return mesh if mesh.slices > 1 else with_slices(assembly, materials, mesh, gear_torque)[0]
 
 
 def with_slices(

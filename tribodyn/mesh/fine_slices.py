@@ -114,7 +114,7 @@ def summed_up(cycle: MeshCycle, fine: MeshCycle, gear_torque: Any) -> MeshCycle:
     whole = xp.where(part > 0.0, part, 1.0)
 
     # what does not carry lies as far away and is as soft as its parts together, or as those that are next
-    near = True | (share > 0.0)
+    near = xp.ones_like(share, dtype=bool)
     if xp is np:
         beside = near_contact(share[0].reshape(shape[1], -1)).reshape(shape)
         near = beside | ~np.any(beside, axis=-1, keepdims=True)

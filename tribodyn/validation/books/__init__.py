@@ -1,6 +1,7 @@
 """Listings of other programs and of standards, number by number as printed, and our values beside them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 from tribodyn.validation.rows import Row, compare, published
@@ -9,14 +10,20 @@ from tribodyn.validation.rows import Row, compare, published
 Values = Mapping[str, float | tuple[float, float]]
 
 
-def book_rows(book: str, values: Values, otherwise: tuple[str, Values] | None = None) -> list[Row]:
-    """Every row of a book compared with our values, some also with those under another choice."""
-    found = []
-    for key, row in published(book).items():
-        other = None if otherwise is None else _value(otherwise[1], key)
-        beside = None if otherwise is None or other is None else (otherwise[0], other)
-        found.append(compare(row, _value(values, key), "", beside))
-    return found
+def rows_of(book: str, values: Callable[[], Values]) -> Callable[..., list[Row]]:
+    """Return the function that compares every row of a book with our values.
+
+    It is called as the `rows` of a paper; nothing needs a run, and nothing is written into its folder.
+    """
+
+    def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
+        ours = values()
+        found = [compare(row, _value(ours, key)) for key, row in published(book).items()]
+        if progress:
+            progress(1.0)
+        return found
+
+    return rows
 
 
 def _value(values: Values, key: str) -> Any:

@@ -5,8 +5,7 @@ their tolerance, as the report has them.
 """
 
 import math
-from collections.abc import Callable, Mapping
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any
 
 from tribodyn.compliance import iso6336
@@ -17,12 +16,11 @@ from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
 from tribodyn.studies.gears.rated.standard import Standard, rated_duty, standard_of
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.validation.books import book_rows
 from tribodyn.validation.books import helical_report_geometry as shape
+from tribodyn.validation.books import rows_of
 from tribodyn.validation.books.helical_report_geometry import both
 from tribodyn.validation.books.helical_report_measures import measures, tolerances_1995
 from tribodyn.validation.books.helical_report_oil import films, scuffed
-from tribodyn.validation.rows import Row
 
 BOOK = "helical-report-2017"
 SCENARIO = "assessment-helical-24-95"
@@ -56,14 +54,6 @@ MIDDLE_TIPS = {
     f"drive.{side}.tip_diameter": f"{d - shape.TIP_TOLERANCE / 2.0} mm"
     for side, d in zip(SIDES, shape.TIPS, strict=True)
 }
-
-
-def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
-    """All rows; nothing needs a run, and nothing is written into `folder`."""
-    found = book_rows(BOOK, _values())
-    if progress:
-        progress(1.0)
-    return found
 
 
 def _values() -> dict[str, Any]:
@@ -287,3 +277,6 @@ def _losses(case: Any, standard: Standard) -> dict[str, Any]:
         "cr": 1e-6 * stiffness,
         "delcr": math.degrees(_TORQUE / stiffness),
     }
+
+
+rows = rows_of(BOOK, _values)

@@ -8,17 +8,16 @@ beyond the stress of 10⁵ cycles with the same slope.
 
 import csv
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from importlib.resources import files
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from tribodyn.standards.contact_path import ContactPath
 from tribodyn.standards.fatigue import Bin, StressCurve, safety
 from tribodyn.standards.metals import Metal, contact_factors
 from tribodyn.standards.pitting import Influences, PittingMesh, influences, permissible
-from tribodyn.validation.books import book_rows
-from tribodyn.validation.rows import Row, published
+from tribodyn.validation.books import rows_of
+from tribodyn.validation.rows import published
 
 BOOK = "iso-6336-6-annex-c"
 _STEEL = Metal("case-hardened", 1500e6, 500e6, 6.9e9, 900e6)
@@ -37,14 +36,6 @@ class LoadClass(NamedTuple):
     torque: float  # kN m
     time: float  # s
     face_load_factor: float
-
-
-def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
-    """All rows; nothing needs a run, and nothing is written into `folder`."""
-    found = book_rows(BOOK, _values())
-    if progress:
-        progress(1.0)
-    return found
 
 
 def _classes() -> Iterator[LoadClass]:
@@ -121,3 +112,6 @@ def _influences() -> Influences:
         2006,
     )
     return influences(mesh, (_STEEL, _STEEL))
+
+
+rows = rows_of(BOOK, _values)

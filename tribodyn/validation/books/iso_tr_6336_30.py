@@ -6,7 +6,6 @@ Lengths in mm, angles in degrees.
 
 import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from tribodyn.compliance import iso6336
@@ -15,8 +14,7 @@ from tribodyn.standards import load_factors, pitting
 from tribodyn.standards.contact_path import ContactPath
 from tribodyn.standards.flank_tolerances import flank_tolerances, rounded
 from tribodyn.standards.metals import Metal, contact_factors
-from tribodyn.validation.books import book_rows
-from tribodyn.validation.rows import Row
+from tribodyn.validation.books import rows_of
 
 BOOK = "iso-tr-6336-30"
 _MODULE, _ALPHA, _HELIX, _TEETH, _WIDTH, _CENTRES = (
@@ -37,14 +35,6 @@ _WORKING = math.acos(sum(_BASES) / 2.0 / _CENTRES)
 _BASE_HELIX = math.asin(math.sin(_HELIX) * math.cos(_ALPHA))
 _SHIFTS = (0.14522, 0.0)
 _SPANS, _SPAN_TEETH = (38.196, 307.943), (2, 13)
-
-
-def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
-    """All rows; nothing needs a run, and nothing is written into `folder`."""
-    found = book_rows(BOOK, _geometry() | _capacity())
-    if progress:
-        progress(1.0)
-    return found
 
 
 def _both(of: Callable[[int], float]) -> tuple[float, float]:
@@ -190,3 +180,6 @@ def _dynamic(path: ContactPath, stiffness: iso6336.ReferenceStiffness, line_load
         (hard, hard),
     )
     return load_factors.dynamic_factor(mesh).factor
+
+
+rows = rows_of(BOOK, lambda: _geometry() | _capacity())

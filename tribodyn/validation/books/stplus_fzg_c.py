@@ -5,8 +5,6 @@ Strength is that of endurance, as there: N_L is printed, and life factors are 1.
 """
 
 import math
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from tribodyn.compliance import iso6336
@@ -21,11 +19,10 @@ from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
 from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
 from tribodyn.studies.protocol.load import load_data
-from tribodyn.validation.books import book_rows
+from tribodyn.validation.books import rows_of
 from tribodyn.validation.books import stplus_geometry as shape
 from tribodyn.validation.books.stplus_geometry import pair
 from tribodyn.validation.books.stplus_scuffing import scuffed
-from tribodyn.validation.rows import Row
 
 BOOK = "stplus-fzg-c"
 _M, _ALPHA, _WIDTH, _TEETH, _SHIFTS = shape.MODULE, shape.ALPHA, shape.WIDTH, shape.TEETH, shape.SHIFTS
@@ -78,14 +75,6 @@ SCENARIO = {
     },
     "assessment": {"peak_roughness": "1.8 um", "root_roughness": "20 um", "run_in": False},
 }
-
-
-def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
-    """All rows; nothing needs a run, and nothing is written into `folder`."""
-    found = book_rows(BOOK, _values())
-    if progress:
-        progress(1.0)
-    return found
 
 
 def _values() -> dict[str, Any]:
@@ -289,3 +278,6 @@ def _strength(named: dict[str, Any], standard: Any) -> dict[str, Any]:
             f"b_H_{number}": 1e3 * 4.0 * float(rho * p) / modulus,
         }
     return found
+
+
+rows = rows_of(BOOK, _values)

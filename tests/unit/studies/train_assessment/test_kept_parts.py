@@ -3,25 +3,11 @@
 import tomllib
 from pathlib import Path
 
+from tests.support.planet_sets import ASSESSED_SET
 from tribodyn.studies.design.candidates.evaluation import evaluate
 from tribodyn.studies.protocol.scratch import kept_in
 
-SCENARIO = tomllib.loads(
-    """
-    title = "A planetary set, assessed"
-    kind = "train-assessment"
-    [scenario]
-    like = "planetary-24-84"
-    quality = 6
-    [scenario.solver]
-    cycles = 8
-    [scenario.output]
-    samples_per_cycle = 60
-    [assessment]
-    speed_range = [0.5, 1.0]
-    speeds = 2
-    """
-)
+SCENARIO = tomllib.loads(ASSESSED_SET)
 OTHER_DUTY, LONGER = {"assessment.application_factor": 1.5}, {"scenario.solver.cycles": 9}
 
 

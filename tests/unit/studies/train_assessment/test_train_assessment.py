@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.planet_sets import ASSESSED_SET
 from tests.support.verbs import invoke, sets
 from tribodyn.errors import InputError
 from tribodyn.record.reader import MESHES, Record
@@ -14,20 +15,7 @@ from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.tasks import case_of
 from tribodyn.studies.train_assessment.run import name_at, tasks_of
 
-SCENARIO = """
-title = "A planetary set, assessed"
-kind = "train-assessment"
-[scenario]
-like = "planetary-24-84"
-quality = 6
-[scenario.solver]
-cycles = 8
-[scenario.output]
-samples_per_cycle = 60
-[assessment]
-speed_range = [0.5, 1.0]
-speeds = 2
-[limits]
+SCENARIO = f"""{ASSESSED_SET}[limits]
 dynamic_factor = 1.01
 """
 
