@@ -91,6 +91,9 @@ html_css_files = ["site.css"]
 # the reference calls public names as users do, td.NAME
 sys.modules["td"] = tribodyn
 sys.modules["td.signals"] = tribodyn.signals
+sys.modules["td.standards"] = tribodyn.standards
+for part in dir(tribodyn.standards):
+    sys.modules[f"td.standards.{part}"] = getattr(tribodyn.standards, part)
 exclude_patterns = ["_build"]
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]

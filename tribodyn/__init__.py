@@ -13,10 +13,10 @@ As a library::
 
 from typing import TYPE_CHECKING, Any
 
-# folders with the names of functions: imported and unbound, so that no later import binds these names
-from tribodyn import scenario, sweep
+# folders with names of the interface: imported and unbound, so that no later import binds these names
+from tribodyn import scenario, standards, sweep
 
-del scenario, sweep
+del scenario, standards, sweep
 
 __version__ = "0.2.0"
 
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from tribodyn.derivatives.differentiable import Differentiable
     from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.families import Family
+    from tribodyn.interface import standards as standards
     from tribodyn.interface.check import check
     from tribodyn.interface.drive import GearPair, constraints, drive
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
@@ -84,6 +85,7 @@ __all__ = [
     "run",
     "scenario",
     "signals",
+    "standards",
     "sweep",
     "validate",
 ]
@@ -129,6 +131,8 @@ def __getattr__(name: str) -> Any:
         return getattr(import_module(module), attribute or name)
     if name == "signals":
         return import_module("tribodyn.signals")
+    if name == "standards":
+        return import_module("tribodyn.interface.standards")
     if not name.startswith("_"):
         from tribodyn.interface.of_studies import offered
 

@@ -97,6 +97,7 @@ COMMON_UNITS: dict[str, dict[str, float]] = {
 OWN_UNITS: dict[str, dict[str, float]] = {
     "angular speed": dict.fromkeys(("rev/min", "r/min"), 0.10471975511965977),
     "power": {"PS": 75.0 * 9.80665},  # DIN 66036: 75 kp m/s
+    "pressure": {"HV": 9.80665e6},  # Vickers hardness: kp/mm²
 }
 
 _COMMA = re.compile(r"\s*(?P<before>[+-]?\d+),(?P<after>\d+)(?P<rest>[^,]*)", re.ASCII)

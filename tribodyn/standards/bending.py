@@ -108,16 +108,10 @@ def stress_correction(section: RootSection) -> tuple[float, float]:
 
 
 def nominal_stress(gear: BendingGear, tangential_load: float) -> Stress:
-    """σ_F0 = F_t/(b m_n) Y_F Y_S Y_β Y_B Y_DT, Pa: (3); F_t at the reference circle, N.
-
-    Y_β = 1 − ε_β β/120° with ε_β ≤ 1 and β ≤ 30°, in the edition of 2019 over cos³ β.
-    """
+    """σ_F0 = F_t/(b m_n) Y_F Y_S Y_β Y_B Y_DT, Pa: (3); F_t at the reference circle, N."""
     form = form_factor(gear)
     correction, notch = stress_correction(gear.section)
-    overlap, helix = min(gear.overlap_ratio, 1.0), min(math.degrees(gear.helix_angle), 30.0)
-    helical = 1.0 - overlap * helix / 120.0
-    if gear.edition >= 2019:
-        helical /= math.cos(math.radians(helix)) ** 3
+    helical = helix_factor(gear.helix_angle, gear.overlap_ratio, gear.edition)
     rim, deep = rim_factor(gear), deep_tooth_factor(gear.virtual_contact_ratio, gear.quality)
     load = tangential_load / (gear.face_width * gear.normal_module)
     return Stress(
@@ -130,6 +124,13 @@ def nominal_stress(gear: BendingGear, tangential_load: float) -> Stress:
         load * form * correction * helical * rim * deep,
         distribution_factor(gear),
     )
+
+
+def helix_factor(helix_angle: float, overlap_ratio: float, edition: int = 2019) -> float:
+    """Y_β = 1 − ε_β β/120° with ε_β ≤ 1 and β ≤ 30°, in the edition of 2019 over cos³ β: (39)."""
+    held = min(helix_angle, math.radians(30.0))
+    plain = 1.0 - min(overlap_ratio, 1.0) * math.degrees(held) / 120.0
+    return plain / math.cos(held) ** 3 if edition >= 2019 else plain
 
 
 def rim_factor(gear: BendingGear) -> float:

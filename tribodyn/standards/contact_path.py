@@ -130,7 +130,7 @@ def loss_factor(path: ContactPath) -> float:
 
     H_v = (ε_1² + ε_2² + 1 − ε_α)(1/z_1 + 1/z_2) π/cos β_b for ε_α < 2, else half of
     ε_α (1/z_1 + 1/z_2) π/cos β_b. Of a pitch point beyond an end of the path the integral that the former is:
-    of |x| over x in pitches from the pitch point, half the load where two pairs are on the path.
+    of abs(x) over x in pitches from the pitch point, half the load where two pairs are on the path.
     """
     first, second = path.tip_contact_ratios
     total = first + second

@@ -120,7 +120,7 @@ def dynamic_factor(mesh: DynamicMesh) -> DynamicFactor:
 
     Subcritical (N ≤ N_S) 1 + N (C_v1 B_p + C_v2 B_f + C_v3 B_k), main resonance (up to 1.15)
     1 + C_v1 B_p + C_v2 B_f + C_v4 B_k, supercritical (from 1.5) C_v5 B_p + C_v6 B_f + C_v7, linear between;
-    never below 1. B_p and B_f are c' (f − y)/(F_t K_A/b), B_k = |1 − c' C_a/(F_t K_A/b)|, 1 from grade 6 on.
+    never below 1. B_p and B_f are c' (f − y)/(F_t K_A/b), B_k abs(1 − c' C_a/(F_t K_A/b)), 1 from grade 6 on.
     """
     speed = resonance_speed(mesh.pinion_teeth, mesh.mesh_stiffness, mesh.reduced_mass)
     ratio = mesh.pinion_speed / speed

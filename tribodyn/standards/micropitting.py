@@ -99,7 +99,7 @@ def bulk_rise(
     """Rise of the bulk temperature θ_M − θ_oil, K: (84).
 
     7400 (P μ_m H_v/(a b))^0.72 X_S/(1.2 X_Ca), P in kW, a and b in mm; `supply` is X_S/X_Ca. Of a ring, whose
-    centre distance is negative and small, it is |a|, and the estimate is a high one.
+    centre distance is negative and small, it is abs(a), and the estimate is a high one.
     """
     each = 1e-3 * power * friction * losses / (1e6 * abs(centre_distance) * face_width)
     return 7400.0 * each**0.72 * supply / 1.2
@@ -119,7 +119,7 @@ def hertz_pressure(line_load: Any, radius: Any, reduced_modulus: float) -> Any:
 def flash_rise(friction: Any, pressure: Any, radius: Any, speeds: tuple[Any, Any], flanks: Flanks) -> Any:
     """Flash temperature rise θ_fl,Y, K: (80).
 
-    (√π/2) μ p |v_r1 − v_r2|/(B_M1 √v_r1 + B_M2 √v_r2) √(8 ρ_n p/E_r).
+    (√π/2) μ p abs(v_r1 − v_r2)/(B_M1 √v_r1 + B_M2 √v_r2) √(8 ρ_n p/E_r).
     """
     first, second = speeds
     share = flanks.thermal_contact[0] * np.sqrt(first) + flanks.thermal_contact[1] * np.sqrt(second)

@@ -86,18 +86,35 @@ def geometry(mesh: PittingMesh) -> Geometry:
     Z_H (14), Z_E (24), Z_ε (28) to (30), Z_β = 1/√cos β (31); of an internal gear u < 0.
     """
     path, ratio = mesh.path, mesh.path.ratio
-    transverse = math.atan(math.tan(mesh.normal_pressure_angle) / math.cos(mesh.helix_angle))
-    zone = math.sqrt(
-        2.0 * math.cos(path.base_helix_angle) / (math.cos(transverse) ** 2 * math.tan(path.pressure_angle))
+    zone = zone_factor(
+        mesh.normal_pressure_angle, mesh.helix_angle, path.pressure_angle, path.base_helix_angle
     )
-    elasticity = math.sqrt(mesh.effective_modulus / (2.0 * math.pi))
+    elasticity = elasticity_factor(mesh.effective_modulus)
     shared = contact_ratio_factor(path.contact_ratio, path.overlap_ratio)
-    helix = 1.0 / math.sqrt(math.cos(mesh.helix_angle))
+    helix = helix_factor(mesh.helix_angle)
     pressed = tangential_load(mesh) / (2.0 * mesh.reference_radius[0] * mesh.face_width)
     curved = (ratio + 1.0) / ratio  # of the sign of the diameter, both < 0 of an internal pinion
     nominal = zone * elasticity * shared * helix * math.sqrt(pressed * curved)
     single = single_pair_factors(path, mesh.unmodified_factor)
     return Geometry(zone, elasticity, shared, helix, single, nominal)
+
+
+def zone_factor(
+    normal_pressure_angle: float, helix_angle: float, working_angle: float, base_helix_angle: float
+) -> float:
+    """Z_H = √(2 cos β_b cos α_wt/(cos² α_t sin α_wt)) of α_n, β, α_wt and β_b, rad: (14)."""
+    transverse = math.atan(math.tan(normal_pressure_angle) / math.cos(helix_angle))
+    return math.sqrt(2.0 * math.cos(base_helix_angle) / (math.cos(transverse) ** 2 * math.tan(working_angle)))
+
+
+def elasticity_factor(effective_modulus: float) -> float:
+    """Z_E = √(E_r/(2π)), √Pa, of 2/E_r = Σ(1 − ν²)/E: 189.8 √(N/mm²) of steel on steel: (24)."""
+    return math.sqrt(effective_modulus / (2.0 * math.pi))
+
+
+def helix_factor(helix_angle: float) -> float:
+    """Z_β = 1/√cos β: (31)."""
+    return 1.0 / math.sqrt(math.cos(helix_angle))
 
 
 def contact_ratio_factor(transverse: float, overlap: float) -> float:
@@ -139,16 +156,34 @@ def contact_stress(found: Geometry, load_factor: float) -> tuple[float, float]:
 def influences(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> Influences:
     """Z_L (34), Z_v (37), Z_R (39), of both gears by σ_Hlim of the softer, and Z_W (42) to (46)."""
     speed = mesh.pinion_speed * abs(_speed_radius(mesh))
-    limit = 1e-6 * min(metals, key=lambda metal: metal.hardness).contact_limit
-    share = min(max((limit - _SOFT) / (_HARD - _SOFT), 0.0), 1.0)
-    c_l = 0.83 + 0.08 * share
-    lubricant = c_l + 4.0 * (1.0 - c_l) / (1.2 + 134.0 / (1e6 * mesh.viscosity_40)) ** 2
-    c_v = c_l + 0.02
-    velocity = c_v + 2.0 * (1.0 - c_v) / math.sqrt(0.8 + 32.0 / max(speed, 1e-9))
-    c_r = 0.32 - 0.0002 * min(max(limit, _SOFT), _HARD)
-    rough = (3.0 / (1e6 * _reference_roughness(mesh, sum(mesh.roughness) / 2.0))) ** c_r
+    limit = min(metals, key=lambda metal: metal.hardness).contact_limit
+    lubricant, velocity = lubricant_factor(limit, mesh.viscosity_40), speed_factor(limit, speed)
+    rough = roughness_factor(limit, sum(mesh.roughness) / 2.0, _reduced_radius(mesh))
     hardened = work_hardening(mesh, metals)
     return Influences((lubricant, lubricant), (velocity, velocity), (rough, rough), hardened)
+
+
+def lubricant_factor(contact_limit: float, viscosity_40: float) -> float:
+    """Z_L = C_ZL + 4 (1 − C_ZL)/(1.2 + 134/ν_40)², ν_40 in mm²/s here: (34)."""
+    share = _lubricant_share(contact_limit)
+    return share + 4.0 * (1.0 - share) / (1.2 + 134.0 / (1e6 * viscosity_40)) ** 2
+
+
+def _lubricant_share(contact_limit: float) -> float:
+    """C_ZL: 0.83 up to σ_Hlim = 850 N/mm², 0.91 from 1200 on, (35)."""
+    return 0.83 + 0.08 * min(max((1e-6 * contact_limit - _SOFT) / (_HARD - _SOFT), 0.0), 1.0)
+
+
+def speed_factor(contact_limit: float, speed: float) -> float:
+    """Z_v = C_Zv + 2 (1 − C_Zv)/√(0.8 + 32/v), C_Zv = C_ZL + 0.02, v in m/s: (37)."""
+    share = _lubricant_share(contact_limit) + 0.02
+    return share + 2.0 * (1.0 - share) / math.sqrt(0.8 + 32.0 / max(speed, 1e-9))
+
+
+def roughness_factor(contact_limit: float, roughness: float, reduced_radius: float) -> float:
+    """Z_R = (3 µm/Rz10)^C_ZR of the mean Rz and ρ_red at the pitch point, m: (38), (39)."""
+    exponent = 0.32 - 0.0002 * min(max(1e-6 * contact_limit, _SOFT), _HARD)
+    return (3.0 / (1e6 * roughness * (0.01 / reduced_radius) ** (1.0 / 3.0))) ** exponent
 
 
 def _speed_radius(mesh: PittingMesh) -> float:
@@ -160,11 +195,6 @@ def _reduced_radius(mesh: PittingMesh) -> float:
     """ρ_red at the pitch point, m: ρ = r_b tan α_wt of either gear."""
     first, second = (base * math.tan(mesh.path.pressure_angle) for base in mesh.path.base_radius)
     return first * second / (first + second)
-
-
-def _reference_roughness(mesh: PittingMesh, roughness: float) -> float:
-    """Rz10 = Rz (10 mm/ρ_red)^(1/3), m: that of gears with ρ_red = 10 mm, (38)."""
-    return roughness * (0.01 / _reduced_radius(mesh)) ** (1.0 / 3.0)
 
 
 def work_hardening(mesh: PittingMesh, metals: tuple[Metal, Metal]) -> tuple[float, float]:

@@ -43,7 +43,7 @@ def flash_rise(
 ) -> Any:
     """Flash temperature rise after Blok, K: (3).
 
-    1.11 μ_m w |v_g1 − v_g2|/(√(2 b_H)(B_M1 √v_g1 + B_M2 √v_g2)), w the normal load per length of the
+    1.11 μ_m w abs(v_g1 − v_g2)/(√(2 b_H)(B_M1 √v_g1 + B_M2 √v_g2)), w the normal load per length of the
     contact line (N/m), b_H the half width of the Hertz contact (m), B_M in W s^½/(m² K);
     the approach factor X_J is 1.
     """
