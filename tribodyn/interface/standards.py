@@ -20,10 +20,14 @@ import numpy as np
 from tribodyn.compliance import iso6336
 from tribodyn.errors import InputError, quoted
 from tribodyn.interface.scenario import in_toml
-from tribodyn.scenario.units import TEMPERATURE_KIND, Kind, NotAQuantity, to_si
+from tribodyn.scenario import units
+from tribodyn.scenario.units import Kind, NotAQuantity, to_si
+from tribodyn.standards.micropitting import LUBRICATION_FACTORS
+from tribodyn.standards.pitting import UNMODIFIED_FACTOR
+from tribodyn.standards.rolling_bearings import EXPONENTS
 
 
-class _Part(NamedTuple):
+class _Formulas(NamedTuple):
     """A module of formulas."""
 
     standard: str
@@ -32,71 +36,59 @@ class _Part(NamedTuple):
 
 
 _PARTS = {
-    "allowances": _Part("DIN 3967 and ISO 286, DIN 3964"),
-    "bending": _Part("ISO 6336-3:2006 and :2019, method B", "RootSection BendingGear"),
-    "contact_path": _Part("ISO/TR 15144-1:2014, clauses 8 to 11", "ContactPath"),
-    "fatigue": _Part("ISO 6336-6:2019", "StressCurve Bin"),
-    "flank_tolerances": _Part("ISO 1328-1:2013 and :1995"),
-    "fzg": _Part("ISO 14635-1, ISO/TR 15144-1:2014 annex A, ISO/TS 6336-20 and -21:2017"),
-    "load_factors": _Part("ISO 6336-1:2019", "FlankRunIn DynamicMesh"),
-    "metals": _Part("ISO 6336-5:2016", "Line Metal"),
-    "micropitting": _Part("ISO/TS 6336-22:2018 (ISO/TR 15144-1:2014)", "Oil Flanks Load"),
-    "pitting": _Part("ISO 6336-2:2006 and :2019, method B", "PittingMesh"),
-    "rainflow": _Part("ASTM E1049-85, 5.4.4 and 5.4.5"),
-    "rolling_bearings": _Part("ISO 281:2007"),
-    "scuffing": _Part("ISO/TS 6336-20 and -21:2017 (ISO/TR 13989:2000)", "ScuffingMesh"),
-    "stiffness": _Part(
+    "allowances": _Formulas("DIN 3967 and ISO 286, DIN 3964"),
+    "bending": _Formulas("ISO 6336-3:2006 and :2019, method B", "RootSection BendingGear"),
+    "contact_path": _Formulas("ISO/TR 15144-1:2014, clauses 8 to 11", "ContactPath"),
+    "fatigue": _Formulas("ISO 6336-6:2019", "StressCurve Bin"),
+    "flank_tolerances": _Formulas("ISO 1328-1:2013 and :1995"),
+    "fzg": _Formulas("ISO 14635-1, ISO/TR 15144-1:2014 annex A, ISO/TS 6336-20 and -21:2017"),
+    "load_factors": _Formulas("ISO 6336-1:2019", "FlankRunIn DynamicMesh"),
+    "metals": _Formulas("ISO 6336-5:2016", "Line Metal"),
+    "micropitting": _Formulas("ISO/TS 6336-22:2018 (ISO/TR 15144-1:2014)", "Oil Flanks Load"),
+    "pitting": _Formulas("ISO 6336-2:2006 and :2019, method B", "PittingMesh"),
+    "rainflow": _Formulas("ASTM E1049-85, 5.4.4 and 5.4.5"),
+    "rolling_bearings": _Formulas("ISO 281:2007"),
+    "scuffing": _Formulas("ISO/TS 6336-20 and -21:2017 (ISO/TR 13989:2000)", "ScuffingMesh"),
+    "stiffness": _Formulas(
         "ISO 6336-1:2019, clause 9, method B",
         "ReferencePair",
         "pair_of bodies_outside",
     ),
 }
-#: SI unit -> what it is of, an example, and the arguments that have it; all others are plain numbers.
-_UNITS = {
-    "m": (
-        "length",
-        "12 mm",
-        "arm base_diameter base_radii base_radius centre_distance deviation diameter distance face_width "
-        "half_width mean_diameter mean_roughness middle_diameter misalignment module most normal_module "
-        "notch_radius pitch_deviation pitch_radius profile_deviation radius reference_diameter "
-        "reduced_radius reference_radius roughness thickness tip_radius tip_relief tolerance tooth_height "
-        "bending.BendingGear.rim",
+#: Kind of quantity -> the arguments that are of it; all others are plain numbers.
+_ARGUMENTS = {
+    units.LENGTH: (
+        "arm base_diameter base_radii base_radius centre_distance deviation diameter distance "
+        "face_width half_width mean_diameter mean_roughness middle_diameter misalignment module most "
+        "normal_module notch_radius pitch_deviation pitch_radius profile_deviation radius "
+        "reference_diameter reduced_radius reference_radius roughness thickness tip_radius tip_relief "
+        "tolerance tooth_height bending.BendingGear.rim"
     ),
-    "rad": (
-        "angle",
-        "20 deg",
-        "base_helix_angle contact_angle helix_angle load_angle normal_pressure_angle pressure_angle roll "
-        "working working_angle load_factors.shared_load.limits",
+    units.ANGLE_KIND: (
+        "base_helix_angle contact_angle helix_angle load_angle normal_pressure_angle pressure_angle "
+        "roll working working_angle load_factors.shared_load.limits"
     ),
-    "Pa": (
-        "pressure",
-        "1500 MPa",
+    units.PRESSURE: (
         "allowable_stress bending_limit contact_limit course effective_modulus hardness high low "
         "mesh_stiffness pressure reduced_modulus single_stiffness stiffness stress yield_strength "
-        "youngs_modulus",
+        "youngs_modulus"
     ),
-    "N": (
-        "force",
-        "2 kN",
-        "accurate_load axial dynamic_rating radial static_rating tangential_load load",
+    units.FORCE: "accurate_load axial dynamic_rating radial static_rating tangential_load load",
+    Kind("line load", "N/m", "300 N/mm"): "line_load",
+    units.TORQUE: "pinion_torque",
+    units.POWER: "power",
+    units.ANGULAR_SPEED: "pinion_speed rolling_bearings.running_time.speed",
+    units.VELOCITY: "pitch_speed speed speed_sum speeds",
+    units.TEMPERATURE_KIND: (
+        "bulk contact_temperature integral oil_temperature scuffing scuffing_temperature temperatures"
     ),
-    "N/m": ("line load", "300 N/mm", "line_load"),
-    "N*m": ("torque", "500 N*m", "pinion_torque"),
-    "W": ("power", "15 kW", "power"),
-    "rad/s": ("angular speed", "1500 rpm", "pinion_speed rolling_bearings.running_time.speed"),
-    "m/s": ("velocity", "2 m/s", "pitch_speed speed speed_sum speeds"),
-    "K": (
-        TEMPERATURE_KIND.name,
-        TEMPERATURE_KIND.example,
-        "bulk contact_temperature integral oil_temperature scuffing scuffing_temperature temperatures",
-    ),
-    "delta_degC": ("temperature difference", "17 K", "mean_flash"),
-    "Pa*s": ("dynamic viscosity", "0.35 Pa*s", "viscosity"),
-    "m**2/s": ("kinematic viscosity", "220 mm**2/s", "viscosity_40"),
-    "kg/m**3": ("density", "7850 kg/m**3", "density"),
-    "kg/m": ("mass per length", "300 kg/m", "mass reduced_mass"),
-    "kg*m**2": ("moment of inertia", "0.02 kg*m**2", "inertias"),
-    "W*s**0.5/(m**2*K)": ("thermal contact coefficient", "13800 W*s**0.5/(m**2*K)", "thermal_contact"),
+    units.TEMPERATURE_DIFFERENCE: "mean_flash",
+    units.VISCOSITY: "viscosity",
+    units.KINEMATIC_VISCOSITY: "viscosity_40",
+    units.DENSITY: "density",
+    Kind("mass per length", "kg/m", "300 kg/m"): "mass reduced_mass",
+    units.INERTIA: "inertias",
+    Kind("thermal contact coefficient", "W*s**0.5/(m**2*K)", "13800 W*s**0.5/(m**2*K)"): "thermal_contact",
 }
 #: Arguments that have no unit here although those of the same name have one elsewhere.
 _PLAIN = (
@@ -105,17 +97,13 @@ _PLAIN = (
     "micropitting.mean_friction.roughness",
     "scuffing.ScuffingMesh.tip_relief",
 )
-_KINDS = {
-    name: Kind(kind, "K" if unit == "delta_degC" else unit, example)
-    for unit, (kind, example, names) in _UNITS.items()
-    for name in names.split()
-}
-#: Texts and numbers that some arguments are chosen from.
+_KINDS = {name: kind for kind, names in _ARGUMENTS.items() for name in names.split()}
+#: Texts and numbers that some arguments are chosen from; the factor X_S has such a name and is a number.
 _CHOICES: dict[str, tuple[Any, ...]] = {
     "edition": (2019, 2006),
-    "kind": ("deep-groove-ball", "cylindrical-roller", "tapered-roller"),
-    "lubrication": ("dip", "spray", "submerged"),
-    "modification": ("none", "usual", "suitable"),
+    "kind": tuple(EXPONENTS),
+    "lubrication": tuple(LUBRICATION_FACTORS),
+    "modification": tuple(UNMODIFIED_FACTOR),
 }
 
 
@@ -142,16 +130,16 @@ def _number(where: str, value: Any) -> float:
 def _read(where: str, due: Any, value: Any) -> Any:
     """The value of an argument as its function's annotation has it."""
     origin, parts = get_origin(due), get_args(due)
+    if due is float:
+        return _number(where, value)
     if choices := _CHOICES.get(where.rsplit(".", 1)[1], parts if origin is Literal else ()):
-        if due is not float and value not in choices:  # the factor X_S has the name of its choice
+        if value not in choices:
             rule = "is none of " + ", ".join(map(quoted, choices))
             raise InputError(where, quoted(value), rule, f"write {quoted(choices[0])}")
-        return value if due is not float else _number(where, value)
+        return value
     if type(None) in parts:
         rest = [part for part in parts if part is not type(None)]
         return None if value is None else _read(where, rest[0] if len(rest) == 1 else Any, value)
-    if due is float:
-        return _number(where, value)
     if due is int:
         number = _number(where, value)
         if number != int(number):

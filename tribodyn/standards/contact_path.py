@@ -5,6 +5,7 @@ g are along the path from A, m. Teeth and radii of an internal gear are negative
 curvature of its flanks and the centre distance.
 """
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,6 +14,11 @@ from tribodyn.numerics.shapes import Array, Float
 
 #: Points of the path in the order in which they are passed.
 POINTS = ("A", "AB", "B", "C", "D", "DE", "E")
+
+
+def transverse_angle(pressure_angle: float, helix_angle: float) -> float:
+    """Transverse pressure angle α_t, rad: tan α_t = tan α_n/cos β, ISO 21771."""
+    return math.atan(math.tan(pressure_angle) / math.cos(helix_angle))
 
 
 class ContactPath(NamedTuple):

@@ -9,7 +9,7 @@ in the listing of 2019, at the reference circle in reports of 2006. No other fac
 import math
 from typing import NamedTuple
 
-from tribodyn.standards.contact_path import ContactPath
+from tribodyn.standards.contact_path import ContactPath, transverse_angle
 from tribodyn.standards.fatigue import StressCurve
 from tribodyn.standards.metals import SURFACE_HARDENED, VICKERS, Metal, contact_factors
 
@@ -103,7 +103,7 @@ def zone_factor(
     normal_pressure_angle: float, helix_angle: float, working_angle: float, base_helix_angle: float
 ) -> float:
     """Z_H = √(2 cos β_b cos α_wt/(cos² α_t sin α_wt)) of α_n, β, α_wt and β_b, rad: (14)."""
-    transverse = math.atan(math.tan(normal_pressure_angle) / math.cos(helix_angle))
+    transverse = transverse_angle(normal_pressure_angle, helix_angle)
     return math.sqrt(2.0 * math.cos(base_helix_angle) / (math.cos(transverse) ** 2 * math.tan(working_angle)))
 
 

@@ -9,7 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.standards.contact_path import ContactPath, curvature_radii, helical_load_factor
+from tribodyn.standards.contact_path import (
+    ContactPath,
+    curvature_radii,
+    helical_load_factor,
+    transverse_angle,
+)
 from tribodyn.standards.micropitting import mean_friction, roughness_factor
 
 
@@ -151,7 +156,7 @@ def approach_factor(first: float, second: float) -> float:
 
 def pressure_angle_factor(working: float, pressure_angle: float, helix_angle: float) -> float:
     """X_αβ = 1.22 (sin α_wt cos α_n cos β)^¼/√(cos α_wt cos α_t), α_wt and α_n in rad: (13)."""
-    transverse = math.atan(math.tan(pressure_angle) / math.cos(helix_angle))
+    transverse = transverse_angle(pressure_angle, helix_angle)
     product = math.sin(working) * math.cos(pressure_angle) * math.cos(helix_angle)
     return 1.22 * product**0.25 / math.sqrt(math.cos(working) * math.cos(transverse))
 
@@ -170,7 +175,7 @@ def integral_temperature(path: ContactPath, mesh: ScuffingMesh) -> IntegralTempe
     ratio, first, second = path.ratio, *path.tip_contact_ratios
     helical = helical_load_factor(path.total_contact_ratio)
     working, base_helix = path.pressure_angle, path.base_helix_angle
-    transverse = math.atan(math.tan(mesh.pressure_angle) / math.cos(mesh.helix_angle))
+    transverse = transverse_angle(mesh.pressure_angle, mesh.helix_angle)
     pitch_radius = (
         ratio / (1.0 + ratio) ** 2 * path.centre_distance * math.sin(working) / math.cos(base_helix)
     )

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-from tribodyn.standards.contact_path import ContactPath
+from tribodyn.standards.contact_path import ContactPath, transverse_angle
 from tribodyn.standards.fatigue import Bin, StressCurve, safety
 from tribodyn.standards.metals import Metal, contact_factors
 from tribodyn.standards.pitting import Influences, PittingMesh, influences, permissible
@@ -93,7 +93,7 @@ def _extended(reference: float) -> StressCurve:
 def _influences() -> Influences:
     """Factors of the example: ν_40 220 mm²/s."""
     angle, helix = math.radians(25.0), math.radians(15.5)
-    transverse = math.atan(math.tan(angle) / math.cos(helix))
+    transverse = transverse_angle(angle, helix)
     reference = [_MODULE / math.cos(helix) * z / 2.0 for z in _TEETH]
     base = reference[0] * math.cos(transverse), reference[1] * math.cos(transverse)
     working = math.acos(sum(base) / _CENTRES)

@@ -11,7 +11,7 @@ from typing import Any
 from tribodyn.compliance import iso6336
 from tribodyn.geometry.gauges import Involute, span
 from tribodyn.standards import load_factors, pitting
-from tribodyn.standards.contact_path import ContactPath
+from tribodyn.standards.contact_path import ContactPath, transverse_angle
 from tribodyn.standards.flank_tolerances import flank_tolerances, rounded
 from tribodyn.standards.metals import Metal, contact_factors
 from tribodyn.validation.books import rows_of
@@ -28,7 +28,7 @@ _MODULE, _ALPHA, _HELIX, _TEETH, _WIDTH, _CENTRES = (
 _TIPS, _DEPTH, _ROUNDING = (159.66, 872.35), 11.2, 3.12
 _TORQUE, _SPEED, _HOURS, _FACE = 9000.0, 360.0 * math.pi / 30.0, 50000.0, 1.16
 _STEEL = Metal("case-hardened", 1500e6, 500e6, 6.9e9, 900e6)
-_TRANSVERSE = math.atan(math.tan(_ALPHA) / math.cos(_HELIX))
+_TRANSVERSE = transverse_angle(_ALPHA, _HELIX)
 _REFERENCE = (_MODULE / math.cos(_HELIX) * 17, _MODULE / math.cos(_HELIX) * 103)
 _BASES = (_REFERENCE[0] * math.cos(_TRANSVERSE), _REFERENCE[1] * math.cos(_TRANSVERSE))
 _WORKING = math.acos(sum(_BASES) / 2.0 / _CENTRES)
