@@ -7,7 +7,6 @@ has its standard, equation and range, and the units of its arguments.
 
 import collections.abc
 import math
-from collections.abc import Callable
 from functools import wraps
 from importlib import import_module
 from inspect import Parameter, cleandoc, isclass, isfunction, signature
@@ -192,7 +191,9 @@ def _is_number(value: Any) -> bool:
     return True
 
 
-def _with_units(part: str, standard: str, function: Callable[..., Any]) -> Callable[..., Any]:
+def _with_units(
+    part: str, standard: str, function: collections.abc.Callable[..., Any]
+) -> collections.abc.Callable[..., Any]:
     """The function, with units of its arguments and one error for what it cannot be called with."""
     taken, where = signature(function), f"{part}.{function.__name__}"
     units = [
