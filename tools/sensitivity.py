@@ -118,7 +118,7 @@ COLUMNS = (
     ("η CRC", "efficiency-crc", ".4f"),
     ("η inv.", "efficiency-involute", ".4f"),
     ("loss inv./CRC", None, ".2f"),
-    ("DTE CRC − inv., µm", None, "+.1f"),
+    ("DTE CRC − inv., µm", None, "+.2f"),
 )
 
 
@@ -166,7 +166,7 @@ def results(folder: Path, settings: dict[str, dict[str, Any]]) -> list[float]:
             summary = record.summary
             friction[name] = [summary["friction_force_mean"][record.pairs.index(pair)] for pair in (1, 0)]
             efficiency[name], ratio[name] = summary["efficiency"], summary["contact_ratio"]
-            error[name] = summary["transmission_error_mean"]
+            error[name] = summary["transmission_error_normal_mean"]
     loss = (1 - efficiency[INVOLUTE]) / (1 - efficiency[CRC])
     return [
         ratio[CRC],

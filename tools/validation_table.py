@@ -12,7 +12,7 @@ import re
 from tools.marked_block import DOCS, ROOT, parser_of, put
 from tools.marked_block import table as table_of
 from tribodyn.validation import PAPERS, validate
-from tribodyn.validation.rows import Otherwise, Row, counted, of_part, per_cent
+from tribodyn.validation.rows import Row, counted, of_part, per_cent
 
 VALIDATION = DOCS / "validation.md"
 #: Pages of the papers that do not stand on the page of validation.
@@ -54,11 +54,13 @@ def tolerance(row: Row) -> str:
     return row.written("tolerance") if row.tolerance_reason else share(row, row.tolerance).removeprefix("+")
 
 
-def other(row: Row, otherwise: Otherwise | None) -> str:
-    if otherwise is None:
-        return ""
-    parts = (cell(otherwise.computed), share(row, otherwise.difference), otherwise.verdict)
-    return f"{otherwise.choice}: {', '.join(part for part in parts if part)}"
+def other(row: Row) -> str:
+    """The row under other choices, where it differs."""
+    lines = []
+    for otherwise in row.otherwise:
+        parts = (cell(otherwise.computed), share(row, otherwise.difference), otherwise.verdict)
+        lines.append(f"{otherwise.choice}: {', '.join(part for part in parts if part)}")
+    return "<br>".join(lines)
 
 
 def table(paper: str, rows: list[Row]) -> str:
@@ -94,7 +96,7 @@ def table(paper: str, rows: list[Row]) -> str:
             difference(row),
             tolerance(row),
             row.written("verdict"),
-            other(row, row.otherwise),
+            other(row),
         ]
         lines.append(cells)
     body = table_of(head, lines, "lrrrlll")

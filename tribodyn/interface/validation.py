@@ -49,7 +49,7 @@ def validate(
     -------
     list of Row
         Shown as a table in a notebook; each with `quantity`, `published` and `computed` value, `tolerance`,
-        `verdict`, `otherwise` (the same under another choice, or None) and `note`; the verdict is "pass",
+        `verdict`, `otherwise` (the same under other choices) and `note`; the verdict is "pass",
         "fail", "direction" (no more than the direction is compared) or "reported".
 
     Raises

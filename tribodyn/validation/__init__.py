@@ -39,7 +39,8 @@ PAPERS = {
     "liu-ni-2022": Paper(
         "tribodyn.validation.liu_ni",
         "Liu & Ni, Mechanics & Industry 23:10 (2022): CRC drive and involute",
-        "as published, with kinematic sliding; beside it the default, dynamic sliding",
+        "as published, with kinematic sliding, transmission errors by (6); beside it the default, dynamic "
+        "sliding, and other readings",
         "tribodyn.validation.liu_ni_figures",
     ),
     "efremenkov-2024": Paper(

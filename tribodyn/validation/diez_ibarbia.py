@@ -25,7 +25,7 @@ from tribodyn.validation.diez_ibarbia_study import (
     mean_friction,
     peak,
 )
-from tribodyn.validation.rows import Row, compare, published
+from tribodyn.validation.rows import Row, compare_paper
 
 PAPER = "diez-ibarbia"
 
@@ -75,8 +75,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         " / ".join(f"{ratio:.3f}" for ratio in ratios) + f" at 40 / 159 / 637 N·m; theoretical {theory:.3f}",
     )
     values[f"{prefix}efficiency-falls-with-shift"] = _falls_with_shift(progress)
-    table = published(PAPER)
-    return [compare(table[key], *values[key]) for key in table]
+    return compare_paper(PAPER, values)
 
 
 def _step_at_pitch_point(flexible: PairFlexibility) -> tuple[bool, str]:

@@ -10,7 +10,7 @@ from tribodyn.errors import SimulationError
 from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.validation.rows import Row, compare, published
+from tribodyn.validation.rows import Row, compare_paper
 
 PAPER = "efremenkov-2024"
 
@@ -75,15 +75,12 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         "of 0.01 mm",
         "efremenkov/vs-range": f"r_b 2 mm; {ranges[0]:.4f} and {ranges[1]:.4f} mm/s with 1.2 and 2.8 mm",
     }
-    return [
-        compare(
-            row,
-            values[key],
-            notes.get(key, ""),
-            ("corrected speeds" + ", the gear locks" * (otherwise[key] is None), otherwise[key]),
-        )
-        for key, row in published(PAPER).items()
-    ]
+    locked = {key for key, value in otherwise.items() if value is None}
+    beside = {
+        "corrected speeds": {key: value for key, value in otherwise.items() if key not in locked},
+        "corrected speeds, the gear locks": dict.fromkeys(locked),
+    }
+    return compare_paper(PAPER, {key: (value, notes.get(key, "")) for key, value in values.items()}, beside)
 
 
 def _run(path: Path, scenario: str, changes: dict[str, str]) -> FinishedRun:

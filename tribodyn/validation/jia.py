@@ -24,7 +24,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import hertz_pressure
-from tribodyn.validation.rows import Row, compare, published
+from tribodyn.validation.rows import Row, compare_paper
 
 Name = Literal["involute", "parabolic"]
 DRIVES: tuple[Name, Name] = ("involute", "parabolic")
@@ -184,8 +184,11 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         if progress:
             progress(done / len(ratios))
     values |= _families()
-    table = published(PAPER)
-    return [compare(table[key], *values[key]) for key in table]
+    beside: dict[str, dict[str, Any]] = {}
+    for key, (_, _, *others) in values.items():
+        for choice, value in others:
+            beside.setdefault(choice, {})[key] = value
+    return compare_paper(PAPER, {key: given[:2] for key, given in values.items()}, beside)
 
 
 def geometry() -> dict[str, tuple[Any, ...]]:

@@ -1,6 +1,6 @@
 """Liu & Ni, Mechanics & Industry 23 (2022) 10: the CRC drive and the involute it is compared with."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -10,21 +10,31 @@ from tribodyn.errors import SimulationError
 from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.validation.rows import Row, compare, published
+from tribodyn.validation.rows import Row, compare_paper
 
 PAPER = "liu-ni-2022"
+DRIVES = "crc-23-47", "involute-23-47"
 #: Runs by the names of their records: scenario and what is changed in it.
-RUNS: dict[str, tuple[str, dict[str, str]]] = {
-    **{
-        name: (name, {})
-        for name in ("crc-23-47", "involute-23-47", "crc-23-47-frictionless", "involute-23-47-frictionless")
-    },
-    **{
-        f"{name}-dynamic": (name, {"friction.sliding": "dynamic"}) for name in ("crc-23-47", "involute-23-47")
-    },
+RUNS: dict[str, tuple[str, dict[str, Any]]] = {
+    f"{drive}{end}": (drive + scenario, changes)
+    for end, scenario, changes in (
+        ("", "", {}),
+        ("-frictionless", "-frictionless", {}),
+        ("-dynamic", "", {"friction.sliding": "dynamic"}),
+        ("-mean-pressure", "", {"friction.law": "masjedi-khonsari-mean-pressure"}),
+        ("-fem", "", {"mesh.compliance": "fem"}),
+        ("-apart", "", {"mesh.foundation_coupling": False}),
+    )
+    for drive in DRIVES
 }
-#: The choice of the last two runs, for rows that depend on it.
-DEFAULT = "dynamic sliding, the default"
+#: Other choices of the rows that depend on them, by the ends of the names of their runs.
+CHOICES = {
+    "-dynamic": "dynamic sliding, the default",
+    "-mean-pressure": "limiting shear stress by the whole mean pressure",
+}
+#: Choices of the claim about the two transmission errors: Liu & Ni's (6) is along the normal.
+ROTATIONAL, APART = "DTE as r_p θ_p - r_g θ_g", "pairs that do not share the gear bodies"
+_ABOVE = "liu-ni/claim-dte-of-the-crc-drive-above-the-involute-s-lower"
 
 #: Samples per mesh cycle: at 10 rad/s the mesh vibrates 49 times per cycle, which 200 hardly resolve.
 SAMPLES = 2000
@@ -41,11 +51,14 @@ class Steady(NamedTuple):
     phase: np.ndarray
     pitch_point: float
     contact_ratio: float
+    rotational: bool = False  # whether the transmission error is the rotational one
 
     @property
     def error(self) -> np.ndarray:
-        """Rotational transmission error, m."""
-        return self.data["transmission_error_rotational"]
+        """Transmission error, m: by Liu & Ni's (6) of pair 1, which is in contact all the cycle."""
+        if self.rotational:
+            return self.data["transmission_error_rotational"]
+        return self.data["transmission_error_normal"][:, 1]
 
     def single(self) -> np.ndarray:
         """Where one pair alone carries the load."""
@@ -69,6 +82,7 @@ def _steady(path: Path) -> Steady:
         "entrainment_speed",
         "friction_coefficient",
         "efficiency",
+        "transmission_error_normal",
         "transmission_error_rotational",
     )
     samples = record.scenario["output"]["samples_per_cycle"]
@@ -84,7 +98,7 @@ def _steady(path: Path) -> Steady:
 
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
-    """All rows of the paper, from six runs whose records are left in `folder`."""
+    """All rows of the paper, from twelve runs whose records are left in `folder`."""
     steady = {}
     for count, (name, (scenario, changes)) in enumerate(RUNS.items()):
         case = load_scenario(scenario, {"output.samples_per_cycle": SAMPLES, **changes})
@@ -94,22 +108,30 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         steady[name] = _steady(result.path)
         if progress:
             progress((count + 1) / len(RUNS))
-    crc, involute, crc_dry, involute_dry, crc_dynamic, involute_dynamic = (steady[name] for name in RUNS)
-    values = _numbers(crc, involute, crc_dry) | _claims(crc, involute, crc_dry, involute_dry)
-    default = _numbers(crc_dynamic, involute_dynamic, crc_dry)
-    default |= _claims(crc_dynamic, involute_dynamic, crc_dry, involute_dry)
-    table = published(PAPER)
-    return [
-        compare(
-            table[key],
-            *values[key],
-            otherwise=(DEFAULT, default[key][0]) if default[key] != values[key] else None,
-        )
-        for key in table
-    ]
+    wet, dry, elements, apart, *others = (
+        [steady[f"{drive}{end}"] for drive in DRIVES]
+        for end in ("", "-frictionless", "-fem", "-apart", *CHOICES)
+    )
+    values = _numbers(wet, dry) | _claims(wet, dry)
+    for name, pair in (("teeth by finite elements", elements), (APART, apart)):
+        means = [1e6 * s.summary["transmission_error_normal_mean"] for s in pair]
+        values[_ABOVE] = values[_ABOVE][0], f"{values[_ABOVE][1]}; {name} {means[0]:.2f}, {means[1]:.2f} µm"
+    beside = {
+        choice: _numbers(pair, dry) | _claims(pair, dry)
+        for choice, pair in zip(CHOICES.values(), others, strict=True)
+    }
+    beside[ROTATIONAL] = _errors(*([s._replace(rotational=True) for s in pair] for pair in (wet, dry)))
+    beside[APART] = {_ABOVE: _errors(apart, dry)[_ABOVE]}
+    return compare_paper(
+        PAPER,
+        values,
+        {choice: {key: value for key, (value, _) in beside[choice].items()} for choice in beside},
+    )
 
 
-def _numbers(crc: Steady, involute: Steady, crc_dry: Steady) -> dict[str, tuple[Any, str]]:
+def _numbers(wet: Sequence[Steady], dry: Sequence[Steady]) -> dict[str, tuple[Any, str]]:
+    crc, involute = wet
+    crc_dry = dry[0]
     load = float(np.mean(np.sum(crc_dry.data["normal_load"], axis=1)[crc_dry.single()]))
     spectrum = crc_dry.summary["spectrum_amplitudes"], crc_dry.summary["spectrum_frequencies"]
     first = 1 + int(np.argmax(spectrum[0][1:]))
@@ -161,20 +183,48 @@ def _jump(wet: Steady, dry: Steady) -> tuple[float, float]:
     return step(wet.pitch_point), max(others, default=0.0)
 
 
-def _claims(
-    crc: Steady, involute: Steady, crc_dry: Steady, involute_dry: Steady
-) -> dict[str, tuple[Any, str]]:
+def _errors(wet: Sequence[Steady], dry: Sequence[Steady]) -> dict[str, tuple[bool, str]]:
+    """Claims about the transmission error, of (CRC drive, involute) with friction and without."""
+    crc, involute = wet
     share = float(np.mean(crc.error > involute.error))
-    means = [float(np.mean(s.error)) * 1e6 for s in (crc, involute)]
-    stiffness = [s.summary["stiffness_single_pair_at_pitch_point"] / 1e6 for s in (crc, involute)]
-    ranges = [float(np.ptp(s.error)) * 1e6 for s in (crc, crc_dry, involute, involute_dry)]
-    raised = [
-        float(end(wet.error) - end(dry.error)) * 1e6
-        for wet, dry in ((crc, crc_dry), (involute, involute_dry))
+    means = [float(np.mean(s.error)) * 1e6 for s in wet]
+    stiffness = [s.summary["stiffness_single_pair_at_pitch_point"] / 1e6 for s in wet]
+    ends = [
+        [float(end(s.error)) * 1e6 for s in (still, moved)]
+        for moved, still in zip(wet, dry, strict=True)
         for end in (np.max, np.min)
     ]
+    jumps = [_jump(moved, still) for moved, still in zip(wet, dry, strict=True)]
+    which = "rotational" if crc.rotational else "eq. (6), pair 1"
+    prefix = "liu-ni/claim-"
+    return {
+        _ABOVE: (
+            means[0] > means[1],
+            f"{which}: mean {means[0]:.2f} against {means[1]:.2f} µm, above at {share:.0%} of the phases; a "
+            f"single CRC pair is the stiffer, {stiffness[0]:.0f} against {stiffness[1]:.0f} N/µm",
+        ),
+        f"{prefix}friction-raises-maximum-and-minimum-of-the-dte": (
+            all(moved > still for still, moved in ends),
+            f"{which}, without -> with friction, µm: "
+            + ", ".join(
+                f"{end} {still:.2f} -> {moved:.2f}"
+                for end, (still, moved) in zip(
+                    ("CRC maximum", "minimum", "involute maximum", "minimum"), ends, strict=True
+                )
+            ),
+        ),
+        f"{prefix}a-jump-of-the-dte-at-the-pitch-point": (
+            all(abs(at) > 2.0 * elsewhere for at, elsewhere in jumps),
+            f"{which}, friction's step at P: CRC {jumps[0][0] * 1e6:+.2f} µm "
+            f"(at most {jumps[0][1] * 1e6:.2f} elsewhere in single contact), "
+            f"involute {jumps[1][0] * 1e6:+.2f} ({jumps[1][1] * 1e6:.2f})",
+        ),
+    }
+
+
+def _claims(wet: Sequence[Steady], dry: Sequence[Steady]) -> dict[str, tuple[Any, str]]:
+    crc, involute = wet
     forces = [float(np.sum(s.summary["friction_force_mean"])) for s in (crc, involute)]
-    jumps = [_jump(crc, crc_dry), _jump(involute, involute_dry)]
     film, film_note = _above("central_film_thickness", crc, involute)
     speed, speed_note = _above("entrainment_speed", crc, involute)
 
@@ -190,24 +240,7 @@ def _claims(
     both = [float(np.mean(efficiency[single])), float(np.mean(efficiency[~single]))]
     prefix = "liu-ni/claim-"
     return {
-        f"{prefix}dte-of-the-crc-drive-above-the-involute-s-lower": (
-            means[0] > means[1],
-            f"rotational DTE, mean {means[0]:.1f} against {means[1]:.1f} µm, above at {share:.0%} of the "
-            "phases; through the lower contact ratio: a single CRC pair is the "
-            f"stiffer, {stiffness[0]:.0f} against {stiffness[1]:.0f} N/µm",
-        ),
-        f"{prefix}friction-widens-the-range-of-the-dte": (
-            ranges[0] > ranges[1] and ranges[2] > ranges[3],
-            f"peak to peak with/without: CRC {ranges[0]:.2f}/{ranges[1]:.2f} µm, "
-            f"involute {ranges[2]:.2f}/{ranges[3]:.2f} µm; maximum and minimum move by "
-            f"{raised[0]:+.2f}, {raised[1]:+.2f} and {raised[2]:+.2f}, {raised[3]:+.2f} µm",
-        ),
-        f"{prefix}a-jump-of-the-dte-at-the-pitch-point": (
-            all(abs(at) > 2.0 * elsewhere for at, elsewhere in jumps),
-            f"friction's step at P, CRC {jumps[0][0] * 1e6:+.2f} µm "
-            f"(at most {jumps[0][1] * 1e6:.2f} elsewhere in single contact), "
-            f"involute {jumps[1][0] * 1e6:+.2f} ({jumps[1][1] * 1e6:.2f})",
-        ),
+        **_errors(wet, dry),
         f"{prefix}film-of-the-crc-drive-above-the-involute-s-at-ev": (film == 1.0, film_note),
         f"{prefix}entrainment-speed-of-the-crc-drive-above-the-inv": (speed == 1.0, speed_note),
         f"{prefix}friction-coefficient-of-the-crc-drive-below-the": (

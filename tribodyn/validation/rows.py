@@ -2,7 +2,7 @@
 
 import csv
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from importlib.resources import files
 from typing import Any, NamedTuple
 
@@ -16,15 +16,15 @@ KINDS = {
     "direction": ("row by direction", "rows by direction"),
     "implementation": ("value beside another implementation", "values beside another implementation"),
 }
-_CHOSEN = "under this choice only"
+_CHOSEN = "not under every choice"
 _BELOW_ONE = "direction only (below 1)"
 
 
 class Otherwise(NamedTuple):
     """What a row would be under another choice than its own."""
 
-    #: the other choice: the program's default where the row is computed as published, another reading where
-    #: the paper leaves one open
+    #: the program's default where the row is computed as published, another reading where the paper leaves
+    #: one open
     choice: str
     #: computed, difference, verdict: As of the row.
     computed: Any
@@ -60,16 +60,14 @@ class Row(NamedTuple):
     #: the tolerance as a share of the value or of its part; the largest of several columns
     tolerance_share: float | None = None
     tolerance_reason: str = ""  # why this share is larger than `WIDE`
-    otherwise: Otherwise | None = None  # the same row under another choice
+    otherwise: tuple[Otherwise, ...] = ()  # the same row under other choices, where these differ
     printed: str = ""  # the published number as it is printed, where its last digit is the tolerance
 
     @property
     def hangs_on_choice(self) -> bool:
-        """Whether the row holds under its own choice and not under the other."""
-        return (
-            self.otherwise is not None
-            and self.verdict in (PASS, DIRECTION)
-            and self.otherwise.verdict not in (PASS, DIRECTION)
+        """Whether the row holds under its own choice and not under each of the others."""
+        return self.verdict in (PASS, DIRECTION) and any(
+            other.verdict not in (PASS, DIRECTION) for other in self.otherwise
         )
 
     def written(self, name: str) -> str:
@@ -83,15 +81,22 @@ class Row(NamedTuple):
         if name == "difference" and self.part_difference is not None:
             return f"{self._amount(name, value)}, {of_part(self.part_difference, self.part, '+')}"
         if name == "verdict" and self.hangs_on_choice:
-            return f"{value} {_CHOSEN}"
+            return f"{value}, {_CHOSEN}"
         return self._amount(name, value)
 
     def _amount(self, name: str, value: Any) -> str:
         if value is None:
             return ""
-        if isinstance(value, Otherwise):
-            parts = [self._amount("computed", value.computed), self._amount("difference", value.difference)]
-            return f"{value.choice}: {', '.join(part for part in (*parts, value.verdict) if part)}"
+        if isinstance(value, tuple):
+            return "; ".join(
+                f"{choice}: "
+                + ", ".join(
+                    part
+                    for part in (self._amount("computed", mine), self._amount("difference", off), verdict)
+                    if part
+                )
+                for choice, mine, off, verdict in value
+            )
         if isinstance(value, list):
             return " ".join(
                 f"{number:.2g}" if name in ("difference", "tolerance") else f"{number:.5g}"
@@ -110,7 +115,7 @@ class Row(NamedTuple):
     def plain(self) -> dict[str, Any]:
         """The row as JSON has it."""
         fields = self._asdict() | {"hangs_on_choice": self.hangs_on_choice}
-        return fields | {"otherwise": self.otherwise._asdict() if self.otherwise else None}
+        return fields | {"otherwise": [other._asdict() for other in self.otherwise]}
 
 
 def of_part(share: float, part: str, sign: str = "") -> str:
@@ -195,12 +200,11 @@ def published(paper: str) -> dict[str, dict[str, Any]]:
 
 
 def compare(
-    row: dict[str, Any], computed: Any, note: str = "", otherwise: tuple[str, Any] | None = None
+    row: dict[str, Any], computed: Any, note: str = "", otherwise: Mapping[str, Any] | None = None
 ) -> Row:
     """Compare a computed value with a row of `published`; `note` is put before the row's own.
 
-    None cannot be computed yet, and stays "reported"; `otherwise` is another choice and what is computed
-    under it.
+    None is not computed, and stays "reported"; `otherwise` has what is computed under other choices.
     """
     compared = _compared(row)
     if compared == "implementation":
@@ -223,9 +227,27 @@ def compare(
         _part_difference(row, computed),
         _tolerance_share(row),
         row.get("tolerance_reason", ""),
-        Otherwise(*otherwise, *_verdict(row, otherwise[1])) if otherwise else None,
+        tuple(Otherwise(choice, value, *_verdict(row, value)) for choice, value in (otherwise or {}).items()),
         row.get("printed", ""),
     )
+
+
+def compare_paper(
+    paper: str, values: Mapping[str, tuple[Any, str]], beside: Mapping[str, Mapping[str, Any]] | None = None
+) -> list[Row]:
+    """Compare all rows of a paper: `values` has value and note by row, `beside` the values of other choices.
+
+    A choice need not have every row, and is shown where its value is another one.
+    """
+    others = {
+        key: {
+            choice: other[key]
+            for choice, other in (beside or {}).items()
+            if key in other and other[key] != values[key][0]
+        }
+        for key in values
+    }
+    return [compare(row, *values[key], others[key]) for key, row in published(paper).items()]
 
 
 def _compared(row: dict[str, Any]) -> str:
