@@ -11,6 +11,8 @@ from typing import Any
 LONGEST_KEY = 240
 #: Characters of a path, more than files of any user have.
 LONGEST_PATH = 1024
+#: Characters of a rule: what is wrong, which may quote what somebody wrote, or what a library says.
+LONGEST_RULE = 1200
 
 
 @dataclass
@@ -33,9 +35,9 @@ class InputError(Exception):
     def __str__(self) -> str:
         place = f"{self.file}: " if self.file else ""
         key = cut(self.key, LONGEST_KEY)
-        given = f" = {self.value}" if self.value is not None else ""
+        given = f" = {cut(str(self.value), LONGEST_PATH)}" if self.value is not None else ""
         remedy = f"; {self.remedy}" if self.remedy else ""
-        return printable(f"{place}{key}{given}: {self.rule}{remedy}")
+        return printable(f"{place}{key}{given}: {cut(self.rule, LONGEST_RULE)}{remedy}")
 
 
 class InputErrors(InputError):

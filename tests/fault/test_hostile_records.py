@@ -182,6 +182,12 @@ def test_it_is_refused_in_python_and_on_the_command_line(what: str, good: Path, 
         assert "damaged" in complaint(verb, path, *more)
 
 
+def test_a_long_text_in_a_record_makes_no_long_message(path: Path):
+    with h5py.File(path, "r+") as file:
+        file.attrs["kind"] = "x" * 10_000
+    assert len(complaint("show", path)) < 2000
+
+
 @pytest.mark.parametrize("name", schema.HEAD)
 @pytest.mark.parametrize("kind", ["gear-pair", "sweep"])
 def test_an_attribute_that_every_record_has_is_missing(name: str, kind: str, tmp_path: Path):

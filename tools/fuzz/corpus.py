@@ -95,7 +95,7 @@ RANGES = (
     *("1:100000000:1rad/s", "1:2/3 1/min", "1:2:1 rad/s**9**9**9"),
 )
 #: Axes of sweeps with their key, and the scenario.
-AXES = (("irefc", "solver.cycles.1=12e3rad/s"),)
+AXES = (("irefc", "solver.cycles.1=12e3rad/s"), ("parabolic-23-47", "sensor=" + "1" * 5000))
 #: Curves from files.
 CURVES = (
     "",

@@ -60,8 +60,8 @@ class LawAtDuty(NamedTuple):
 
     @property
     def distance(self) -> float:
-        """By which the law is off, as the logarithm of a factor."""
-        low, middle, high = map(math.log, self.ratio)
+        """By which the law is off, as the logarithm of a factor; infinite where it gives nothing."""
+        low, middle, high = (math.log(each) if each > 0.0 else -math.inf for each in self.ratio)
         return abs(middle) if self.solved else max(high, -low)
 
     @property
@@ -199,7 +199,8 @@ def _candidates(
         values = state.central_film_thickness if film else np.abs(state.friction_coefficient)
         ratio = np.broadcast_to(values, (PLACES,))[SOLVED][known] / right[known]
         if film:
-            middle = float(np.exp(np.mean(np.log(ratio))))
+            with np.errstate(divide="ignore"):  # a film of 0
+                middle = float(np.exp(np.mean(np.log(ratio))))
         else:
             middle = float(np.average(ratio, weights=heat[SOLVED][known] * right[known]))
         yield LawAtDuty(law, inside, (float(np.min(ratio)), middle, float(np.max(ratio))), solved=True)

@@ -283,3 +283,15 @@ def test_one_message_of_what_is_wrong(changes: dict[str, Any], key: str, words: 
         scenario("helical-23-47", {"bearings": "rigid-1e9", **changes} if "shaft" in changes else changes)
     said = [getattr(error, "key", "") for error in getattr(caught.value, "errors", [caught.value])]
     assert key in said
+
+
+def test_teeth_without_a_path_are_refused_before_their_shafts():
+    with pytest.raises(InputError, match="must be greater than 0") as caught:
+        scenario("parabolic-23-47", {"drive.shape.k1": 0.0, "shaft": SHAFTS})
+    assert caught.value.key == "drive.shape.k1"
+
+
+def test_teeth_that_cannot_be_made_are_refused_before_their_cracks():
+    crack = {"gear": "pinion", "tooth": 2, "kind": "crack", "depth": "2 mm"}
+    with pytest.raises(InputError, match="the bore reaches the root circle"):
+        scenario("parabolic-23-47", {"drive.pinion.bore_radius": "60 mm", "damage": [crack]})

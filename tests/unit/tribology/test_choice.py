@@ -1,5 +1,7 @@
 """`law = "auto"`: the law nearest to the contact as it is solved at the duty."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from tribodyn.sweep.grid import Grid
 from tribodyn.tribology import choice
 from tribodyn.tribology.closure import law_input, with_laws
 from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import AUTO
 
 #: Duties of the template's pair.
@@ -46,6 +49,15 @@ def test_the_law_that_is_taken_is_the_nearest_or_next_to_it():
         assert excess(lab, found, what) < 1.13  # 1.1, and what five places know of the way
     assert found["friction"]["iso-14179-1"] > 0.4
     assert lab.friction.law == "schlenk"
+
+
+def test_a_law_that_gives_nothing_is_the_furthest():
+    """At a hundred times the speed of the shipped pair friction of a law may be 0."""
+    law = load_scenario("spur-25-51", {"operating.pinion_speed": "150000 rpm"}).friction
+    assert law.law in FRICTION_LAWS
+    assert law.ratio is None or min(law.ratio) > 0.0
+    nothing = choice.LawAtDuty(FRICTION_LAWS["none"], math.nan, (0.0, 0.0, 0.5), solved=True)
+    assert nothing.distance == math.inf
 
 
 @pytest.mark.soak

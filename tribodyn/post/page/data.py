@@ -178,8 +178,10 @@ def thinned(values: np.ndarray, most: int = MOST_SAMPLES) -> tuple[np.ndarray, n
 
 
 def packed(values: np.ndarray, kind: str = "<f4") -> str:
-    """An array as text: its bytes in base 64."""
-    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
+    """An array as text: its bytes in base 64; what single precision cannot hold is infinite, a gap."""
+    with np.errstate(over="ignore"):
+        numbers = np.ascontiguousarray(values, dtype=kind)
+    return base64.b64encode(numbers.tobytes()).decode("ascii")
 
 
 def series_data(series: Series) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from tribodyn.geometry.flanks.modification import (
     sampled,
     summed,
 )
+from tribodyn.geometry.limits.checks import check_path
 from tribodyn.numerics.curve import Table
 from tribodyn.scenario.quantity import Draws
 from tribodyn.scenario.tables.drive_data import drive_of
@@ -73,7 +74,9 @@ def error_with_sample(drive: DriveTable, error: Table | None, sample: int | None
 
 
 def _assembly(drive: DriveTable) -> Assembly:
-    return Assembly(family(drive.family), drive_of(drive))
+    teeth, made = family(drive.family), drive_of(drive)
+    check_path(teeth, made)
+    return Assembly(teeth, made)
 
 
 def _deviations(drive: DriveTable, sample: int) -> tuple[Deviations, Deviations]:

@@ -58,7 +58,7 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
     except InputError as error:
         yield error
         return
-    if broken := [*_hands(train), *_pairs(scenario, train)]:
+    if broken := [*_each_mesh_once(train), *_hands(train), *_pairs(scenario, train)]:
         yield from broken
         return
     if scenario.damage and isinstance(scenario.mesh, tuple):
@@ -66,15 +66,26 @@ def _of_train(scenario: Scenario) -> Iterator[InputError]:
             "damage", None, "the meshes of a bare model are given, without teeth", "leave it out"
         )
         return
-    if broken := list(broken_damage(scenario.damage, gears_of_train(train))):
-        yield from broken
-        return
     try:
         drawn(train)
     except InputErrors as error:
         yield from error.errors
     except InputError as error:
         yield error
+    else:
+        yield from broken_damage(scenario.damage, gears_of_train(train))
+
+
+def _each_mesh_once(train: Moving) -> Iterator[InputError]:
+    """Refuse two meshes of one name, and of the same two gears."""
+    names: dict[str, str] = {}
+    pairs: dict[frozenset[int], str] = {}
+    for mesh in train.parts.meshes:
+        if (first := pairs.setdefault(frozenset(mesh.gears), mesh.key)) != mesh.key:
+            yield InputError(mesh.key, None, f"its gears mesh in {first} already", "write the mesh once")
+        elif (first := names.setdefault(mesh.name, mesh.key)) != mesh.key:
+            rule = f"names two meshes, that of {first} too"
+            yield InputError(f"{mesh.key}.name", quoted(mesh.name), rule, "use another name")
 
 
 def _hands(train: Moving) -> Iterator[InputError]:

@@ -9,9 +9,10 @@ import numpy as np
 from tribodyn.compliance.crack import Crack, ligament_to_bore, root_thickness, tangent_limits
 from tribodyn.compliance.energy import LoadedTooth, loaded_tooth
 from tribodyn.errors import InputError, quoted, unknown_name
-from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Side
 from tribodyn.geometry.families import family
+from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.path import radius
 from tribodyn.scenario.tables.damage import EDGE, DamageTable, GearPlace, MissingTable, angles_of
 from tribodyn.scenario.tables.drive_data import drive_of
@@ -69,7 +70,11 @@ def broken_damage(
             yield from broken
             continue
         drive, side = gear.touched(gear.flank(table))
-        assembly = assemble(family(drive.family), drive_of(drive))
+        try:
+            assembly = check(family(drive.family), drive_of(drive))
+        except InputError as error:  # teeth that cannot be made have no place for damage
+            yield error
+            return
         if table.kind == "crack":
             yield from _crack(key, table, loaded_tooth(assembly, side))
         elif table.map is None:

@@ -15,6 +15,7 @@ from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import Misalignment, Modifications
 from tribodyn.geometry.helix import pitch_slope
+from tribodyn.geometry.limits.checks import check_path
 from tribodyn.numerics.remembered import remembered
 from tribodyn.scenario.tables.bearings import Bearing, Bearings, bearing_of
 from tribodyn.scenario.tables.drive_data import drive_of
@@ -59,7 +60,7 @@ class GearSupports(NamedTuple):
 def supports_of(scenario: Any) -> GearSupports:
     """What holds the gears of a scenario that breaks no rule: drawn shafts, and matrices of its bearings.
 
-    Raises InputError where a shaft is not held under the load of its gear.
+    Raises InputError where a shaft is not held under the load of its gear, or the teeth have no path.
     """
     if not has_supports(scenario):
         return GearSupports()
@@ -68,7 +69,9 @@ def supports_of(scenario: Any) -> GearSupports:
     drawn = {side: getattr(shafts, side) if isinstance(shafts, DrawnShafts) else None for side in SIDES}
     drive: DriveTable = scenario.drive
     geometry = drive_of(drive)
-    assembly = assemble(family(drive.family), geometry)
+    teeth = family(drive.family)
+    check_path(teeth, geometry)
+    assembly = assemble(teeth, geometry)
     torque = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
     loads = mean_loads(assembly, torque)
     found: dict[str, GearSupport | None] = dict.fromkeys(SIDES)

@@ -14,7 +14,7 @@ from tests.support.outlines import closed, distance, turned
 from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tribodyn.cli.app import app
 from tribodyn.interface.result import Run
-from tribodyn.post.page.data import MOST_SAMPLES, extrapolated, thinned
+from tribodyn.post.page.data import MOST_SAMPLES, extrapolated, packed, thinned
 from tribodyn.post.page.rolling_teeth import rolling_teeth
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import open_any
@@ -225,3 +225,7 @@ def test_a_hostile_record_does_nothing(hostile):
     dom = shown(hostile.as_uri())
     assert 'data-ready="yes"' in dom
     assert "data-hit" not in dom.split("<script")[0]
+
+
+def test_numbers_that_single_precision_does_not_hold_are_gaps():
+    np.testing.assert_array_equal(unpacked(packed(np.array([1e300, 1.0, -1e300]))), [np.inf, 1.0, -np.inf])

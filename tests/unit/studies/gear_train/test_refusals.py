@@ -143,6 +143,24 @@ REFUSED: dict[str, tuple[list[Change], str, str]] = {
         "shaft.0.damping_ratio",
         "rigid shaft",
     ),
+    "a mesh written twice": (
+        [put("stage.+", {"name": "third", "gears": ["wheel-2", "pinion-2"], **STAGE, "azimuth": "-30 deg"})],
+        "stage.2",
+        "its gears mesh in stage.1 already",
+    ),
+    "two meshes of one name": (
+        [put("stage.1.name", "first")],
+        "stage.1.name",
+        "names two meshes, that of stage.0 too",
+    ),
+    "damage of teeth that cannot be made": (
+        [
+            put("gear.pinion-2.bore_diameter", "100 mm"),
+            put("damage", [{"gear": "pinion-2", "tooth": 2, "kind": "crack", "depth": "2 mm"}]),
+        ],
+        "gear.pinion-2.bore_radius",
+        "the bore reaches the root circle",
+    ),
     "a gear on two rigid shafts": (
         [put("shaft.+", {"name": "other", "gears": ["wheel-1", "wheel-2"]})],
         "shaft.1.gears",
