@@ -149,7 +149,7 @@ REFUSED: dict[str, tuple[list[Change], str, str]] = {
         "its gears mesh in stage.1 already",
     ),
     "two meshes of one name": (
-        [put("stage.1.name", "first")],
+        [put("stage.0.name", "one"), put("stage.1.name", "one")],
         "stage.1.name",
         "names two meshes, that of stage.0 too",
     ),
