@@ -20,7 +20,7 @@ from tools.marked_block import generate, parser_of, table
 from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.validation.rows import published
+from tribodyn.validation.published import published
 
 CRC, INVOLUTE, DRY = "crc-23-47", "involute-23-47", "crc-23-47-frictionless"
 

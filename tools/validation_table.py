@@ -12,12 +12,28 @@ import re
 from tools.marked_block import DOCS, ROOT, parser_of, put
 from tools.marked_block import table as table_of
 from tribodyn.validation import PAPERS, validate
-from tribodyn.validation.rows import Row, counted, of_part, per_cent
+from tribodyn.validation.rows import (
+    BESIDE,
+    CHOSEN,
+    FAIL,
+    ONE_WAY,
+    OTHER,
+    REPORTED,
+    REPRODUCED,
+    STANDINGS,
+    Row,
+    counted,
+    of_part,
+    per_cent,
+)
 
 VALIDATION = DOCS / "validation.md"
 #: Pages of the papers that do not stand on the page of validation.
 PAGES = {"efremenkov-2024": DOCS / "rolling-elements.md"}
 PAGES |= {name: DOCS / "standards.md" for name, paper in PAPERS.items() if paper.source}
+#: Rows in the order of a table, and those that do not stand in it.
+WORST_FIRST = (FAIL, REPORTED, ONE_WAY, OTHER, CHOSEN, BESIDE, REPRODUCED)
+PLAIN = (REPRODUCED, BESIDE)
 #: A bar that ends no cell.
 BAR = "\\|"
 #: Pages with the counts of all papers.
@@ -64,9 +80,9 @@ def other(row: Row) -> str:
 
 
 def table(paper: str, rows: list[Row]) -> str:
-    """Rows of a paper under the choices that they are computed with, and their counts.
+    """Rows of a paper under the choices that they are computed with, worst first, and their counts.
 
-    Of a book only rows that do not agree, with their reason.
+    What is plainly reproduced stands in a sentence. Of a book only rows that do not agree, with their reason.
     """
     source = PAPERS[paper].source
     if source:
@@ -87,10 +103,12 @@ def table(paper: str, rows: list[Row]) -> str:
         return f"{said}\n\nIn all: {counted(rows)}.\n\n{body}"
     head = ["row", "published", "ours", "difference", "tolerance", "verdict", "under another choice"]
     lines = []
-    for row in rows:
+    for row in sorted(rows, key=lambda row: WORST_FIRST.index(row.standing)):
+        if row.standing in PLAIN:
+            continue
         unit = "" if row.unit in ("1", "claim") else f", {row.unit}"
         cells = [
-            f"`{row.id}`<br>{row.quantity.replace('|', BAR)}{unit}",
+            f"`{row.id}`<br>{row.written('quantity').replace('|', BAR)}{unit}",
             cell(row.published),
             cell(row.computed),
             difference(row),
@@ -100,7 +118,19 @@ def table(paper: str, rows: list[Row]) -> str:
         ]
         lines.append(cells)
     body = table_of(head, lines, "lrrrlll")
-    return f"Computed {PAPERS[paper].choices}.\n\n{body}\n\nIn all: {counted(rows)}."
+    text = f"Computed {PAPERS[paper].choices}.\n\nIn all: {counted(rows)}.\n\n{body}"
+    for standing in PLAIN:
+        named = "; ".join(plainly(row) for row in rows if row.standing == standing)
+        text += f"\n\n{standing.capitalize()}: {named}." if named else ""
+    return text
+
+
+def plainly(row: Row) -> str:
+    """A row that is plainly reproduced in few words: our value for the published one."""
+    if row.tolerance_kind == "claim" or isinstance(row.computed, list):
+        return f"`{row.id}`"
+    published = cell(row.published) or row.note.rpartition("another implementation: ")[2].partition(";")[0]
+    return f"`{row.id}` {cell(row.computed)} for {published}"
 
 
 def counts() -> str:
@@ -109,9 +139,13 @@ def counts() -> str:
     for paper in PAPERS:
         page = PAGES.get(paper, VALIDATION).read_text(encoding="utf-8")
         block = page.partition(f"<!-- begin {paper} -->")[2].partition(f"<!-- end {paper} -->")[0]
-        found = re.search(r"^In all: (.*)\.$", block, re.MULTILINE)
-        lines.append([PAPERS[paper].about.partition(": ")[0], found[1] if found else ""])
-    return table_of(["paper", "rows"], lines)
+        found = re.search(r"^In all: (\d+) rows?: (.*)\.$", block, re.MULTILINE)
+        total, parts = found.groups() if found else ("", "")
+        numbers = {name: number for number, _, name in (part.partition(" ") for part in parts.split("; "))}
+        lines.append(
+            [PAPERS[paper].about.partition(": ")[0], total, *(numbers.get(one, "") for one in STANDINGS)]
+        )
+    return table_of(["paper", "rows", *STANDINGS], lines, "l" + "r" * (1 + len(STANDINGS)))
 
 
 def main() -> None:

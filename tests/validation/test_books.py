@@ -4,7 +4,8 @@ import pytest
 
 from tests.support.verbs import ended
 from tribodyn.validation import PAPERS
-from tribodyn.validation.rows import compare, decimals, last_digit, published
+from tribodyn.validation.published import decimals, last_digit, published
+from tribodyn.validation.rows import compare
 
 BOOKS = [name for name, paper in PAPERS.items() if paper.source]
 ROW = {

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from tests.support import synthetic_record
 from tribodyn.validation.liu_ni_figures import FIGURES
-from tribodyn.validation.rows import published
+from tribodyn.validation.published import published
 
 
 @pytest.fixture(scope="module")

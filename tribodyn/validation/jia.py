@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_through
@@ -218,9 +219,9 @@ def geometry() -> dict[str, tuple[Any, ...]]:
         "jia/cr-novel": (parabolic.contact_ratio, ""),
         "jia/cr-involute": (ratio, ""),
         "jia/hertz-pitch": (
-            factor * pressure,
+            factor * pressure / 1e6,
             f"{pressure / 1e6:.2f} MPa without Z_eps = {factor:.4f}",
-            ("without Z_eps", pressure),
+            ("without Z_eps", pressure / 1e6),
         ),
     }
 
@@ -234,7 +235,12 @@ def published_limits(teeth: float) -> tuple[float, float]:
     """
     # with s = sin(π/2z): (1 − 2k)² = 4 s² k (1 − k), a quadratic in k
     sine = math.sin(math.pi / (2 * teeth))
-    return 0.2, (1 - sine / math.sqrt(1 + sine**2)) / 2
+
+    def between(k: float) -> float:
+        return 2 * math.sqrt(k * (1 - k)) - (1 - k)
+
+    lowest: Any = brentq(between, 0.01, 0.5, xtol=1e-12)
+    return float(lowest), (1 - sine / math.sqrt(1 + sine**2)) / 2
 
 
 def _ratio(

@@ -15,7 +15,7 @@ from tribodyn.post.figures.panel import Trace, View, abscissa, draw, legend
 from tribodyn.post.figures.spectrum import steady_spectrum
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.validation.rows import published
+from tribodyn.validation.published import published
 
 PAPER = "liu-ni-2022"
 DRIVES = ("crc-23-47", "involute-23-47")

@@ -1,23 +1,22 @@
 """One row of a validation: a published number or claim compared with ours."""
 
-import csv
-import json
 from collections.abc import Iterable, Mapping
-from importlib.resources import files
 from typing import Any, NamedTuple
+
+from tribodyn.validation.published import decimals, published
 
 PASS, FAIL, REPORTED = "pass", "fail", "reported"
 #: Verdict of a row that compares the direction of a change and not its size.
 DIRECTION = "direction"
-#: What a row compares, in the order in which rows are counted, with the words of one and of several.
-KINDS = {
-    "number": ("number", "numbers"),
-    "claim": ("claim", "claims"),
-    "direction": ("row by direction", "rows by direction"),
-    "implementation": ("value beside another implementation", "values beside another implementation"),
-}
-_CHOSEN = "not under every choice"
-_BELOW_ONE = "direction only (below 1)"
+#: How a row stands, in the order in which rows are counted.
+REPRODUCED, CHOSEN, OTHER, ONE_WAY, BESIDE = (
+    "reproduced",
+    "reproduced, not under every choice",
+    "under another choice",
+    "direction only",
+    "beside another implementation",
+)
+STANDINGS = (REPRODUCED, CHOSEN, OTHER, ONE_WAY, REPORTED, FAIL, BESIDE)
 
 
 class Otherwise(NamedTuple):
@@ -45,23 +44,23 @@ class Row(NamedTuple):
     difference: float | list[float] | None
     tolerance: float | list[float] | None
     tolerance_kind: str
-    #: {"pass", "fail", "direction", "reported"} "direction": only the direction is compared, and it is the
-    #: published one; "reported": the published value is not reproducible, or a claim does not hold in our
-    #: physics.
+    #: {"pass", "fail", "direction", "reported"} "direction": the change is the published one in its direction
+    #: and not in its size; "reported": known not to be reproduced, or a claim that is known not to hold here
     verdict: str
     note: str
-    #: {"number", "claim", "direction", "implementation"} What the row compares; "implementation": the paper
-    #: has a figure only, and the value of another implementation of its equations takes the number's place.
+    #: {"number", "claim", "implementation"} What the row compares; "implementation": the paper has a figure
+    #: only, and the value of another implementation of its equations takes the number's place.
     compared: str = "number"
     #: what of the value matters, where that is not the whole: the "loss" of an efficiency, the "rise" of a
-    #: ratio above 1
+    #: ratio above 1, its "fall" below
     part: str = ""
-    part_difference: float | None = None  # computed less published, of this part
+    part_difference: float | None = None  # computed less published, of this part; the largest of several
     #: the tolerance as a share of the value or of its part; the largest of several columns
     tolerance_share: float | None = None
     tolerance_reason: str = ""  # why this share is larger than `WIDE`
     otherwise: tuple[Otherwise, ...] = ()  # the same row under other choices, where these differ
     printed: str = ""  # the published number as it is printed, where its last digit is the tolerance
+    where: str = ""  # section, table or figure of the paper
 
     @property
     def hangs_on_choice(self) -> bool:
@@ -70,9 +69,22 @@ class Row(NamedTuple):
             other.verdict not in (PASS, DIRECTION) for other in self.otherwise
         )
 
+    @property
+    def standing(self) -> str:
+        """How the row counts, one of `STANDINGS`."""
+        if self.verdict == PASS and self.compared == "implementation":
+            return BESIDE
+        if self.verdict == PASS:
+            return CHOSEN if self.hangs_on_choice else REPRODUCED
+        if self.verdict == REPORTED and any(other.verdict == PASS for other in self.otherwise):
+            return OTHER
+        return ONE_WAY if self.verdict == DIRECTION else self.verdict
+
     def written(self, name: str) -> str:
         """Write a field as a table for people shows it."""
         value = getattr(self, name)
+        if name == "quantity" and self.where:
+            return f"{value} ({self.where})"
         if name == "tolerance" and self.tolerance_reason and self.tolerance_share:
             shown = self._amount(name, value)
             if self.part or self.tolerance_kind != "relative":
@@ -81,7 +93,7 @@ class Row(NamedTuple):
         if name == "difference" and self.part_difference is not None:
             return f"{self._amount(name, value)}, {of_part(self.part_difference, self.part, '+')}"
         if name == "verdict" and self.hangs_on_choice:
-            return f"{value}, {_CHOSEN}"
+            return f"{value}, not under every choice"
         return self._amount(name, value)
 
     def _amount(self, name: str, value: Any) -> str:
@@ -114,7 +126,7 @@ class Row(NamedTuple):
 
     def plain(self) -> dict[str, Any]:
         """The row as JSON has it."""
-        fields = self._asdict() | {"hangs_on_choice": self.hangs_on_choice}
+        fields = self._asdict() | {"hangs_on_choice": self.hangs_on_choice, "standing": self.standing}
         return fields | {"otherwise": [other._asdict() for other in self.otherwise]}
 
 
@@ -141,62 +153,6 @@ SHOWN = (
     "otherwise",
     "note",
 )
-#: A tolerance of a larger share has its reason beside it.
-WIDE = 0.05
-
-
-def decimals(printed: str) -> int:
-    """Digits after the point of a printed number, of its mantissa."""
-    return len(printed.partition("e")[0].partition(".")[2])
-
-
-def last_digit(printed: str) -> float:
-    """A unit of the last digit of a printed number."""
-    return 10.0 ** (int(printed.partition("e")[2] or 0) - decimals(printed))
-
-
-#: Why the tolerance of a number of few digits is a large share of it.
-_LAST_DIGIT = "half a unit of the last printed digit"
-
-
-def _of_book(paper: str) -> Iterable[dict[str, Any]]:
-    """Rows of a book: a listing's numbers as printed, one or (pinion, gear) per line of its file."""
-    text = files("tribodyn.validation.books").joinpath(f"{paper}.csv").read_text(encoding="utf-8")
-    for line in csv.DictReader(text.splitlines()):
-        for side in ("pinion", "gear") if line["gear"] else ("pinion",):
-            printed = line[side]
-            tolerance = 0.5 * (1.0 + 1e-6) * last_digit(printed)
-            reason = line["reason"]
-            of, colon, text = reason.partition(": ")
-            if colon and of in ("pinion", "gear"):
-                reason = text if of == side else ""
-            wide = float(printed) != 0.0 and tolerance > WIDE * abs(float(printed))
-            yield {
-                "id": f"{paper}/{line['name']}" + (f"-{side}" if line["gear"] else ""),
-                "paper": paper,
-                "quantity": line["quantity"] + (f", {side}" if line["gear"] else ""),
-                "unit": line["unit"],
-                "published": float(printed),
-                "printed": printed,
-                "tolerance": tolerance,
-                "tolerance_kind": "absolute",
-                "tolerance_reason": _LAST_DIGIT if wide else "",
-                "independent": None,
-                "note": reason,
-                "off": bool(reason),
-            }
-
-
-def published(paper: str) -> dict[str, dict[str, Any]]:
-    """The published rows of a paper by id, in order.
-
-    What stands in `note` is shown to users, what stands in `for_maintainers` is not. A row that is `off` is
-    known to differ: its note has the reason, and it is reported; every other fails where it differs.
-    """
-    if files("tribodyn.validation.books").joinpath(f"{paper}.csv").is_file():
-        return {row["id"]: row for row in _of_book(paper)}
-    text = files("tribodyn.validation").joinpath("published.json").read_text(encoding="utf-8")
-    return {row["id"]: row for row in json.loads(text) if row["paper"] == paper}
 
 
 def compare(
@@ -206,8 +162,8 @@ def compare(
 
     None is not computed, and stays "reported"; `otherwise` has what is computed under other choices.
     """
-    compared = _compared(row)
-    if compared == "implementation":
+    implementation = row["published"] is None
+    if implementation:
         text = f"compared with another implementation: {row['independent']:g}"
         note = "; ".join(part for part in (note, text) if part)
     difference, verdict = _verdict(row, computed)
@@ -222,13 +178,14 @@ def compare(
         row["tolerance_kind"],
         verdict,
         "; ".join(text for text in (note, row["note"]) if text),
-        compared,
+        "claim" if row["tolerance_kind"] == "claim" else "implementation" if implementation else "number",
         row.get("part", ""),
         _part_difference(row, computed),
         _tolerance_share(row),
         row.get("tolerance_reason", ""),
         tuple(Otherwise(choice, value, *_verdict(row, value)) for choice, value in (otherwise or {}).items()),
         row.get("printed", ""),
+        row.get("where", ""),
     )
 
 
@@ -250,14 +207,6 @@ def compare_paper(
     return [compare(row, *values[key], others[key]) for key, row in published(paper).items()]
 
 
-def _compared(row: dict[str, Any]) -> str:
-    if row["tolerance_kind"] == _BELOW_ONE:
-        return "direction"
-    if row["tolerance_kind"] == "claim":
-        return "claim"
-    return "implementation" if row["published"] is None and row["independent"] is not None else "number"
-
-
 def _value(row: dict[str, Any]) -> Any:
     return row["independent"] if row["published"] is None else row["published"]
 
@@ -265,41 +214,46 @@ def _value(row: dict[str, Any]) -> Any:
 def _verdict(row: dict[str, Any], computed: Any) -> tuple[Any, str]:
     """Difference and verdict of a computed value."""
     value: Any = _value(row)
-    tolerance, kind = row["tolerance"], row["tolerance_kind"]
+    tolerance, kind, off = row["tolerance"], row["tolerance_kind"], row.get("off")
+    unmet = REPORTED if off else FAIL
     if computed is None:
-        return None, REPORTED
+        return None, unmet
     if kind == "claim":
-        return None, PASS if bool(computed) == bool(value) else REPORTED if row.get("off") else FAIL
-    if kind == _BELOW_ONE:
-        return float(computed) - value, DIRECTION if computed < 1.0 else FAIL
-    if isinstance(value, list):
-        off = [float(mine) - theirs for mine, theirs in zip(computed, value, strict=True)]
-        within = [abs(error) <= most for error, most in zip(off, tolerance, strict=True)]
-        return off, PASS if all(within) else FAIL
-    if not isinstance(value, (int, float)):
-        return None, REPORTED
-    difference = float(computed) - value
-    if tolerance is None:
-        return difference, REPORTED
+        return None, PASS if bool(computed) == bool(value) else unmet
+    errors = [float(mine) - theirs for mine, theirs in zip(_each(computed), _each(value), strict=True)]
     if kind == "relative":
-        difference /= abs(value)
-    return difference, PASS if abs(difference) <= tolerance else REPORTED if row.get("off") else FAIL
+        errors = [error / abs(theirs) for error, theirs in zip(errors, _each(value), strict=True)]
+    difference = errors if isinstance(value, list) else errors[0]
+    if all(abs(error) <= most for error, most in zip(errors, _each(tolerance), strict=True)):
+        return difference, PASS
+    if off == DIRECTION:
+        whole = row["whole"]
+        pairs = zip(_each(computed), _each(value), strict=True)
+        same = all((mine - whole) * (theirs - whole) > 0.0 for mine, theirs in pairs)
+        return difference, DIRECTION if same else FAIL
+    return difference, unmet
+
+
+def _each(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else [value]
 
 
 def _part_difference(row: dict[str, Any], computed: Any) -> float | None:
     if "part" not in row or computed is None:
         return None
-    published_part = abs(row["whole"] - _value(row))
-    return (abs(row["whole"] - computed) - published_part) / published_part
+    whole = row["whole"]
+    shares = [
+        abs(whole - mine) / abs(whole - theirs) - 1.0
+        for mine, theirs in zip(_each(computed), _each(_value(row)), strict=True)
+    ]
+    return max(shares, key=abs)
 
 
 def _tolerance_share(row: dict[str, Any]) -> float | None:
     """The tolerance over the value; where a part of it matters, over its distance from the `whole`."""
     if row["tolerance"] is None:
         return None
-    values, tolerances = (
-        given if isinstance(given, list) else [given] for given in (_value(row), row["tolerance"])
-    )
+    values, tolerances = _each(_value(row)), _each(row["tolerance"])
     if row["tolerance_kind"] == "relative":
         tolerances = [most * abs(value) for most, value in zip(tolerances, values, strict=True)]
     parts = [abs(row.get("whole", 0.0) - value) for value in values]
@@ -307,24 +261,14 @@ def _tolerance_share(row: dict[str, Any]) -> float | None:
     return max(shares) if shares else None
 
 
-def counts(rows: Iterable[Row]) -> dict[str, dict[str, int]]:
-    """How many rows of each kind there are, by verdict, and how many of them hold under their choice only."""
-    found = {kind: {"rows": 0, PASS: 0, DIRECTION: 0, FAIL: 0, REPORTED: 0, _CHOSEN: 0} for kind in KINDS}
-    for row in rows:
-        count = found[row.compared]
-        count["rows"] += 1
-        count[row.verdict] += 1
-        count[_CHOSEN] += row.hangs_on_choice
-    return {kind: count for kind, count in found.items() if count["rows"]}
+def counts(rows: Iterable[Row]) -> dict[str, int]:
+    """How many rows there are, and how many of each standing."""
+    standings = [row.standing for row in rows]
+    return {"rows": len(standings)} | {standing: standings.count(standing) for standing in STANDINGS}
 
 
 def counted(rows: Iterable[Row]) -> str:
     """The same in words."""
-    sentences = []
-    for kind, count in counts(rows).items():
-        words = {DIRECTION: "agree", _CHOSEN: f"of them {_CHOSEN}"}
-        parts = [
-            f"{number} {words.get(name, name)}" for name, number in count.items() if number and name != "rows"
-        ]
-        sentences.append(f"{count['rows']} {KINDS[kind][count['rows'] != 1]}: {', '.join(parts)}")
-    return "; ".join(sentences)
+    total, *numbers = counts(rows).items()
+    parts = "; ".join(f"{number} {standing}" for standing, number in numbers if number)
+    return f"{total[1]} row{'s' * (total[1] != 1)}: {parts}"

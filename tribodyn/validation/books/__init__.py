@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from tribodyn.validation.rows import Row, compare, published
+from tribodyn.validation.published import published
+from tribodyn.validation.rows import Row, compare
 
 #: Our value of a line, in its unit: one, or (pinion, gear); of a name that is not there none is computed.
 Values = Mapping[str, float | tuple[float, float]]

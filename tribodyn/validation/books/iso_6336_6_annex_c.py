@@ -17,7 +17,7 @@ from tribodyn.standards.fatigue import Bin, StressCurve, safety
 from tribodyn.standards.metals import Metal, contact_factors
 from tribodyn.standards.pitting import Influences, PittingMesh, influences, permissible
 from tribodyn.validation.books import rows_of
-from tribodyn.validation.rows import published
+from tribodyn.validation.published import published
 
 BOOK = "iso-6336-6-annex-c"
 _STEEL = Metal("case-hardened", 1500e6, 500e6, 6.9e9, 900e6)
