@@ -38,6 +38,8 @@ SILENT = {
     r"(^|\.)(title|name|source|assumptions|kind)$": "says what the scenario is, and is not compared",
     r"(^|\.)duty\.\*\.share$": "weighs the duties of an assessment; other studies run one of them",
     r"\.(span_teeth|pin_diameter)$": "choose the dimension that the gear's sheet prints",
+    r"(^|\.)quality_edition$": "of tolerances, which need a quality",
+    r"\.centre_distance_grade$": "limits that the gear's sheet prints",
     r"(gear\.\*|\.pinion|\.gear)\.quality$": "tolerances of a pair need those of both gears",
 }
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
-from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
+from tribodyn.geometry.backlash import at_limits, circumferential_backlash, normal_backlash
 from tribodyn.geometry.contact_lines import contact_lines
 from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius, tip_circle_radius
 from tribodyn.geometry.families.involute import tight_centre_distance
@@ -34,13 +34,15 @@ def geometry_sheet(
     masses: Sequence[tuple[float, float]] | None = None,
     gauges: tuple[Gauge, Gauge] = (Gauge(), Gauge()),
     gear_torque: float = 0.0,
+    distance_allowance: float = 0.0,
 ) -> dict[str, Any]:
     """Summarise a drive that has passed `checks.check`; lengths in mm, angles in degrees.
 
     Name -> (value, unit) for the pair, in reading order, and under "pinion" and "gear" the same for each
     body; radii and number of teeth of an internal gear are negative (ISO 21771). Masses (kg) and inertias
     (kg m²) of pinion and gear stand there where they are given, and with a torque on the gear (N m) the
-    forces of helical involutes.
+    forces of helical involutes. Where tooth thickness or centre distance (m, ±) has a tolerance, backlashes
+    have limits.
     """
     path, drive = assembly.path, assembly.drive
     ends = {"start of contact": assembly.r_start, "pitch point": 0.0, "end of contact": assembly.r_end}
@@ -54,6 +56,7 @@ def geometry_sheet(
         "centre distance": _millimetres(path.pinion_pitch_radius + path.gear_pitch_radius),
         **operating,
         **backlash_lines(assembly),
+        **_backlash_limits(assembly, gauges, distance_allowance),
         **_rack_angle_lines(assembly),
         "contact ratio": (assembly.contact_ratio, ""),
         "approach contact ratio": (-assembly.roll_limits[0] / pitch_angle, ""),
@@ -219,6 +222,25 @@ def backlash_lines(assembly: Assembly) -> dict[str, Quantity]:
         ("circumferential backlash", circumferential_backlash(assembly)),
     ):
         lines[name] = 1e3 * (float(backlash) if abs(backlash) > rounding else 0.0), "mm"
+    return lines
+
+
+def _backlash_limits(
+    assembly: Assembly, gauges: tuple[Gauge, Gauge], distance_allowance: float
+) -> dict[str, Quantity]:
+    """Least and greatest backlash within the tolerances of tooth thickness and centre distance."""
+    if not distance_allowance and not any(gauge.tolerance for gauge in gauges):
+        return {}
+    limits = [
+        (normal_backlash(each), circumferential_backlash(each))
+        for each in at_limits(assembly, [gauge.tolerance for gauge in gauges], distance_allowance)
+    ]
+    lines = {"allowance of the centre distance, ±": _millimetres(distance_allowance)}
+    if not distance_allowance:
+        lines = {}
+    for number, name in enumerate(("normal backlash", "circumferential backlash")):
+        for end, choose in (("least", min), ("most", max)):
+            lines[f"{name}, {end}"] = _millimetres(choose(float(each[number]) for each in limits))
     return lines
 
 

@@ -87,22 +87,27 @@ _GRADES = (
 )
 
 
+#: Codes of the standard: an allowance's letters and a tolerance's series.
+CODES = tuple(f"{letters}{series}" for letters in _UPPER for series in range(21, 31))
+
+
 def thickness_allowances(code: str, reference_diameter: float) -> tuple[float, float]:
     """A_sne and A_sni of the normal tooth thickness, m, of a code such as "cd25": DIN 3967.
 
     Raises InputError for a code that the standard has not.
     """
-    letters, series = code.rstrip("0123456789"), code.lstrip("abcdefgh")
+    if code not in CODES:
+        raise broken_code("thickness_code", code)
+    letters, series = code[:-2], int(code[-2:])
     place = min(bisect.bisect_left(_DIAMETERS, round(1e3 * reference_diameter, 9)), len(_DIAMETERS) - 1)
-    if letters not in _UPPER or not series.isdigit() or not 21 <= int(series) <= 30:
-        raise InputError(
-            "thickness_tolerance",
-            code,
-            f"has {', '.join(_UPPER)} and 21 to 30, as in cd25 (DIN 3967)",
-            "take c25 to e26, usual in industrial gearing",
-        )
     upper = -1e-6 * _UPPER[letters][place]
-    return upper, upper - 1e-6 * _TOLERANCES[place][int(series) - 21]
+    return upper, upper - 1e-6 * _TOLERANCES[place][series - 21]
+
+
+def broken_code(key: str, code: str) -> InputError:
+    """What is to be said of a code that the standard has not."""
+    rule = f"is none of DIN 3967: {', '.join(_UPPER)} and 21 to 30, as in cd25"
+    return InputError(key, code, rule, "take c25 to e26, usual in industrial gearing")
 
 
 def centre_distance_allowance(grade: int, centre_distance: float) -> float:

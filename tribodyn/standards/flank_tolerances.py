@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 #: Ranges of validity: teeth; module, reference diameter and face width, m.
 TEETH, MODULE, DIAMETER, WIDTH = (5, 1000), (0.5e-3, 70e-3), (5e-3, 15.0), (4e-3, 1.2)
+#: The same of 1995, m.
+DIAMETER_1995, WIDTH_1995 = (5e-3, 10.0), (4e-3, 1.0)
 
 
 class FlankTolerances(NamedTuple):
@@ -124,14 +126,15 @@ def rounded(tolerance: float) -> float:
     return 1e-6 * step * round(micrometres / step)
 
 
-def outside(teeth: int, module: float, diameter: float, face_width: float) -> list[str]:
-    """Say which sizes are outside the standard's range."""
+def outside(teeth: int, module: float, diameter: float, face_width: float, edition: int = 2013) -> list[str]:
+    """Say which sizes are outside the range of an edition; that of 1995 limits no number of teeth."""
+    of_1995 = edition == 1995
     found = []
     for name, value, (least, greatest), factor, unit in (
-        ("number of teeth", teeth, TEETH, 1.0, ""),
+        ("number of teeth", teeth, (1, math.inf) if of_1995 else TEETH, 1.0, ""),
         ("module", module, MODULE, 1e3, " mm"),
-        ("reference diameter", diameter, DIAMETER, 1e3, " mm"),
-        ("face width", face_width, WIDTH, 1e3, " mm"),
+        ("reference diameter", diameter, DIAMETER_1995 if of_1995 else DIAMETER, 1e3, " mm"),
+        ("face width", face_width, WIDTH_1995 if of_1995 else WIDTH, 1e3, " mm"),
     ):
         if not least * (1 - 1e-12) <= value <= greatest * (1 + 1e-12):
             limits = f"{factor * least:g} to {factor * greatest:g}{unit}"

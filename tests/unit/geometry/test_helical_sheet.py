@@ -194,7 +194,8 @@ def test_hands_mirror_the_pair_and_change_nothing_else():
 
 def test_tolerances_take_the_normal_module():
     """Class 5 by hand: d = 46 · 3/cos 25°, f_pT = 0.001 d + 0.4 m_n + 5, f_HβT = 0.05 √d + 0.35 √b + 4."""
-    _, gear = model(quality=5).tolerances
+    loaded = model(quality=5)
+    gear = loaded.sheet(check(family(loaded.family), loaded.drive))["gear"]
     diameter = 46 * 3 / math.cos(math.radians(25.0))
     assert gear["f_pT, single pitch"][0] == pytest.approx(0.001 * diameter + 6.2, abs=0.25)
     slope = 0.05 * math.sqrt(diameter) + 0.35 * math.sqrt(38.0) + 4.0

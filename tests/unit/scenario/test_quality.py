@@ -76,6 +76,16 @@ def test_misalignment_of_the_helix_tolerances():
     )
 
 
+def test_the_edition_of_1995():
+    """d 36 and 72 mm of module 2, class 6, in ranges 20 to 50, 50 to 125 and 0.5 to 2: f_pt by hand, µm."""
+    found = case("load-contact-18-36", drive__module="2 mm", drive__quality_edition=1995).quality
+    d, m = (50 * 125) ** 0.5, (0.5 * 2) ** 0.5
+    assert found.single_pitch == pytest.approx(2**0.5 * (0.3 * (m + 0.4 * d**0.5) + 4) * 1e-6)
+    assert found.edition == 1995
+    with pytest.raises(InputError, match="1995 do not cover the gear: face width 1200 mm"):
+        case("load-contact-18-36", drive__gear__face_width="1.2 m", drive__quality_edition=1995)
+
+
 def test_what_is_refused():
     with pytest.raises(InputError, match="the back flanks carry"):
         case("involute-23-47", mesh__backlash="50 um", operating__gear_torque="-100 N*m")

@@ -67,6 +67,48 @@ def test_the_middle_of_the_tolerance_is_taken():
     assert load_drive(PAIR, given).drive.gear.thickness_allowance == pytest.approx(-80e-6)
 
 
+def test_limits_of_a_published_stage():
+    """Helical stage 24/95 of a design report (KISSsoft 2017): cd25 by DIN 3967, a js6; printed digits, mm."""
+    given = {"drive.centre_distance_grade": 6}
+    for side, teeth, ball in (("pinion", 4, 28), ("gear", 13, 25)):
+        given |= {f"drive.{side}.thickness_code": "cd25", f"drive.{side}.span_teeth": teeth}
+        given[f"drive.{side}.pin_diameter"] = f"{ball} mm"
+    model = load_drive("helical-24-95", given)
+    sheet = model.sheet(check(family("involute"), model.drive))
+    assert sheet["allowance of the centre distance, ±"][0] == pytest.approx(0.028)
+    printed = {
+        "pair": {"circumferential backlash": (0.359, 0.571)},
+        "pinion": {"span": (153.989, 154.045), "dimension over balls": (396.921, 397.035)},
+        "gear": {"span": (542.171, 542.264), "dimension over balls": (1403.756, 1403.997)},
+    }
+    for part, dimensions in printed.items():
+        lines = sheet if part == "pair" else sheet[part]
+        for name, limits in dimensions.items():
+            found = [lines[f"{name}, {end}"][0] for end in ("least", "most")]
+            assert found == pytest.approx(limits, abs=7e-4)
+    assert sheet["pinion"]["deviation of tooth thickness"][0] == pytest.approx(-0.160)
+
+
+def test_limits_of_an_internal_pair_and_of_another_family():
+    """Backlash of a ring grows as the axes come together; teeth without a centre distance have thickness."""
+    for name, changes, moved in (
+        ("ring-36-93", {"drive.centre_distance_grade": 8}, True),
+        ("liu-ni-crc-23-47", {"drive.gear.thickness_code": "d24"}, False),
+    ):
+        model = load_drive(name, changes)
+        sheet = model.sheet(check(family(model.family), model.drive))
+        least, middle, most = (
+            sheet[f"circumferential backlash{end}"][0] for end in (", least", "", ", most")
+        )
+        # 2 tan α_w per allowance of the distance; T_sn 30 µm of d24 at 141 mm
+        angle = math.radians(sheet["operating pressure angle"][0]) if moved else 0.0
+        whole = 4 * math.tan(angle) * sheet["allowance of the centre distance, ±"][0] if moved else 0.03
+        assert most - least == pytest.approx(whole, rel=2e-2)
+        assert (most + least) / 2 == pytest.approx(middle, abs=2e-3)
+    with pytest.raises(InputError, match="mesh at one distance only"):
+        load_drive("liu-ni-crc-23-47", {"drive.centre_distance_grade": 7})
+
+
 def test_a_rounded_tip_ends_the_contact_but_keeps_the_clearance():
     sharp = geometry_sheet(check(family("involute"), drive().drive))
     rounded = load_drive(PAIR, {"drive.pinion.tip_rounding": "0.3 mm"}).drive
@@ -99,6 +141,14 @@ def test_contradictions_are_named():
     assert "drive.pinion.span_teeth: missing" in refused(pinion__span="32.4 mm")
     assert "drive.pinion.pin_diameter: missing" in refused(pinion__over_pins="83.2 mm")
     assert "drive.gear.thickness_allowance: missing" in refused(gear__thickness_tolerance="30 um")
+    assert "contradicts thickness_code" in refused(
+        gear__thickness_code="cd25", gear__thickness_tolerance="30 um"
+    )
+    unknown = refused(gear__thickness_code="cd31")
+    assert 'drive.gear.thickness_code = "cd31": is none of DIN 3967' in unknown
+    assert "gives the tooth thickness, as thickness_allowance does" in refused(
+        pinion__thickness_allowance="-50 um", pinion__thickness_code="cd25"
+    )
     assert "contradicts bore_radius" in refused(gear__bore_radius="20 mm", gear__bore_diameter="40 mm")
     assert "contradicts tip_diameter" in refused(gear__addendum=1.0, gear__tip_diameter="186 mm")
     assert "there is: ISO 53 A, ISO 53 B" in refused(rack="ISO 53")

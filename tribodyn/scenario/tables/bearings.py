@@ -10,7 +10,7 @@ from tribodyn.dynamics.data import ROLLERS, BearingData, BearingType, RollingBea
 from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Table, written
-from tribodyn.scenario.tables.model_files import OWN_VALUES, Described
+from tribodyn.scenario.tables.material import OWN_VALUES, Described
 from tribodyn.scenario.tables.support_matrix import MatrixUnits, Rows, broken_matrix, matrix_of
 
 Stiffness = Annotated[float, InUnit(units.positive(units.STIFFNESS))]

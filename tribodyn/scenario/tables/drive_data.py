@@ -20,7 +20,8 @@ from tribodyn.geometry.families.involute import overlap, shift_sensitivity, tigh
 from tribodyn.geometry.limits.checks import check_path
 from tribodyn.geometry.rack_section import from_written
 from tribodyn.scenario.quantity import shift_rounding
-from tribodyn.scenario.tables.model_files import DriveTable, Gear, Material
+from tribodyn.scenario.tables.material import Material
+from tribodyn.scenario.tables.model_files import DriveTable, Gear
 from tribodyn.scenario.tables.tooth_data import (
     gear_body,
     gives_thickness,

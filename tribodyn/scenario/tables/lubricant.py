@@ -10,7 +10,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.scenario import quantity, units
 from tribodyn.scenario.messages import explain
 from tribodyn.scenario.sources import find_model, read_toml
-from tribodyn.scenario.tables.model_files import Described
+from tribodyn.scenario.tables.material import Described
 from tribodyn.scenario.tables.viscosity_law import ViscosityLaw, broken_viscosity_rules, measured_of
 from tribodyn.tribology import oil
 

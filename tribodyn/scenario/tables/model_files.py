@@ -1,4 +1,4 @@
-"""The tables of `models/`: what drives, with their modified flanks, and materials are."""
+"""The tables of `models/drives/`: what drives, with their modified flanks, are."""
 
 from typing import Annotated, Any, Literal
 
@@ -9,8 +9,8 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Relief
 from tribodyn.scenario import quantity, units
 from tribodyn.scenario.fields import ErrorCurve
-from tribodyn.standards.metals import Grade as MetalGrade
-from tribodyn.standards.metals import Treatment
+from tribodyn.scenario.tables.material import Described, MaterialReference
+from tribodyn.standards.allowances import CODES
 from tribodyn.tribology.asperities import FinishName
 
 Amount = Annotated[float, quantity.InUnit(units.not_negative(units.RELIEF))]
@@ -116,8 +116,6 @@ def _relief(table: Modification, end: str, module: float) -> Relief:
 Angle = Annotated[float, quantity.InUnit(units.positive(units.ANGLE_KIND))]
 Mass = Annotated[float, quantity.InUnit(units.positive(units.MASS))]
 Inertia = Annotated[float, quantity.InUnit(units.positive(units.INERTIA))]
-Pressure = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE))]
-Strength = Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "1500 MPa")]
 FaceWidth = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "20 mm")]
 Radius = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "12 mm")]
 Diameter = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "30 mm")]
@@ -129,48 +127,8 @@ Span = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "32.4 mm")
 OverPins = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "83.2 mm")]
 Pin = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "5.25 mm")]
 Grade = Annotated[int, Field(strict=True, ge=1, le=11)]
+QualityEdition = Literal[2013, 1995]
 Roughness = Annotated[float, quantity.InUnit(units.positive(units.LENGTH), "0.5 um")]
-
-
-#: Title of a model that a scenario writes out.
-OWN_VALUES = "own values"
-
-
-class Described(quantity.Table):
-    """What every model begins with; a table in a scenario may leave it out."""
-
-    title: quantity.Text = Field(OWN_VALUES, description="what it is, in a line")
-    source: quantity.Text = Field("not stated", description="where the numbers come from")
-    assumptions: quantity.Text = Field("", description="what the source does not give and was chosen here")
-
-
-class Material(Described):
-    """A solid (`models/materials/`)."""
-
-    youngs_modulus: Pressure
-    poisson_ratio: Annotated[float, Field(strict=True, ge=0, lt=0.5)]
-    density: Annotated[float, quantity.InUnit(units.positive(units.DENSITY))]
-    thermal_conductivity: Annotated[float, quantity.InUnit(units.positive(units.CONDUCTIVITY))]
-    specific_heat: Annotated[float, quantity.InUnit(units.positive(units.SPECIFIC_HEAT))]
-    hardness: Annotated[float, quantity.InUnit(units.positive(units.PRESSURE), "7 GPa")] = Field(
-        description="Vickers hardness as a pressure"
-    )
-    treatment: Treatment | None = Field(
-        None, description="heat treatment by ISO 6336-5; needed for safeties against pitting and bending"
-    )
-    grade: MetalGrade = Field("MQ", description="quality of the material by ISO 6336-5")
-    contact_stress_limit: Strength | None = Field(
-        None, description="σ_Hlim; default: by treatment, grade and hardness"
-    )
-    bending_stress_limit: Strength | None = Field(
-        None, description="σ_Flim; default: by treatment, grade and hardness"
-    )
-    yield_strength: Strength | None = Field(
-        None, description="of the root, of through-hardened steel; default: from the hardness"
-    )
-
-
-MaterialReference = Annotated[Material, quantity.model_file("materials")]
 
 
 Hand = Literal["right", "left"]
@@ -228,6 +186,9 @@ class Gear(quantity.Table):
     )
     thickness_tolerance: Rounding | None = Field(
         None, description="T_sn, tolerance of the tooth thickness below its upper deviation"
+    )
+    thickness_code: Annotated[quantity.Text, quantity.Names(CODES)] | None = Field(
+        None, description="allowance and tolerance of the tooth thickness by DIN 3967", examples=["cd25"]
     )
     span: Span | None = Field(None, description="W_k, measured over span_teeth teeth; of involutes")
     span_teeth: Annotated[int, Field(strict=True, ge=1, le=10_000)] | None = Field(
@@ -334,5 +295,11 @@ class DriveTable(Described):
     asperity_slope: AsperitySlope = None
     material: MaterialReference | None = None
     quality: Grade | None = Field(None, description="tolerance class of both gears by ISO 1328-1")
+    quality_edition: QualityEdition = Field(
+        2013, description="edition of ISO 1328-1 that has the tolerances of this class"
+    )
+    centre_distance_grade: Annotated[int, Field(strict=True, ge=5, le=11)] | None = Field(
+        None, description="js class of the centre distance of involutes by ISO 286"
+    )
     pinion: Gear
     gear: Gear

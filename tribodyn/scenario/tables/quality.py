@@ -1,4 +1,4 @@
-"""A drive's quality: tolerances of its gears by ISO 1328-1, and samples of deviations within them."""
+"""A drive's quality: tolerances of its gears by ISO 1328-1:2013 or :1995, and samples within them."""
 
 import math
 from collections.abc import Iterator
@@ -25,7 +25,13 @@ from tribodyn.scenario.quantity import Draws
 from tribodyn.scenario.tables.drive_data import drive_of
 from tribodyn.scenario.tables.model_files import DriveTable, Gear, MisalignmentTable
 from tribodyn.scenario.tables.tooth_data import modules_of
-from tribodyn.standards.flank_tolerances import FlankTolerances, flank_tolerances, outside, rounded
+from tribodyn.standards.flank_tolerances import (
+    FlankTolerances,
+    flank_tolerances,
+    flank_tolerances_1995,
+    outside,
+    rounded,
+)
 
 DeviationSample = Annotated[int, Field(strict=True, ge=0, le=2**31 - 1), Draws()]
 
@@ -124,7 +130,8 @@ def tolerance_lines(drive: DriveTable) -> tuple[dict[str, tuple[float, str]], di
     for gear, allowed in zip((drive.pinion, drive.gear), tolerances_of(drive), strict=True):
         lines.append({})
         if allowed is not None:
-            lines[-1]["tolerance class by ISO 1328-1"] = float(grade_of(drive, gear) or 0), ""
+            label = f"tolerance class by ISO 1328-1:{drive.quality_edition}"
+            lines[-1][label] = float(grade_of(drive, gear) or 0), ""
             for label, name in _LINES.items():
                 lines[-1][label] = 1e6 * rounded(getattr(allowed, name)), "um"
     return lines[0], lines[1]
@@ -137,8 +144,9 @@ def broken_quality_rules(drive: DriveTable) -> Iterator[InputError]:
             continue
         key = "drive.quality" if gear.quality is None else f"drive.{name}.quality"
         normal, transverse = modules_of(drive)
-        for said in outside(gear.teeth, normal, transverse * gear.teeth, gear.face_width):
-            rule = f"the tolerances of ISO 1328-1 do not cover the {name}: {said}"
+        sizes = gear.teeth, normal, transverse * gear.teeth, gear.face_width
+        for said in outside(*sizes, drive.quality_edition):
+            rule = f"the tolerances of ISO 1328-1:{drive.quality_edition} do not cover the {name}: {said}"
             yield InputError(key, grade, rule, "leave the quality out, and give deviations of your own")
 
 
@@ -152,4 +160,5 @@ def _tolerances(drive: DriveTable, gear: Gear) -> FlankTolerances | None:
     if grade is None:
         return None
     normal, transverse = modules_of(drive)
-    return flank_tolerances(grade, normal, transverse * gear.teeth, gear.face_width)
+    formulas = flank_tolerances if drive.quality_edition == 2013 else flank_tolerances_1995
+    return formulas(grade, normal, transverse * gear.teeth, gear.face_width)

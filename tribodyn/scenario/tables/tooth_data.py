@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.errors import InputError, unknown_name
+from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.drive import PROFILES, GearBody
 from tribodyn.geometry.families import FAMILIES, Family
 from tribodyn.geometry.gauges import Gauge, Involute, allowance_of_pins, allowance_of_span, over_pins, span
 from tribodyn.scenario.own_keys import Owner, own_key_errors, own_values
 from tribodyn.scenario.tables.internal_gear import broken_internal_rules, internal_body, shift_of
 from tribodyn.scenario.tables.model_files import DriveTable, Gear, Hand
+from tribodyn.standards.allowances import CODES, broken_code, thickness_allowances
 
 #: Heights and rounding where neither the gear nor a rack says them.
 USUAL = PROFILES["ISO 53 C"]
@@ -22,12 +23,13 @@ USUAL_BORE = 0.4
 THICKNESS_KEYS = (
     "thickness_allowance",
     "thickness_tolerance",
+    "thickness_code",
     "span",
     "span_teeth",
     "over_pins",
     "pin_diameter",
 )
-_MEASURES = ("thickness_allowance", "span", "over_pins")
+_MEASURES = ("thickness_allowance", "thickness_code", "span", "over_pins")
 #: What each measure needs beside it.
 _WITH = {"span": "span_teeth", "over_pins": "pin_diameter"}
 _EXAMPLES = {"span_teeth": "4", "pin_diameter": '"5.25 mm"'}
@@ -80,9 +82,10 @@ def gear_body(drive: DriveTable, gear: Gear) -> GearBody:
     return internal_body(gear, external, modules_of(drive)[1]) if gear.internal else external
 
 
-def gauge_of(gear: Gear) -> Gauge:
+def gauge_of(drive: DriveTable, gear: Gear) -> Gauge:
     """Return what a gear's tooth thickness is measured with."""
-    return Gauge(gear.span_teeth, gear.pin_diameter, gear.thickness_tolerance or 0.0)
+    upper, lower = _limits(drive, gear)
+    return Gauge(gear.span_teeth, gear.pin_diameter, upper - lower)
 
 
 def gives_thickness(gear: Gear) -> bool:
@@ -104,6 +107,10 @@ def broken_tooth_rules(drive: DriveTable) -> Iterator[InputError]:
             rule, remedy = "contradicts tip_diameter, which takes its place", "leave one of them out"
             yield InputError(f"drive.{name}.addendum", gear.addendum, rule, remedy)
         yield from _broken_thickness(drive, f"drive.{name}", gear)
+    grade, teeth = drive.centre_distance_grade, drive.family
+    if grade is not None and teeth in FAMILIES and not FAMILIES[teeth].involute:
+        rule = f"teeth of the family {teeth} mesh at one distance only"
+        yield InputError("drive.centre_distance_grade", grade, rule, "leave it out, it is for involutes")
     yield from broken_internal_rules(drive)
     yield from _broken_roughness(drive)
 
@@ -131,7 +138,12 @@ def _broken_thickness(drive: DriveTable, key: str, gear: Gear) -> Iterator[Input
         if getattr(gear, measure) is not None and getattr(gear, other) is None:
             remedy = f"add {other} = {_EXAMPLES[other]}"
             yield InputError(f"{key}.{other}", rule=f"missing: {measure} needs it", remedy=remedy)
-    if gear.thickness_tolerance is not None and gear.thickness_allowance is None:
+    if gear.thickness_code is not None and gear.thickness_code not in CODES:
+        yield broken_code(f"{key}.thickness_code", quoted(gear.thickness_code))
+    if gear.thickness_tolerance is not None and gear.thickness_code is not None:
+        rule, shown = "contradicts thickness_code, which has it", _shown(gear, "thickness_tolerance")
+        yield InputError(f"{key}.thickness_tolerance", shown, rule, "leave one of them out")
+    elif gear.thickness_tolerance is not None and gear.thickness_allowance is None:
         rule, remedy = "missing: thickness_tolerance is below it", 'add thickness_allowance = "-60 um"'
         yield InputError(f"{key}.thickness_allowance", None, rule, remedy)
     measured = given and given[0] in _WITH
@@ -171,7 +183,15 @@ def _allowance(drive: DriveTable, gear: Gear) -> float:
         return allowance_of_span(_involute(drive, gear), count, sign * gear.span)
     if gear.over_pins is not None and gear.pin_diameter is not None:
         return allowance_of_pins(_involute(drive, gear), gear.pin_diameter, sign * gear.over_pins)
-    return (gear.thickness_allowance or 0.0) - (gear.thickness_tolerance or 0.0) / 2.0
+    return sum(_limits(drive, gear)) / 2.0
+
+
+def _limits(drive: DriveTable, gear: Gear) -> tuple[float, float]:
+    """A_sne and A_sni, m, of a gear that is not measured; an unknown code, which a rule refuses, is none."""
+    if gear.thickness_code in CODES:
+        return thickness_allowances(gear.thickness_code, modules_of(drive)[1] * gear.teeth)
+    upper = gear.thickness_allowance or 0.0
+    return upper, upper - (gear.thickness_tolerance or 0.0)
 
 
 def _involute(drive: DriveTable, gear: Gear) -> Involute:
@@ -192,6 +212,8 @@ def _radius(gear: Gear, what: str) -> float | None:
 
 def _shown(gear: Gear, name: str) -> str:
     value = getattr(gear, name)
+    if isinstance(value, str):
+        return quoted(value)
     return f"{1e6 * value:.4g} um" if abs(value) < 1e-3 else f"{1e3 * value:.6g} mm"
 
 

@@ -1,5 +1,6 @@
 """From a case of an assessment to its record: the other studies' parts, then the standards beside them."""
 
+import tomllib
 from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -11,7 +12,6 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import geometry_arrays
-from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
@@ -28,6 +28,7 @@ from tribodyn.studies.assessment.reasons import compared
 from tribodyn.studies.assessment.said import assumed, extrapolated
 from tribodyn.studies.assessment.scatter import Conclusion, put_in, samples_of
 from tribodyn.studies.gears.check import sheet_tables, with_oil
+from tribodyn.studies.gears.drive_file import sheet_of
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.bearings import bearing_part
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins
@@ -51,7 +52,7 @@ _PARTS = {"worst", "median", "pinion"}
 
 def check(case: AssessmentCase) -> CheckResult:
     """Check a case and what it asks of the other studies; say what gears and oil it describes."""
-    sheet = geometry_sheet(assembled(case))
+    sheet = sheet_of(tomllib.loads(case.toml)["drive"], assembled(case))
     request = parts.request_of(case)
     every = parts.tasks_of(parts.parts(request))
     tasks.require_cases(every)

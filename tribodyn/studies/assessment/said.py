@@ -67,8 +67,8 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     of_standards = "The standards' formulas are for involutes: this drive has none beside the simulation."
     if by_standard:
         of_standards = (
-            f"Standards: deviations of class {case.quality.grade:g} by ISO 1328-1, K_v and K_Hα by method B, "
-            "flanks without credited tip relief, case-hardened running-in, new oil."
+            f"Standards: deviations of class {case.quality.grade:g} by ISO 1328-1:{case.quality.edition}, "
+            "K_v and K_Hα by method B, flanks without credited tip relief, case-hardened running-in, new oil."
         )
     return [*sentences, of_standards]
 

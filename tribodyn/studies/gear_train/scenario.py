@@ -12,7 +12,13 @@ from tribodyn.scenario.tables.bearings import bearing_of
 from tribodyn.scenario.tables.damage import Damages
 from tribodyn.scenario.tables.drive_data import masses_of, materials_of, teeth_of
 from tribodyn.scenario.tables.laws import law_values
-from tribodyn.scenario.tables.model_files import DriveTable, Grade, MaterialReference, Roughness
+from tribodyn.scenario.tables.material import MaterialReference
+from tribodyn.scenario.tables.model_files import (
+    DriveTable,
+    Grade,
+    QualityEdition,
+    Roughness,
+)
 from tribodyn.scenario.tables.own_teeth import with_own_teeth
 from tribodyn.scenario.tables.quality import grade_of, tolerances_of
 from tribodyn.scenario.tables.sensors import Housing, Sensors, housing_of, sensors_of
@@ -94,6 +100,7 @@ class GearTrainScenario(ScenarioHead):
     material: MaterialReference | None = Field(None, description="of all gears that name none")
     mean_roughness: Roughness | None = Field(None, description="Ra of the flanks of all gears that say none")
     quality: Grade | None = Field(None, description="tolerance class of all gears that say none")
+    quality_edition: QualityEdition = Field(2013, description="edition of ISO 1328-1 of these classes")
     lubricant: Oil
     bearings: Annotated[TrainBearings, model_file("bearings")] = written("rigid-1e9")
     operating: TrainOperating
@@ -293,6 +300,7 @@ def _meshes(
             quality=quality_of(
                 [grade_of(view.drive, gear) for gear in (view.drive.pinion, view.drive.gear)],
                 tolerances_of(view.drive),
+                view.drive.quality_edition,
             ),
             **oil_fields(view),
         )

@@ -28,6 +28,7 @@ class Quality(NamedTuple):
     #: single_pitch, profile_form: f_pT and f_fαT, m
     single_pitch: float
     profile_form: float
+    edition: int = 2013
 
 
 class Rated(NamedTuple):
@@ -40,9 +41,9 @@ class Rated(NamedTuple):
 
 
 def quality_of(
-    grades: Sequence[float | None], tolerances: Sequence[FlankTolerances | None]
+    grades: Sequence[float | None], tolerances: Sequence[FlankTolerances | None], edition: int = 2013
 ) -> Quality | None:
-    """Return the quality of both gears; None where one has none."""
+    """Return the quality of both gears by an edition of ISO 1328-1; None where one has none."""
     known = [of_gear for of_gear in tolerances if of_gear is not None]
     if len(known) < len(tolerances):
         return None
@@ -50,6 +51,7 @@ def quality_of(
         max(float(grade) for grade in grades if grade is not None),
         max(of_gear.single_pitch for of_gear in known),
         max(of_gear.profile_form for of_gear in known),
+        edition,
     )
 
 

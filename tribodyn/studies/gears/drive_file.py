@@ -4,7 +4,7 @@ A pair of any family is turned into a drive file of the family `spline`, from wh
 """
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -30,6 +30,7 @@ from tribodyn.scenario.tables.drive_rules import broken_drive_rules
 from tribodyn.scenario.tables.model_files import DriveTable
 from tribodyn.scenario.tables.quality import tolerance_lines
 from tribodyn.scenario.tables.tooth_data import THICKNESS_KEYS, gauge_of
+from tribodyn.standards.allowances import centre_distance_allowance
 from tribodyn.studies.protocol.load import load
 
 
@@ -51,16 +52,13 @@ class DriveModel(NamedTuple):
         """The geometry sheet: name to (value, unit), of pinion and gear in tables of their own."""
         given = [(body.mass, body.inertia) for body in self.masses]
         masses = body_masses(assembly, given, [material.density for material in self.materials])
-        sheet = geometry_sheet(assembly, masses, self.gauges) | self.rounded
-        for side, lines in zip(SIDES, self.tolerances, strict=True):
-            sheet[side] |= lines
-        return sheet
+        return sheet_of(self.table, assembly, masses) | self.rounded
 
     @property
     def gauges(self) -> tuple[Gauge, Gauge]:
         """What the tooth thickness of pinion and gear is measured with."""
         drive = DriveTable.model_validate(self.table)
-        return gauge_of(drive.pinion), gauge_of(drive.gear)
+        return gauge_of(drive, drive.pinion), gauge_of(drive, drive.gear)
 
     @property
     def rounded(self) -> dict[str, Any]:
@@ -68,10 +66,20 @@ class DriveModel(NamedTuple):
         rounded = rounded_distance_of(self.table)
         return rounded.lines() if rounded else {}
 
-    @property
-    def tolerances(self) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Lines of the sheet on the tolerances of pinion and gear, empty where no quality is given."""
-        return tolerance_lines(DriveTable.model_validate(self.table))
+
+def sheet_of(
+    table: Mapping[str, Any], assembly: Assembly, masses: Sequence[tuple[float, float]] | None = None
+) -> dict[str, Any]:
+    """The geometry sheet with the limits and tolerances that a drive file's data give."""
+    drive = DriveTable.model_validate(table)
+    gauges = gauge_of(drive, drive.pinion), gauge_of(drive, drive.gear)
+    distance = abs(float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius))
+    grade = drive.centre_distance_grade
+    apart = 0.0 if grade is None else centre_distance_allowance(grade, distance)
+    sheet = geometry_sheet(assembly, masses, gauges, distance_allowance=apart)
+    for side, lines in zip(SIDES, tolerance_lines(drive), strict=True):
+        sheet[side] |= lines
+    return sheet
 
 
 class _DriveAlone(Table):
@@ -142,7 +150,7 @@ def _no_pair(path: Path, rule: str) -> InputError:
 
 _OF_BODY = ("profile_shift", "addendum", "dedendum", "fillet_radius")
 #: Keys whose place those of the body, and the path, take.
-_OF_PATH = ("pressure_angle", "shape", "rack", "centre_distance")
+_OF_PATH = ("pressure_angle", "shape", "rack", "centre_distance", "centre_distance_grade")
 _OF_TEETH = ("tip_radius", "tip_diameter", "tip_rounding", *THICKNESS_KEYS)
 
 

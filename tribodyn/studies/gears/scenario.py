@@ -105,7 +105,9 @@ def gear_fields(scenario: Any, toml: str, sha256: str) -> dict[str, Any]:
         "operating": OperatingData("speed", *duty),
         "mesh": mesh_of(scenario),
         "supports": supports_of(scenario),
-        "quality": quality_of([grade_of(drive, gear) for gear in gears], tolerances_of(drive)),
+        "quality": quality_of(
+            [grade_of(drive, gear) for gear in gears], tolerances_of(drive), drive.quality_edition
+        ),
     }
 
 

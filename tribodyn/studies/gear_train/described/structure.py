@@ -279,6 +279,7 @@ def drive_table(scenario: Any, parts: Structure, mesh: MeshPart, driver: int, dr
         "mean_roughness": scenario.mean_roughness,
         "material": scenario.material,
         "quality": scenario.quality,
+        "quality_edition": scenario.quality_edition,
         "pinion": pinion,
         "gear": gear,
     }

@@ -12,13 +12,13 @@ from tribodyn.scenario.quantity import Count, InUnit, NotNegative, Number, Table
 from tribodyn.scenario.tables.bearings import Bearing, Stiffness
 from tribodyn.scenario.tables.duty import Power, Speed
 from tribodyn.scenario.tables.laws import LawTable
+from tribodyn.scenario.tables.material import Described
 from tribodyn.scenario.tables.model_files import (
     Angle,
     AsperityDensity,
     AsperitySlope,
     CentreDistance,
     CompositeRoughness,
-    Described,
     FaceWidth,
     FamilyKeys,
     Finish,
