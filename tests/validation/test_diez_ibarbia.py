@@ -52,6 +52,11 @@ def test_mean_friction_coefficients():
         assert mean_friction(name) == pytest.approx(expected, rel=1e-3)
 
 
+def test_without_the_face_width_in_6_friction_would_be_twice_as_large():
+    """As printed (6) has the load, not the load per width: b^0.2 more, b = 26.7 mm."""
+    assert mean_friction("OC1") * 26.7**0.2 == pytest.approx(0.091, abs=5e-4)
+
+
 @pytest.mark.parametrize("case", PROTOTYPE)
 def test_shifted_pairs_agree_with_a_separate_prototype(case):
     scenario, shift = case
