@@ -23,7 +23,7 @@ from tribodyn.scenario import units
 from tribodyn.scenario.units import Kind, NotAQuantity, to_si
 from tribodyn.standards.micropitting import LUBRICATION_FACTORS
 from tribodyn.standards.pitting import UNMODIFIED_FACTOR
-from tribodyn.standards.rolling_bearings import EXPONENTS
+from tribodyn.standards.rolling_bearings import CLEANLINESS, EXPONENTS
 
 
 class _Formulas(NamedTuple):
@@ -46,7 +46,7 @@ _PARTS = {
     "micropitting": _Formulas("ISO/TS 6336-22:2018 (ISO/TR 15144-1:2014)", "Oil Flanks Load"),
     "pitting": _Formulas("ISO 6336-2:2006 and :2019, method B", "PittingMesh"),
     "rainflow": _Formulas("ASTM E1049-85, 5.4.4 and 5.4.5"),
-    "rolling_bearings": _Formulas("ISO 281:2007"),
+    "rolling_bearings": _Formulas("ISO 281:2007 and ISO/TS 16281:2008"),
     "scuffing": _Formulas("ISO/TS 6336-20 and -21:2017 (ISO/TR 13989:2000)", "ScuffingMesh"),
     "stiffness": _Formulas(
         "ISO 6336-1:2019, clause 9, method B",
@@ -57,11 +57,11 @@ _PARTS = {
 #: Kind of quantity -> the arguments that are of it; all others are plain numbers.
 _ARGUMENTS = {
     units.LENGTH: (
-        "arm base_diameter base_radii base_radius centre_distance deviation diameter distance "
+        "arm ball_diameter base_diameter base_radii base_radius centre_distance deviation diameter distance "
         "face_width half_width mean_diameter mean_roughness middle_diameter misalignment module most "
-        "normal_module notch_radius pitch_deviation pitch_radius profile_deviation radius "
-        "reference_diameter reduced_radius reference_radius roughness thickness tip_radius tip_relief "
-        "tolerance tooth_height bending.BendingGear.rim"
+        "normal_module notch_radius pitch_deviation pitch_diameter pitch_radius profile_deviation radius "
+        "reference_diameter reduced_radius reference_radius roller_diameter roughness thickness tip_radius "
+        "tip_relief tolerance tooth_height bending.BendingGear.rim"
     ),
     units.ANGLE_KIND: (
         "base_helix_angle contact_angle helix_angle load_angle normal_pressure_angle pressure_angle "
@@ -72,11 +72,13 @@ _ARGUMENTS = {
         "mesh_stiffness pressure reduced_modulus single_stiffness stiffness stress yield_strength "
         "youngs_modulus"
     ),
-    units.FORCE: "accurate_load axial dynamic_rating radial static_rating tangential_load load",
+    units.FORCE: "accurate_load axial dynamic_rating loads radial static_rating tangential_load load",
     Kind("line load", "N/m", "300 N/mm"): "line_load",
     units.TORQUE: "pinion_torque",
     units.POWER: "power",
-    units.ANGULAR_SPEED: "pinion_speed rolling_bearings.running_time.speed",
+    units.ANGULAR_SPEED: (
+        "pinion_speed rolling_bearings.running_time.speed rolling_bearings.reference_viscosity.speed"
+    ),
     units.VELOCITY: "pitch_speed speed speed_sum speeds",
     units.TEMPERATURE_KIND: (
         "bulk contact_temperature integral oil_temperature scuffing scuffing_temperature temperatures"
@@ -99,6 +101,7 @@ _PLAIN = (
 _KINDS = {name: kind for kind, names in _ARGUMENTS.items() for name in names.split()}
 #: Texts and numbers that some arguments are chosen from; the factor X_S has such a name and is a number.
 _CHOICES: dict[str, tuple[Any, ...]] = {
+    "cleanliness": tuple(CLEANLINESS),
     "edition": (2019, 2006),
     "kind": tuple(EXPONENTS),
     "lubrication": tuple(LUBRICATION_FACTORS),

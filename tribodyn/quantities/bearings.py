@@ -19,6 +19,18 @@ BEARINGS = (
     Quantity("rating_life", "Basic rating life", "h", ",.0f", symbol="L_10h").defined_as(
         "That 90 % of such bearings reach at the duty's speed: (C/P)^p 10⁶ revolutions, ISO 281."
     ),
+    Quantity("viscosity_ratio", "Viscosity ratio", "", ".2f", symbol="κ").defined_as(
+        "ν/ν_1: of the oil at its temperature over what the bearing needs at the duty's speed, ISO 281."
+    ),
+    Quantity("life_factor", "Life modification factor", "", ".2f", symbol="a_ISO").defined_as(
+        "By lubrication, contamination and fatigue limit, ISO 281; at most 50."
+    ),
+    Quantity("modified_life", "Modified rating life", "h", ",.0f", symbol="L_10mh").defined_as(
+        "a_ISO L_10h, ISO 281."
+    ),
+    Quantity("reference_life", "Basic reference rating life", "h", ",.0f", symbol="L_10rh").defined_as(
+        "By the loads of all rolling elements, clearance and tilt included, ISO/TS 16281."
+    ),
     Quantity("power_bearing", "Loss", "W", ",.1f").defined_as(
         "By Palmgren's friction moments: of the oil bath, and of the load."
     ),

@@ -2,9 +2,23 @@
 
 import math
 
+import numpy as np
 import pytest
+from scipy.optimize import brentq
 
-from tribodyn.standards.rolling_bearings import basic_life, equivalent_load, load_moment, running_time
+from tribodyn.standards.rolling_bearings import (
+    basic_life,
+    contamination_factor,
+    equivalent_load,
+    fatigue_load_limit,
+    life_factor,
+    load_moment,
+    reference_life_of_balls,
+    reference_life_of_rollers,
+    reference_viscosity,
+    running_time,
+)
+from tribodyn.train.links.rolling_bearing import BallRow, answer
 
 BALL, ROLLER, TAPERED = "deep-groove-ball", "cylindrical-roller", "tapered-roller"
 
@@ -58,3 +72,62 @@ def test_moments_of_the_load_by_hand():
     angle = math.radians(14.0)
     expected = 0.0004 * 2.0 * (0.4 / math.tan(angle)) * 2000.0 * 0.053
     assert load_moment(TAPERED, 3000.0, 2000.0, 53e-3, contact_angle=angle) == pytest.approx(expected)
+
+
+def test_the_life_factor_against_readings_of_a_published_diagram():
+    """SKF's diagram for radial ball bearings, as read off in a public program; η_c P_u/P, κ, a."""
+    for relative, readings in {
+        0.01: {0.8: 0.3, 2.0: 0.48, 3.0: 0.53, 4.0: 0.57},
+        0.05: {0.3: 0.21, 0.6: 0.52, 0.8: 0.75, 2.0: 1.7, 3.0: 2.2, 4.0: 2.5},
+        0.1: {0.3: 0.26, 0.6: 0.85, 2.0: 4.5, 4.0: 7.0},
+    }.items():
+        for ratio, read in readings.items():
+            assert life_factor(BALL, ratio, relative) == pytest.approx(read, rel=0.1)
+
+
+def test_modified_life_by_hand():
+    """κ 1, e_C C_u/P 0.1: 0.1 (1 − 0.5684^0.83 0.1^⅓)^−9.3; rollers 0.1 (1 − 0.3511 0.1^0.4)^−9.185."""
+    assert life_factor(BALL, 1.0, 0.1) == pytest.approx(0.1 * (1 - 0.5684**0.83 * 0.46416) ** -9.3, rel=1e-4)
+    assert life_factor(ROLLER, 1.0, 0.1) == pytest.approx(0.1 * (1 - 0.3511 * 0.39811) ** -9.185, rel=1e-4)
+    assert life_factor(BALL, 8.0, 0.1) == life_factor(BALL, 4.0, 0.1)
+    assert life_factor(BALL, 4.0, 5.0) == 50.0
+    # both branches of every curve meet; 1000 rpm and 64 mm: 4500/(31.62 · 8) mm²/s
+    for kind in (BALL, ROLLER):
+        for edge in (0.4, 1.0):
+            below, above = life_factor(kind, edge - 1e-9, 0.3), life_factor(kind, edge, 0.3)
+            assert below == pytest.approx(above, rel=0.02)
+    assert reference_viscosity(64e-3, 1000.1 * math.pi / 30.0) == pytest.approx(17.788e-6, rel=1e-3)
+    assert reference_viscosity(64e-3, 999.9 * math.pi / 30.0) == pytest.approx(18.2e-6, rel=2e-2)
+    assert fatigue_load_limit(BALL, 22e3, 60e-3) == pytest.approx(1e3)
+    assert fatigue_load_limit(BALL, 22e3, 400e-3) == pytest.approx(500.0)
+    # 64 mm: 64^0.55 = 9.849, 64^(1/3) = 4
+    by_hand = 0.0432 * 9.849 * (1 - 0.24968)
+    assert contamination_factor(1.0, 64e-3, "-/15/12") == pytest.approx(by_hand, rel=1e-3)
+
+
+def test_reference_life_of_the_distribution_that_the_ratings_stand_on():
+    """Balls without clearance under a radial load: L_10r is L_10. Rollers by hand, the same load on all."""
+    row = BallRow(9, 12e-3, 60e-3)
+    load = 4e3
+
+    def missing(moved: float) -> float:
+        return float(answer(row, np.array([moved, 0.0, 0.0, 0.0, 0.0])).force[0]) - load
+
+    moved = brentq(missing, 0.0, 1e-3)
+    loads = answer(row, np.array([moved, 0.0, 0.0, 0.0, 0.0])).element_load
+    life = reference_life_of_balls(loads.tolist(), 30e3, 12e-3, 60e-3)
+    assert life == pytest.approx(basic_life(BALL, 30e3, load), rel=0.02)
+    worse = reference_life_of_balls([float(sum(loads)), *[0.0] * 8], 30e3, 12e-3, 60e-3)
+    assert worse < life
+    assert reference_life_of_balls([0.0] * 9, 30e3, 12e-3, 60e-3) == math.inf
+    # 20 rollers in 31 slices, each roller C/20 with γ = 0: ratings of both raceways, λ ν = 0.83
+    even = [[30e3 / 20 / 31] * 31] * 20
+    ends = [1 - 0.01 / math.log(1.985 * max(abs(k - 15), 0.5) / 31) for k in range(31)]
+    concentrated = sum(each**4.5 for each in ends) / 31
+    inner, outer = (
+        by / 0.83 * (1 + 1.038**power) ** (2 / 9) for by, power in ((1 / 0.378, 4.5), (1 / 0.364, -4.5))
+    )
+    by_hand = 1e6 * (concentrated * (inner**-4.5 + outer**-4.5)) ** (-8 / 9)
+    assert reference_life_of_rollers(even, 30e3, 1e-9, 66e-3) == pytest.approx(by_hand, rel=1e-4)
+    tilted = [[30e3 / 20 / 31 * k / 15 for k in range(31)]] * 20
+    assert reference_life_of_rollers(tilted, 30e3, 1e-9, 66e-3) < 0.5 * by_hand

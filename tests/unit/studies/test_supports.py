@@ -16,6 +16,7 @@ from tribodyn.geometry.families import family
 from tribodyn.interface.scenario import scenario
 from tribodyn.record.reader import Record
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.standards.rolling_bearings import life_factor, reference_viscosity
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears.rated.bearings import bearing_part, bearing_remarks, opening_part
 from tribodyn.studies.gears.rated.first_page import bearings_table
@@ -204,6 +205,19 @@ def test_loads_lives_and_losses_of_bearings():
     remarks = " ".join(bearing_remarks(case, oil))
     assert "Bearing gear-1: no life without dynamic_rating" in remarks
     assert "rating_life" not in found["gear-1"]
+    bearing = shafts["gear"]["bearing"][0]
+    bearing |= {"dynamic_rating": "30 kN", "static_rating": "16 kN", "contamination_factor": 0.5}
+    bearing["fatigue_load_limit"] = "0.8 kN"
+    again = scenario("helical-23-47", HELICAL | {"shaft": shafts})
+    ball = bearing_part(again, again.lubricant)["bearings"]["gear-1"]
+    turning = 1500.0 * math.pi / 30.0 * 23 / 47
+    ratio = oil.inlet_viscosity / oil.density / reference_viscosity(60e-3, turning)
+    factor = life_factor("deep-groove-ball", ratio, 0.5 * 800.0 / ball["equivalent_load"])
+    assert ball["viscosity_ratio"] == pytest.approx(ratio)
+    assert ball["modified_life"] == pytest.approx(factor * ball["rating_life"])
+    # clearance and thrust: fewer balls carry than the ratings assume, or more
+    assert 0.2 < ball["reference_life"] / ball["rating_life"] < 5.0
+    assert "modified_life" not in one
     assert "<td>pinion-1</td>" in bearings_table({"bearings": found})
     assert bearings_table({}) == ""
 

@@ -45,6 +45,8 @@ _EXAMPLES = {
     "contact_angle": '"14 deg"',
     "thrust": '"+z"',
 }
+#: What else is a rolling bearing's alone.
+_OF_CATALOGUE = "dynamic_rating", "static_rating", "fatigue_load_limit", "contamination_factor"
 #: Springs along x, y and z, and about x and y.
 SPRINGS = ("stiffness_x", "stiffness_y", "stiffness_axial", "stiffness_tilt")
 
@@ -79,6 +81,12 @@ class BearingOfShaft(Table):
     locating: Switch = Field(True, description="false: its outer ring slides along its housing")
     dynamic_rating: Rating | None = Field(None, description="C, of its catalogue; for the life")
     static_rating: Rating | None = Field(None, description="C_0, of its catalogue")
+    fatigue_load_limit: Rating | None = Field(
+        None, description="C_u, of its catalogue; default: from C_0, simplified (ISO 281)"
+    )
+    contamination_factor: Annotated[float, Field(strict=True, gt=0, le=1)] | None = Field(
+        None, description="e_C of ISO 281, of oil and particles; for the modified life"
+    )
     static_factor: Positive | None = Field(None, description="f_0 of ISO 76, of balls; default: 14")
     stiffness_x: Stiffness | None = Field(
         None, description="of springs in place of a rolling bearing; default: none"
@@ -241,7 +249,7 @@ def _broken_bearing(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
 def _broken_spring(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
     """What a spring or a matrix lacks, and what belongs to rolling bearings."""
     yield from broken_matrix(f"{key}.matrix", bearing.matrix, bearing.matrix_units)
-    for name in (*_EXAMPLES, "dynamic_rating", "static_rating"):
+    for name in (*_EXAMPLES, *_OF_CATALOGUE):
         if getattr(bearing, name) is not None:
             rule = "is that of a rolling bearing, and type is missing"
             remedy = f'add type = "deep-groove-ball", or leave {name} out'

@@ -24,7 +24,7 @@ from tribodyn.scenario.tables.model_files import DriveTable
 from tribodyn.scenario.tables.shafts import SPRINGS, BearingOfShaft, DrawnShaft, DrawnShafts, drawn_sides
 from tribodyn.scenario.tables.support_matrix import matrix_of
 from tribodyn.train.links.beam import ShaftMetal, ShaftSection
-from tribodyn.train.links.rolling_bearing import BallRow, RollerRow
+from tribodyn.train.links.rolling_bearing import BallRow, BearingState, RollerRow
 from tribodyn.train.links.shaft import Matrix, NotHeld, Support, SupportedShaft, under_load
 
 #: Forces along x, y, z (N) and moments about x and y (N m), or displacements (m, rad).
@@ -37,6 +37,8 @@ class BearingUnderLoad(NamedTuple):
     position: float  # m
     table: BearingOfShaft
     force: Five
+    #: of each rolling element, N: of a ball, or of the slices of a roller; () of springs and matrices
+    loads: tuple[tuple[float, ...], ...] = ()
 
 
 class GearSupport(NamedTuple):
@@ -164,7 +166,7 @@ def _on_matrix(key: str, data: BearingData, load: Five) -> GearSupport:
 
 def _drawn(key: str, table: DrawnShaft, load: Five) -> GearSupport:
     try:
-        moved, stiffness, forces = _settled(_shaft_of(table), load)
+        moved, stiffness, answers = _settled(_shaft_of(table), load)
     except NotHeld as error:
         rule = f"{error}, under the load of the mesh"
         remedy = (
@@ -178,21 +180,26 @@ def _drawn(key: str, table: DrawnShaft, load: Five) -> GearSupport:
     matrix = np.array(stiffness)
     rest = np.array(moved) - np.linalg.solve(matrix, load)
     bearings = tuple(
-        BearingUnderLoad(bearing.position, bearing, force)
-        for bearing, force in zip(table.bearing, forces, strict=True)
+        BearingUnderLoad(bearing.position, bearing, *answer)
+        for bearing, answer in zip(table.bearing, answers, strict=True)
     )
     data = BearingData.of_matrix(stiffness, table.damping_ratio)
     return GearSupport(data, moved, tuple(rest.tolist()), bearings)
 
 
 @remembered(64)
-def _settled(shaft: SupportedShaft, load: Five) -> tuple[Five, Matrix, tuple[Five, ...]]:
+def _settled(shaft: SupportedShaft, load: Five) -> tuple[Five, Matrix, tuple[tuple[Five, Matrix], ...]]:
     found = under_load(shaft, load)
     return (
         tuple(found.displacement.tolist()),
         tuple(map(tuple, found.stiffness.tolist())),
-        tuple(tuple(state.force.tolist()) for state in found.bearings),
+        tuple((tuple(state.force.tolist()), _element_loads(state)) for state in found.bearings),
     )
+
+
+def _element_loads(state: BearingState) -> Matrix:
+    loads = state.element_load[:, None] if state.slice_load is None else state.slice_load
+    return tuple(map(tuple, loads.tolist()))
 
 
 def _shaft_of(table: DrawnShaft) -> SupportedShaft:

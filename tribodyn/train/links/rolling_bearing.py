@@ -59,6 +59,7 @@ class BearingState(NamedTuple):
     stiffness: Float[Array, "5 5"]  # its derivative
     energy: float  # J
     element_load: Float[Array, " element"]  # N
+    slice_load: Float[Array, "element slice"] | None = None  # of rollers, N
 
 
 def ball_constant(row: BallRow) -> float:
@@ -179,4 +180,4 @@ def _of_rollers(row: RollerRow, moved: Float[Array, "5"]) -> BearingState:
     stiffness = np.einsum("es,esi,esj->ij", np.where(pressed > 0.0, slope, 0.0), by, by)
     force = np.einsum("es,esj->j", load, by)
     energy = float(np.sum(load * pressed)) / (1.0 + _ROLLER_EXPONENT)
-    return BearingState(force, stiffness, energy, np.sum(load, axis=1))
+    return BearingState(force, stiffness, energy, np.sum(load, axis=1), load)

@@ -6,11 +6,17 @@ from typing import Any, NamedTuple
 
 from tribodyn.geometry.drive import SIDES
 from tribodyn.quantities.bearings import BEARINGS
+from tribodyn.scenario.tables.shafts import BearingOfShaft
 from tribodyn.standards.rolling_bearings import (
     STATIC_FACTOR,
     basic_life,
     equivalent_load,
+    fatigue_load_limit,
+    life_factor,
     load_moment,
+    reference_life_of_balls,
+    reference_life_of_rollers,
+    reference_viscosity,
     running_time,
 )
 from tribodyn.studies.gears.case import GearCase
@@ -61,6 +67,11 @@ def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantDat
     elif speed > 0.0 and equivalent.load > 0.0:
         life = basic_life(table.type, table.dynamic_rating, equivalent.load)
         numbers["rating_life"] = running_time(life, speed)
+        numbers |= _modified(table, equivalent.load, speed, numbers["rating_life"], oil)
+        numbers["reference_life"] = running_time(_reference_life(bearing), speed)
+        if table.contamination_factor is not None and "modified_life" not in numbers and oil is not None:
+            needed = "fatigue_load_limit, C_u, or static_rating, C_0 of its catalogue"
+            remarks.append(f"Bearing {name}: no modified life without {needed}.")
     balls = table.type == "deep-groove-ball"
     if balls and table.static_rating is None:
         remarks.append(
@@ -80,6 +91,31 @@ def _rated(name: str, bearing: BearingUnderLoad, speed: float, oil: LubricantDat
             idle = palmgren(drag, speed, float(oil.inlet_viscosity), float(oil.density))
             numbers["power_bearing"] = idle.power + moment * speed
     return RatedBearing(name, numbers, tuple(remarks))
+
+
+def _modified(
+    table: BearingOfShaft, load: float, speed: float, life: float, oil: LubricantData | None
+) -> dict[str, float]:
+    """κ, a_ISO and the modified life (s); what cannot be told is left out."""
+    if oil is None or not table.pitch_diameter or table.type is None:
+        return {}
+    ratio = float(oil.inlet_viscosity / oil.density) / reference_viscosity(table.pitch_diameter, speed)
+    limit, found = table.fatigue_load_limit, {"viscosity_ratio": ratio}
+    if limit is None and table.static_rating is not None:
+        limit = fatigue_load_limit(table.type, table.static_rating, table.pitch_diameter)
+    if table.contamination_factor is None or limit is None:
+        return found
+    factor = life_factor(table.type, ratio, table.contamination_factor * limit / load)
+    return found | {"life_factor": factor, "modified_life": factor * life}
+
+
+def _reference_life(bearing: BearingUnderLoad) -> float:
+    """L_10r, revolutions, by the loads of the rolling elements."""
+    table: Any = bearing.table
+    sizes = table.dynamic_rating, table.element_diameter, table.pitch_diameter, table.contact_angle or 0.0
+    if table.type == "deep-groove-ball":
+        return reference_life_of_balls([load for (load,) in bearing.loads], *sizes)
+    return reference_life_of_rollers(bearing.loads, *sizes)
 
 
 def bearing_part(case: GearCase, oil: LubricantData | None = None) -> dict[str, Any]:
@@ -105,7 +141,8 @@ def bearing_remarks(case: GearCase, oil: LubricantData | None = None) -> list[st
     if any("equivalent_load" in bearing.numbers for bearing in rated):
         remarks.append(
             "Bearings: under the mean load of the duty, without application and dynamic factor; basic rating "
-            "life without the influence of oil, cleanness and misalignment; losses are not in the efficiency."
+            "life L_10h without the influence of oil, cleanness and misalignment, L_10mh with those of oil "
+            "and cleanness, L_10rh with clearance and misalignment; losses are not in the efficiency."
         )
     return remarks
 
