@@ -1,5 +1,7 @@
 """Diez-Ibarbia et al.: Höhn's efficiencies and those of the load contact model."""
 
+import re
+
 import pytest
 
 from tribodyn.validation.diez_ibarbia_study import at_load, loss_factors, mean_friction, pair_of, peak
@@ -45,6 +47,26 @@ def test_the_claim_that_does_not_hold_is_reported_with_its_figures(rows):
         assert f"{scenario}, x = " in row.note
         for condition in ("OC1", "OC2", "OC3", "OC4", "OC5"):
             assert f"{scenario} by load contact {condition} " in row.note
+
+
+def test_what_the_paper_concludes_on_shifted_pairs(rows):
+    """By the prototype's values, too: S3 below S2 at 0.7, both below x = 0 from 0.3 on."""
+    standing = {key.removeprefix("diez/claim-"): row.standing for key, row in rows.items() if "claim" in key}
+    assert {key for key, one in standing.items() if one == "reported"} == {
+        "efficiency-falls-with-shift",
+        "approaches-part-with-shift-s2",
+        "approaches-part-most-in-s3",
+    }
+    assert set(standing.values()) == {"reported", "reproduced"}
+
+
+def test_the_torque_on_the_gear_stands_beside(rows):
+    """Effective contact ratios of a separate evaluation with half the load, which every claim survives."""
+    assert all(row.otherwise == () for row in rows.values())
+    note = rows["diez/claim-effective-contact-ratio-above-the-theore"].note.partition("on the gear: ")[2]
+    assert [float(text) for text in re.findall(r"1\.\d+", note)[:3]] == pytest.approx(
+        [1.658, 1.703, 1.791], abs=6e-4
+    )
 
 
 def test_mean_friction_coefficients():

@@ -14,6 +14,7 @@ from tribodyn.studies.efficiency.published import tip_contact_ratios
 from tribodyn.validation.diez_ibarbia_study import (
     CONDITIONS,
     SHIFTS,
+    LoadContact,
     Scenario,
     at_load,
     drive,
@@ -28,54 +29,71 @@ from tribodyn.validation.diez_ibarbia_study import (
 from tribodyn.validation.rows import Row, compare_paper
 
 PAPER = "diez-ibarbia"
+#: The other reading of Table 1.
+ON_GEAR = "Table 1's torque on the gear"
 
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
     """All rows of the paper."""
     base = drive()
     by_hoehn, by_integral = loss_factors(base)
-    values: dict[str, tuple[Any, str]] = {"diez/contact-ratio": (sum(tip_contact_ratios(FAMILY, base)), "")}
-    efficiency, at_load = {}, {}
+    theory = sum(tip_contact_ratios(FAMILY, base))
+    values: dict[str, tuple[Any, str]] = {"diez/contact-ratio": (theory, "")}
     flexible = elastic(base)
+    cycles: dict[bool, dict[str, LoadContact]] = {False: {}, True: {}}
     for count, name in enumerate(CONDITIONS):
-        mu = mean_friction(name)
-        efficiency[name] = 1.0 - mu * by_hoehn
-        key = f"diez/{name.lower()}"
+        for on_gear in cycles:
+            mu = mean_friction(name, on_gear)
+            cycles[on_gear][name] = load_contact(flexible, gear_torque(name, on_gear), mu)
+        mu, key = mean_friction(name), f"diez/{name.lower()}"
         values[f"{key}-hohn"] = (
-            100.0 * efficiency[name],
+            100.0 * (1.0 - mu * by_hoehn),
             f"Höhn; by the integral {100.0 * (1.0 - mu * by_integral):.3f}; ours mu {mu:.5f}",
         )
-        at_load[name] = load_contact(flexible, gear_torque(name), mu)
+        cycle = cycles[False][name]
         values[f"{key}-lcm"] = (
-            100.0 * at_load[name].efficiency,
-            f"effective contact ratio {at_load[name].contact_ratio:.3f}",
+            100.0 * cycle.efficiency,
+            f"effective contact ratio {cycle.contact_ratio:.3f}",
         )
         if progress:
             progress(0.5 * (count + 1) / len(CONDITIONS))
-    prefix = "diez/claim-"
+    on_pinion, on_gear = (_unshifted(cycles[side], theory, by_hoehn, side) for side in cycles)
+    for key, (value, note) in on_pinion.items():
+        values[key] = value, f"{note}; torque on the gear: {on_gear[key][1]}"
+    values["diez/claim-a-step-of-the-load-sharing-at-the-pitch"] = _step_at_pitch_point(flexible)
+    values |= _shifted(progress)
+    return compare_paper(PAPER, values, {ON_GEAR: {key: value for key, (value, _) in on_gear.items()}})
+
+
+def _unshifted(
+    cycles: dict[str, LoadContact], theory: float, by_hoehn: float, on_gear: bool
+) -> dict[str, tuple[bool, str]]:
+    """Claims about the pair without shift, with Table 1's torques on the pinion or on the gear."""
+    efficiency = {name: 1.0 - mean_friction(name, on_gear) * by_hoehn for name in CONDITIONS}
     order = sorted(efficiency, key=lambda name: -efficiency[name])
-    by_model = {name: cycle.efficiency for name, cycle in at_load.items()}
-    values[f"{prefix}efficiency-order-oc2-oc5-oc3-oc1-oc4"] = (
-        order == ["OC2", "OC5", "OC3", "OC1", "OC4"] == sorted(by_model, key=lambda name: -by_model[name]),
-        "by Höhn: "
-        + " > ".join(f"{name} {100 * efficiency[name]:.2f}" for name in order)
-        + "; the same by the load contact model",
-    )
+    by_model = {name: cycle.efficiency for name, cycle in cycles.items()}
     above = {name: 100.0 * (by_model[name] - efficiency[name]) for name in ("OC2", "OC1", "OC4")}
-    values[f"{prefix}lcm-below-h-hn-at-637-n-m-near-it-at-159"] = (
-        above["OC4"] < -0.05 and abs(above["OC1"]) < 0.03 and above["OC2"] > 0.0,
-        "load contact model less Höhn: "
-        + ", ".join(f"{name} {value:+.3f} points" for name, value in above.items()),
-    )
-    values[f"{prefix}a-step-of-the-load-sharing-at-the-pitch"] = _step_at_pitch_point(flexible)
-    ratios = [at_load[name].contact_ratio for name in ("OC2", "OC1", "OC4")]
-    theory = float(values["diez/contact-ratio"][0])
-    values[f"{prefix}effective-contact-ratio-above-the-theore"] = (
-        theory < ratios[0] < ratios[1] < ratios[2],
-        " / ".join(f"{ratio:.3f}" for ratio in ratios) + f" at 40 / 159 / 637 N·m; theoretical {theory:.3f}",
-    )
-    values[f"{prefix}efficiency-falls-with-shift"] = _falls_with_shift(progress)
-    return compare_paper(PAPER, values)
+    ratios = [cycles[name].contact_ratio for name in above]
+    prefix = "diez/claim-"
+    return {
+        f"{prefix}efficiency-order-oc2-oc5-oc3-oc1-oc4": (
+            order
+            == ["OC2", "OC5", "OC3", "OC1", "OC4"]
+            == sorted(by_model, key=lambda name: -by_model[name]),
+            "by Höhn: "
+            + " > ".join(f"{name} {100 * efficiency[name]:.2f}" for name in order)
+            + ", the same by the load contact model",
+        ),
+        f"{prefix}lcm-below-h-hn-at-637-n-m-near-it-at-159": (
+            above["OC4"] < 0.0 < above["OC2"] and abs(above["OC1"]) < 0.5 * abs(above["OC4"]),
+            "load contact model less Höhn: "
+            + ", ".join(f"{name} {value:+.3f} points" for name, value in above.items()),
+        ),
+        f"{prefix}effective-contact-ratio-above-the-theore": (
+            theory < ratios[0] < ratios[1] < ratios[2],
+            " / ".join(f"{ratio:.3f}" for ratio in ratios) + f" at OC2 / OC1 / OC4, theoretical {theory:.3f}",
+        ),
+    }
 
 
 def _step_at_pitch_point(flexible: PairFlexibility) -> tuple[bool, str]:
@@ -90,15 +108,59 @@ def _step_at_pitch_point(flexible: PairFlexibility) -> tuple[bool, str]:
     return agree, f"OC4: {before:.4f} to {after:.4f}"
 
 
-def _falls_with_shift(progress: Callable[[float], None] | None) -> tuple[bool, str]:
-    falls, notes = [], []
+def _shifted(progress: Callable[[float], None] | None) -> dict[str, tuple[bool, str]]:
+    """Claims about shifted pairs, at all conditions and by both approaches."""
+    courses, notes = {}, []
     for count, scenario in enumerate(SHIFTS):
         notes += [_by_hoehn(scenario), *_by_load_contact(scenario)]
-        for condition in CONDITIONS:
-            falls += [np.all(np.diff(course) < 0.0) for course in _courses(scenario, condition)]
+        for name in CONDITIONS:
+            courses[scenario, name] = np.array(_courses(scenario, name))  # (approach, shift)
         if progress:
             progress(0.5 + 0.5 * (count + 1) / len(SHIFTS))
-    return bool(all(falls)), "; ".join(notes)
+    high = np.array(SHIFTS["S2"]) >= 0.3
+    beyond = {key: course[:, high] < course[:, :1] for key, course in courses.items() if key[0] != "S1"}
+    apart = {key: np.abs(course[1] - course[0]) for key, course in courses.items()}
+    last = {name: [courses[scenario, name][:, -1] for scenario in ("S2", "S3")] for name in CONDITIONS}
+    torque = [
+        courses[s, less] > courses[s, more] for s in SHIFTS for less, more in (("OC1", "OC4"), ("OC2", "OC5"))
+    ]
+    speed = [
+        courses[s, slow] < courses[s, fast] for s in SHIFTS for slow, fast in (("OC1", "OC3"), ("OC3", "OC5"))
+    ]
+    prefix = "diez/claim-"
+    return {
+        f"{prefix}efficiency-falls-with-shift": (
+            bool(all(np.all(np.diff(course) < 0.0) for course in courses.values())),
+            "; ".join(notes),
+        ),
+        f"{prefix}lower-for-shifts-of-0.3-and-above": (
+            bool(all(np.all(lower) for lower in beyond.values())),
+            "S2 and S3, x = 0.3, 0.5, 0.7, by Höhn and by load contact, all conditions, below x = 0",
+        ),
+        f"{prefix}s3-below-s2-at-0.7": (
+            bool(all(np.all(s3 < s2) for s2, s3 in last.values())),
+            "S2, S3 by load contact: "
+            + ", ".join(f"{name} {100 * s2[1]:.3f}, {100 * s3[1]:.3f}" for name, (s2, s3) in last.items()),
+        ),
+        f"{prefix}approaches-part-with-shift-s2": (
+            bool(all(np.all(np.diff(apart["S2", name]) > 0.0) for name in CONDITIONS)),
+            _parted(apart, "S2"),
+        ),
+        f"{prefix}approaches-part-most-in-s3": (
+            bool(all(np.all(apart["S3", name][1:] > apart["S2", name][1:]) for name in CONDITIONS)),
+            _parted(apart, "S3"),
+        ),
+        f"{prefix}more-torque-less-more-speed-more": (
+            bool(np.all(np.concatenate([one.ravel() for one in (*torque, *speed)]))),
+            "OC4 below OC1, OC5 below OC2; OC1 below OC3 below OC5, at every shift and by both approaches",
+        ),
+    }
+
+
+def _parted(apart: dict[tuple[str, str], np.ndarray], scenario: str) -> str:
+    return f"{scenario}, points over the shifts: " + ", ".join(
+        f"{name} {' '.join(f'{100 * value:.3f}' for value in apart[scenario, name])}" for name in CONDITIONS
+    )
 
 
 def _courses(scenario: Scenario, condition: str) -> tuple[list[float], list[float]]:

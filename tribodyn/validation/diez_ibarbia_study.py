@@ -152,20 +152,24 @@ def shifted(drive: Drive, scenario: Scenario, shift: float) -> Drive:
 
 
 @cache
-def mean_friction(condition: str) -> float:
+def mean_friction(condition: str, on_gear: bool = False) -> float:
     """Niemann's mean friction coefficient of the paper's pair at an operating condition."""
     _, rpm = CONDITIONS[condition]
     overrides = {
         "operating.pinion_speed": f"{rpm * math.pi / 30.0!r} rad/s",
-        "operating.gear_torque": f"{gear_torque(condition)!r} N*m",
+        "operating.gear_torque": f"{gear_torque(condition, on_gear)!r} N*m",
     }
     return float(niemann(nominal_conditions(_case(overrides))))
 
 
-def gear_torque(condition: str) -> float:
-    """Torque on the gear at an operating condition, N m; the paper's torques are the pinion's."""
+def gear_torque(condition: str, on_gear: bool = False) -> float:
+    """Torque on the gear at an operating condition, N m.
+
+    Table 1's torques belong to its powers and speeds, and are taken as the pinion's; its terms say "on the
+    gear", which `on_gear` takes them for.
+    """
     power, rpm = CONDITIONS[condition]
-    return 2.0 * power / (rpm * math.pi / 30.0)
+    return (1.0 if on_gear else 2.0) * power / (rpm * math.pi / 30.0)
 
 
 def drive() -> Drive:
