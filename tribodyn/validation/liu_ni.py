@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.record.reader import Record
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
+from tribodyn.validation.liu_ni_courses import FAR, NEAR, Steady, courses, steady_cycle
 from tribodyn.validation.rows import Row, compare_paper
 
 PAPER = "liu-ni-2022"
@@ -35,71 +35,12 @@ CHOICES = {
 }
 #: Choices of the claim about the two transmission errors: Liu & Ni's (6) is along the normal.
 ROTATIONAL, APART = "DTE as r_p θ_p - r_g θ_g", "pairs that do not share the gear bodies"
+#: Share of the largest line above which a line of the spectrum is one, and by which equal loads may differ.
+_LINE, _EQUAL = 1e-6, 0.005
 _ABOVE = "liu-ni/claim-dte-of-the-crc-drive-above-the-involute-s-lower"
 
 #: Samples per mesh cycle: at 10 rad/s the mesh vibrates 49 times per cycle, which 200 hardly resolve.
 SAMPLES = 2000
-
-#: Half-open window of phase about the pitch point in which friction is reversing, mesh cycles.
-NEAR, FAR = 0.01, 0.05
-
-
-class Steady(NamedTuple):
-    """The last whole mesh cycle of a record, and its summary."""
-
-    summary: dict[str, Any]
-    data: dict[str, np.ndarray]
-    phase: np.ndarray
-    pitch_point: float
-    contact_ratio: float
-    rotational: bool = False  # whether the transmission error is the rotational one
-
-    @property
-    def error(self) -> np.ndarray:
-        """Transmission error, m: by Liu & Ni's (6) of pair 1, which is in contact all the cycle."""
-        if self.rotational:
-            return self.data["transmission_error_rotational"]
-        return self.data["transmission_error_normal"][:, 1]
-
-    def single(self) -> np.ndarray:
-        """Where one pair alone carries the load."""
-        return np.sum(self.data["normal_load"] > 0.0, axis=1) == 1
-
-    def single_load(self) -> float:
-        """Mean normal load of the pair that is alone, N."""
-        return float(np.mean(np.sum(self.data["normal_load"], axis=1)[self.single()]))
-
-    def aligned(self, name: str, pair: int, phase: np.ndarray) -> np.ndarray:
-        """A pair's quantity at phases counted from its pitch point; NaN out of contact."""
-        values = self.data[name][:, pair]
-        from_pitch = self.phase - self.pitch_point + (1 - pair)
-        inside = np.isfinite(values)
-        result = np.interp(phase, from_pitch[inside], values[inside])
-        outside = (phase < from_pitch[inside].min()) | (phase > from_pitch[inside].max())
-        return np.where(outside, np.nan, result)
-
-
-def _steady(path: Path) -> Steady:
-    record = Record(path)
-    names = (
-        "normal_load",
-        "central_film_thickness",
-        "entrainment_speed",
-        "friction_coefficient",
-        "efficiency",
-        "transmission_error_normal",
-        "transmission_error_rotational",
-    )
-    samples = record.scenario["output"]["samples_per_cycle"]
-    data = {name: np.asarray(record[name])[-samples - 1 : -1] for name in names}
-    cycle = record.mesh_cycle
-    return Steady(
-        record.summary,
-        data,
-        np.arange(samples) / samples,
-        float(cycle["pitch_point_phase"]),
-        float(cycle["contact_ratio"]),
-    )
 
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
@@ -110,7 +51,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         result = run(case, folder / f"{name}.h5", force=True)
         if result.status != "complete":
             raise SimulationError(f"{name}: {result.message}")
-        steady[name] = _steady(result.path)
+        steady[name] = steady_cycle(result.path)
         if progress:
             progress((count + 1) / len(RUNS))
     wet, dry, elements, apart, *others = (
@@ -118,12 +59,12 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         for end in ("", "-frictionless", "-fem", "-apart", *CHOICES)
     )
     values = _numbers(wet, dry) | _claims(wet, dry)
-    values["liu-ni/load-stcp-fem"] = (steady["crc-23-47-fem-frictionless"].single_load(), "")
+    values |= courses(wet) | _by_elements(dry[0], steady["crc-23-47-fem-frictionless"])
     for name, pair in (("teeth by finite elements", elements), (APART, apart)):
         means = [1e6 * s.summary["transmission_error_normal_mean"] for s in pair]
         values[_ABOVE] = values[_ABOVE][0], f"{values[_ABOVE][1]}; {name} {means[0]:.2f}, {means[1]:.2f} µm"
     beside = {
-        choice: _numbers(pair, dry) | _claims(pair, dry)
+        choice: _numbers(pair, dry) | _claims(pair, dry) | courses(pair)
         for choice, pair in zip(CHOICES.values(), others, strict=True)
     }
     beside[ROTATIONAL] = _errors(*([s._replace(rotational=True) for s in pair] for pair in (wet, dry)))
@@ -139,12 +80,14 @@ def _numbers(wet: Sequence[Steady], dry: Sequence[Steady]) -> dict[str, tuple[An
     crc, involute = wet
     crc_dry = dry[0]
     spectrum = crc_dry.summary["spectrum_amplitudes"], crc_dry.summary["spectrum_frequencies"]
-    first = 1 + int(np.argmax(spectrum[0][1:]))
+    lines = np.flatnonzero(spectrum[0][1:] > _LINE * np.max(spectrum[0][1:])) + 1
+    harmonics = [float(spectrum[1][line]) for line in lines[:3]]
     weak = "bearings 1e9 N/m"
     return {
         "liu-ni/contact-ratio-crc": (crc.contact_ratio, ""),
         "liu-ni/contact-ratio-involute": (involute.contact_ratio, ""),
-        "liu-ni/mesh-frequency": (float(spectrum[1][first]), "largest line of the DTE spectrum"),
+        "liu-ni/mesh-frequency": (harmonics[0], "first line of the DTE spectrum"),
+        "liu-ni/mesh-harmonics": (harmonics[1:], "second and third line"),
         "liu-ni/load-stcp-6dof": (crc_dry.single_load(), ""),
         "liu-ni/load-stcp-mbd": (None, ""),
         **{
@@ -154,6 +97,24 @@ def _numbers(wet: Sequence[Steady], dry: Sequence[Steady]) -> dict[str, tuple[An
         },
         "liu-ni/efficiency-crc": (crc.summary["efficiency"], ""),
         "liu-ni/efficiency-involute": (involute.summary["efficiency"], weak),
+    }
+
+
+def _by_elements(rigid: Steady, elements: Steady) -> dict[str, tuple[Any, str]]:
+    """Load and contact ratio of the CRC drive without friction with teeth by finite elements."""
+    loads = [s.single_load() for s in (rigid, elements)]
+    pairs = float(np.mean(np.sum(elements.data["normal_load"] > 0.0, axis=1)))
+    return {
+        "liu-ni/load-stcp-fem": (loads[1], ""),
+        "liu-ni/claim-load-above-the-fe-s": (
+            loads[0] > (1.0 + _EQUAL) * loads[1],
+            f"{loads[0]:.0f} and {loads[1]:.0f} N",
+        ),
+        "liu-ni/claim-contact-ratio-below-the-fe-s": (
+            rigid.contact_ratio < pairs,
+            f"{rigid.contact_ratio:.4f} along the path, {pairs:.4f} loaded pairs in the mean with teeth by "
+            "finite elements, which also touch before and after it",
+        ),
     }
 
 
@@ -244,6 +205,8 @@ def _claims(wet: Sequence[Steady], dry: Sequence[Steady]) -> dict[str, tuple[Any
     peak = float(crc.phase[np.argmax(efficiency)])
     single = crc.single()
     both = [float(np.mean(efficiency[single])), float(np.mean(efficiency[~single]))]
+    higher = float(np.mean(efficiency > involute.data["efficiency"]))
+    means = [float(np.mean(s.data["efficiency"])) for s in wet]
     prefix = "liu-ni/claim-"
     return {
         **_errors(wet, dry),
@@ -256,6 +219,10 @@ def _claims(wet: Sequence[Steady], dry: Sequence[Steady]) -> dict[str, tuple[Any
         f"{prefix}sliding-friction-force-of-the-crc-drive-smaller": (
             forces[0] < forces[1],
             f"sum of the mean forces {forces[0]:.0f} and {forces[1]:.0f} N",
+        ),
+        f"{prefix}efficiency-of-the-crc-drive-higher": (
+            means[0] > means[1],
+            f"mean {means[0]:.4f} against {means[1]:.4f}, higher at {higher:.0%} of the phases",
         ),
         f"{prefix}efficiency-peaks-at-the-pitch-point-higher-in-si": (
             abs(peak - crc.pitch_point) < FAR and both[0] > both[1],
