@@ -192,6 +192,12 @@ CAPACITY = (
 #: By the names of the standards; temperatures are in °C there.
 STANDARDS = (
     *CAPACITY,
+    Quantity("duty_number", "Duty of the load spectrum", digits="d"),
+    Quantity("duty_n", "Load cycles of the duty", digits=".4g", symbol="n"),
+    Quantity("duty_sigma_H", "Contact stress of the duty", "MPa", ".1f", symbol="σ_H"),
+    Quantity("duty_U_H", "Damage by pitting of the duty", digits=".3g", symbol="U_H"),
+    Quantity("duty_sigma_F", "Root stress of the duty", "MPa", ".1f", symbol="σ_F"),
+    Quantity("duty_U_F", "Damage by bending of the duty", digits=".3g", symbol="U_F"),
     Quantity("theta_M", "Bulk temperature", "degC", ".1f", symbol="θ_M"),
     Quantity(
         "theta_M_flash", "Bulk temperature of the flash temperature method", "degC", ".1f", symbol="θ_M"

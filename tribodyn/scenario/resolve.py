@@ -20,6 +20,10 @@ from tribodyn.scenario.schema import expanded, family_shapes, matches, reference
 OVERRIDES = "--set"
 
 
+#: Columns that a file of tables begins with, for example.
+_OF_DUTIES = "share", "gear_torque"
+
+
 class Resolved(NamedTuple):
     """A scenario as one table, where its parts came from, and which references could not be followed."""
 
@@ -178,17 +182,31 @@ def _put_content(known: _References, key: Key) -> None:
     else:
         file = referring.parent / name
         if not sources.is_file(file):
-            columns = ",".join(f"{column} [unit]" for column in mark.columns)
+            columns = ",".join(f"{column} [unit]" for column in mark.columns or _OF_DUTIES)
             remedy = f"give a CSV file that begins with {columns}{', or a record' if mark.record else ''}"
             raise InputError(dotted, quoted(name), f"no such file: {printable_path(file)}", remedy)
         if mark.record is not None and file.suffix == ".h5":
             curve = mark.record(file, dotted)
         else:
-            curve = sources.read_curve(file, dotted, mark.columns)
-        column = curve[mark.columns[0]]
-        quantities = [f"{number!r} {column['unit']}" for number in column["values"]]
-        holder[key[-1]] = quantities if mark.as_list else curve
+            curve = sources.read_curve(file, dotted, mark.columns, _OF_DUTIES)
+        if mark.as_tables:
+            holder[key[-1]] = _tables(curve)
+        else:
+            column = curve[mark.columns[0]]
+            holder[key[-1]] = _quantities(column) if mark.as_list else curve
         known.origins.put(key, str(file))
+
+
+def _quantities(column: Mapping[str, Any]) -> list[Any]:
+    """Values of a column as a scenario has them: texts with the unit; numbers where it is [1] or []."""
+    unit = column["unit"].strip()
+    return [number if unit in ("", "1") else f"{number!r} {unit}" for number in column["values"]]
+
+
+def _tables(curve: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """A table of each row; the columns are its keys."""
+    rows = zip(*map(_quantities, curve.values()), strict=True)
+    return [dict(zip(curve, row, strict=True)) for row in rows]
 
 
 def _put_model(known: _References, key: Key, file: Path, folder: str, above: tuple[Path, ...] = ()) -> None:

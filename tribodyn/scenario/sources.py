@@ -178,14 +178,16 @@ def _toml_remedy(line: str) -> str:
 _SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas"}
 
 
-def read_curve(path: Path, key: str, columns: Iterable[str] = ()) -> dict[str, Any]:
+def read_curve(
+    path: Path, key: str, columns: Iterable[str] = (), example: Iterable[str] = ("time", "torque")
+) -> dict[str, Any]:
     """Return the columns of a CSV file as the scenario would write them out.
 
     The first line names the columns and their units, ``time [s],torque [N*m]``; lines that begin with # are
     comments. Commas, semicolons or tabs separate, as in the first line; numbers have a decimal point.
-    `columns` are the names that are due, in order; none: all that there are, two at least.
+    `columns` are the names that are due, in order; none: all that there are, two at least, such as `example`.
     """
-    due = list(columns) or ["time", "torque"]
+    due = list(columns) or list(example)
     example = ",".join(f"{name} [unit]" for name in due)
     lines = [
         (number, line)

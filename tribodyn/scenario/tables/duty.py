@@ -9,7 +9,7 @@ from pydantic import Field
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario import units
 from tribodyn.scenario.fields import ScenarioHead, Temperature, Torque
-from tribodyn.scenario.quantity import InUnit, Positive, Table, Weighed
+from tribodyn.scenario.quantity import InUnit, Positive, Table, Weighed, csv_tables
 
 Speed = Annotated[float, InUnit(units.positive(units.ANGULAR_SPEED))]
 Power = Annotated[float, InUnit(units.POWER)]
@@ -134,9 +134,10 @@ class OiledOperatingTable(OperatingTable):
 class SpectrumScenario(ScenarioHead):
     """A scenario that may have a load spectrum."""
 
-    duty: tuple[SpectrumDuty, ...] = Field(
-        (), max_length=MOST_DUTIES, description="load spectrum: duties with shares of time"
-    )
+    duty: Annotated[
+        tuple[SpectrumDuty, ...],
+        csv_tables("CSV file with a row for each duty: share [1], gear_torque [N*m], …"),
+    ] = Field((), max_length=MOST_DUTIES, description="load spectrum: duties with shares of time")
 
 
 def spectrum_of(scenario: Any) -> list[tuple[float, Any]]:

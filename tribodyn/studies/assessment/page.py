@@ -26,6 +26,7 @@ from tribodyn.studies.gears.rated import first_page
 from tribodyn.studies.gears.rated.first_page import limits_table, listed, numbers_table
 from tribodyn.studies.gears.rated.said import unit_of
 from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
+from tribodyn.studies.gears.rated.spectrum import spectrum_tables
 from tribodyn.studies.gears.rated.standard import ZERO_CELSIUS
 from tribodyn.studies.pages import loaded_again
 from tribodyn.studies.protocol import tasks
@@ -71,6 +72,7 @@ def page(record: Record) -> str:
         f'<div class="pictures"><p>{picture}</p></div>',
         _points(summary),
         _factors(summary),
+        _duties(summary),
         first_page.bearings_table(summary),
         *(
             first_page.part_section(part.study, part.role.title, [done[task.name] for task in part.tasks])
@@ -92,6 +94,13 @@ def _factors(summary: Mapping[str, Any]) -> str:
         return ""
     inside = numbers_table("Factors of ISO 6336", COLUMNS, rows)
     return f'<details class="factors"><summary>Every factor of ISO 6336</summary>{inside}</details>'
+
+
+def _duties(summary: Mapping[str, Any]) -> str:
+    """Miner's sum duty by duty, folded; "" without a load spectrum."""
+    tables = spectrum_tables(summary.get("spectrum", {}))
+    inside = "".join(numbers_table(*each, " points") for each in tables)
+    return f"<details><summary>Miner's sum, duty by duty</summary>{inside}</details>" if tables else ""
 
 
 def _asked(case: AssessmentCase) -> str:

@@ -31,11 +31,12 @@ from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.drive_file import sheet_of
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.bearings import bearing_part
-from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins
+from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins, required
 from tribodyn.studies.gears.rated.limits import not_judged
 from tribodyn.studies.gears.rated.margins import strength_of
 from tribodyn.studies.gears.rated.said import numbered
 from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
+from tribodyn.studies.gears.rated.spectrum import spectrum_part, spectrum_tables
 from tribodyn.studies.gears.rated.standard import Standard, iso_part, rated_duty, standard_of
 from tribodyn.studies.gears.rated.strength import metal_remarks
 from tribodyn.studies.protocol import tasks
@@ -63,8 +64,15 @@ def check(case: AssessmentCase) -> CheckResult:
     iso, _, capacity = _by_standard(case, assembled(case), face=1.0)
     face = "given" if case.settings.face_load_factor else "1, until the contact is analysed"
     table = TextTable(f"ISO 6336, K_Hβ {face}", COLUMNS, rating_rows(iso))
+    duties = _duties(case, capacity)
+    tables = (*found.tables, table, *spectrum_tables(duties.get("spectrum", {})))
     remarks = (*found.remarks, *metal_remarks(case), *_outside(capacity))
-    return found._replace(data={**found.data, "iso": iso}, tables=(*found.tables, table), remarks=remarks)
+    return found._replace(data={**found.data, "iso": iso, **duties}, tables=tables, remarks=remarks)
+
+
+def _duties(case: AssessmentCase, capacity: Capacity | None) -> dict[str, Any]:
+    """Miner's sum duty by duty, where there is a load spectrum."""
+    return spectrum_part(capacity, required(case.settings))
 
 
 def _by_standard(
@@ -143,6 +151,7 @@ def assessed(
         "rests_on": outcome.rests,
         "not_judged": not_judged(case.limits, case.lubricant.fzg),
         "reasons": numbered(outcome.parted),
+        **_duties(case, outcome.capacity),
         **bearing_part(case, case.lubricant),
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
         **outcome.judged,
