@@ -158,10 +158,11 @@ def _picked(data: Mapping[str, Any], axis: Axis, value: str) -> list[Any]:
     known = data.get(axis.key, [])
     if value == NO_TABLE:
         return []
-    if not value.isdecimal() or not 1 <= int(value) <= len(known):
+    numbers = [str(number) for number in range(1, len(known) + 1)]
+    if value not in numbers:
         rule = f"there {'is' if len(known) == 1 else 'are'} {len(known) or 'no'} [[{axis.key}]]"
-        raise InputError(axis.key, f'"{value}"', rule, f"number them from 1, or write {NO_TABLE}", VARY)
-    return [known[int(value) - 1]]
+        raise InputError(axis.key, quoted(value), rule, f"number them from 1, or write {NO_TABLE}", VARY)
+    return [known[numbers.index(value)]]
 
 
 def default_output(grid: Grid) -> Path:
