@@ -73,7 +73,8 @@ class Grid:
     def case(self, place: Sequence[int]) -> Any:
         """Return the case at a place of the grid; InputError where its values contradict each other."""
         data, kept = self._at(place)
-        put_chosen(data, self.chosen, [axis.key for axis in self.axes])
+        varied = [axis.key for axis in self.axes]
+        put_chosen(data, self.chosen, [*varied, "film.law"] if "friction.law" in varied else varied)
         try:
             case = loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
         except InputError as error:

@@ -1,5 +1,7 @@
 """`law = "auto"`: the film and the friction law that are nearest to the contact as it is solved at a duty.
 
+The film is also chosen where a scenario names a friction law that reads none, and no film law.
+
 The contact of a pair is solved, mixed and with heat, at `SOLVED` places of its way through the mesh at the
 nominal duty; every law that was compared with solved contacts of gears (`JudgedRange`) is evaluated there.
 Of the film the law is taken whose values are nearest on the mean, of friction the one whose loss is; of those
@@ -88,12 +90,15 @@ class LawAtDuty(NamedTuple):
 def settled(case: CaseType) -> CaseType:
     """Return the case with a law in the place of each "auto"; the same case where it has none.
 
-    A friction law that reads the film goes with its own film law where the scenario names none. Raises
-    InputError where the duty has no torque or no speed.
+    A friction law that reads the film goes with its own film law where the scenario names none; with any
+    other the nearest film law is taken, where the duty has a torque and a speed. Raises InputError where it
+    has not and "auto" is asked for.
     """
     friction, film = case.friction.law, case.film.law
     if AUTO not in (friction, film):
-        return case
+        if not is_open(case) or 0.0 in _duty(case):
+            return case
+        film = AUTO
     contact, given, changed = _along(case), law_input(case), {}
     if friction == AUTO:
         found = nearest(FRICTION_LAWS, given, contact)
@@ -106,13 +111,25 @@ def settled(case: CaseType) -> CaseType:
     return replace(case, **changed)  # pyright: ignore[reportArgumentType]  (cases are dataclasses)
 
 
+def is_open(case: Lubricated) -> bool:
+    """Whether a law is to be chosen: "auto", or no film law with a friction law that reads no film."""
+    friction, film = case.friction.law, case.film.law
+    if AUTO in (friction, film):
+        return True
+    return film is None and isinstance(friction, str) and not FRICTION_LAWS[friction].reads_film
+
+
+def _duty(case: Lubricated) -> tuple[float, float]:
+    return abs(float(case.operating.gear_torque)), abs(float(case.operating.pinion_speed))
+
+
 def _why(found: LawAtDuty) -> dict[str, Any]:
     return {"chosen": found.reason, "ratio": found.ratio if found.solved else None}
 
 
 def _along(case: Lubricated) -> LocalContact:
     """Contacts of a pair on its way through the mesh; pairs in contact together carry equal loads."""
-    torque, speed = abs(float(case.operating.gear_torque)), abs(float(case.operating.pinion_speed))
+    torque, speed = _duty(case)
     if torque == 0.0 or speed == 0.0:
         rule = f'"{AUTO}" takes a law by the nominal duty, and this one has no torque or no speed'
         raise InputError(
@@ -122,7 +139,7 @@ def _along(case: Lubricated) -> LocalContact:
             "name a law: tribodyn list laws",
         )
     assembly = assemble(family(case.family), case.drive)
-    start, end = map(float, assembly.roll_limits)
+    start, end = sorted(map(float, assembly.roll_limits))  # a ring that drives turns the other way
     roll = start + (np.arange(PLACES) + 0.5) / PLACES * (end - start)
     pitch, path, slope = float(assembly.pitch_angle), assembly.path, float(pitch_slope(assembly))
     many = int((end - start) / pitch) + 1

@@ -254,7 +254,8 @@ class FrictionLaw(KeyedLaw):
     #: the coefficient makes
     flash_temperature: Callable[..., Any] = heat_of_friction
     film: str = "masjedi-khonsari"  # name of the film law that goes with it where the scenario names none
-    reads_film: bool = True  # whether the coefficient depends on the film
+    #: whether the coefficient depends on the film; else the film law is the nearest at the duty (`choice`)
+    reads_film: bool = True
 
     @property
     def functions(self) -> FrictionFunctions:

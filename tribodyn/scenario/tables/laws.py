@@ -64,7 +64,9 @@ class FilmTable(LawTable):
 
     place = "film"
     laws = FILM_LAWS
-    law: Text | None = Field(None, description="default: the one that goes with the friction law")
+    law: Text | None = Field(
+        None, description="default: the one that the friction law reads, else the nearest at the duty"
+    )
 
 
 class FrictionTable(LawTable):

@@ -35,12 +35,20 @@ SHARE = 0.5
 
 
 def with_chosen_laws(case: LawfulCase) -> LawfulCase:
-    """Return the case with laws in the place of "auto"; raises as `assembled` and `choice.settled`."""
-    if AUTO not in (case.friction.law, case.film.law):
-        return case
-    from tribodyn.tribology.choice import settled  # the registries of all laws
+    """Return the case with laws in the place of "auto"; raises as `assembled` and `choice.settled`.
 
-    assembled(case)
+    Where no "auto" is asked for, teeth that cannot be made are left to who puts them together.
+    """
+    from tribodyn.tribology.choice import is_open, settled  # the registries of all laws
+
+    if not is_open(case):
+        return case
+    try:
+        assembled(case)
+    except InputError:
+        if AUTO in (case.friction.law, case.film.law):
+            raise
+        return case
     return settled(case)
 
 

@@ -28,4 +28,5 @@ LAW = FrictionLaw(
     no_friction,
     lambda given: NoParameters(),
     flash_temperature=no_heat,
+    reads_film=False,
 )

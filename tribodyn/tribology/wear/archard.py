@@ -39,4 +39,5 @@ ASPERITIES = WearLaw(
     on_asperities,
     keys=(COEFFICIENT,),
     needs_film=True,
+    film="masjedi-khonsari",  # which gives that part; laws of smooth surfaces give none
 )

@@ -43,6 +43,7 @@ class WearLaw(KeyedLaw):
 
     table: ClassVar[str] = "wear"
     needs_film: bool = False  # whether it says nothing without a film
+    film: str | None = None  # name of the film law that goes with it where the scenario names none
     needs_friction: bool = False  # whether it says nothing without a friction coefficient
 
     @property
