@@ -86,7 +86,7 @@ def _work(part: Sequence[tuple[str, Input]], scratch: Path) -> NoReturn:
     from tools.fuzz.targets import outcome
 
     try:
-        os.environ["TRIBODYN_CACHE"] = str(scratch / "cache")
+        users = os.environ.get("TRIBODYN_CACHE", "")
         os.fsync = lambda fd: None  # nothing here outlives the process, and a disk takes 10 ms each time
         devnull = os.open(os.devnull, os.O_RDWR)
         for number in (0, 1, 2):
@@ -97,6 +97,8 @@ def _work(part: Sequence[tuple[str, Input]], scratch: Path) -> NoReturn:
                 folder = scratch / str(i)
                 folder.mkdir()
                 os.chdir(folder)
+                # a page of a record solves nothing again that was solved for its run
+                os.environ["TRIBODYN_CACHE"] = users if given.target == "run" else str(scratch / "cache")
                 signal.setitimer(signal.ITIMER_PROF, TIME_LIMIT)
                 signal.alarm(WAITING_LIMIT)
                 begun = time.process_time()

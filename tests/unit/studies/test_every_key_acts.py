@@ -28,6 +28,8 @@ CASES = {
     r"\.rack$": "is for what pressure angle and gears do not say",
     r"^drive\.gear\.fillet_radius$": "of a ring whose cutter has a rounding of its own",
 }
+#: Of kinds in which nothing moves: of the bearings of both gears, one on a matrix, only that tilts.
+STILL = {r"^bearings\.gear\.": "springs that hold the mate of a gear on a matrix, and do not tilt it"}
 LOADS = {
     r"\.hand$": "mirrors both gears",
     r"\.rack$": "is for what pressure angle and gears do not say",
@@ -110,6 +112,7 @@ def test_a_key_that_is_taken_changes_the_result(
     ],
 )
 def test_a_key_that_is_taken_changes_the_case(name: str, every: int):
-    found, acting = idle(name, {}, of_case, CASES, every=every)
+    still = name in ("load-contact-18-36", "wear-18-36", "efficiency-helical-fzg-20-30")
+    found, acting = idle(name, {}, of_case, CASES | (STILL if still else {}), every=every)
     assert found == []
     assert acting >= 4

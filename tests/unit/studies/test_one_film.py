@@ -1,4 +1,4 @@
-"""The same gears, oil and duty have one film law, whatever the kind of study and whether friction reads it."""
+"""The same gears, oil and duty have one film law, whatever the study and whether friction reads it."""
 
 from typing import Any
 
