@@ -119,6 +119,8 @@ def test_a_measured_law_gives_the_pressure_viscosity_coefficient():
         ({"viscosity_law.model": "barus"}, "viscosity_law.model", "not one of the choices"),
         ({"viscosity_law.maximum_temperature": "10 degC"}, "viscosity_law.maximum_temperature", "above"),
         ({"viscosity_law.a3": 1.0}, "viscosity_law.a3", "unknown"),
+        ({"viscosity_law.a2": "719 1/GPa"}, "viscosity_law", "times the viscosity at ambient pressure"),
+        ({"viscosity_law.glass_temperature": "600 K"}, "viscosity_law", "at 1 GPa and 20 °C"),
         ({"viscosity_pressure_index": 0.6}, "viscosity_pressure_index", "contradicts"),
         ({"pressure_viscosity": "20 1/GPa"}, "pressure_viscosity", "contradicts"),
     ],
@@ -135,6 +137,24 @@ def test_a_law_that_cannot_be_is_refused(changed, at, rule):
     assert refused.value.key == f"lubricant.{at}"
     assert rule in refused.value.rule
     assert refused.value.remedy
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("occupied_expansion", "10 1/K"), ("occupied_expansion", "-1 1/K"), ("bulk_modulus_decay", "1 1/K")],
+)
+def test_constants_that_are_of_no_oil_are_refused(name, value):
+    """Of squalane's Doolittle-Tait constants one is wrong."""
+    law = {
+        **{"model": "doolittle-tait", "free_volume_factor": 4.71, "occupied_share": 0.6568},
+        **{"occupied_expansion": "-9.599e-4 1/K", "reference_temperature": "40 degC"},
+        **{"expansion": "8.36e-4 1/K", "bulk_modulus": "8.658 GPa", "bulk_modulus_decay": "6.332e-3 1/K"},
+        **{"bulk_modulus_slope": 11.74, "maximum_pressure": "1 GPa"},
+        **{"minimum_temperature": "20 degC", "maximum_temperature": "100 degC"},
+    }
+    assert oil(lubricant__viscosity_law=law).sheet.law is not None
+    with pytest.raises(InputError, match="compare values and units with the oil's publication"):
+        oil(lubricant__viscosity_law=law | {name: value})
 
 
 def test_a_law_needs_a_data_sheet():

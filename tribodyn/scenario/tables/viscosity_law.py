@@ -3,11 +3,20 @@
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import Field
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario import quantity, units
-from tribodyn.tribology.pressure_law import DoolittleTait, MeasuredLaw, MeasuredViscosity, Yasutomi
+from tribodyn.tribology.oil import ZERO_CELSIUS
+from tribodyn.tribology.pressure_law import (
+    DoolittleTait,
+    LawPart,
+    MeasuredLaw,
+    MeasuredViscosity,
+    PressureLaw,
+    Yasutomi,
+)
 
 Model = Literal["by-type", "roelands", "improved-yasutomi", "yasutomi", "doolittle-tait"]
 Kelvins = Annotated[float, quantity.InUnit(units.positive(units.TEMPERATURE_DIFFERENCE))]
@@ -61,6 +70,8 @@ _KEYS: dict[str, tuple[str, ...]] = {
     "doolittle-tait": (*DoolittleTait._fields, *_LIMITS),
 }
 _PLACE = "lubricant.viscosity_law"
+#: Largest ln(η/η0) within a law's measured range, four times that at which an oil is a glass.
+MOST_RISE = 100.0
 
 
 def measured_of(table: ViscosityLaw | None) -> MeasuredViscosity | None:
@@ -110,3 +121,23 @@ def broken_viscosity_rules(lubricant: Any) -> Iterator[InputError]:
     if low is not None and high is not None and low >= high:
         rule = f"must be above minimum_temperature, {low:g} K"
         yield InputError(f"{_PLACE}.maximum_temperature", f"{high:g} K", rule, "swap the two")
+    elif needed and not missing and not idle:
+        yield from _unlike_oil(table)
+
+
+def _unlike_oil(table: ViscosityLaw) -> Iterator[InputError]:
+    """Refuse constants by which the viscosity falls under pressure, or rises beyond any oil's."""
+    measured = measured_of(table)
+    assert measured is not None
+    for temperature in (measured.minimum_temperature, measured.maximum_temperature):
+        law = PressureLaw((LawPart(measured.law),), temperature)
+        with np.errstate(all="ignore"):
+            rise = float(law.rise(np.array(measured.maximum_pressure), temperature)[0][0])
+        if not 0.0 < rise <= MOST_RISE:
+            rule = (
+                f"at {measured.maximum_pressure / 1e9:.4g} GPa and {temperature - ZERO_CELSIUS:.4g} °C these "
+                f"constants give e^{rise:.4g} times the viscosity at ambient pressure; oils have e^0 to "
+                f"e^{MOST_RISE:g}"
+            )
+            yield InputError(_PLACE, None, rule, "compare values and units with the oil's publication")
+            return
