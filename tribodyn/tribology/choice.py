@@ -28,7 +28,7 @@ from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.registry import Registry
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.sources import digest_of
-from tribodyn.tribology.closure import LEAST_SLIDING, Lubricated, closure, law_input
+from tribodyn.tribology.closure import LEAST_SLIDING, Lubricated, closure, is_open, law_input
 from tribodyn.tribology.contact import LocalContact, local_contact
 from tribodyn.tribology.ehl.of_case import Contact, contact_of
 from tribodyn.tribology.ehl.table import solve_one
@@ -109,14 +109,6 @@ def settled(case: CaseType) -> CaseType:
         found = nearest(FILM_LAWS, given, contact)
         changed["film"] = FilmData(found.law.name, **_why(found))
     return replace(case, **changed)  # pyright: ignore[reportArgumentType]  (cases are dataclasses)
-
-
-def is_open(case: Lubricated) -> bool:
-    """Whether a law is to be chosen: "auto", or no film law with a friction law that reads no film."""
-    friction, film = case.friction.law, case.film.law
-    if AUTO in (friction, film):
-        return True
-    return film is None and isinstance(friction, str) and not FRICTION_LAWS[friction].reads_film
 
 
 def _duty(case: Lubricated) -> tuple[float, float]:

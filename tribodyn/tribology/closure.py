@@ -15,7 +15,16 @@ from tribodyn.tribology.asperities import Asperities
 from tribodyn.tribology.contact import DUTY_LOADS, DutyRange, NominalConditions, Surfaces
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import ActiveLaw, Closure, FilmData, FilmLaw, FrictionData, FrictionLaw, LawInput
+from tribodyn.tribology.law import (
+    AUTO,
+    ActiveLaw,
+    Closure,
+    FilmData,
+    FilmLaw,
+    FrictionData,
+    FrictionLaw,
+    LawInput,
+)
 from tribodyn.tribology.oil import LubricantData, lubricant_around
 from tribodyn.tribology.surface_state import exceeded
 from tribodyn.tribology.trial import try_laws
@@ -105,6 +114,14 @@ def closure(
         ActiveLaw(film.functions, film.made(given, film_values or {})),
         ActiveLaw(friction.functions, friction.made(given, friction_values or {})),
     )
+
+
+def is_open(case: Lubricated) -> bool:
+    """Whether a law is to be chosen: "auto", or no film law with a friction law that reads no film."""
+    friction, film = case.friction.law, case.film.law
+    if AUTO in (friction, film):
+        return True
+    return film is None and isinstance(friction, str) and not FRICTION_LAWS[friction].reads_film
 
 
 def laws_of(case: Lubricated) -> tuple[FilmLaw, FrictionLaw]:

@@ -39,10 +39,12 @@ def with_chosen_laws(case: LawfulCase) -> LawfulCase:
 
     Where no "auto" is asked for, teeth that cannot be made are left to who puts them together.
     """
-    from tribodyn.tribology.choice import is_open, settled  # the registries of all laws
+    from tribodyn.tribology.closure import is_open  # the registries of all laws
 
     if not is_open(case):
         return case
+    from tribodyn.tribology.choice import settled  # the solved contact
+
     try:
         assembled(case)
     except InputError:

@@ -15,15 +15,11 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import get_lapack_funcs, lu_factor, lu_solve
-from scipy.sparse.linalg import LinearOperator, gmres
-from scipy.special import k0e, k1e
 
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl.shear import LAYERS
 
-_BAND_FACTORS, _BAND_SOLVES = get_lapack_funcs(("gbtrf", "gbtrs"), dtype=np.float64)
 #: Speed (over κ, 1/m) below which a surface counts as moving as slowly as this.
 _SLOWEST = 1.0
 #: Of the iteration for the surfaces, which gains two digits or more in each.
@@ -57,6 +53,8 @@ class FilmHeat(NamedTuple):
 
 def moving_source(place: Array, edge: Array, speed: float, conductivity: float, capacity: float) -> Array:
     """Temperatures at places by unit fluxes through the cells between edges, K m²/W; (places, cells)."""
+    from scipy.special import k0e, k1e
+
     rate = 0.5 * speed * capacity / conductivity
     if abs(rate) < _SLOWEST:
         rate = math.copysign(_SLOWEST, rate)
@@ -103,13 +101,18 @@ def heated(
     shear `made`, W/m², at the temperatures `known`, K; `feedback`, by how much less is made where the film
     is warmer as a whole, W/(m² K), ≥ 0. The temperatures of the surfaces start at those of `guess`.
     """
+    # here and below: who asks for known contacts alone starts faster
+    from scipy.linalg import get_lapack_funcs, lu_solve
+    from scipy.sparse.linalg import LinearOperator, gmres
+
+    band_factors, band_solves = get_lapack_funcs(("gbtrf", "gbtrs"), dtype=np.float64)
     thermal, width, response = surfaces
     count = len(film)
     source = (made + feedback * known) * width[:, None]
     taken = feedback * width[:, None]
     through = np.concatenate([flow[:1], 0.5 * (flow[1:] + flow[:-1]), flow[-1:]])
     band, wall = _layers_system(film, width, taken, through, thermal)
-    lower_upper, pivots, failed = _BAND_FACTORS(band, LAYERS, LAYERS)
+    lower_upper, pivots, failed = band_factors(band, LAYERS, LAYERS)
     if failed:
         raise SimulationError("the temperatures of the film have no solution")
     inverse = _coupling(response, _conductances(film, feedback, thermal))
@@ -119,7 +122,7 @@ def heated(
         right = np.zeros_like(made) + source
         right[:, -1] += wall * width * surface[:count]
         right[:, 0] += wall * width * surface[count:]
-        layers = _BAND_SOLVES(lower_upper, LAYERS, LAYERS, right.ravel(), pivots)[0].reshape(made.shape)
+        layers = band_solves(lower_upper, LAYERS, LAYERS, right.ravel(), pivots)[0].reshape(made.shape)
         return layers, wall * (layers[:, -1] - surface[:count]), wall * (layers[:, 0] - surface[count:])
 
     def missing(surface: Array, source: Array | float = 0.0) -> Array:
@@ -171,6 +174,8 @@ def _conductances(film: Array, feedback: Array, thermal: HeatProperties) -> tupl
 
 def _coupling(response: tuple[Array, Array], conductance: tuple[Array, Array, Array]) -> tuple[Array, Array]:
     """Factors of what couples the surfaces nearly alone: conduction across the film."""
+    from scipy.linalg import lu_factor
+
     own_1, between, own_2 = conductance
     first, second = response
     matrix = np.block([[first * own_1, first * -between], [second * -between, second * own_2]])

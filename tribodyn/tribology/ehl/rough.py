@@ -13,7 +13,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import ndtr
 
 from tribodyn.numerics.shapes import Array
 from tribodyn.tribology.ehl import reynolds
@@ -66,6 +65,8 @@ def mean_gap(gap: Array, roughness: Roughness) -> tuple[Array, Array]:
 
     h_T = h Φ(h/σ) + σ φ(h/σ) of Gaussian heights (Patir & Cheng 1978); h_T = h of thick films.
     """
+    from scipy.special import ndtr
+
     ratio = gap / roughness.height
     share = ndtr(ratio)
     normal = np.exp(-0.5 * np.minimum(ratio * ratio, 1400.0)) / math.sqrt(2.0 * math.pi)
