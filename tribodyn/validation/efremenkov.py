@@ -23,6 +23,7 @@ CHANGES = {
 }
 #: The choices under which all rows are computed, by the beginnings of these names.
 PUBLISHED, CORRECTED = "irefc-as-published", "irefc-corrected-1-mm"
+COLUMNS = "irefc-columns"
 #: With corrected speeds and the published rolling arm this gear locks.
 LOCKS = "-rb-1.2"
 #: Runs by the names of their records: scenario and what is changed in it.
@@ -34,6 +35,12 @@ RUNS: dict[str, tuple[str, dict[str, str]]] = {
         if end != LOCKS
     },
     "irefc-corrected": ("irefc", {}),
+    **{
+        f"{PUBLISHED}-rb-{radius}": ("irefc-as-published", {"drive.element_radius": f"{radius} mm"})
+        for radius in ("1.6", "2.4")
+    },
+    # the gear that the table's columns of cam and crown belong to
+    COLUMNS: ("irefc-as-published", {"drive.element_radius": "2.8 mm", "friction.rolling_arm": "1e-6 m"}),
 }
 
 
@@ -79,7 +86,13 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     beside = {
         "corrected speeds": {key: value for key, value in otherwise.items() if key not in locked},
         "corrected speeds, the gear locks": dict.fromkeys(locked),
+        "r_b 2.8 mm, rolling arm 1e-6 m": _columns(results[COLUMNS]),
     }
+    values |= _columns(results[PUBLISHED])
+    claims, other = (_claims(results, begin) for begin in (PUBLISHED, CORRECTED))
+    values |= {key: value for key, (value, _) in claims.items()}
+    notes |= {key: note for key, (_, note) in claims.items()}
+    beside["corrected speeds"] |= {key: value for key, (value, _) in other.items()}
     return compare_paper(PAPER, {key: (value, notes.get(key, "")) for key, value in values.items()}, beside)
 
 
@@ -111,9 +124,49 @@ def _of_the_text(results: dict[str, FinishedRun | None]) -> dict[str, Any]:
         f"efremenkov/ns-max{end or '-r2-20'}": None if result is None else float(result.loss.max())
         for end, result in results.items()
     }
-    base = results[""]
+    base, larger, smallest, largest = (results[end] for end in ("", "-r2-30", "-rb-1.2", "-rb-2.8"))
     assert base is not None
+    assert larger is not None
+    assert largest is not None
+    falls = smallest and float(smallest.loss.max() - largest.loss.max())
     return found | {
+        "efremenkov/ns-max-change-rb": falls,
+        "efremenkov/ns-max-change-r2": float(base.loss.max() - larger.loss.max()),
         "efremenkov/efficiency": base.summary["efficiency"],
         "efremenkov/vs-range": base.slip_range,
+    }
+
+
+def _columns(result: FinishedRun) -> dict[str, Any]:
+    """Columns N_SA and N_SB of Table 1, W, as amounts, and their values in element 8 that the text has."""
+    cam, crown = (np.abs(result.data[f"power_{side}"][0]) for side in ("cam", "crown"))
+    return {
+        "efremenkov/column-cam": cam.tolist(),
+        "efremenkov/column-crown": crown.tolist(),
+        "efremenkov/power-cam": float(cam[7]),
+        "efremenkov/power-crown": float(crown[7]),
+    }
+
+
+def _claims(results: dict[str, FinishedRun], begin: str) -> dict[str, tuple[bool, str]]:
+    """Claims about slip and loss, from the radii that there are runs of."""
+    ends = 1e3 * results[f"{begin}-r2-30"].data["slip_speed"][0][[0, -1]]
+    names = (begin + end for end in ("-rb-1.2", "-rb-1.6", "", "-rb-2.4", "-rb-2.8"))
+    radii = [results[name] for name in names if name in results]
+    slips = [1e3 * float(np.max(result.data["slip_speed"][0])) for result in radii]
+    losses = [float(result.loss.max()) for result in radii]
+    prefix = "efremenkov/claim-"
+    return {
+        f"{prefix}slip-changes-its-sign": (
+            bool(ends[0] < 0.0 < ends[1]),
+            f"{ends[0]:.2f} to {ends[1]:+.3f} mm/s",
+        ),
+        f"{prefix}slip-shifts-to-the-negative": (
+            bool(np.all(np.diff(slips) < 0.0)),
+            f"largest v_s {', '.join(f'{slip:+.2f}' for slip in slips)} mm/s",
+        ),
+        f"{prefix}loss-falls-with-the-radius": (
+            bool(np.all(np.diff(losses) < 0.0)),
+            f"{', '.join(f'{loss:.2f}' for loss in losses)} W",
+        ),
     }

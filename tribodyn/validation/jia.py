@@ -99,9 +99,9 @@ def maximum_pressure(name: Name, state: FaceState = FaceState(), away: float = 0
     return _maximum(run, run.pressure * far[..., None])
 
 
-def maximum_root_stress(name: Name, tension: bool) -> tuple[float, float]:
+def maximum_root_stress(name: Name, tension: bool, state: FaceState = FaceState()) -> tuple[float, float]:
     """Maximum root stress of pinion and gear over mesh cycle and face, Pa, as an amount."""
-    run = rolled(name)
+    run = rolled(name, state)
     stress = run.root_tension if tension else -run.root_compression
     pinion, gear = np.nanmax(stress, axis=(1, 2, 3))
     return float(pinion), float(gear)
@@ -185,11 +185,56 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         if progress:
             progress(done / len(ratios))
     values |= _families()
+    values |= tables()
     beside: dict[str, dict[str, Any]] = {}
     for key, (_, _, *others) in values.items():
         for choice, value in others:
             beside.setdefault(choice, {})[key] = value
     return compare_paper(PAPER, {key: given[:2] for key, given in values.items()}, beside)
+
+
+def tables() -> dict[str, tuple[Any, ...]]:
+    """Ratios of Tables 3 to 5 and of the conclusions as lists: bending, and one family over the other."""
+    kinds: dict[str, Callable[[Name, FaceState], float]] = {
+        "contact": lambda name, state: maximum_line_load(name, state).value,
+        "compression": lambda name, state: max(maximum_root_stress(name, False, state)),
+        "tension": lambda name, state: max(maximum_root_stress(name, True, state)),
+    }
+    base, relief = FaceState(), [FaceState(y, y3) for y3 in (0.0, 8.0) for y in (4.0, 8.0, 12.0)]
+    tilted = {
+        sort: [state._replace(misalignment=float(minutes)) for minutes in range(4)]
+        for sort, state in (("unmodified", base), ("crowned", CROWNED))
+    }
+    found: dict[str, tuple[Any, ...]] = {}
+    lower = True
+    for kind, of in kinds.items():
+        for sort, states in tilted.items():
+            over = [of("parabolic", state) / of("involute", state) for state in states]
+            lower = lower and max(over) < 1.0
+            # without misalignment the unmodified gears are the rows of Table 2
+            found[f"jia/families-{kind}-{sort}"] = over[1:] if sort == "unmodified" else over, ""
+            for name in DRIVES if kind != "contact" else ():
+                own = [of(name, state) / of(name, states[0]) for state in states[1:]]
+                found[f"jia/misaligned-{kind}-{name}-{sort}"] = own, ""
+        if kind != "contact":
+            values = [of("parabolic", state) / of("parabolic", base) for state in relief]
+            found[f"jia/crown-{kind}-0"], found[f"jia/crown-{kind}-8"] = (values[:3], ""), (values[3:], "")
+            stresses = [of(name, base) / 1e6 for name in DRIVES]
+            found[f"jia/stress-{kind}"] = stresses, "involute, parabolic"
+    for key, after, before in (
+        ("modified-at-3", tilted["crowned"][3], tilted["unmodified"][3]),
+        ("relief-4-to-12", relief[2], relief[0]),
+        ("straight-0-to-8", relief[4], relief[1]),
+    ):
+        found[f"jia/{key}"] = [of("parabolic", after) / of("parabolic", before) for of in kinds.values()], ""
+    pressures = [
+        maximum_pressure("parabolic", state).value < maximum_pressure("involute", state).value
+        for states in tilted.values()
+        for state in states
+    ]
+    note = "line loads and root stresses, modified or not, at 0 to 3 arcmin"
+    found["jia/claim-parabolic-below-involute"] = lower, note, (_PRESSURES, all(pressures))
+    return found
 
 
 def geometry() -> dict[str, tuple[Any, ...]]:

@@ -189,7 +189,7 @@ def test_a_comparison_with_a_paper():
     assert rows.choices.startswith("as published")
     assert rows.choices in shown.replace("&#x27;", "'")
     assert shown.count("<tr>") == len(rows) + 1
-    assert f"{sum(row.verdict == 'pass' for row in rows)} reproduced" in shown
+    assert f"{len(rows)} rows: " in shown
 
 
 def test_keys_are_varied_as_on_the_command_line(tmp_path: Path):
