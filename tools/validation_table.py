@@ -33,7 +33,7 @@ PAGES = {"efremenkov-2024": DOCS / "rolling-elements.md"}
 PAGES |= {name: DOCS / "standards.md" for name, paper in PAPERS.items() if paper.source}
 #: Rows in the order of a table, and those that do not stand in it.
 WORST_FIRST = (FAIL, REPORTED, ONE_WAY, OTHER, CHOSEN, BESIDE, REPRODUCED)
-PLAIN = (REPRODUCED, BESIDE)
+PLAIN = (ONE_WAY, REPRODUCED, BESIDE)
 #: A bar that ends no cell.
 BAR = "\\|"
 #: Pages with the counts of all papers.
@@ -82,7 +82,8 @@ def other(row: Row) -> str:
 def table(paper: str, rows: list[Row]) -> str:
     """Rows of a paper under the choices that they are computed with, worst first, and their counts.
 
-    What is plainly reproduced stands in a sentence. Of a book only rows that do not agree, with their reason.
+    What is plainly reproduced, or in its direction only, stands in a sentence. Of a book only rows that do
+    not agree, with their reason.
     """
     source = PAPERS[paper].source
     if source:
@@ -126,11 +127,14 @@ def table(paper: str, rows: list[Row]) -> str:
 
 
 def plainly(row: Row) -> str:
-    """A row that is plainly reproduced in few words: our value for the published one."""
+    """A row in few words: our value for the published one, and how far off a direction is."""
+    off = ""
+    if row.standing == ONE_WAY and row.part_difference is not None:
+        off = f" ({of_part(row.part_difference, row.part, '+')})"
     if row.tolerance_kind == "claim" or isinstance(row.computed, list):
-        return f"`{row.id}`"
+        return f"`{row.id}`{off}"
     published = cell(row.published) or row.note.rpartition("another implementation: ")[2].partition(";")[0]
-    return f"`{row.id}` {cell(row.computed)} for {published}"
+    return f"`{row.id}` {cell(row.computed)} for {published}{off}"
 
 
 def counts() -> str:

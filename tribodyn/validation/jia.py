@@ -285,7 +285,7 @@ def published_limits(teeth: float) -> tuple[float, float]:
         return 2 * math.sqrt(k * (1 - k)) - (1 - k)
 
     lowest: Any = brentq(between, 0.01, 0.5, xtol=1e-12)
-    return float(lowest), (1 - sine / math.sqrt(1 + sine**2)) / 2
+    return round(float(lowest), 9), (1 - sine / math.sqrt(1 + sine**2)) / 2
 
 
 def _ratio(
