@@ -2,13 +2,34 @@
 
 import pytest
 
-from tribodyn.validation import PAPERS
+from tribodyn.post.style import house_style
+from tribodyn.validation import PAPERS, validate
+from tribodyn.validation.efremenkov_figures import FIGURES
 from tribodyn.validation.rows import PASS
 
 
 @pytest.fixture(scope="module")
 def rows(validated):
     return validated("efremenkov-2024")
+
+
+def test_figures_show_the_papers_curves(tmp_path):
+    """Slip changes its sign with r2 30 mm and shifts down with r_b; largest losses are 20.54 to 9.11 W."""
+    validate("efremenkov-2024", folder=tmp_path)
+    with house_style():
+        drawn = {name: draw(tmp_path) for name, draw in FIGURES.items()}
+    curves = {
+        name: [line.get_ydata() for axes in one.axes for line in axes.lines] for name, one in drawn.items()
+    }
+    assert curves["figure-4"][2][0] == pytest.approx(-1.43, abs=0.01)
+    assert curves["figure-4"][2][-1] == pytest.approx(0.716, abs=0.001)
+    for name in ("figure-6", "figure-7"):
+        assert len(curves[name]) == 5
+        tops = [max(curve) for curve in curves[name]]
+        assert tops == sorted(tops, reverse=True)
+    computed, printed = curves["figure-8"]
+    assert [computed[0], computed[-1]] == pytest.approx(list(printed), rel=2e-3)
+    assert list(printed) == [20.54, 9.11]
 
 
 OF_ANOTHER_GEAR = {

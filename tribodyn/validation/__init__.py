@@ -48,6 +48,7 @@ PAPERS = {
         "Efremenkov et al., Mathematics 12:873 (2024): gear with rolling elements",
         "as published: the paper's own equations with their errors; beside it corrected speeds, with which "
         "the gear loses nearly all its power",
+        "tribodyn.validation.efremenkov_figures",
     ),
     "veciana-2024": Paper(
         "tribodyn.validation.veciana",
