@@ -117,6 +117,8 @@ def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mappin
         for name in ("resolution", "resolution_searched")
     )
     stands = "do not change there" if summary["quantity_stands"] else "still change there"
+    if not summary["quantity_stands"] and summary["resolution"] == summary["resolution_searched"]:
+        stands = "cannot be computed on a finer one"
     before = " and ".join(
         quantity.with_unit(float(value))
         for quantity, value in zip(sought, np.atleast_1d(summary["objective_searched"]), strict=True)

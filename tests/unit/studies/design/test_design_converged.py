@@ -106,6 +106,28 @@ def test_a_front_is_that_of_a_resolution_at_which_all_its_members_stand():
     assert all(y != 0.8 for _, _, y in pool.asked[before:])  # far behind the front
 
 
+class OnCoarse(Sampled):
+    """A pool whose finer resolutions have no quantities."""
+
+    def _of(self, overrides: Any) -> Any:
+        found = super()._of(overrides)
+        return "lifts the flanks off" if self.asked[-1][0] > 1 else found
+
+
+@pytest.mark.parametrize("method", ["cobyqa", "epsilon-constraint"])
+def test_a_search_that_no_finer_resolution_computes_ends_where_it_was_searched(method: str):
+    table = TWO if method == "epsilon-constraint" else TWO | {"minimise": "face_load_factor"}
+    case, pool = loaded_search("load-contact-18-36", table, {}).case, OnCoarse()
+    at = cache(lambda factor: Archive(case, pool, factor=factor))  # pyright: ignore[reportArgumentType]
+    for values in ((-1.0, 0.0), (0.01, 0.0)):
+        at(1).score([share_of(free, value) for free, value in zip(case.free, values, strict=True)])
+    end = converged(case, at, method)
+    assert (end.archive.factor, end.stands) == (1, False)
+    best = end.archive.best()
+    assert best is not None
+    assert best.numbers == (-1.0, 0.0)
+
+
 def test_an_estimate_counts_the_last_stage():
     """A case takes as long as its positions are many; the last stage at most as many times as factors go.
 

@@ -48,7 +48,8 @@ def converged(case: DesignCase, at: At, method: str) -> Converged:
         return Converged(at(1))
     last, stands = _of_front(at) if len(case.objectives) > 1 else _of_best(at, method in SMOOTH)
     finer = sum(len(at(factor).evaluations) for factor in FACTORS[1:] if factor <= last)
-    return Converged(at(last), stands, finer)
+    computed = [factor for factor in FACTORS if factor <= last and at(factor).nearest() is not None]
+    return Converged(at(computed[-1]), stands and computed[-1] == last, finer)
 
 
 def counts(case: DesignCase, method: str) -> dict[int, int]:
@@ -143,6 +144,8 @@ def _search_about(archive: Archive, near: bool = False) -> None:
     """
     from scipy.optimize import minimize
 
+    if not _best_of(archive, 1):  # nothing could be computed at this resolution
+        return
     case = archive.case
     count = len(case.free)
     most = max(2 * count + 2, int(SHARE * case.search.evaluations) // 2)
