@@ -21,6 +21,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.interface.scenario import in_toml
 from tribodyn.scenario import units
 from tribodyn.scenario.units import Kind, NotAQuantity, to_si
+from tribodyn.standards.agma import RELIABILITY
 from tribodyn.standards.micropitting import LUBRICATION_FACTORS
 from tribodyn.standards.pitting import UNMODIFIED_FACTOR
 from tribodyn.standards.rolling_bearings import CLEANLINESS, EXPONENTS
@@ -35,6 +36,7 @@ class _Formulas(NamedTuple):
 
 
 _PARTS = {
+    "agma": _Formulas("AGMA 2101-D04 (2001-D04) and 908-B89", "AgmaPair"),
     "allowances": _Formulas("DIN 3967 and ISO 286, DIN 3964"),
     "bending": _Formulas("ISO 6336-3:2006 and :2019, method B", "RootSection BendingGear"),
     "contact_path": _Formulas("ISO/TR 15144-1:2014, clauses 8 to 11", "ContactPath"),
@@ -59,16 +61,17 @@ _ARGUMENTS = {
     units.LENGTH: (
         "arm ball_diameter base_diameter base_radii base_radius centre_distance deviation diameter distance "
         "face_width half_width mean_diameter mean_roughness middle_diameter misalignment module most "
-        "normal_module notch_radius pitch_deviation pitch_diameter pitch_radius profile_deviation radius "
-        "reference_diameter reduced_radius reference_radius roller_diameter roughness thickness tip_radius "
-        "tip_relief tolerance tooth_height bending.BendingGear.rim"
+        "normal_module notch_radius pinion_diameter pitch_deviation pitch_diameter pitch_radius "
+        "profile_deviation radius reference_diameter reduced_radius reference_radius roller_diameter "
+        "roughness thickness tip_radius tip_radii tip_relief tolerance tooth_height transverse_module "
+        "bending.BendingGear.rim"
     ),
     units.ANGLE_KIND: (
         "base_helix_angle contact_angle helix_angle load_angle normal_pressure_angle pressure_angle "
         "roll working working_angle load_factors.shared_load.limits"
     ),
     units.PRESSURE: (
-        "allowable_stress bending_limit contact_limit course effective_modulus hardness high low "
+        "allowable allowable_stress bending_limit contact_limit course effective_modulus hardness high low "
         "mesh_stiffness pressure reduced_modulus single_stiffness stiffness stress yield_strength "
         "youngs_modulus"
     ),
@@ -105,6 +108,7 @@ _CHOICES: dict[str, tuple[Any, ...]] = {
     "edition": (2019, 2006),
     "kind": tuple(EXPONENTS),
     "lubrication": tuple(LUBRICATION_FACTORS),
+    "reliability": tuple(RELIABILITY),
     "modification": tuple(UNMODIFIED_FACTOR),
 }
 

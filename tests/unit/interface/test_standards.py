@@ -112,5 +112,5 @@ def test_bad_calls(name, values, said):
 
 
 def test_no_such_part():
-    with pytest.raises(AttributeError, match="it has allowances"):
+    with pytest.raises(AttributeError, match="it has agma, allowances"):
         S.agma9000  # noqa: B018
