@@ -68,3 +68,29 @@ def test_life_factors_between_their_points_have_the_exponents_of_the_standard():
     assert contact.at(1e9) == pytest.approx((5e7 / 1e9) ** 0.0306, rel=1e-3)
     assert root.at(1e5) == pytest.approx((3e6 / 1e5) ** 0.1144, rel=1e-3)
     assert root.at(1e9) == pytest.approx((3e6 / 1e9) ** 0.02, rel=1e-3)
+
+
+#: ISO 6336-2, table 2 (no pitting), and ISO 6336-3, table 1, from memory: Z_NT at 10⁵ cycles and where it is
+#: 1; Y_NT of a few cycles, up to how many, and all 1 from 3·10⁶; 0.85 at 10¹⁰.
+_TABLES = {
+    "normalized": (1.6, 5e7, 2.5, 1e4),
+    "ductile-iron": (1.6, 5e7, 2.5, 1e4),  # pearlitic and bainitic; ferritic is as grey iron
+    "through-hardened-carbon": (1.6, 5e7, 2.5, 1e4),
+    "through-hardened": (1.6, 5e7, 2.5, 1e4),
+    "case-hardened": (1.6, 5e7, 2.5, 1e3),
+    "induction-hardened": (1.6, 5e7, 2.5, 1e3),
+    "grey-iron": (1.3, 2e6, 1.6, 1e3),
+    "nitrided": (1.3, 2e6, 1.6, 1e3),
+    "nitrided-through-hardened": (1.3, 2e6, 1.6, 1e3),
+    "nitrocarburized": (1.1, 2e6, 1.1, 1e3),
+}
+
+
+@pytest.mark.parametrize("treatment", TREATMENTS)
+def test_life_factors_of_every_treatment(treatment: str):
+    contact, bent = contact_factors(treatment), bending_factors(treatment)
+    most, knee, static, until = _TABLES[treatment]
+    assert [contact.at(n) for n in (1e3, 1e5, knee, 1e10)] == pytest.approx([most, most, 1.0, 0.85])
+    assert [bent.at(n) for n in (1.0, until, 3e6, 1e10)] == pytest.approx([static, static, 1.0, 0.85])
+    middle = math.sqrt(1e5 * knee)  # straight in both logarithms
+    assert contact.at(middle) == pytest.approx(math.sqrt(most))
