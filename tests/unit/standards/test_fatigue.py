@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tribodyn.standards.fatigue import Bin, StressCurve, damage, life_share, safety
-from tribodyn.standards.metals import TREATMENTS, bending_factors, contact_factors
+from tribodyn.standards.metals import TREATMENTS, Treatment, bending_factors, contact_factors
 
 #: Falls as N^(−1/p) between its ends.
 SLOPE = 8.0
@@ -87,7 +87,7 @@ _TABLES = {
 
 
 @pytest.mark.parametrize("treatment", TREATMENTS)
-def test_life_factors_of_every_treatment(treatment: str):
+def test_life_factors_of_every_treatment(treatment: Treatment):
     contact, bent = contact_factors(treatment), bending_factors(treatment)
     most, knee, static, until = _TABLES[treatment]
     assert [contact.at(n) for n in (1e3, 1e5, knee, 1e10)] == pytest.approx([most, most, 1.0, 0.85])
