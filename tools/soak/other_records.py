@@ -218,11 +218,12 @@ def rolling_faults(record: Record) -> Iterator[str]:
 
 
 def _not_finite(record: Record, but: str) -> Iterator[str]:
-    """What is no number; where a pair carries nothing there need be none."""
-    load = record["normal_load"] if "normal_load" in record else np.zeros(0)
+    """What is no number; where a pair, or a slice of it, carries nothing there need be none."""
+    loads = [record[name] for name in ("normal_load", "line_load") if name in record]
     for name in record:
         values = record[name]
-        values = values[load > 0] if values.shape == load.shape else values
+        for load in loads:
+            values = values[load > 0] if values.shape == load.shape else values
         if name != but and values.dtype.kind == "f" and not np.all(np.isfinite(values)):
             yield f"{name} is not finite"
 
