@@ -34,7 +34,7 @@ def validate(
 
     from tribodyn import validation
     from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, end
-    from tribodyn.cli.printing import print_files, print_json, print_table
+    from tribodyn.cli.printing import print_files, print_json, print_prose, print_table
     from tribodyn.post.progress import progress_bar
     from tribodyn.validation.rows import SHOWN, counted, counts
 
@@ -63,9 +63,9 @@ def validate(
     else:
         title = f"{paper}: {validation.PAPERS[paper].choices}"
         print_table(title, SHOWN, [[row.written(name) for name in SHOWN] for row in rows])
-        typer.echo(counted(rows))
+        print_prose(counted(rows))
         if source:
-            typer.echo(source.said())
+            print_prose(source.said())
         print_files("picture", pictures)
     failed = [row.id for row in rows if row.verdict == "fail"]
     if failed:
