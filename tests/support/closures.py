@@ -9,7 +9,7 @@ from tribodyn.tribology.closure import closure, closure_of, without_nominal_cond
 from tribodyn.tribology.contact import Surfaces, local_contact
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import Closure, FrictionData, LawInput
+from tribodyn.tribology.law import Closure, FilmData, FrictionData, LawInput
 from tribodyn.tribology.oil import LubricantData
 from tribodyn.tribology.surface_state import SurfaceState, surface_state
 
@@ -71,8 +71,8 @@ def coulomb(coefficient: float, given: LawInput = VECIANA) -> Closure:
 
 
 def of_case(case: Any, friction: str, **values: float) -> Closure:
-    """Surfaces of a case under another friction law."""
-    return closure_of(replace(case, friction=FrictionData(friction, values)))
+    """Surfaces of a case under another friction law, and the film law that goes with it."""
+    return closure_of(replace(case, friction=FrictionData(friction, values), film=FilmData()))
 
 
 def known(laws: Closure, *state: Any, **named: Any) -> SurfaceState:

@@ -139,12 +139,16 @@ def with_laws(
     """Return the case with another film or friction law, as an object or by name.
 
     The values that the scenario gives for the keys of a law that is replaced are left out; a new law takes
-    the defaults of its keys, or those of `FrictionLaw.with_values`.
+    the defaults of its keys, or those of `FrictionLaw.with_values`. A film law that was chosen by the duty
+    gives way to the one that a new friction law reads.
     """
     changed: dict[str, Any] = {}
     if film is not None:
         changed["film"] = FilmData(film)
     if friction is not None:
+        law = FRICTION_LAWS[friction] if isinstance(friction, str) else friction
+        if film is None and case.film.chosen and law.reads_film:
+            changed["film"] = FilmData()
         changed["friction"] = replace(case.friction, law=friction, values={}, chosen="", ratio=None)
     return replace(case, **changed)  # pyright: ignore[reportArgumentType]  (cases are dataclasses)
 

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from tribodyn.studies.protocol.load import load_data
+from tribodyn.tribology.closure import laws_of, with_laws
 
 GEARS = {
     "title": "one film",
@@ -43,3 +44,10 @@ def test_wear_by_asperities_keeps_a_law_that_knows_them():
     wear = {"law": "archard-asperities", "revolutions": 1e6}
     case = load_data({**GEARS, "kind": "wear", "friction": COULOMB, "wear": wear}, "asperities").case
     assert case.lubricated.film.law == "masjedi-khonsari"
+
+
+def test_another_friction_law_brings_the_film_law_that_it_reads():
+    case = load_data({**GEARS, "kind": "gear-pair", **KINDS["gear-pair"][0]}, "pair").case
+    assert with_laws(case, friction="schlenk").film == case.film
+    film, friction = laws_of(with_laws(case, friction="masjedi-khonsari"))
+    assert (film.name, friction.name) == ("masjedi-khonsari", "masjedi-khonsari")
