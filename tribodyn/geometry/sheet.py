@@ -235,9 +235,9 @@ def _backlash_limits(
         (normal_backlash(each), circumferential_backlash(each))
         for each in at_limits(assembly, [gauge.tolerance for gauge in gauges], distance_allowance)
     ]
-    lines = {"allowance of the centre distance, ±": _millimetres(distance_allowance)}
-    if not distance_allowance:
-        lines = {}
+    lines = {}
+    if distance_allowance:
+        lines["allowance of the centre distance, ±"] = _millimetres(distance_allowance)
     for number, name in enumerate(("normal backlash", "circumferential backlash")):
         for end, choose in (("least", min), ("most", max)):
             lines[f"{name}, {end}"] = _millimetres(choose(float(each[number]) for each in limits))

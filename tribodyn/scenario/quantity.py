@@ -69,13 +69,14 @@ class Reference:
         columns: tuple[str, ...] = (),
         as_list: bool = False,
         record: RecordReader | None = None,
-        as_tables: bool = False,
+        as_tables: tuple[str, ...] = (),
     ) -> None:
         self.what = what  # what the name stands for
         self.folder = folder  # of `models/`, whose files may be named; empty for CSV files
         self.columns = columns  # that a CSV file must have
         self.as_list = as_list  # whether the one column of a CSV file stands for a list of quantities
-        self.as_tables = as_tables  # whether each row of a CSV file is a table of a list
+        #: columns, for example, of a CSV file each row of which is a table of a list; (): of another kind
+        self.as_tables = as_tables
         self.record = record  # reads the columns of files that end in .h5
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
@@ -95,9 +96,9 @@ def scenario_file() -> Reference:
     return Reference("name of a scenario, or a path", "scenarios")
 
 
-def csv_tables(what: str) -> Reference:
-    """A list of tables that may name a CSV file: a row for each, whose columns are keys of theirs."""
-    return Reference(what, as_tables=True)
+def csv_tables(what: str, *columns: str) -> Reference:
+    """A list of tables that may name a CSV file: a row for each; its columns, for example these, are keys."""
+    return Reference(what, as_tables=columns)
 
 
 def csv_file(*columns: str, as_list: bool = False, record: RecordReader | None = None) -> Reference:

@@ -20,10 +20,6 @@ from tribodyn.scenario.schema import expanded, family_shapes, matches, reference
 OVERRIDES = "--set"
 
 
-#: Columns that a file of tables begins with, for example.
-_OF_DUTIES = "share", "gear_torque"
-
-
 class Resolved(NamedTuple):
     """A scenario as one table, where its parts came from, and which references could not be followed."""
 
@@ -182,13 +178,13 @@ def _put_content(known: _References, key: Key) -> None:
     else:
         file = referring.parent / name
         if not sources.is_file(file):
-            columns = ",".join(f"{column} [unit]" for column in mark.columns or _OF_DUTIES)
+            columns = ",".join(f"{column} [unit]" for column in mark.columns or mark.as_tables)
             remedy = f"give a CSV file that begins with {columns}{', or a record' if mark.record else ''}"
             raise InputError(dotted, quoted(name), f"no such file: {printable_path(file)}", remedy)
         if mark.record is not None and file.suffix == ".h5":
             curve = mark.record(file, dotted)
         else:
-            curve = sources.read_curve(file, dotted, mark.columns, _OF_DUTIES)
+            curve = sources.read_curve(file, dotted, mark.columns, mark.as_tables)
         if mark.as_tables:
             holder[key[-1]] = _tables(curve)
         else:

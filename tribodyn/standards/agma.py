@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.standards.contact_path import transverse_angle
+
 #: Table of reliability factors, Y_Z: one failure in two, 10, 100, 1000, 10 000.
 RELIABILITY = {0.5: 0.70, 0.9: 0.85, 0.99: 1.00, 0.999: 1.25, 0.9999: 1.50}
 
@@ -44,7 +46,7 @@ class _Path(NamedTuple):
 
 
 def _path(pair: AgmaPair) -> _Path:
-    transverse = math.atan(math.tan(pair.normal_pressure_angle) / math.cos(pair.helix_angle))
+    transverse = transverse_angle(pair.normal_pressure_angle, pair.helix_angle)
     radii = [pair.normal_module * z / 2.0 / math.cos(pair.helix_angle) for z in pair.teeth]
     base = radii[0] * math.cos(transverse), radii[1] * math.cos(transverse)
     working = math.acos(sum(base) / pair.centre_distance)

@@ -173,10 +173,19 @@ def backlash_of(drive: DriveTable, given: float | None) -> float | None:
     """Return the normal backlash (m): as `given`, else of the drive; None where that says nothing."""
     if given is not None or not gives_backlash(drive):
         return given
+    assembly = assembled_on_path(drive)
+    with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
+        return max(float(normal_backlash(assembly)), 0.0)
+
+
+def assembled_on_path(drive: DriveTable) -> Assembly:
+    """Put a drive together that has a path of contact; its teeth are not checked, and are cut when needed.
+
+    Raises InputError as `check_path`.
+    """
     teeth, made = family(drive.family), drive_of(drive)
     check_path(teeth, made)
-    with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
-        return max(float(normal_backlash(Assembly(teeth, made))), 0.0)
+    return Assembly(teeth, made)
 
 
 def materials_of(drive: DriveTable) -> tuple[MaterialData, MaterialData]:

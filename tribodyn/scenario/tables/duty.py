@@ -136,7 +136,9 @@ class SpectrumScenario(ScenarioHead):
 
     duty: Annotated[
         tuple[SpectrumDuty, ...],
-        csv_tables("CSV file with a row for each duty: share [1], gear_torque [N*m], …"),
+        csv_tables(
+            "CSV file with a row for each duty: share [1], gear_torque [N*m], …", "share", "gear_torque"
+        ),
     ] = Field((), max_length=MOST_DUTIES, description="load spectrum: duties with shares of time")
 
 

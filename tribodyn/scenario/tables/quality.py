@@ -8,8 +8,6 @@ import numpy as np
 from pydantic import Field
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import (
     Deviations,
     Limits,
@@ -19,10 +17,9 @@ from tribodyn.geometry.flanks.modification import (
     sampled,
     summed,
 )
-from tribodyn.geometry.limits.checks import check_path
 from tribodyn.numerics.curve import Table
 from tribodyn.scenario.quantity import Draws
-from tribodyn.scenario.tables.drive_data import drive_of
+from tribodyn.scenario.tables.drive_data import assembled_on_path
 from tribodyn.scenario.tables.model_files import DriveTable, Gear, MisalignmentTable
 from tribodyn.scenario.tables.tooth_data import modules_of
 from tribodyn.standards.flank_tolerances import (
@@ -67,7 +64,7 @@ def with_sample(
     if slices == 1:
         pinion, gear = pinion._replace(helix=0.0), gear._replace(helix=0.0)
     with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
-        return deviating(modifications, _assembly(drive), pinion, gear, every_tooth)
+        return deviating(modifications, assembled_on_path(drive), pinion, gear, every_tooth)
 
 
 def error_with_sample(drive: DriveTable, error: Table | None, sample: int | None) -> Table | None:
@@ -75,14 +72,8 @@ def error_with_sample(drive: DriveTable, error: Table | None, sample: int | None
     if sample is None:
         return error
     with np.errstate(all="ignore"):
-        curve = profile_curve(_assembly(drive), *_deviations(drive, sample), base_pitch=True)
+        curve = profile_curve(assembled_on_path(drive), *_deviations(drive, sample), base_pitch=True)
     return curve if error is None else summed(error, curve)
-
-
-def _assembly(drive: DriveTable) -> Assembly:
-    teeth, made = family(drive.family), drive_of(drive)
-    check_path(teeth, made)
-    return Assembly(teeth, made)
 
 
 def _deviations(drive: DriveTable, sample: int) -> tuple[Deviations, Deviations]:

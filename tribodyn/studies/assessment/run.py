@@ -53,15 +53,16 @@ _PARTS = {"worst", "median", "pinion"}
 
 def check(case: AssessmentCase) -> CheckResult:
     """Check a case and what it asks of the other studies; say what gears and oil it describes."""
-    sheet = sheet_of(tomllib.loads(case.toml)["drive"], assembled(case))
+    assembly = assembled(case)
+    sheet = sheet_of(tomllib.loads(case.toml)["drive"], assembly)
     request = parts.request_of(case)
     every = parts.tasks_of(parts.parts(request))
     tasks.require_cases(every)
     data: dict[str, Any] = {"geometry": sheet, "tasks": [task.name for _, task in every]}
     found = with_oil(CheckResult(data, sheet_tables(sheet)), case.lubricant)
-    if not assembled(case).family.involute:
+    if not assembly.family.involute:
         return found
-    iso, _, capacity = _by_standard(case, assembled(case), face=1.0)
+    iso, _, capacity = _by_standard(case, assembly, face=1.0)
     face = "given" if case.settings.face_load_factor else "1, until the contact is analysed"
     table = TextTable(f"ISO 6336, K_Hβ {face}", COLUMNS, rating_rows(iso))
     duties = _duties(case, capacity)

@@ -57,8 +57,7 @@ class DriveModel(NamedTuple):
     @property
     def gauges(self) -> tuple[Gauge, Gauge]:
         """What the tooth thickness of pinion and gear is measured with."""
-        drive = DriveTable.model_validate(self.table)
-        return gauge_of(drive, drive.pinion), gauge_of(drive, drive.gear)
+        return _gauges_of(DriveTable.model_validate(self.table))
 
     @property
     def rounded(self) -> dict[str, Any]:
@@ -72,14 +71,17 @@ def sheet_of(
 ) -> dict[str, Any]:
     """The geometry sheet with the limits and tolerances that a drive file's data give."""
     drive = DriveTable.model_validate(table)
-    gauges = gauge_of(drive, drive.pinion), gauge_of(drive, drive.gear)
     distance = abs(float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius))
     grade = drive.centre_distance_grade
     apart = 0.0 if grade is None else centre_distance_allowance(grade, distance)
-    sheet = geometry_sheet(assembly, masses, gauges, distance_allowance=apart)
+    sheet = geometry_sheet(assembly, masses, _gauges_of(drive), distance_allowance=apart)
     for side, lines in zip(SIDES, tolerance_lines(drive), strict=True):
         sheet[side] |= lines
     return sheet
+
+
+def _gauges_of(drive: DriveTable) -> tuple[Gauge, Gauge]:
+    return gauge_of(drive, drive.pinion), gauge_of(drive, drive.gear)
 
 
 class _DriveAlone(Table):

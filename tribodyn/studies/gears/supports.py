@@ -10,15 +10,13 @@ import numpy as np
 
 from tribodyn.dynamics.data import BearingData
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import Misalignment, Modifications
 from tribodyn.geometry.helix import pitch_slope
-from tribodyn.geometry.limits.checks import check_path
 from tribodyn.numerics.remembered import remembered
 from tribodyn.scenario.tables.bearings import Bearing, Bearings, bearing_of
-from tribodyn.scenario.tables.drive_data import drive_of
+from tribodyn.scenario.tables.drive_data import assembled_on_path
 from tribodyn.scenario.tables.duty import duty_of
 from tribodyn.scenario.tables.model_files import DriveTable
 from tribodyn.scenario.tables.shafts import SPRINGS, BearingOfShaft, DrawnShaft, DrawnShafts, drawn_sides
@@ -70,10 +68,7 @@ def supports_of(scenario: Any) -> GearSupports:
     matrices = {side: _with_matrix(bearings, side) for side in SIDES}
     drawn = {side: getattr(shafts, side) if isinstance(shafts, DrawnShafts) else None for side in SIDES}
     drive: DriveTable = scenario.drive
-    geometry = drive_of(drive)
-    teeth = family(drive.family)
-    check_path(teeth, geometry)
-    assembly = assemble(teeth, geometry)
+    assembly = assembled_on_path(drive)
     torque = duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
     loads = mean_loads(assembly, torque)
     found: dict[str, GearSupport | None] = dict.fromkeys(SIDES)

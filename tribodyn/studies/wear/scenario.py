@@ -37,7 +37,7 @@ from tribodyn.studies.gears.scenario import (
 )
 from tribodyn.studies.wear.case import ALIKE, EACH, WearCase
 from tribodyn.tribology.law import FilmData
-from tribodyn.tribology.wear import WEAR_LAWS, wear_law_of
+from tribodyn.tribology.wear import WEAR_LAWS
 from tribodyn.tribology.wear.law import WearData
 from tribodyn.tribology.wear.running_in import RunningIn
 
@@ -127,9 +127,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> WearCase:
     gears: dict[str, Any] = gear_fields(scenario, toml, sha256)
     gears |= {"mesh": replace(mesh, early=early), "teeth": own}
     oiled, friction = None, 0.0
-    wear_data = WearData(wear.law, law_values(wear))
     if scenario.lubricant is not None:
-        oil, film = oil_fields(scenario), wear_law_of(wear_data).film
+        oil, film = oil_fields(scenario), WEAR_LAWS[wear.law].film
         if scenario.film is None and film is not None:
             oil["film"] = FilmData(film)
         oiled = with_chosen_laws(LubricatedCase(**gears, **oil))
@@ -137,7 +136,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> WearCase:
         friction = law_values(scenario.friction).get("coefficient", 0.0)
     return WearCase(
         **gears,
-        wear=wear_data,
+        wear=WearData(wear.law, law_values(wear)),
         revolutions=wear.revolutions,
         every=scenario.output.every or wear.revolutions / ROWS,
         load_change=wear.load_change,
