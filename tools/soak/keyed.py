@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from typer.testing import CliRunner
@@ -43,6 +44,8 @@ MOST_KEYS = 3
 #: Draws of keys, of which those that are not taken are left out.
 MOST_DRAWS = 40
 VERBS = (["show", "--full"], ["report"], ["listen"], ["signals", "--wav"])
+#: Where those that write put it.
+_WRITTEN = {"report": "page.html", "listen": "sound.wav", "signals": "."}
 
 
 class Keyed(NamedTuple):
@@ -78,9 +81,9 @@ def changes(seed: int, number: int) -> tuple[str, bool]:
 
 def unread(record: Path) -> Iterator[str]:
     """Say which verbs do not read a record; those of sensors may refuse one without."""
-    for verb, *options in VERBS:
-        ended = CliRunner().invoke(
-            app, [verb, str(record), *options, *(["-o", str(record.parent)] if verb == "signals" else [])]
-        )
-        if ended.exit_code not in (0, 2) or (ended.exit_code and verb in ("show", "report")):
-            yield f"{verb}: status {ended.exit_code}, {ended.exception!r} {ended.output[-300:]}"
+    with TemporaryDirectory() as folder:  # of what the verbs write
+        for verb, *options in VERBS:
+            written = ["-o", str(Path(folder) / _WRITTEN[verb])] if verb in _WRITTEN else []
+            ended = CliRunner().invoke(app, [verb, str(record), *options, *written])
+            if ended.exit_code not in (0, 2) or (ended.exit_code and verb in ("show", "report")):
+                yield f"{verb}: status {ended.exit_code}, {ended.exception!r} {ended.output[-300:]}"
