@@ -63,8 +63,7 @@ def test_jax_and_lanes_agree_and_tell_the_same_failure(motors):
     mapped = ensemble.march(models, states, method="tsit5", **settings)
     for found in (native, mapped):
         assert found.status[[0, 1, 3]].tolist() == [Status.DONE] * 3
-        # the rates grow without bound towards rest, so that the step may vanish before the speed does
-        assert found.status[2] in (Status.STALLED, Status.STEP_TOO_SMALL)
+        assert found.status[2] == Status.STALLED
     assert 0 < native.reached[2] < 3
     # JAX reports the segment, lanes the phase
     assert 0 <= native.reached[2] - mapped.reached[2] < 1

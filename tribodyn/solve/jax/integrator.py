@@ -26,7 +26,13 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.integrator import IntegratedCycles, Status
 from tribodyn.solve.jax.controllers import GROWN, LimitedSteps, TurningSteps
 from tribodyn.solve.march.reversal import SHARES, filled_up, stops_of_many
-from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_STEP, relative_factor, resolves_turns
+from tribodyn.solve.march.step_control import (
+    FIRST_STEP,
+    MINIMUM_STEP,
+    STANDSTILL,
+    relative_factor,
+    resolves_turns,
+)
 from tribodyn.solve.right_hand_side import contacts_of, engaged
 from tribodyn.solve.tolerances import StepTolerances
 from tribodyn.train.schedule import Schedule, intervals, sample_phases
@@ -182,6 +188,11 @@ def over_cycle(
         status = jnp.where(solution.result == diffrax.RESULTS.successful, status, Status.NOT_FINITE)
         for result, meaning in failures:
             status = jnp.where(solution.result == result, meaning, status)
+        if stall is not None:
+            ts: Any = solution.ts
+            reached = states[jnp.maximum(jnp.sum(jnp.isfinite(ts)) - 1, 0)]
+            slow = model.operation.nominal_speed + reached[slip] < STANDSTILL * model.operation.nominal_speed
+            status = jnp.where((status == Status.STEP_TOO_SMALL) & slow, Status.STALLED, status)
         status = jnp.where(dead, carried.status, status)
         good = (status == Status.DONE) & ~beyond
         mean_step = (end - start) / jnp.maximum(accepted, 1)

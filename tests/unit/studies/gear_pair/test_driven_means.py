@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import tribodyn as td
 from tests.support.states import PAIR, WORK_DAMPING, WORK_FRICTION, WORK_IN
 from tribodyn.record.reader import Record
 from tribodyn.studies.gears.over_time.running import energy_residual
@@ -29,6 +30,24 @@ def test_mean_powers_are_works_over_time(tmp_path):
         assert np.ptp(record["velocity"][-13:, 4]) > 1e-3
         assert result.summary["power_in_mean"] == pytest.approx(work / time, rel=1e-12)
         assert result.summary["mesh_frequency"] == pytest.approx(1.0 / time, rel=1e-12)
+
+
+def test_a_sweep_has_the_mean_powers_of_its_run(tmp_path):
+    """Both ends of the window lie behind the engagement there, which takes work from the drive."""
+    table = {"time": {"unit": "ms", "values": [0, 30]}, "torque": {"unit": "N*m", "values": [100, 2000]}}
+    keys = {
+        "mesh.compliance": "constant",
+        "mesh.stiffness": "9e8 N/m",
+        "mesh.formulation": "energy-consistent",
+        "operating.gear_torque_table": table,
+        "friction.law": "none",
+        "solver.cycles": 8,
+    }
+    at_speed = {**keys, "operating.pinion_speed": "100 rad/s"}
+    alone = run(load_scenario("crc-23-47", at_speed), tmp_path / "alone.h5").summary
+    speed = {"operating.pinion_speed": ["100 rad/s"]}
+    swept = td.sweep("crc-23-47", speed, keys, transient=8, output=tmp_path / "swept.h5")
+    assert float(swept.power_in_mean[0]) == pytest.approx(alone["power_in_mean"], rel=1e-7)
 
 
 def test_a_load_reversed_without_back_flanks(tmp_path):

@@ -58,7 +58,7 @@ def window_quantities(
     block, extreme = sampled_with_extremes(cycles, states, window.extremes, model)
     extremes = [RunningExtremes(mesh.cycle) for mesh in meshes]
     add_extremes(extremes, meshes, block, extreme)
-    inside, work = block.part(slice(count)), window.end - window.start
+    inside, work = block.part(slice(count)), last - window.states[0]  # both behind their engagement
     quantities, of_meshes, judged = kind.steady_quantities(inside, work, prepared, samples, extremes)
     judge = Judge()
     judge_run(judge, meshes, model.layout, block, extreme)
@@ -89,7 +89,7 @@ def fill_unstable(
         for m, (value, motion) in enumerate(zip(branch.values.tolist(), steadies, strict=True)):
             if not len(motion.samples):  # it cannot be integrated over its period once more
                 continue
-            window = CaseWindow(0, motion.samples, motion.state, motion.end, motion.extremes)
+            window = CaseWindow(0, motion.samples, motion.end, motion.extremes)
             prepared = prepared_at(value)
             quantities, _, _ = window_quantities(kind, prepared, window, samples)
             for name in UNSTABLE_QUANTITIES:

@@ -30,8 +30,7 @@ class CaseWindow(NamedTuple):
     first_cycle: int  # whole mesh cycles done before
     #: (cycles · samples, states), over whole mesh cycles, the sample that closes the last not included
     states: np.ndarray
-    start: np.ndarray  # states at both ends; the difference of their works is the window's
-    end: np.ndarray
+    end: np.ndarray  # the state at its end, before the engagement there
     extremes: Extremes | None = None  # of the motion between the samples
 
 
@@ -113,7 +112,7 @@ def marched(
         state = ran.state[row].copy()
         engage_next(state, cycles, model)
         extremes = extremes_of(ran.extremes, row)
-        kept = CaseWindow(before, ran.samples[row], led.state[i], ran.state[row], extremes)
+        kept = CaseWindow(before, ran.samples[row], ran.state[row], extremes)
         still, section = without_audit(state, model.layout), section[begun][-points:]
         outcomes.append(Outcome(kept, still, section, "transient", int(reached)))
     return outcomes
@@ -243,7 +242,7 @@ def steady(
 
 
 def _periodic(motion: SteadyMotion, samples: int, common: int, layout: TrainLayout) -> Outcome:
-    window = CaseWindow(0, motion.samples, motion.state, motion.end, motion.extremes)
+    window = CaseWindow(0, motion.samples, motion.end, motion.extremes)
     section = motion.samples[:: samples * common]
     state = without_audit(motion.state, layout)
     outcome = Outcome(window, state, section, motion.kind, common * motion.period)
