@@ -93,3 +93,32 @@ def test_the_section_of_a_ring_is_where_its_outline_leans_by_60_degrees():
     assert found.notch_radius == pytest.approx(1.0 / abs(bend[place]), rel=1e-3)
     assert found.arm > 0.0
     assert math.radians(10.0) < found.load_angle < math.radians(40.0)
+
+
+def test_a_ring_by_the_standard_s_formula_has_the_root_that_another_program_prints():
+    """Planet and ring of the second stage of NREL's 5 MW gearbox; the report's z_0 30, x_0 0, ρ_fP 0.3."""
+    sides = {"face_width": "550 mm"}
+    pair = td.drive(
+        {
+            "family": "involute",
+            "module": "21 mm",
+            "pressure_angle": "20 deg",
+            "material": "16MnCr5",
+            "mean_roughness": "0.6 um",
+            "centre_distance": "584 mm",
+            "pinion": {"teeth": 36, "profile_shift": 0.5039, "tip_diameter": "815.663 mm", **sides},
+            "gear": {
+                "teeth": 93,
+                "internal": True,
+                "profile_shift": 0.1171,
+                "tip_diameter": "1906.081 mm",
+                "fillet_radius": 0.30,
+                "cutter_teeth": 30,
+                **sides,
+            },
+        }
+    )
+    found = critical_section(pair._assembly, "gear", by_formula=True)
+    printed = (30.32, 56.76, 8.78, math.radians(18.63))
+    for value, one in zip(found, printed, strict=False):
+        assert value * (1e3 if one > 1.0 else 1.0) == pytest.approx(one, abs=5.1e-3 if one > 1.0 else 1e-4)

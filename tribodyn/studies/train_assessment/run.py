@@ -18,7 +18,7 @@ from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import as_life, capacity_of, life_bins, shorter_life
 from tribodyn.studies.gears.rated.limits import SAFETIES, judged, least, not_judged, with_unlimited, worst
 from tribodyn.studies.gears.rated.margins import strength_of
-from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered
+from tribodyn.studies.gears.rated.said import factors_said, life_said, numbered, ring_said
 from tribodyn.studies.gears.rated.standard import (
     factors_by_name,
     iso_part,
@@ -302,6 +302,8 @@ def _assumed(case: TrainAssessmentCase, meshes: Mapping[str, Mapping[str, Any]])
         materials = {remark for pair in pairs for remark in metal_remarks(pair)}
         yield from sorted(materials)
         yield life_said(settings, 0)
+        rings = {text: name for name in reversed(rated) for text in ring_said(meshes[name]["iso"])}
+        yield from (f"Mesh {name}: {text}" for text, name in reversed(rings.items()))
     if any("S_B" not in mesh.get("simulated", {}) for mesh in meshes.values()):
         yield "Without an FZG load stage of the oil there is no safety against scuffing."
 

@@ -7,6 +7,7 @@ import pytest
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.gears.prepare import assembled
 from tribodyn.studies.gears.rated.capacity import capacity_of, life_bins
+from tribodyn.studies.gears.rated.said import ring_said
 from tribodyn.studies.gears.rated.standard import rated_duty, standard_of
 from tribodyn.studies.train_assessment.run import _whole
 
@@ -98,9 +99,10 @@ dynamic_factor = 1.05
 """
 
 
-def test_factors_by_the_softer_ring_and_the_planet_s_safety_are_those_printed():
+def rated(**changes):
+    """Planet and ring by name, the ring as `pinion`."""
     case = scenario(tomllib.loads(SET))
-    settings = case.settings
+    settings = case.settings.model_copy(update=changes)
     mesh = next(one for one in _whole(case).meshes(case.subject.case) if one.name == "s-ring-1")
     pair, assembly = mesh.pair, assembled(mesh.pair)
     duty = rated_duty(
@@ -111,7 +113,13 @@ def test_factors_by_the_softer_ring_and_the_planet_s_safety_are_those_printed():
     )
     standard = standard_of(pair, assembly, duty)
     bins = life_bins(pair, assembly, standard.factors)
-    found = capacity_of(pair, assembly, standard.factors, bins, settings, mesh.meshing).by_name()
+    capacity = capacity_of(pair, assembly, standard.factors, bins, settings, mesh.meshing)
+    assert capacity is not None
+    return capacity.by_name()
+
+
+def test_factors_by_the_softer_ring_and_the_planet_s_safety_are_those_printed():
+    found = rated()
     planet = {name: found[name]["gear"] for name in ("Z_L", "Z_v", "Z_R", "S_H")}
     assert planet == {
         "Z_L": pytest.approx(1.038, abs=5e-4),
@@ -119,3 +127,20 @@ def test_factors_by_the_softer_ring_and_the_planet_s_safety_are_those_printed():
         "Z_R": pytest.approx(1.025, abs=5e-4),
         "S_H": pytest.approx(1.80, abs=5e-3),
     }
+
+
+def test_the_ring_s_root_by_formula_is_the_one_printed_and_stands_beside_the_fillet_as_cut():
+    cut, formula = rated(), rated(ring_root="formula")
+    printed = {"h_F": (78.40, 1e-3), "s_Fn": (129.40, 1e-3), "rho_F": (22.24, 1e-3), "sigma_F0": (95.32, 1e6)}
+    for name, (value, unit) in printed.items():
+        assert formula[name]["pinion"] / unit == pytest.approx(value, abs=5.1e-3), name
+    assert formula["Y_F"]["pinion"] == pytest.approx(1.27, abs=5e-3)
+    assert formula["Y_S"]["pinion"] == pytest.approx(2.13, abs=5e-3)
+    assert formula["S_F"]["pinion"] == pytest.approx(2.79, abs=5e-3)
+    for name in ("rho_F", "sigma_F0"):
+        assert cut[f"{name}_formula"] == formula[name]
+        assert formula[f"{name}_cut"] == cut[name]
+    assert formula["sigma_F0_cut"]["gear"] == pytest.approx(formula["sigma_F0"]["gear"], rel=1e-12)
+    (said,) = ring_said(cut)
+    assert "22.24 mm, 95.3 N/mm² by the formula" in said
+    assert not ring_said({name: value for name, value in cut.items() if "_formula" not in name})

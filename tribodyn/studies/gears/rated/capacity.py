@@ -13,7 +13,7 @@ from tribodyn.standards.fatigue import Bin, StressCurve, damage, life_share, saf
 from tribodyn.standards.metals import Metal
 from tribodyn.studies.gears.case import OiledCase
 from tribodyn.studies.gears.rated.margins import flanks_of
-from tribodyn.studies.gears.rated.named import common_names, flank_names, root_names
+from tribodyn.studies.gears.rated.named import common_names, flank_names, other_root_names, root_names
 from tribodyn.studies.gears.rated.settings import PEAKS_OVER_MEAN, RatingTable
 from tribodyn.studies.gears.rated.standard import LoadFactors, load_factors, path_of
 from tribodyn.studies.gears.rated.strength import metals_of
@@ -143,6 +143,9 @@ def capacity_of(
             )
         ]
         factors = flank_names(metal, influence, number) | root_names(metal, root, nominal, relative)
+        if any(each.internal for each in roots):
+            other = _root(case, assembly, SIDES[number], settings, turns, other=True)
+            factors |= other_root_names(other, bending.nominal_stress(other, tangential), settings.ring_root)
         gears.append(GearCapacity(found[0], found[1], factors | _failures_by_name(metal, found, needed)))
     common = common_names(mesh, shape, influence) | {"K_Fbeta": face, "K_Falpha": at_duty.transverse}
     return Capacity((gears[0], gears[1]), common, tuple(remarks))
@@ -253,9 +256,16 @@ def required(settings: RatingTable) -> dict[str, float]:
 
 
 def _root(
-    case: OiledCase, assembly: Assembly, side: Side, settings: RatingTable, turns: Meshing
+    case: OiledCase,
+    assembly: Assembly,
+    side: Side,
+    settings: RatingTable,
+    turns: Meshing,
+    other: bool = False,
 ) -> bending.BendingGear:
-    drive, section = assembly.drive, critical_section(assembly, side)
+    """A root by the settings; `other`: by the other choice of `ring_root`."""
+    drive = assembly.drive
+    section = critical_section(assembly, side, by_formula=(settings.ring_root == "formula") != other)
     body, tooth = body_of(drive, side), assembly.tooth(side)
     root, tip = abs(float(tooth.root_radius)), abs(float(tip_circle_radius(drive, side)))
     internal, bore = float(body.teeth) < 0.0, abs(float(body.bore_radius))

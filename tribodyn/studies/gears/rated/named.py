@@ -55,3 +55,9 @@ def root_names(
         "Y_M": relative.alternating,
         "sigma_F0": nominal.nominal,
     }
+
+
+def other_root_names(root: bending.BendingGear, nominal: bending.Stress, chosen: str) -> dict[str, float]:
+    """Of the root by the choice of `ring_root` that is not taken, for comparison."""
+    name = "formula" if chosen == "as-cut" else "cut"
+    return {f"rho_F_{name}": root.section.notch_radius, f"sigma_F0_{name}": nominal.nominal}

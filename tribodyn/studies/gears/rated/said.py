@@ -1,6 +1,7 @@
 """What an assessment says in words: sentences that its record keeps, units as they are written."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
@@ -50,3 +51,22 @@ def life_said(settings: RatingTable, duties: int) -> str:
         f"{settings.safety_bending:g}; {loads}. Rz of the flanks {rz}, of the roots "
         f"{settings.root_roughness * 1e6:g} µm."
     )
+
+
+def ring_said(iso: Mapping[str, Any]) -> list[str]:
+    """How much the root of a ring as cut and by the standard's formula differ, of values by name."""
+    ways = {"cut": "of the fillet as cut", "formula": "by the formula of ISO 6336-3"}
+    other = next((way for way in ways if f"rho_F_{way}" in iso), None)
+    if other is None:
+        return []
+    (taken,) = (text for way, text in ways.items() if way != other)
+    found = []
+    for side, rho in iso["rho_F"].items():
+        against = iso[f"rho_F_{other}"][side]
+        if abs(against / rho - 1.0) > 1e-6:  # of a gear cut by a rack both are the same
+            stress, less = (1e-6 * iso[name][side] for name in ("sigma_F0", f"sigma_F0_{other}"))
+            found.append(
+                f"Root of the {side}, internal teeth: ρ_F {1e3 * rho:.2f} mm, σ_F0 {stress:.1f} N/mm² "
+                f"{taken}; {1e3 * against:.2f} mm, {less:.1f} N/mm² {ways[other]} (key ring_root)."
+            )
+    return found
