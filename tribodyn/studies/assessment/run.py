@@ -34,7 +34,7 @@ from tribodyn.studies.gears.rated.bearings import bearing_part
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins, required
 from tribodyn.studies.gears.rated.limits import not_judged
 from tribodyn.studies.gears.rated.margins import strength_of
-from tribodyn.studies.gears.rated.said import numbered, ring_said
+from tribodyn.studies.gears.rated.said import numbered
 from tribodyn.studies.gears.rated.sheet import COLUMNS, rating_rows
 from tribodyn.studies.gears.rated.spectrum import spectrum_part, spectrum_tables
 from tribodyn.studies.gears.rated.standard import Standard, iso_part, rated_duty, standard_of
@@ -67,7 +67,7 @@ def check(case: AssessmentCase) -> CheckResult:
     table = TextTable(f"ISO 6336, K_Hβ {face}", COLUMNS, rating_rows(iso))
     duties = _duties(case, capacity)
     tables = (*found.tables, table, *spectrum_tables(duties.get("spectrum", {})))
-    remarks = (*found.remarks, *metal_remarks(case), *ring_said(iso), *_outside(capacity))
+    remarks = (*found.remarks, *metal_remarks(case), *_outside(capacity))
     return found._replace(data={**found.data, "iso": iso, **duties}, tables=tables, remarks=remarks)
 
 
@@ -162,7 +162,7 @@ def assessed(
         samples = samples_of(case, parts.draws_of(case), rows, (along, found), like)
         summary = put_in(summary, samples)
     summary |= {
-        "assumed": numbered([*assumed(case, by_standard is not None), *ring_said(outcome.iso)]),
+        "assumed": numbered(assumed(case, by_standard is not None)),
         "extrapolated": numbered([*extrapolated(taking_part, done), *_outside(outcome.capacity)]),
         **_trust(done, {task.name for _, task in parts.tasks_of(taking_part) if task.needed}),
         "wall_time": perf_counter() - begun,

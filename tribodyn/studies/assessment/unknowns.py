@@ -6,6 +6,7 @@ of equal probability as there are samples, and every part is met once.
 """
 
 import math
+import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Annotated, Any, NamedTuple, TypeVar
@@ -19,6 +20,7 @@ from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import InUnit, NotNegative, Switch, Table
 from tribodyn.scenario.tables.bearings import Bearing, bearing_of
+from tribodyn.standards.allowances import centre_distance_allowance
 from tribodyn.studies.gears.case import GearCase
 
 #: Stiffness of one class of `models/bearings` over that below: from 1e8 by way of 4e8 to 2e9 N/m.
@@ -48,7 +50,7 @@ class UnknownsTable(Table):
     )
     centre_distance: Annotated[float, InUnit(units.not_negative(units.LENGTH), "20 um")] | None = Field(
         None,
-        description="tolerance of an involute's, up and down; default: js7 (ISO 286-1) of one that is given",
+        description="tolerance of an involute's, up and down; default: the drive's js class, else js7",
     )
 
 
@@ -143,20 +145,10 @@ def distances(case: GearCase, table: UnknownsTable) -> tuple[float, float] | Non
     if case.drive.centre_distance is None or table.centre_distance == 0.0:
         return None
     nominal = float(case.drive.centre_distance)
-    tolerance = table.centre_distance or js7(nominal)
+    grade = tomllib.loads(case.toml)["drive"].get("centre_distance_grade", 7)
+    tolerance = table.centre_distance or centre_distance_allowance(grade, nominal)
     tight = float(tight_centre_distance(case.drive))
     return min(max(nominal - tolerance, tight), nominal), nominal + tolerance
-
-
-def js7(length: float) -> float:
-    """Half of the standard tolerance IT7 of a length, m: 16 i/2 by ISO 286-1.
-
-    The unit is i = 0.45 ∛D + 0.001 D up to 500 mm, I = 0.004 D + 2.1 above (µm, D in mm); at D itself in
-    place of the mean of its step.
-    """
-    size = 1e3 * length
-    unit = 0.45 * size ** (1.0 / 3.0) + 0.001 * size if size <= 500.0 else 0.004 * size + 2.1
-    return 8e-6 * unit
 
 
 def broken_unknowns(table: UnknownsTable, damping_ratio: float, key: str) -> Iterator[InputError]:

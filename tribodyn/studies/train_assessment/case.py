@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -49,6 +49,9 @@ class TrainRatingTable(RatingTable):
     mesh_load_factor: AtLeastOne | None = Field(
         None, description="K_gamma of the planetary stages; default: each one's own, of the simulation"
     )
+    ring_root: Literal["as-cut", "formula"] = Field(
+        "as-cut", description="root of internal gears: the fillet as cut, or by the formula of ISO 6336-3"
+    )
     speed_range: tuple[Positive, Positive] = Field(
         (0.5, 1.25), description="first and last speed of further runs, over the duty's; torques stay"
     )
@@ -58,6 +61,11 @@ class TrainRatingTable(RatingTable):
     friction_laws: tuple[Text, ...] = Field(
         (), max_length=10, description="further friction laws, a run each: for the spread of the losses"
     )
+
+    @property
+    def root_by_formula(self) -> bool:
+        """Whether roots of internal gears are those of the standard's formula."""
+        return self.ring_root == "formula"
 
     def face_of(self, mesh: str) -> float:
         """K_Hβ of a mesh: by the longest name that it has or begins with, else that of all meshes."""

@@ -11,7 +11,7 @@ from tests.support.short_studies import short_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.families.involute import tight_centre_distance
 from tribodyn.scenario.tables.bearings import Bearing, bearing_of
-from tribodyn.studies.assessment.unknowns import UnknownsTable, drawn, js7, stiffened
+from tribodyn.studies.assessment.unknowns import UnknownsTable, distances, drawn, stiffened
 
 KIND, SAMPLES = "assessment", 16
 KNOWN: dict[str, Any] = {"deviations": False, "bearings": 1.0, "damping_ratio": [0.05, 0.05]}
@@ -73,12 +73,12 @@ def test_a_drive_without_a_centre_distance_has_no_other(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("over", "to", "grade_7"),
-    [(80, 120, 35), (120, 180, 40), (250, 315, 52), (800, 1000, 90), (1600, 2000, 150)],
+    ("grade", "tolerance"), [({}, 17.5e-6), ({"drive__centre_distance_grade": 9}, 43.5e-6)]
 )
-def test_js7_is_half_of_the_standard_tolerance(over: float, to: float, grade_7: float):
-    # the table of ISO 286-1, whose steps have the tolerance of their ends' geometric mean, rounded
-    assert 2.0 * js7(1e-3 * math.sqrt(over * to)) == pytest.approx(1e-6 * grade_7, rel=0.025)
+def test_the_centre_distance_has_the_tolerance_of_its_js_class(tmp_path: Path, grade: Any, tolerance: float):
+    """Half of IT7 (35 µm) and of IT9 (87 µm) from 80 to 120 mm: ISO 286-1; js7 where no class is given."""
+    case = short_case(KIND, tmp_path, drive__centre_distance="81.1 mm", **grade)
+    assert distances(case, table()) == pytest.approx((81.1e-3 - tolerance, 81.1e-3 + tolerance), abs=1e-12)
 
 
 def test_all_stiffnesses_of_bearings_are_multiplied():

@@ -145,7 +145,9 @@ def capacity_of(
         factors = flank_names(metal, influence, number) | root_names(metal, root, nominal, relative)
         if any(each.internal for each in roots):
             other = _root(case, assembly, SIDES[number], settings, turns, other=True)
-            factors |= other_root_names(other, bending.nominal_stress(other, tangential), settings.ring_root)
+            factors |= other_root_names(
+                other, bending.nominal_stress(other, tangential), settings.root_by_formula
+            )
         gears.append(GearCapacity(found[0], found[1], factors | _failures_by_name(metal, found, needed)))
     common = common_names(mesh, shape, influence) | {"K_Fbeta": face, "K_Falpha": at_duty.transverse}
     return Capacity((gears[0], gears[1]), common, tuple(remarks))
@@ -265,7 +267,7 @@ def _root(
 ) -> bending.BendingGear:
     """A root by the settings; `other`: by the other choice of `ring_root`."""
     drive = assembly.drive
-    section = critical_section(assembly, side, by_formula=(settings.ring_root == "formula") != other)
+    section = critical_section(assembly, side, by_formula=settings.root_by_formula != other)
     body, tooth = body_of(drive, side), assembly.tooth(side)
     root, tip = abs(float(tooth.root_radius)), abs(float(tip_circle_radius(drive, side)))
     internal, bore = float(body.teeth) < 0.0, abs(float(body.bore_radius))

@@ -57,7 +57,9 @@ def root_names(
     }
 
 
-def other_root_names(root: bending.BendingGear, nominal: bending.Stress, chosen: str) -> dict[str, float]:
+def other_root_names(
+    root: bending.BendingGear, nominal: bending.Stress, by_formula: bool
+) -> dict[str, float]:
     """Of the root by the choice of `ring_root` that is not taken, for comparison."""
-    name = "formula" if chosen == "as-cut" else "cut"
+    name = "cut" if by_formula else "formula"
     return {f"rho_F_{name}": root.section.notch_radius, f"sigma_F0_{name}": nominal.nominal}

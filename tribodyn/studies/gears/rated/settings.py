@@ -62,9 +62,11 @@ class RatingTable(Table):
     )
     peak_roughness: Roughness | None = Field(None, description="Rz of the flanks; default: 6 Ra")
     root_roughness: Roughness = written("20 um", description="Rz of the root fillets")
-    ring_root: Literal["as-cut", "formula"] = Field(
-        "as-cut", description="root of internal gears: the fillet as cut, or by the formula of ISO 6336-3"
-    )
+
+    @property
+    def root_by_formula(self) -> bool:
+        """Whether roots of internal gears are those of the standard's formula; trains have a key for it."""
+        return False
 
     @property
     def life(self) -> float:
