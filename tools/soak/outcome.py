@@ -33,7 +33,7 @@ from tribodyn.sweep.run import settings_of
 _log = logging.getLogger(__name__)
 
 #: Seconds of processor time after which a case counts as hanging; machine code may have to be compiled first.
-LONGEST = 120
+LONGEST = 240
 #: Mesh cycles after which the search for a steady state in a sweep is given up.
 MOST_CYCLES = 100
 COMPLETE, REFUSED, STOPPED, FAULTY = "complete", "refused", "stopped", "faulty"

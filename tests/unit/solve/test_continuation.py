@@ -37,6 +37,18 @@ def test_the_cascade_of_the_logistic_map(step):
             assert orbit.period == (1 if value < 3.0 else 2 if value < 1.0 + np.sqrt(6.0) else 4)
 
 
+def test_a_family_of_neutral_motions_is_not_followed():
+    """Every state of x' = x, y' = (y + a)/2 with y = a repeats, here nearly: none leads to another."""
+    hold = 1.0 - 1e-8
+    free = Lines(lambda x, a: np.stack([hold * x[:, 0], 0.5 * (x[:, 1] + a)], axis=1), 2)
+    found, ends = swept(free, [1.0, 1.5, 2.0], [0.0, 1.0])
+    assert ends == []
+    np.testing.assert_allclose(
+        [orbit.state for orbit in found], [[0.0, 1.0], [0.0, 1.5], [0.0, 2.0]], atol=1e-8
+    )
+    assert len(free.asked) <= 7
+
+
 @pytest.mark.parametrize("start", [2.8, 2.85, 2.9])
 def test_a_place_that_is_not_found_is_no_end(start):
     """Nothing is found at the first place between a stable and an unstable one: the end is still located."""

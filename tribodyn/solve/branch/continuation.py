@@ -28,6 +28,7 @@ from tribodyn.solve.branch.arclength import (
 )
 from tribodyn.solve.branch.requests import Continue, Correct, FollowArc, Relax, Request, RequestResult, fulfil
 from tribodyn.solve.orbit.motions import FAILED, Orbit
+from tribodyn.solve.orbit.shooting import NEUTRAL
 
 #: Steps of the parameter, over its magnitude (`Leg.size`): the first of a leg, the largest, that where two
 #: complex multipliers are about to meet on the real axis, where an unstable range may be narrow, and that to
@@ -175,7 +176,7 @@ def between(start: float, target: float) -> list[float]:
 
 
 def _along(here: _Motion, leg: Leg) -> Generator[Request, RequestResult, "_Motion | _Exit"]:
-    """Follow a branch to the target, or to its end."""
+    """Follow a branch to the target, or to its end; to where it stands if its motions are neutral."""
     target, finest = leg.target, leg.finest
     way = float(np.sign(target - here.value))
     before: _Motion | None = None
@@ -194,6 +195,12 @@ def _along(here: _Motion, leg: Leg) -> Generator[Request, RequestResult, "_Motio
         trial = target if beyond is None and step >= 0.99 * room else here.value + way * min(step, room)
         other = before if beyond is None or beyond.period < here.period else beyond
         orbit, scale, _ = yield Correct(trial, _guess(other, here, trial), here.period)
+        if _neutral(orbit):
+            if here.orbit is None:
+                known, *_ = yield Correct(here.value, here.state, here.period)
+                here = _Motion.of(here.value, known) if known.period else here
+            if here.orbit is not None and _neutral(here.orbit):
+                return here  # one of a family of motions at every value, none of which leads to another
         if orbit.period and not _comparable(here, orbit, scale, abs(trial - here.value) / size):
             orbit = replace(orbit, kind=FAILED, period=0)
         if orbit.period == here.period and orbit.stable:
@@ -289,6 +296,10 @@ def _comparable(here: _Motion, orbit: Orbit, scale: Float[Array, " state"], step
         return True
     mattering = [multiplier for multiplier in here.orbit.multipliers if abs(multiplier) > MATTERS]
     return all(np.min(np.abs(orbit.multipliers - before)) <= TURNED for before in mattering)
+
+
+def _neutral(orbit: Orbit) -> bool:
+    return orbit.stable and bool(abs(orbit.multipliers[0]) >= 1.0 - NEUTRAL)
 
 
 def _meeting(multipliers: Complex[Array, " state"]) -> bool:
