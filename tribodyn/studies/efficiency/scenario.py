@@ -30,8 +30,8 @@ from tribodyn.studies.gears.scenario import (
     SliceCoupling,
     TemperatureKeys,
     broken_gear_rules,
-    broken_matrix_keys,
     broken_stiffness_rules,
+    broken_support_keys,
     gear_fields,
     oil_fields,
 )
@@ -143,7 +143,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     yield from driving_internal(scenario.drive)
     yield from broken_gear_rules(scenario, every_duty=True, internal=True)
-    yield from broken_matrix_keys(scenario.bearings)
+    yield from broken_support_keys(scenario)
     yield from broken_stiffness_rules(scenario.mesh, ("constant",))
     drive, operating = scenario.drive, scenario.operating
     broken = broken_duty_rules(operating)

@@ -140,8 +140,7 @@ def mesh_of(
     """
     drive, mesh = scenario.drive, scenario.mesh
     modifications = modifications_of(drive, getattr(mesh, "misalignment", _ALIGNED))
-    internal = drive.pinion.internal or drive.gear.internal  # even along the face
-    if not internal and (getattr(mesh, "compliance", "fem") == "fem" or drive.helix_angle):
+    if _tilts_load_the_face(scenario):
         own_tilts = tilting and bool(drive.helix_angle)
         modifications = displaced(modifications, supports_of(scenario), own_tilts=own_tilts)
     sample, slices = getattr(mesh, "deviation_sample", None), getattr(mesh, "slices", None)
@@ -154,6 +153,14 @@ def mesh_of(
     values = {"compliance": "fem", "damping_ratio": 0.0} | {name: getattr(mesh, name) for name in given}
     values |= {"modifications": modifications, "slices": slices_of(slices, modifications, helical)}
     return MeshData(**values | {"error_table": error} | own)
+
+
+def _tilts_load_the_face(scenario: Any) -> bool:
+    """Whether the load along the face follows the tilts of the gears; internal pairs are even along it."""
+    drive = scenario.drive
+    if drive.pinion.internal or drive.gear.internal:
+        return False
+    return getattr(scenario.mesh, "compliance", "fem") == "fem" or bool(drive.helix_angle)
 
 
 #: Compliances that are given -> the key that gives them, and an example.
@@ -198,12 +205,20 @@ def _broken_supports(scenario: Any) -> Iterator[InputError]:
         yield from broken_shaft_rules(shafts, bearings)
 
 
-def broken_matrix_keys(bearings: Bearings | None) -> Iterator[InputError]:
-    """Refuse bearings of which a study of the teeth alone reads nothing."""
+def broken_support_keys(scenario: Any) -> Iterator[InputError]:
+    """Refuse bearings and shafts of which a study of the teeth alone reads nothing."""
+    bearings = scenario.bearings
     if bearings is not None and not any(getattr(getattr(bearings, side), "matrix", None) for side in SIDES):
         rule = "has no effect: of bearings the teeth alone know the tilts, by a matrix"
         remedy = "leave it out, or give [bearings.pinion] a matrix"
         yield InputError("bearings", None, rule, remedy)
+    elif has_supports(scenario) and not _tilts_load_the_face(scenario):
+        drive, compliance = scenario.drive, getattr(scenario.mesh, "compliance", "fem")
+        internal = drive.pinion.internal or drive.gear.internal
+        teeth = "teeth of an internal pair" if internal else f'spur teeth with compliance = "{compliance}"'
+        remedy = "leave it out" if internal else 'write mesh.compliance = "fem", or leave it out'
+        key = "bearings" if bearings is not None else "shaft"
+        yield InputError(key, None, f"has no effect: {teeth} are loaded evenly along the face", remedy)
 
 
 def broken_gear_rules(

@@ -24,7 +24,7 @@ from tribodyn.studies.gears.scenario import (
     ShaftKeys,
     SliceCoupling,
     broken_gear_rules,
-    broken_matrix_keys,
+    broken_support_keys,
     gear_fields,
     mesh_of,
     oil_fields,
@@ -97,7 +97,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     yield from broken_gear_rules(scenario)
-    yield from broken_matrix_keys(scenario.bearings)
+    yield from broken_support_keys(scenario)
     drive, operating, oiled = scenario.drive, scenario.operating, scenario.lubricant is not None
     yield from broken_driving_rules(operating, (drive.pinion.teeth, drive.gear.teeth), speed_needed=oiled)
     if not oiled:

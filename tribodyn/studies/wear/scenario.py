@@ -30,7 +30,7 @@ from tribodyn.studies.gears.scenario import (
     ShaftKeys,
     SliceCoupling,
     broken_gear_rules,
-    broken_matrix_keys,
+    broken_support_keys,
     gear_fields,
     mesh_of,
     oil_fields,
@@ -161,7 +161,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     yield from driving_internal(scenario.drive)
     yield from broken_gear_rules(scenario, internal=True, every_tooth=scenario.wear.teeth == EACH)
-    yield from broken_matrix_keys(scenario.bearings)
+    yield from broken_support_keys(scenario)
     drive, wear = scenario.drive, scenario.wear
     yield from broken_driving_rules(scenario.operating, (drive.pinion.teeth, drive.gear.teeth))
     yield from _broken_law(scenario)
