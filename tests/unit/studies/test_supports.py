@@ -272,6 +272,11 @@ def spoilt(side: str, place: str, value: Any) -> dict[str, Any]:
         (spoilt("gear", "bearing.0.elements", 30), "shaft.gear.bearing.0.elements", "fit"),
         (spoilt("gear", "bearing.0.stiffness_x", "1e8 N/m"), "shaft.gear.bearing.0", "type and stiffness"),
         (spoilt("gear", "bearing.0", {"position": "15 mm"}), "shaft.gear.bearing.0", "says nothing"),
+        (
+            spoilt("gear", "bearing.0.matrix_units", "N, m, rad"),
+            "shaft.gear.bearing.0.matrix_units",
+            "no effect",
+        ),
         (spoilt("pinion", "bearing.0.thrust", "+z"), "shaft.pinion", "holds it"),
         (
             {"shaft": SHAFTS, "bearings": {"gear": {"stiffness_x": "1e9 N/m", "stiffness_y": "1e9 N/m"}}},
@@ -297,6 +302,20 @@ def test_one_message_of_what_is_wrong(changes: dict[str, Any], key: str, words: 
         scenario("helical-23-47", {"bearings": "rigid-1e9", **changes} if "shaft" in changes else changes)
     said = [getattr(error, "key", "") for error in getattr(caught.value, "errors", [caught.value])]
     assert key in said
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "words"),
+    [
+        ({"shaft": SHAFTS}, "shaft", "evenly along the face"),
+        (with_matrices(diagonal([1e8, 1e8, 1e8, 1e6, 1e6])), "bearings", 'write mesh.compliance = "fem"'),
+        ({"shaft": SHAFTS, "drive": "ring-36-93", "mesh.compliance": "fem"}, "shaft", "an internal pair"),
+    ],
+)
+def test_tilts_that_change_nothing_are_refused(changes: dict[str, Any], key: str, words: str):
+    with pytest.raises(InputError, match=words) as caught:
+        scenario("efficiency-involute-18-36", changes)
+    assert caught.value.key == key
 
 
 def test_teeth_without_a_path_are_refused_before_their_shafts():

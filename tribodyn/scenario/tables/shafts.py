@@ -227,7 +227,7 @@ def _broken_bearing(key: str, bearing: BearingOfShaft) -> Iterator[InputError]:
         if getattr(bearing, name) is None:
             rule = f"missing: type = {quoted(bearing.type)} needs it"
             yield InputError(f"{key}.{name}", rule=rule, remedy=f"add {name} = {_EXAMPLES[name]}")
-    for name in _UNREAD[bearing.type]:
+    for name in ("matrix_units", *_UNREAD[bearing.type]):
         if getattr(bearing, name):
             rule = f"has no effect with type = {quoted(bearing.type)}"
             yield InputError(f"{key}.{name}", None, rule, f"leave {name} out")
