@@ -1,9 +1,15 @@
 """Veciana et al. (2024): every row of the published table, and the figures of a separate prototype."""
 
+import math
 import re
+from pathlib import Path
 
+import numpy as np
 import pytest
 
+import tribodyn as td
+from tribodyn.studies.efficiency.run import quantities_of
+from tribodyn.validation.veciana_figures import drive_of
 from tribodyn.validation.veciana_study import DriveUnderLaw
 
 #: A separate prototype of the restored equations: involute, cycloid at d_g = 0.1, 0.17, 0.4 d_1, crossover.
@@ -85,3 +91,62 @@ def test_efficiencies_agree_with_a_separate_prototype(case):
     # the prototype's quadrature of the cycloid is converged to 1e-7
     assert study.cycloid([0.1, 0.17, 0.4]) == pytest.approx([small, chosen, large], abs=1e-7)
     assert study.crossover() == pytest.approx(crossover, abs=2e-5)
+
+
+CYCLOID = """\
+title = "Cycloid 27/27"
+kind = "efficiency"
+
+[lubricant]
+like = "liu-ni-2022"
+inlet_viscosity = "10 mPa*s"
+
+[drive]
+family = "cycloidal"
+module = "2 mm"
+roughness = "0.2 um"
+shape = { approach_circle = "9.18 mm", recess_circle = "9.18 mm" }
+material = { like = "steel-liu-ni-2022", youngs_modulus = "210.21 GPa" }
+pinion = { teeth = 27, face_width = "43.2 mm", bore_radius = "10 mm" }
+gear = { teeth = 27, face_width = "43.2 mm", bore_radius = "10 mm" }
+
+[operating]
+pinion_speed = "462.962963 rad/s"
+gear_torque = "61.424212 N*m"
+
+[friction]
+law = "xu"
+rolling_speeds = "lever-arms"
+"""
+
+
+def test_a_scenario_has_the_paper_s_rolling_speeds(tmp_path: Path):
+    """The separate prototype's efficiency; with exact speeds the cycloid loses 0.151 % (unaveraged at P)."""
+    path = tmp_path / "cycloid.toml"
+    path.write_text(CYCLOID)
+    found = {
+        speeds: td.scenario(path, {"friction.rolling_speeds": speeds}) for speeds in ("exact", "lever-arms")
+    }
+    exact, lever = (quantities_of(found[speeds]) for speeds in found)
+    assert lever["efficiency_torque_ratio"] == pytest.approx(PROTOTYPE["EHL", 1.0, 2e-3][2], abs=1e-7)
+    assert 1.0 - exact["efficiency_torque_ratio"] == pytest.approx(0.00151, abs=4e-5)
+    # of equal gears: ω r sin α by the lever arms, and the motion along the path ω d_g sin α/(2 c) is as much
+    first = [float(np.nanmax(td.run(case).data["entrainment_speed"][0])) for case in found.values()]
+    assert first[0] == pytest.approx(2.0 * first[1], rel=1e-3)
+
+
+def test_lever_arms_are_of_spur_gears_and_the_same_for_an_involute():
+    spur, arms = "efficiency-involute-18-36", {"friction.rolling_speeds": "lever-arms"}
+    one, other = (quantities_of(td.scenario(spur, changes)) for changes in ({}, arms))
+    assert other["efficiency"] == pytest.approx(one["efficiency"], abs=1e-12)
+    with pytest.raises(td.InputError, match=r"friction\.rolling_speeds.*spur gears"):
+        td.scenario(spur, arms | {"drive.helix_angle": "10 deg"})
+
+
+@pytest.mark.parametrize("circle", [0.1, 0.25])
+def test_the_teeth_of_figure_7(circle: float):
+    """They carry alone for one pitch, and the pressure angle at both ends is (π/z)/(2 d_g/d_1)."""
+    gears = drive_of(circle)
+    assert float(gears.contact_ratio) == pytest.approx(1.0, abs=1e-9)
+    ends = [float(gears.path.pressure_angle(r)) for r in (gears.r_start, gears.r_end)]
+    assert ends == pytest.approx(2 * [math.pi / 27 / (2 * circle)], abs=1e-9)

@@ -74,13 +74,19 @@ Share = Callable[[Float[Array, "*pair"]], Loads]
 
 
 def contacts(
-    cycle: MeshCycle, gear_torque: Any, pinion_speed: Any, closure: Closure, averaged: bool = True
+    cycle: MeshCycle,
+    gear_torque: Any,
+    pinion_speed: Any,
+    closure: Closure,
+    averaged: bool = True,
+    lever_arms: bool = False,
 ) -> Contacts:
     """Contacts at the nodes of a table of driving flanks, (S, N, Q); may be traced.
 
     A segment begins wherever a pair passes the pitch point, as for a family with a corner there. The torque
     (N m) is negative where the gear drives, on back flanks that are like the driving ones. `averaged`: radius
-    and entrainment are averaged over the contact where they vanish at the pitch point.
+    and entrainment are averaged over the contact where they vanish at the pitch point. `lever_arms`, of spur
+    gears: rolling speeds without the motion of the contact along the path, r κ, and nothing averaged.
     """
     xp = namespace(*cycle, gear_torque, pinion_speed, *closure.surfaces)
     way = xp.sign(gear_torque)
@@ -91,23 +97,26 @@ def contacts(
     if cycle.slices > 1:
         # of a slice that comes or goes over its whole width: what is inside it is not resolved
         length = cycle.slice_width / cycle.line_load_friction
+    friction_arm = xp.stack(
+        [
+            own[0] * (cycle.pinion_pitch_radius * sin(angle) + r),
+            own[1] * (cycle.gear_pitch_radius * sin(angle) - r),
+        ]
+    )
+    along_path = speed * cycle.pinion_speed - way * pinion_speed * friction_arm[0] if lever_arms else 0.0
+    rate = speed * cycle.pitch_point_rate
     return Contacts(
         closure,
         length,
         # at the pitch point itself the laws are evaluated beside it: there the radius may be zero
         maximum(cycle.equivalent_radius, 1e-9),
-        speed * cycle.pinion_speed,
-        speed * cycle.gear_speed,
+        speed * cycle.pinion_speed - along_path,
+        speed * cycle.gear_speed - along_path,
         side,
-        (cycle.pitch_point_length, speed * cycle.pitch_point_rate) if averaged else (0.0, 0.0),
+        (cycle.pitch_point_length, rate) if averaged and not lever_arms else (0.0, 0.0),
         (cycle.in_contact * (cycle.side > 0))[:, None, :],
         xp.stack([own[0] * cycle.pinion_pitch_radius * normal, own[1] * cycle.gear_pitch_radius * normal]),
-        xp.stack(
-            [
-                own[0] * (cycle.pinion_pitch_radius * sin(angle) + r),
-                own[1] * (cycle.gear_pitch_radius * sin(angle) - r),
-            ]
-        ),
+        friction_arm,
     )
 
 

@@ -291,3 +291,10 @@ class FrictionData:
     sliding: Literal["kinematic", "dynamic"] = "dynamic"
     #: distance along the path of contact over which friction changes sign at the pitch point, m
     reversal_width: float = 2e-5
+    #: speeds along the flanks with the motion of the contact along its path, or angular speed times lever arm
+    rolling_speeds: Literal["exact", "lever-arms"] = "exact"
+
+    @property
+    def lever_arms(self) -> bool:
+        """Whether rolling speeds leave out the motion of the contact along its path."""
+        return self.rolling_speeds == "lever-arms"

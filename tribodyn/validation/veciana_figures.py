@@ -1,4 +1,4 @@
-"""Figures 1, 5, 6, 8, 9 and 10 of Veciana et al., Machines 12 (2024) 943.
+"""Figures 1 and 5 to 10 of Veciana et al., Machines 12 (2024) 943.
 
 The mixed law is drawn in both readings: A as printed, B with Roelands' law at the maximum pressure and each
 surface's own speed in the Péclet numbers. Dotted curves of cycloids have the motion of the contact along the
@@ -14,7 +14,15 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from tribodyn.drawing.picture import gears_in_mesh
+from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.families import family
+from tribodyn.geometry.path import position
+from tribodyn.post.figures.gears_in_mesh import draw_gears
 from tribodyn.post.style import PALETTE, QUIET, mark_panel, new_figure
+from tribodyn.studies.efficiency.scenario import EfficiencyCase
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.surface_state import surface_state
 from tribodyn.validation import veciana_study
@@ -27,6 +35,8 @@ COLOUR = dict(zip(veciana_study.LAWS, PALETTE, strict=False))
 PROFILES = {"involute": "-", "cycloid": "--", "cycloid, exact speeds": ":"}
 #: Half the pinion's angle from one pair to the next, rad.
 HALF = math.pi / veciana_study.PINION_TEETH
+#: First and last contact, where the contact ratio is 1, as `UnitContact` takes them.
+ENDS = np.array([-HALF, HALF]), np.array([0.5, 0.5])
 
 
 def figure_1(_: Path) -> Figure:
@@ -75,12 +85,50 @@ def surfaces(law: veciana_study.Law, _: Path) -> Figure:
     return figure
 
 
+def drive_of(circle: float) -> Assembly:
+    """The gears i = 1, m = 2 mm with generating circles d_g1 = d_g2 over d_1 and a contact ratio of 1."""
+    module = 2e-3
+    radius = module * veciana_study.PINION_TEETH / 2.0
+    pair = veciana_study.DriveUnderLaw(1.0, module, "EHL").cycloid_pair(circle, rotation=ENDS)
+    tip = float(np.hypot(pair.pinion_normal_arm, pair.pinion_friction_arm)[-1])
+    mm = f"{1e3 * 2.0 * radius * circle} mm"
+    changes: dict[str, Any] = {"drive.module": "2 mm"}
+    changes |= {f"drive.shape.{name}_circle": mm for name in ("approach", "recess")}
+    for side in SIDES:
+        teeth = {"teeth": int(veciana_study.PINION_TEETH), "bore_radius": "10 mm"}
+        teeth |= {"addendum": (tip - radius) / module, "dedendum": (tip - radius) / module + 0.25}
+        changes |= {f"drive.{side}.{key}": value for key, value in teeth.items()}
+    case = load_scenario("efficiency-cycloidal-23-47", changes)
+    assert isinstance(case, EfficiencyCase)
+    return assemble(family(case.family), case.drive)
+
+
+def figure_7(_: Path) -> Figure:
+    """Teeth with generating circles of 0.1 and 0.25 d_1 as a pair begins contact, one scale for both."""
+    figure = new_figure(8.2, 3.4)
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    for letter, axes, circle in zip("ab", panels, (0.1, 0.25), strict=True):
+        assembly = drive_of(circle)
+        gears = gears_in_mesh(assembly)
+        named = {name: place for name, place in gears.key_points.items() if name in ("B_g", "P", "B_p")}
+        draw_gears(axes, gears._replace(key_points=named))
+        start = np.array(position(assembly.path, assembly.r_start)) * 1e3
+        axes.plot(*np.stack([-0.4 * start, 1.25 * start], axis=-1), color=PALETTE[2], linewidth=1.0)
+        study = veciana_study.DriveUnderLaw(1.0, 2e-3, "EHL")
+        height = 1e3 * veciana_study.contact_height(study.cycloid_pair(circle, rotation=ENDS))
+        angle = math.degrees(float(assembly.path.pressure_angle(assembly.r_start)))
+        text = f"$d_g$ = {circle:g} $d_1$: α′ = {abs(angle):.1f}°, contact height {height:.2f} mm"
+        mark_panel(axes, letter, text)
+        axes.set_xlim(-4.5, 4.5)
+        axes.set_ylim(-3.2, 3.2)
+    return figure
+
+
 def figure_8(_: Path) -> Figure:
     """Contact height of the pinion and maximum pressure angle against the generating circles."""
     study = veciana_study.DriveUnderLaw(1.0, 2e-3, "EHL")
-    ends = np.array([-HALF, HALF]), np.array([0.5, 0.5])
     circle = np.linspace(0.1, 0.4, 121)
-    heights = np.array([veciana_study.contact_height(study.cycloid_pair(c, rotation=ends)) for c in circle])
+    heights = np.array([veciana_study.contact_height(study.cycloid_pair(c, rotation=ENDS)) for c in circle])
     figure = new_figure(4.6, 3.0)
     axes = figure.subplots()
     other = axes.twinx()
@@ -89,7 +137,7 @@ def figure_8(_: Path) -> Figure:
     (height,) = axes.plot(circle, 1e3 * heights, color=PALETTE[0], label="contact height")
     angles = np.degrees(HALF / (2.0 * circle))
     (angle,) = other.plot(circle, angles, color=PALETTE[1], label="maximum pressure angle")
-    involute = 1e3 * veciana_study.contact_height(study.involute_pair(ends))
+    involute = 1e3 * veciana_study.contact_height(study.involute_pair(ENDS))
     axes.axhline(involute, color=PALETTE[0], linestyle=":", linewidth=0.9)
     other.axhline(20.0, color=PALETTE[1], linestyle=":", linewidth=0.9)
     axes.axvline(veciana_study.CHOSEN, color=QUIET, linestyle=":", linewidth=0.9)
@@ -177,6 +225,7 @@ FIGURES: dict[str, Callable[[Path], Figure]] = {
     "figure-5-ehl": partial(surfaces, "EHL"),
     "figure-6-mehl-a": partial(surfaces, "MEHL A"),
     "figure-6-mehl-b": partial(surfaces, "MEHL B"),
+    "figure-7": figure_7,
     "figure-8": figure_8,
     "figure-9": figure_9,
     "figure-10": figure_10,

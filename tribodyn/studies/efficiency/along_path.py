@@ -63,6 +63,7 @@ class MeshDuty(NamedTuple):
     pinion_speed: float  # rad/s
     closure: Closure
     sharing: Sharing = "elastic"  # one of `places.SHARINGS`
+    lever_arms: bool = False  # see `FrictionData`
 
     @property
     def way(self) -> float:
@@ -91,7 +92,8 @@ def places_at(
 def engage(mesh: Places, duty: MeshDuty) -> PathState:
     """Solve loads and friction together at every phase; raises as `equilibrium.settled`."""
     cycle = mesh.cycle
-    seen = contacts(cycle, duty.gear_torque, duty.pinion_speed, duty.closure)
+    torque, speed = duty.gear_torque, duty.pinion_speed
+    seen = contacts(cycle, torque, speed, duty.closure, lever_arms=duty.lever_arms)
     found = settled(seen, lambda friction: _share(mesh, duty, seen, friction))
     load, mu, shared = found.normal_load[:, 0], found.friction_coefficient[:, 0], found.shared
     contact = seen.under(shared.peak_load)

@@ -91,7 +91,8 @@ def prepare(case: EfficiencyCase) -> PreparedEfficiency:
 
     def duty_of(case: EfficiencyCase) -> MeshDuty:
         operating = case.operating
-        return MeshDuty(operating.gear_torque, operating.pinion_speed, closure_of(case), case.load_sharing)
+        required = operating.gear_torque, operating.pinion_speed
+        return MeshDuty(*required, closure_of(case), case.load_sharing, case.friction.lever_arms)
 
     def lost(case: EfficiencyCase) -> float:
         return cycle_efficiency(cycle, assembly.path, duty_of(case), flanks=flanks).power_friction
@@ -204,6 +205,8 @@ def efficiencies(
             study.path,
             case.drive.pinion.teeth,
             rotations(case.drive.pinion.teeth, limits=(float(start), float(end))),
+            exact_speeds=not duty.lever_arms,
+            averaged=not duty.lever_arms,
         ),
         -duty.gear_torque if duty.way < 0.0 else duty.gear_torque * float(cycle.speed_ratio),
         duty.pinion_speed,

@@ -96,6 +96,12 @@ class EfficiencyMesh(Table):
 class EfficiencyFriction(FrictionTable):
     """Which law acts between the flanks, and the law's own keys."""
 
+    rolling_speeds: Literal["exact", "lever-arms"] = Field(
+        "exact",
+        description="along the flanks: exact, or angular speed times lever arm as Veciana et al. have it, "
+        "without the motion of the contact along its path and its averaging at the pitch point",
+    )
+
 
 class EfficiencyOutput(Table):
     """What is recorded: one mesh cycle."""
@@ -146,6 +152,9 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_support_keys(scenario)
     yield from broken_stiffness_rules(scenario.mesh, ("constant",))
     drive, operating = scenario.drive, scenario.operating
+    if scenario.friction.rolling_speeds == "lever-arms" and drive.helix_angle:
+        rule = "is of spur gears: the lever arms are those of one transverse section"
+        yield InputError("friction.rolling_speeds", '"lever-arms"', rule, 'use "exact"')
     broken = broken_duty_rules(operating)
     yield from broken
     if not broken and duty_of(operating, drive.pinion.teeth, drive.gear.teeth).gear_torque == 0:
