@@ -2,6 +2,7 @@
 
 import pytest
 
+import tribodyn as td
 from tribodyn.post.style import house_style
 from tribodyn.validation import PAPERS, validate
 from tribodyn.validation.efremenkov_figures import FIGURES
@@ -30,6 +31,12 @@ def test_figures_show_the_papers_curves(tmp_path):
     computed, printed = curves["figure-8"]
     assert [computed[0], computed[-1]] == pytest.approx(list(printed), rel=2e-3)
     assert list(printed) == [20.54, 9.11]
+
+
+def test_a_sweep_has_the_papers_figure_8():
+    """Printed maxima of N_S over r_b."""
+    swept = td.sweep("irefc-as-published", {"drive.element_radius": ["1.2 mm", "2.8 mm"]})
+    assert swept["power_element_max"].to_numpy() == pytest.approx([20.54, 9.11], rel=2e-3)
 
 
 OF_ANOTHER_GEAR = {

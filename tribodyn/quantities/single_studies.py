@@ -75,6 +75,9 @@ ROLLING = (
     Quantity(
         "power_crown_mean", "Loss at the crown, mean", "W", ".3g", below="of it at the crown"
     ).defined_as("Part of the loss that rolling on the crown takes."),
+    Quantity("power_element_max", "Maximum loss of an element", "W", ".4g").defined_as(
+        "Maximum power that one element loses at cam and crown together, N_S of the paper."
+    ),
     Quantity("efficiency_by_energy", "Efficiency by energy", "%", ".3f").defined_as(
         "Power out over power in; in the mode as_published the efficiency itself is the product (23) of the "
         "paper."

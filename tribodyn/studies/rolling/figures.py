@@ -20,9 +20,11 @@ from tribodyn.studies.rolling.gear_picture import draw_gear
 CURVES = (
     "Normal load on the cam",
     "Slip of the elements over the cam",
-    "Power lost by one element, at cam and crown",
+    "Power lost by one element",
     "The same, added up",
 )
+#: Lines of the losses of an element.
+LOSSES = (("cam", "-"), ("crown", "--"), ("both, $N_S$", ":"))
 #: Their datasets, and the last angle of the loaded half.
 SHOWN, HALF = ("normal_load", "slip_speed", "power_cam", "power_crown"), np.pi * (1 + 1e-12)
 
@@ -76,7 +78,7 @@ def _four_panels(records: Sequence[Record], curves: Callable[[Record], ElementCu
     for number, record in enumerate(records):
         draw_curve(panels, curves(record), PALETTE[number % len(PALETTE)], curves is by_number)
     _finish_axes(panels, panels[2:], curves is by_number)
-    return _finish(drawn, panels, CURVES, records, (("cam", "-"), ("crown", "--")))
+    return _finish(drawn, panels, CURVES, records, LOSSES)
 
 
 def draw_curve(panels: Sequence[Axes], curve: ElementCurves, color: str, marked: bool) -> None:
@@ -89,6 +91,7 @@ def draw_curve(panels: Sequence[Axes], curve: ElementCurves, color: str, marked:
         axes.plot(curve.x, y, **style)
         axes.set_ylabel(label)
     panels[2].plot(curve.x, curve.crown, linestyle="--", **style)
+    panels[2].plot(curve.x, curve.cam + curve.crown, linestyle=":", **style)
 
 
 def _finish_axes(panels: Sequence[Axes], labelled: Sequence[Axes], by_element: bool) -> None:
@@ -196,7 +199,7 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
     moving = record.samples > 1
     draw_curve(panels, by_angle(record), PALETTE[0], marked=not moving)
     _finish_axes(panels, panels, by_element=False)
-    panels[2].legend(["cam", "crown"])
+    panels[2].legend([name for name, _ in LOSSES])
     if moving:
         part, x = _cycles(record, view)
         draw_loads(rows[1, 2], x, record["normal_load"][part], PALETTE[0])

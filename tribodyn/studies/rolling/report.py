@@ -17,16 +17,17 @@ REPORTED: Reported = {
     ),
     "Tribology": quantities("slip_speed_max", "spin_speed_max"),
     "Energy": quantities(
-        "power_in_mean", "power_friction_mean", "power_cam_mean", "power_crown_mean", "efficiency"
+        *("power_in_mean", "power_friction_mean", "power_cam_mean", "power_crown_mean"),
+        *("power_element_max", "efficiency"),
     ),
     "Solver": quantities("wall_time"),
 }
 
 SWEPT = quantities(
     *("efficiency", "efficiency_by_energy"),
+    *("power_friction_mean", "power_element_max", "power_cam_mean", "power_crown_mean"),
     *("normal_load_max", "slip_speed_max", "spin_speed_max"),
     *("output_torque_mean", "output_torque_peak_to_peak"),
-    *("power_friction_mean", "power_cam_mean", "power_crown_mean"),
 )
 
 #: What the modes amount to.

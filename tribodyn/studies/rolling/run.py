@@ -161,8 +161,9 @@ class RevolutionStatistics:
         }
         for name, values in over_time.items():
             self.sums[name] = self.sums.get(name, 0.0) + float(np.sum(values[part]))
-        for name in ("normal_load", "slip_speed", "spin_speed"):
-            maximum = float(np.max(np.abs(getattr(state, name))))
+        largest = {name: np.abs(getattr(state, name)) for name in ("normal_load", "slip_speed", "spin_speed")}
+        for name, values in (largest | {"power_element": state.power_cam + state.power_crown}).items():
+            maximum = float(np.max(values))
             self.maximum[name] = max(self.maximum.get(name, 0.0), maximum)
         loads = state.normal_load
         self.loaded |= {int(n) for n in np.sum(loads > UNLOADED * loads.max(), axis=-1)}

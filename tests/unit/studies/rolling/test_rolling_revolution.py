@@ -97,6 +97,8 @@ def test_the_summary_of_a_revolution_in_plain_loops(case: RollingCase):
         assert found[f"{name}_max"] == pytest.approx(
             max(np.max(np.abs(getattr(moment, name))) for moment in states)
         )
+    lost = max(float(np.max(moment.power_cam + moment.power_crown)) for moment in states)
+    assert found["power_element_max"] == pytest.approx(lost)
     loaded = [int(np.sum(moment.normal_load > 1e-6 * found["normal_load_max"])) for moment in states]
     assert (found["elements_loaded_min"], found["elements_loaded_max"]) == (min(loaded), max(loaded))
     assert found["mesh_frequency"] == pytest.approx(12.0 * 70.0 / (2.0 * math.pi))
