@@ -95,7 +95,7 @@ def test_contact_ratios_part_with_shift_and_torque():
 
 def test_every_figure_is_drawn_with_named_axes():
     assert list(FIGURES) == [f"figure-{number:02d}" for number in range(5, 21)]
-    for name in ("figure-05", "figure-06", "figure-07", "figure-08", "figure-10", "figure-14"):
+    for name in ("figure-5", "figure-6", "figure-7", "figure-8", "figure-10", "figure-14"):
         with house_style():
             drawn = FIGURES[name](Path())
         assert drawn.axes[0].get_ylabel()

@@ -181,11 +181,11 @@ def _legend(figure: Figure, axes: Axes, lines: dict[str, Any], columns: int) -> 
 
 
 FIGURES: dict[str, Callable[[Path], Figure]] = {
-    "figure-05": comparison,
-    "figure-06": partial(efficiency, "S1"),
-    "figure-07": partial(contact_ratio, "S1"),
-    "figure-08": partial(over_roll, "S1", "share"),
-    "figure-09": partial(over_roll, "S1", "loss"),
+    "figure-5": comparison,
+    "figure-6": partial(efficiency, "S1"),
+    "figure-7": partial(contact_ratio, "S1"),
+    "figure-8": partial(over_roll, "S1", "share"),
+    "figure-9": partial(over_roll, "S1", "loss"),
     "figure-10": partial(by_condition, "S1", 0.2),
     "figure-11": partial(efficiency, "S2"),
     "figure-12": partial(over_roll, "S2", "share"),
