@@ -94,7 +94,7 @@ def test_contact_ratios_part_with_shift_and_torque():
 
 
 def test_every_figure_is_drawn_with_named_axes():
-    assert list(FIGURES) == [f"figure-{number:02d}" for number in range(5, 21)]
+    assert list(FIGURES) == [f"figure-{number}" for number in range(5, 21)]
     for name in ("figure-5", "figure-6", "figure-7", "figure-8", "figure-10", "figure-14"):
         with house_style():
             drawn = FIGURES[name](Path())
