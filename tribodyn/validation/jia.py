@@ -64,14 +64,19 @@ def elastic(name: Name) -> PairFlexibility:
     return flexibility(assemble(family(case.family), case.drive), case.materials, lead=True, held=True)
 
 
+def modified(state: FaceState) -> FlankModification:
+    """Return the flanks of the pinion."""
+    relief = state.relief * 1e-6
+    return FlankModification(lead=LeadRelief(relief, relief, state.unmodified * 1e-3))
+
+
 @cache
 def rolled(name: Name, state: FaceState = FaceState()) -> LoadedContact:
     """One mesh cycle of a drive in slow rotation."""
     flexible = elastic(name)
     teeth = flexible.assembly.drive
-    relief = state.relief * 1e-6
     modifications = Modifications(
-        pinion=FlankModification(lead=LeadRelief(relief, relief, state.unmodified * 1e-3)),
+        pinion=modified(state),
         misalignment=Misalignment(in_plane=state.misalignment * ARC_MINUTE),
     )
     torque = PINION_TORQUE * teeth.gear.teeth / teeth.pinion.teeth

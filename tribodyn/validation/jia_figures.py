@@ -1,4 +1,4 @@
-"""Figures 14, 16, 17 and 19 to 21 of Jia et al.: loads along the face, stresses over the pinion's angle.
+"""Figures 13, 14, 16, 17 and 19 to 21 of Jia et al.: loads along the face, stresses over the pinion's angle.
 
 Where the paper draws contact stress these show the maximum line load along the face, which its figures
 behave like (docs/validation.md); Hertz pressures have a figure of their own.
@@ -14,8 +14,9 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.post.style import mark_panel, new_figure
-from tribodyn.validation.jia import CROWNED, FaceState, Name, face_load, passage
+from tribodyn.post.style import PALETTE, mark_panel, new_figure
+from tribodyn.validation import jia_profiles
+from tribodyn.validation.jia import CROWNED, DRIVES, FaceState, Name, face_load, passage
 
 FACE = "From the middle of the face (mm)"
 ROLL = "Pinion angle from the pitch point (°)"
@@ -88,7 +89,28 @@ def _draw(axes: Axes, quantity: str, panel: Panel) -> None:
         axes.plot(along, QUANTITIES[quantity][1] * values, color=colour, label=label)
 
 
+def compared(_: Path) -> Figure:
+    """Line load and root stresses of the parabolic gears beside the involute's."""
+    quantities = ("line_load", "compression", "tension")
+    figure = new_figure(height=7.2)
+    rows = figure.subplots(len(quantities), 1, sharex=True)
+    for letter, axes, quantity in zip("abc", rows, quantities, strict=True):
+        label, factor = QUANTITIES[quantity]
+        for colour, drive in zip(PALETTE, DRIVES, strict=False):
+            course = passage(drive)
+            values = factor * getattr(course, quantity)
+            axes.plot(np.degrees(course.roll), values, color=colour, label=drive)
+        axes.set_ylabel(label)
+        axes.set_ylim(bottom=0.0)
+        mark_panel(axes, letter)
+    rows[-1].set_xlabel(ROLL)
+    rows[0].legend()
+    return figure
+
+
 FIGURES: dict[str, Callable[[Path], Figure]] = {
+    **jia_profiles.FIGURES,
+    "figure-13": compared,
     "figure-14": partial(_figure, 3.0, ["face"], RELIEVED),
     "figure-16": partial(_figure, 7.2, ["line_load", "compression", "tension"], RELIEVED),
     "figure-17": partial(_figure, 5.2, ["face"], MISALIGNED),

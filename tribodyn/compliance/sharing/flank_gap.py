@@ -100,7 +100,7 @@ def lead_gap(
     total = np.zeros_like(face_position)
     for side in SIDES:
         width = float(body_of(assembly.drive, side).face_width)
-        total = total + _along_face(getattr(modifications, side).lead, width, face_position)
+        total = total + along_face(getattr(modifications, side).lead, width, face_position)
     return total
 
 
@@ -207,7 +207,8 @@ def _relieved(relief: Relief, distance: PerContact) -> PerContact:
     return relief.amount * share**relief.exponent
 
 
-def _along_face(lead: LeadRelief, width: float, position: Float[Array, " slice"]) -> Float[Array, " slice"]:
+def along_face(lead: LeadRelief, width: float, position: Float[Array, " slice"]) -> Float[Array, " slice"]:
+    """Relief of a gear (m) at places along its face, m from the middle."""
     straight = lead.unmodified / 2.0
     share = np.maximum(np.abs(position) - straight, 0.0) / (width / 2.0 - straight)
     crowned = lead.crowning * (2.0 * position / width) ** 2
