@@ -1,6 +1,7 @@
 """`tribodyn validate`: a row for every published number, and an exit status that says whether they hold."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -47,7 +48,9 @@ def test_a_paper_without_figures_says_so_before_it_runs(tmp_path: Path):
 
 
 @pytest.mark.parametrize("paper", [name for name, paper in PAPERS.items() if paper.figures])
-def test_figures_have_names_of_their_own(paper: str):
+def test_pictures_are_named_after_the_papers_figures(paper: str):
+    """Several of one figure have a part of their own at the end."""
     names = tribodyn.validation.figure_names(paper)
     assert len(names) >= 5
     assert len(set(names)) == len(names)
+    assert [name for name in names if not re.fullmatch(r"figure-[1-9]\d?(-[a-z-]+)?", name)] == []

@@ -31,6 +31,8 @@ from tribodyn.validation.rows import Row, compare_paper
 PAPER = "diez-ibarbia"
 #: The other reading of Table 1.
 ON_GEAR = "Table 1's torque on the gear"
+#: Share below which a difference of contact ratios, and of losses, is negligible: the tolerances of rows.
+_EQUAL_RATIO, _EQUAL_LOSS = 0.01, 0.05
 
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
@@ -74,6 +76,7 @@ def _unshifted(
     by_model = {name: cycle.efficiency for name, cycle in cycles.items()}
     above = {name: 100.0 * (by_model[name] - efficiency[name]) for name in ("OC2", "OC1", "OC4")}
     ratios = [cycles[name].contact_ratio for name in above]
+    longer = [ratio / theory - 1.0 for ratio in ratios]
     prefix = "diez/claim-"
     return {
         f"{prefix}efficiency-order-oc2-oc5-oc3-oc1-oc4": (
@@ -92,6 +95,10 @@ def _unshifted(
         f"{prefix}effective-contact-ratio-above-the-theore": (
             theory < ratios[0] < ratios[1] < ratios[2],
             " / ".join(f"{ratio:.3f}" for ratio in ratios) + f" at OC2 / OC1 / OC4, theoretical {theory:.3f}",
+        ),
+        f"{prefix}contact-ratio-negligible-at-oc2": (
+            longer[0] < _EQUAL_RATIO < longer[2],
+            f"above the theoretical by {100 * longer[0]:.1f} % at OC2, {100 * longer[2]:.1f} % at OC4",
         ),
     }
 
@@ -127,8 +134,14 @@ def _shifted(progress: Callable[[float], None] | None) -> dict[str, tuple[bool, 
     speed = [
         courses[s, slow] < courses[s, fast] for s in SHIFTS for slow, fast in (("OC1", "OC3"), ("OC3", "OC5"))
     ]
+    share = {name: np.max(apart["S3", name] / (1.0 - courses["S3", name][0])) for name in ("OC2", "OC4")}
     prefix = "diez/claim-"
     return {
+        f"{prefix}approaches-negligibly-apart-at-oc2": (
+            bool(share["OC2"] < _EQUAL_LOSS < share["OC4"]),
+            f"apart by at most {100 * share['OC2']:.1f} % of Höhn's loss at OC2, "
+            f"{100 * share['OC4']:.1f} % at OC4",
+        ),
         f"{prefix}efficiency-falls-with-shift": (
             bool(all(np.all(np.diff(course) < 0.0) for course in courses.values())),
             "; ".join(notes),

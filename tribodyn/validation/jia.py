@@ -25,6 +25,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import hertz_pressure
+from tribodyn.validation.jia_positions import Passage, positions
 from tribodyn.validation.rows import Row, compare_paper
 
 Name = Literal["involute", "parabolic"]
@@ -119,17 +120,6 @@ def _maximum(run: LoadedContact, values: np.ndarray) -> Maximum:
         float(np.degrees(run.roll[position, pair])),
         1e3 * float(run.slice_position[part]),
     )
-
-
-class Passage(NamedTuple):
-    """What one pair of teeth goes through, over increasing pinion angle (point,), maximum over the face."""
-
-    roll: np.ndarray  # pinion angle from the pitch point, rad
-    line_load: np.ndarray  # N/m
-    pressure: np.ndarray  # maximum Hertz pressure, Pa
-    #: compression, tension: maximum root stress of both gears, Pa, as amounts
-    compression: np.ndarray
-    tension: np.ndarray
 
 
 def passage(name: Name, state: FaceState = FaceState()) -> Passage:
@@ -237,6 +227,8 @@ def tables() -> dict[str, tuple[Any, ...]]:
         for states in tilted.values()
         for state in states
     ]
+    involute, parabolic = (passage(name) for name in DRIVES)
+    found |= positions(involute, parabolic, [passage("parabolic", state) for state in relief])
     note = "line loads and root stresses, modified or not, at 0 to 3 arcmin"
     found["jia/claim-parabolic-below-involute"] = lower, note, (_PRESSURES, all(pressures))
     return found
