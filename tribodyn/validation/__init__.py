@@ -73,13 +73,15 @@ PAPERS = {
     "helical-report-2017": Paper(
         "tribodyn.validation.books.helical_report_2017",
         "Design report of a helical stage (KISSsoft 2017): ISO 6336 and its parts, row by row",
-        "as the report does: load factors from its tolerances, roots with tips in the middle of theirs",
+        "as the report does: load factors from its tolerances, roots with tips in the middle of theirs, "
+        "X_J 1",
         source=Listing(
             "KISSsoft, release 03/2017 A",
             "ISO 6336:2006, ISO/TR 15144-1:2014, ISO/TR 13989:2000, ISO/DTR 19042-1 (2016), DIN 3960:1987, "
             "ISO 1328-1:1995",
             "none named (academic licence of the program, NTNU)",
-            "github.com/gfsReboucas/Drivetrain, @NREL_5MW/stage_03.rtf",
+            "github.com/gfsReboucas/Drivetrain, @NREL_5MW/stage_03.rtf; more digits of its inputs in "
+            "stage_03.Z12, commit 3642f03",
             "inputs; hardening depth by DNV 41.2, pin measures by AGMA 2002, reliability after Bertsche, "
             "sound after Masuda, lives beyond 10^6 h: not computed here",
         ),

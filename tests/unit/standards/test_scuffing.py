@@ -49,6 +49,18 @@ def test_blok_is_the_adapted_form_for_spur_gears():
     np.testing.assert_allclose(found / found[0], adapted / adapted[0], rtol=1e-6)
 
 
+def test_a_driven_tooth_without_relief_is_struck_before_the_pitch_point():
+    """Another program's FZG pair, C_eff 18 µm: 47, 31, 29, 33 K at A, B, D, E, where Blok gives others."""
+    path = fzg.test_path()
+    places = paths.point_distances(path)
+    found = scuffing.flash_approach(places[3] - places, path.length, 18e-6)
+    assert found[0] == pytest.approx(47.0 / 46.05 * (31.94 + 29.94 + 34.24) / (31 + 29 + 33), rel=0.015)
+    assert found[0] == pytest.approx(1.0 + 18.0 / 50.0 * (0.68 / 1.37) ** 3, abs=2e-3)
+    assert found[3:] == pytest.approx(1.0)
+    beyond = scuffing.flash_approach(np.array([2.0 * path.length]), path.length, 50e-6)
+    assert beyond == pytest.approx([2.0])
+
+
 def test_strength_of_an_oil_from_its_load_stage():
     assert fzg.scuffing_torque(12) == pytest.approx(534.5, rel=5e-3)  # ISO 14635-1: load stage 12
     assert fzg.scuffing_temperature(12.0, 0.85) - 273.15 == pytest.approx(80.0 + 2.25 * 0.85 * 144.0)

@@ -29,6 +29,7 @@ _TORQUE = 5000e3 / _SPEED
 #: As printed; F_t/b K_A in N/m.
 _LINE_LOAD = 2.0 * _TORQUE / (shape.REFERENCE[0] * 1e-3) / (shape.WIDTH * 1e-3) * 1.25
 _FACE = 1.15
+_RATIO = shape.contact_ratio()
 #: f_pb, f_fα and C_a as printed, m.
 _PITCH, _PROFILE, _RELIEF = 15.9e-6, 22e-6, 2e-6
 GIVEN = {
@@ -43,6 +44,8 @@ GIVEN = {
     "assessment.tip_relief": "2 um",
     "lubricant.fzg_scuffing_stage": 14,
     "operating.pinion_speed": f"{shape.SPEED} rpm",
+    "drive.pressure_angle": f"{shape.ALPHA} rad",
+    "drive.helix_angle": f"{shape.HELIX} rad",
     "drive.material.thermal_conductivity": "50 W/(m*K)",
     "drive.material.density": "7830 kg/m**3",
     "drive.material.specific_heat": "485 J/(kg*K)",  # B_M 13.78
@@ -75,7 +78,10 @@ def _values() -> dict[str, Any]:
     }
     found = shape.geometry(assemblies) | measures(ends) | tolerances_1995(2.884) | _loads() | factors
     found["alfFen"] = both(lambda i: math.degrees(sections[i].load_angle))
-    found |= _root(roots) | _flank(named) | films(case, standard) | scuffed(case, standard, _SPEED)
+    relieved = _rated(given | {"assessment.tip_relief": "1 mm"})[1]  # X_J 1, as the report has it
+    flash = relieved.flash_bulk, relieved.flash_contact
+    found |= _root(roots, factors) | _flank(named) | films(case, standard)
+    found |= scuffed(case, standard, _SPEED, flash)
     return found | _masses() | _losses(case, standard)
 
 
@@ -100,7 +106,7 @@ def _rated(changes: Mapping[str, Any]) -> tuple[Any, Standard, Any]:
 def _stiffness() -> iso6336.ReferenceStiffness:
     """c′ with the gear blank factor of web 0.25 and rim 5, of the virtual teeth."""
     pair = iso6336.ReferencePair(
-        (24.0, 95.0), shape.SHIFTS, (1.25, 1.25), shape.ALPHA, 1.46274, _LINE_LOAD, helix_angle=shape.HELIX
+        (24.0, 95.0), shape.SHIFTS, (1.25, 1.25), shape.ALPHA, _RATIO, _LINE_LOAD, helix_angle=shape.HELIX
     )
     return iso6336.reference_stiffness(pair._replace(blank=iso6336.blank_factor(0.25, 5.0)))
 
@@ -141,7 +147,7 @@ def _factors() -> dict[str, Any]:
         _LINE_LOAD,
         _PITCH,
         _PROFILE,
-        2.88407,
+        _RATIO + shape.OVERLAP,
         _RELIEF,
         6.0,
         (hard, hard),
@@ -149,11 +155,11 @@ def _factors() -> dict[str, Any]:
     dynamic = load_factors.dynamic_factor(mesh)
     load = _LINE_LOAD * dynamic.factor * _FACE
     transverse, plain = (
-        load_factors.transverse_factor_b((1.46274, shape.OVERLAP), stiffness.mesh, after, load)
+        load_factors.transverse_factor_b((_RATIO, shape.OVERLAP), stiffness.mesh, after, load)
         for after in (_PROFILE - hard.of(_PITCH), _PITCH - hard.of(_PITCH))
     )
     assert plain < transverse
-    slender = shape.WIDTH / ((shape.TIPS[0] - shape.ROOTS[0]) / 2.0)
+    slender = shape.WIDTH / shape.cut_height()
     return {
         "yp": 1e6 * hard.of(_PITCH),
         "yf": 1e6 * hard.of(_PROFILE),
@@ -175,7 +181,7 @@ def _factors() -> dict[str, Any]:
         "KHa": transverse,
         "KFa": transverse,
         "KBa": transverse,
-        "Kbg": contact_path.helical_load_factor(2.88407),
+        "Kbg": contact_path.helical_load_factor(_RATIO + shape.OVERLAP),
     }
 
 
@@ -183,8 +189,10 @@ def _sides(named: Mapping[str, Any], name: str, unit: float = 1.0) -> tuple[floa
     return named[name]["pinion"] / unit, named[name]["gear"] / unit
 
 
-def _root(named: Mapping[str, Any]) -> dict[str, Any]:
-    safety = _sides(named, "S_F")
+def _root(named: Mapping[str, Any], factors: Mapping[str, Any]) -> dict[str, Any]:
+    """Section 3, stresses with the K_Fβ of the height of the teeth as they are cut."""
+    more = factors["KFb"] / named["K_Fbeta"]
+    safety = both(lambda i: _sides(named, "S_F")[i] / more)
     product = both(
         lambda i: math.prod(_sides(named, name)[i] for name in ("Y_delta_relT", "Y_R_relT", "Y_X", "Y_NT"))
     )
@@ -198,7 +206,6 @@ def _root(named: Mapping[str, Any]) -> dict[str, Any]:
             ("roF", "rho_F", 1e-3),
             ("YB", "Y_B", 1.0),
             ("sigF0", "sigma_F0", 1e6),
-            ("sigF", "sigma_F", 1e6),
             ("YdrelT", "Y_delta_relT", 1.0),
             ("YRrelT", "Y_R_relT", 1.0),
             ("YX", "Y_X", 1.0),
@@ -206,10 +213,11 @@ def _root(named: Mapping[str, Any]) -> dict[str, Any]:
             ("YNT", "Y_NT", 1.0),
             ("sigFG", "sigma_FG", 1e6),
             ("sigFP", "sigma_FP", 1e6),
-            ("SF", "S_F", 1.0),
         )
     }
     return found | {
+        "sigF": both(lambda i: _sides(named, "sigma_F", 1e6)[i] * more),
+        "SF": safety,
         "Ybet": _sides(named, "Y_beta")[0],
         "YDT": _sides(named, "Y_DT")[0],
         "Y_product": product,

@@ -11,10 +11,11 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.contact_lines import contact_lines
 from tribodyn.standards.allowances import centre_distance_allowance, thickness_allowances
 
-MODULE, ALPHA, HELIX, CENTRES, WIDTH = 14.0, math.radians(20.0), math.radians(10.0), 861.0, 360.0
-#: Speed, 1/min, that the printed load cycles are of; 1165.9 is printed.
-SPEED = 1165.8855
-TEETH, BORES = (24, 95), (179.1, 1193.32)
+#: Inputs to the digits of the program's own file of the same minute: 20°, 10°, 1165.9/min, bores to 0.01 mm
+#: are printed.
+MODULE, ALPHA, HELIX, CENTRES, WIDTH = 14.0, 0.349066, 0.174533, 861.0, 360.0
+SPEED = 1165.885417
+TEETH, BORES = (24, 95), (179.101, 1193.318)
 #: Lower end of the tip diameters' tolerance.
 TIP_TOLERANCE = 0.1
 TRANSVERSE = math.atan(math.tan(ALPHA) / math.cos(HELIX))
@@ -110,6 +111,19 @@ def geometry(assemblies: dict[str, Assembly]) -> dict[str, Any]:
             )
     found["Lmin"] = 1e3 * float(contact_lines(assemblies[""]).minimum)
     return found
+
+
+def contact_ratio() -> float:
+    """ε_α."""
+    points = path_points(TIPS, CENTRES)
+    return (points["E"][0] - points["A"][0]) / PITCH
+
+
+def cut_height() -> float:
+    """The greater height of both gears' teeth, roots as they are cut, in the middle of their tolerance."""
+    ends = thickness_ends()
+    deeper = both(lambda i: -(ends["e"][i] + ends["i"][i]) / (4.0 * math.tan(ALPHA)))
+    return max(both(lambda i: (TIPS[i] - ROOTS[i]) / 2.0 + deeper[i]))
 
 
 def _plain(working: float) -> dict[str, Any]:

@@ -107,8 +107,9 @@ def tolerances_1995(total_contact_ratio: float) -> dict[str, Any]:
     }
     sizes = both(lambda i: REFERENCE[i] * 1e-3)
     composite = [tolerances.single_flank_1995(6, MODULE * 1e-3, size, total_contact_ratio) for size in sizes]
-    # ISO 1328-2:1997, annex A
-    radial = both(lambda i: math.sqrt(2.0) * (3.2 * MODULE + 1.01 * math.sqrt(REFERENCE[i]) + 6.4))
+    # ISO 1328-2:1997, annex A, of the mean of the range from 280 to 560 mm; beyond 1000 mm there is none
+    mean = (math.sqrt(280.0 * 560.0), REFERENCE[1])
+    radial = both(lambda i: math.sqrt(2.0) * (3.2 * MODULE + 1.01 * math.sqrt(mean[i]) + 6.4))
     tooth = both(lambda i: math.sqrt(2.0) * (2.96 * MODULE + 0.01 * math.sqrt(REFERENCE[i]) + 0.8))
     return found | {
         "fpbT": both(lambda i: round(found["fptT"][i] * math.cos(TRANSVERSE), 1)),

@@ -50,8 +50,8 @@ def films(case: Any, standard: Standard) -> dict[str, Any]:
     }
 
 
-def scuffed(case: Any, standard: Standard, speed: float) -> dict[str, Any]:
-    """Section 5: ISO/TR 13989-1 and -2."""
+def scuffed(case: Any, standard: Standard, speed: float, flash: tuple[float, float]) -> dict[str, Any]:
+    """Section 5: ISO/TR 13989-1 and -2; bulk and contact temperature with X_J 1, K."""
     path, integral, oil = standard.path, standard.integral, case.oil_temperature
     strength, flanks = strength_of(case.lubricant, oil), flanks_of(case)
     assert integral is not None
@@ -60,7 +60,6 @@ def scuffed(case: Any, standard: Standard, speed: float) -> dict[str, Any]:
     factors, viscosity = standard.factors, float(case.lubricant.sheet.viscosity(oil))
     line_load = factors.line_load * factors.dynamic_factor * factors.duty.face * factors.transverse
     distance = np.linspace(0.0, path.length, 201)
-    hottest = standard.flash_contact - standard.flash_bulk
     pitch_point = contact_path.point_distances(path)[3]
     radius = float(contact_path.equivalent_radius(path, pitch_point))
     lubricant = scuffing.lubricant_factor(1.0, viscosity)
@@ -76,18 +75,18 @@ def scuffed(case: Any, standard: Standard, speed: float) -> dict[str, Any]:
         "wBt": 1e-3 * line_load,
         "Xalfbet": scuffing.pressure_angle_factor(path.pressure_angle, shape.ALPHA, shape.HELIX),
         "XL_fla": lubricant,
-        "theMi": standard.flash_bulk - 273.15,
-        "theflm": (standard.flash_bulk - oil) / 0.47,
+        "theMi": flash[0] - 273.15,
+        "theflm": (flash[0] - oil) / 0.47,
         "theS": strength.scuffing - 273.15,
         "Gamma_max": (path.length - float(pitch_point))
         / (path.base_radius[0] * math.tan(path.pressure_angle)),
-        "theB": standard.flash_bulk + hottest - 273.15,
+        "theB": flash[1] - 273.15,
         "XM": scuffing.thermal_flash_factor(flanks.reduced_modulus, flanks.thermal_contact[0]),
         "XJ": 1.0,
         "XGam": float(contact_path.flash_share(path, distance[-1])),
         "etaM": 1e3 * viscosity,
         "mu_fla": friction,
-        "SB": scuffing.flash_safety(strength.scuffing, standard.flash_contact, oil),
+        "SB": scuffing.flash_safety(strength.scuffing, flash[1], oil),
         "theMC": integral.bulk - 273.15,
         "theflaint": integral.flash_rise,
         "theSint": strength.scuffing_integral - 273.15,

@@ -85,10 +85,12 @@ def scuffed(case: Any, standard: Any, stiffness: ReferenceStiffness, factor: flo
         "S_B": scuffing.flash_safety(strength.scuffing, standard.flash_contact, case.oil_temperature),
     }
     found |= {f"Gamma_{name}": float(gamma) for name, gamma in zip("ABCDE", gammas, strict=True)}
-    return found | _flashes(case, standard, friction, flanks, factor)
+    return found | _flashes(case, standard, friction, flanks, factor, 1e-6 * found["C_eff_fla"])
 
 
-def _flashes(case: Any, standard: Any, friction: float, flanks: Any, factor: float) -> dict[str, float]:
+def _flashes(
+    case: Any, standard: Any, friction: float, flanks: Any, factor: float, effective: float
+) -> dict[str, float]:
     """Flash temperature at A, B, D, E."""
     path = standard.path
     places = contact_path.point_distances(path)[[0, 2, 4, 6]]
@@ -99,4 +101,6 @@ def _flashes(case: Any, standard: Any, friction: float, flanks: Any, factor: flo
     width = np.sqrt(8.0 * load * radii / (np.pi * flanks.reduced_modulus))
     speeds = contact_path.rolling_speeds(path, places, case.operating.pinion_speed)
     rises = scuffing.flash_rise(friction, load, width, speeds, flanks.thermal_contact)
+    before = contact_path.point_distances(path)[3] - places
+    rises *= scuffing.flash_approach(before, path.length, effective)
     return {f"theta_fl_{name}": float(rise) for name, rise in zip("ABDE", rises, strict=True)}

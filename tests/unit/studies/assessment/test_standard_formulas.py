@@ -215,6 +215,10 @@ def test_flash_temperature_place_by_place(harder: Standard):
         curved = first * second / (first + second)
         half = math.sqrt(8.0 * line * share * curved / (math.pi * modulus))  # mm
         heat = 1.11 * friction * line * share * 1e3 * abs(v1 - v2)
+        # X_J of unmodified flanks before the pitch point, C_eff = K_A F_bt/(b c_γα) in µm
+        struck = max(at_pitch[0] - first, 0.0) / length
+        relief = APPLICATION * TORQUE * 1e3 / BASE[0] / WIDTH / (harder.factors.stiffness.mesh * 1e-9)
+        heat *= 1.0 + relief / 50.0 * struck**3
         rises.append(heat / (math.sqrt(2e-3 * half) * CONTACT * (math.sqrt(v1) + math.sqrt(v2))))
     bulk = OIL + 273.15 + 0.47 * SPRAYED * sum(rises) / len(rises)
     assert harder.flash_bulk == pytest.approx(bulk, rel=1e-6)

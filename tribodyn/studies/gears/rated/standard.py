@@ -170,7 +170,7 @@ def standard_of(case: OiledCase, assembly: Assembly, duty: RatedDuty) -> Standar
     )
     flanks, oil = flanks_of(case), oil_of(case.lubricant)
     films = micropitting.method_b(path, flanks, loaded, oil)
-    bulk, contact = _flash(case, path, loaded, flanks, oil)
+    bulk, contact = _flash(case, path, loaded, factors, flanks, oil)
     integral = _integral(case, path, loaded, factors, flanks, oil) if path.ratio > 0.0 else None
     return Standard(path, films, factors, loss_factor(path), bulk, contact, integral)
 
@@ -201,7 +201,9 @@ def _integral(
     return scuffing.integral_temperature(path, mesh)
 
 
-def _flash(case: OiledCase, path: ContactPath, load: Load, flanks: Flanks, oil: Oil) -> tuple[float, float]:
+def _flash(
+    case: OiledCase, path: ContactPath, load: Load, factors: LoadFactors, flanks: Flanks, oil: Oil
+) -> tuple[float, float]:
     """Bulk and maximum contact temperature of ISO/TS 6336-20, K."""
     distance = np.linspace(0.0, path.length, _PLACES)
     radius, speeds = equivalent_radius(path, distance), rolling_speeds(path, distance, load.pinion_speed)
@@ -217,6 +219,10 @@ def _flash(case: OiledCase, path: ContactPath, load: Load, flanks: Flanks, oil: 
     normal = line_load * flash_share(path, distance, flanks.quality)
     width = np.sqrt(8.0 * normal * radius / (np.pi * flanks.reduced_modulus))
     rise = scuffing.flash_rise(friction, normal, width, speeds, flanks.thermal_contact)
+    relief, duty = load.application * load.pinion_torque / path.base_radius[0] / load.face_width, factors.duty
+    relief /= factors.stiffness.mesh  # C_eff
+    missing = 0.0 if duty.adequate_tip_relief else max(relief - duty.tip_relief, 0.0)
+    rise *= scuffing.flash_approach(pitch_point - distance, path.length, missing)
     supply = micropitting.LUBRICATION_FACTORS[load.lubrication]
     bulk = scuffing.bulk_temperature(load.oil_temperature, float(np.mean(rise)), supply)
     return bulk, bulk + float(np.max(rise))
