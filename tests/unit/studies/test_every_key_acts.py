@@ -16,6 +16,9 @@ import pytest
 from tools.by_schema.changes import keys_of, opened
 from tools.by_schema.effects import acts, is_table, of_case, of_run, silent
 from tools.by_schema.keys import SchemaKey
+from tribodyn.errors import InputError
+from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.parts import request_of
 
 soak = pytest.mark.soak
 #: Pattern of a key that leaves the results of a kind as they are -> why.
@@ -108,6 +111,17 @@ def test_a_key_that_is_taken_changes_the_result(
     assert acting >= least
 
 
+def of_case_and_parts(case: Any) -> str:
+    """A case; of an assessment also what its parts get of the scenario, or why they get nothing."""
+    parts: Any = ""
+    if isinstance(case, AssessmentCase):
+        try:
+            parts = request_of(case)._asdict()
+        except InputError as error:
+            parts = str(error)
+    return of_case(case) + of_case(parts)
+
+
 @pytest.mark.parametrize(
     ("name", "every"),
     [
@@ -118,13 +132,14 @@ def test_a_key_that_is_taken_changes_the_result(
             for name in (
                 *("involute-18-36", "load-contact-18-36", "two-stage-reducer", "run-up", "wear-18-36"),
                 *("planetary-24-84", "helical-23-47", "ring-36-93", "efficiency-helical-fzg-20-30"),
-                *("ehl-crc-23-47", "design-shift-23-47"),
+                *("ehl-crc-23-47", "design-shift-23-47", "assessment-helical-24-95"),
+                "wind-turbine-gearbox-assessment",
             )
         ),
     ],
 )
 def test_a_key_that_is_taken_changes_the_case(name: str, every: int):
     still = name in ("load-contact-18-36", "wear-18-36", "efficiency-helical-fzg-20-30")
-    found, acting = idle(name, {}, of_case, CASES | (STILL if still else {}), every=every)
+    found, acting = idle(name, {}, of_case_and_parts, CASES | (STILL if still else {}), every=every)
     assert found == []
     assert acting >= 4
