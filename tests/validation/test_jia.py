@@ -148,8 +148,8 @@ def test_figures_are_drawn(rows):
     for draw in FIGURES.values():
         with house_style():
             drawn = draw(Path())
-        assert drawn.axes[0].get_ylabel()
-        assert drawn.axes[-1].get_xlabel()
+        assert any(axes.get_ylabel() for axes in drawn.axes)
+        assert any(axes.get_xlabel() for axes in drawn.axes)
 
 
 @pytest.mark.parametrize("teeth", [17.0, 29.0, 60.0])

@@ -1,4 +1,4 @@
-"""Figures 13, 14, 16, 17 and 19 to 21 of Jia et al.: loads along the face, stresses over the pinion's angle.
+"""Figures 13 to 21 of Jia et al.: loads along the face, stresses over the pinion's angle and of the tooth.
 
 Where the paper draws contact stress these show the maximum line load along the face, which its figures
 behave like (docs/validation.md); Hertz pressures have a figure of their own.
@@ -14,9 +14,22 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.post.style import PALETTE, mark_panel, new_figure
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
+from tribodyn.compliance.sharing.tooth_field import tooth_field
+from tribodyn.post.style import PALETTE, WIDTH, mark_panel, new_figure, panel_title
+from tribodyn.studies.load_contact import stress
 from tribodyn.validation import jia_profiles
-from tribodyn.validation.jia import CROWNED, DRIVES, FaceState, Name, face_load, passage
+from tribodyn.validation.jia import (
+    CROWNED,
+    DRIVES,
+    SLICES,
+    FaceState,
+    Name,
+    elastic,
+    face_load,
+    passage,
+    rolled,
+)
 
 FACE = "From the middle of the face (mm)"
 ROLL = "Pinion angle from the pitch point (°)"
@@ -108,12 +121,48 @@ def compared(_: Path) -> Figure:
     return figure
 
 
+def stresses(misalignment: float, wanted: Sequence[tuple[str, Name, FaceState]], _: Path) -> Figure:
+    """Von Mises stress of the pinion's tooth with the pair at the pitch point, one scale for all."""
+    fields = []
+    for _title, drive, state in wanted:
+        run = rolled(drive, state._replace(misalignment=misalignment))
+        position, pair = np.unravel_index(int(np.argmin(np.abs(run.roll))), run.roll.shape)
+        flanks = LoadedFlanks(elastic(drive), slices=SLICES)
+        fields.append(tooth_field(flanks, "pinion", run.roll[position], run.line_load[position], int(pair)))
+    columns = 2 if len(wanted) > 3 else len(wanted)
+    rows = len(wanted) // columns
+    figure = new_figure(1.3 * WIDTH, 2.6 * rows + 0.3)
+    scale, panels = stress.scale_of(fields), []
+    for number, ((title, _drive, _state), field) in enumerate(zip(wanted, fields, strict=True)):
+        panels.append(figure.add_subplot(rows, columns, number + 1, projection="3d"))
+        stress.draw_tooth(panels[-1], field, scale)
+        panels[-1].set_title(panel_title("abcd"[number], title), loc="left")
+    stress.add_bar(figure, scale, panels)
+    return figure
+
+
+_UNMODIFIED, _CROWNED = "unmodified", "8/8 µm, 8 mm"
+#: Panels of figures 15 and 18: title, drive, state.
+OF_RELIEF: tuple[tuple[str, Name, FaceState], ...] = (
+    (_UNMODIFIED, "parabolic", FaceState()),
+    ("8/8 µm, 0 mm", "parabolic", FaceState(8.0, 0.0)),
+    (_CROWNED, "parabolic", CROWNED),
+)
+OF_BOTH: tuple[tuple[str, Name, FaceState], ...] = tuple(
+    (f"{drive}, {title}", drive, state)
+    for title, state in ((_UNMODIFIED, FaceState()), (_CROWNED, CROWNED))
+    for drive in DRIVES
+)
+
+
 FIGURES: dict[str, Callable[[Path], Figure]] = {
     **jia_profiles.FIGURES,
     "figure-13": compared,
     "figure-14": partial(_figure, 3.0, ["face"], RELIEVED),
+    "figure-15": partial(stresses, 0.0, OF_RELIEF),
     "figure-16": partial(_figure, 7.2, ["line_load", "compression", "tension"], RELIEVED),
     "figure-17": partial(_figure, 5.2, ["face"], MISALIGNED),
+    "figure-18": partial(stresses, 3.0, OF_BOTH),
     "figure-19": partial(_figure, 5.2, ["line_load"], MISALIGNED),
     "figure-19-pressure": partial(_figure, 5.2, ["pressure"], MISALIGNED),
     "figure-20": partial(_figure, 5.2, ["compression"], MISALIGNED),

@@ -27,7 +27,7 @@ from tribodyn.compliance.sharing.pinned import check_even, on_pins
 from tribodyn.compliance.sharing.section import elastic_section, is_helical, length_per_width
 from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions, slice_compliance
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, MaterialData, body_of
+from tribodyn.geometry.drive import SIDES, MaterialData, Side, body_of
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
 from tribodyn.geometry.helix import pitch_slope, roll_shift
@@ -85,16 +85,7 @@ def flexibility(
         check_even(assembly)
     gears = [
         cached_gear_compliance(
-            ElasticGear(
-                section.tooth(side),
-                round(float(body_of(drive, side).teeth)),
-                meshed_bore(body_of(drive, side), section.tooth(side), held),
-                material.poisson_ratio,
-                depth * float(drive.module),
-                level,
-                body_of(drive, side).pins == 0,
-                held,
-            ),
+            elastic_gear(section, side, material, depth, level, held),
             width * length_per_width(assembly) if lead else None,
         )
         for side, material in steps(list(zip(SIDES, materials, strict=True)))
@@ -103,6 +94,21 @@ def flexibility(
         if body_of(drive, side).pins:
             gears[at] = on_pins(gears[at], section, side, materials[at], held)
     return PairFlexibility(assembly, materials, width, (gears[0], gears[1]))
+
+
+def elastic_gear(
+    section: Assembly,
+    side: Side,
+    material: MaterialData,
+    depth: float = DEPTH,
+    level: int = LEVEL,
+    held: bool = True,
+) -> ElasticGear:
+    """What the finite elements of a gear are of, in its elastic section; else as `flexibility`."""
+    body, tooth = body_of(section.drive, side), section.tooth(side)
+    teeth, bore = round(float(body.teeth)), meshed_bore(body, tooth, held)
+    near = depth * float(section.drive.module)
+    return ElasticGear(tooth, teeth, bore, material.poisson_ratio, near, level, body.pins == 0, held)
 
 
 def contact_deflection(

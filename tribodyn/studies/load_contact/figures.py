@@ -13,7 +13,7 @@ from tribodyn.post.figures.drawing import Drawing, drawing
 from tribodyn.post.figures.panel import record_label, record_title
 from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.load_contact import maps
+from tribodyn.studies.load_contact import maps, stress
 from tribodyn.studies.load_contact.case import BODIES
 
 MAP_CURVES = "Transmission error over the mesh cycle, less its mean, at every torque"
@@ -258,6 +258,12 @@ DRAWINGS: dict[str, Drawing] = {
         ("film-map", "{path} holds no film", "run the scenario with a lubricant and a speed"),
     ),
     "root-stress": _drawing("root stress on both sides of the tooth", _root_stress),
+    "stress": _drawing(
+        "finite elements and von Mises stress of loaded teeth at the pitch point",
+        stress.stress_figure,
+        stress.known,
+        ("stress", "{path} is of helical or internal teeth", "draw it of external spur teeth"),
+    ),
     "mesh-stiffness": _drawing("mesh stiffness", _mesh_stiffness),
     "harris": _drawing(
         "Harris map: loaded transmission error over torque",

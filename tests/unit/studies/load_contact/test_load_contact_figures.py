@@ -27,6 +27,10 @@ LABELS = {
     "line-load": ["Place on the face (mm)", "Line load (N/mm)", "Line load (N/mm)"],
     "pressure-map": ["Place on the face (mm)", "Hertz pressure (GPa)"],
     "root-stress": ["Root tension (MPa)", "", "Root compression (MPa)", ""],
+    "stress": [
+        *(2 * ["From the gear's axis (mm)", "Along the profile (mm)"]),
+        "von Mises stress (MPa)",
+    ],
     "mesh-stiffness": ["Mesh stiffness (N/µm)"],
 }
 
