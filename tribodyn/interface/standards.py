@@ -59,12 +59,12 @@ _PARTS = {
 #: Kind of quantity -> the arguments that are of it; all others are plain numbers.
 _ARGUMENTS = {
     units.LENGTH: (
-        "arm ball_diameter base_diameter base_radii base_radius centre_distance deviation diameter distance "
-        "face_width half_width mean_diameter mean_roughness middle_diameter misalignment module most "
-        "normal_module notch_radius pinion_diameter pitch_deviation pitch_diameter pitch_radius "
-        "profile_deviation radius reference_diameter reduced_radius reference_radius roller_diameter "
-        "roughness thickness tip_radius tip_radii tip_relief tolerance tooth_height transverse_module "
-        "bending.BendingGear.rim"
+        "arm ball_diameter before base_diameter base_radii base_radius centre_distance deviation diameter "
+        "distance face_width half_width mean_diameter mean_roughness middle_diameter misalignment "
+        "missing_relief module most normal_module notch_radius pinion_diameter pitch_deviation "
+        "pitch_diameter pitch_radius profile_deviation radius reference_diameter reduced_radius "
+        "reference_radius roller_diameter roughness thickness tip_radius tip_radii tip_relief tolerance "
+        "tooth_height transverse_module bending.BendingGear.rim scuffing.flash_approach.length"
     ),
     units.ANGLE_KIND: (
         "base_helix_angle contact_angle helix_angle load_angle normal_pressure_angle pressure_angle "

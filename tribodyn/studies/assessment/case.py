@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -43,6 +43,9 @@ LAYOUT = Layout(ROLL, SAMPLES, groups={"geometry": GEOMETRY})
 class AssessmentTable(RatingTable):
     """What is asked beyond the duty, and what the standards need to know."""
 
+    standard: Literal["iso", "agma"] = Field(
+        "iso", description="agma: rates the pair by AGMA 2101 too, beside ISO 6336"
+    )
     torque_shares: tuple[Positive, ...] = Field(
         (0.25, 0.5, 0.75, 1.0, 1.25),
         min_length=2,

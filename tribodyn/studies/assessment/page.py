@@ -93,7 +93,10 @@ def _factors(summary: Mapping[str, Any]) -> str:
     if not rows:
         return ""
     inside = numbers_table("Factors of ISO 6336", COLUMNS, rows)
-    return f'<details class="factors"><summary>Every factor of ISO 6336</summary>{inside}</details>'
+    page = f'<details class="factors"><summary>Every factor of ISO 6336</summary>{inside}</details>'
+    if american := rating_rows(summary.get("agma", {})):
+        page += numbers_table("Rating by AGMA 2101", COLUMNS, american)
+    return page
 
 
 def _duties(summary: Mapping[str, Any]) -> str:

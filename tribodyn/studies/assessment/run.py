@@ -30,6 +30,7 @@ from tribodyn.studies.assessment.scatter import Conclusion, put_in, samples_of
 from tribodyn.studies.gears.check import sheet_tables, with_oil
 from tribodyn.studies.gears.drive_file import sheet_of
 from tribodyn.studies.gears.prepare import assembled
+from tribodyn.studies.gears.rated.american import agma_part
 from tribodyn.studies.gears.rated.bearings import bearing_part
 from tribodyn.studies.gears.rated.capacity import Capacity, capacity_of, life_bins, required
 from tribodyn.studies.gears.rated.limits import not_judged
@@ -62,18 +63,31 @@ def check(case: AssessmentCase) -> CheckResult:
     found = with_oil(CheckResult(data, sheet_tables(sheet)), case.lubricant)
     if not assembly.family.involute:
         return found
-    iso, _, capacity = _by_standard(case, assembly, face=1.0)
+    iso, standard, capacity = _by_standard(case, assembly, face=1.0)
+    american = _by_agma(case, standard, capacity)
     face = "given" if case.settings.face_load_factor else "1, until the contact is analysed"
     table = TextTable(f"ISO 6336, K_Hβ {face}", COLUMNS, rating_rows(iso))
     duties = _duties(case, capacity)
-    tables = (*found.tables, table, *spectrum_tables(duties.get("spectrum", {})))
+    beside = [TextTable(f"AGMA 2101, K_H {face}", COLUMNS, rating_rows(american))] if american else []
+    tables = (*found.tables, table, *beside, *spectrum_tables(duties.get("spectrum", {})))
     remarks = (*found.remarks, *metal_remarks(case), *_outside(capacity))
-    return found._replace(data={**found.data, "iso": iso, **duties}, tables=tables, remarks=remarks)
+    return found._replace(
+        data={**found.data, "iso": iso, **({"agma": american} if american else {}), **duties},
+        tables=tables,
+        remarks=remarks,
+    )
 
 
 def _duties(case: AssessmentCase, capacity: Capacity | None) -> dict[str, Any]:
     """Miner's sum duty by duty, where there is a load spectrum."""
     return spectrum_part(capacity, required(case.settings))
+
+
+def _by_agma(case: AssessmentCase, standard: Standard | None, capacity: Capacity | None) -> dict[str, Any]:
+    """The rating by AGMA 2101 where it is asked for."""
+    if case.settings.standard != "agma" or standard is None or capacity is None:
+        return {}
+    return agma_part(case, assembled(case), standard.factors, capacity)
 
 
 def _by_standard(
@@ -148,6 +162,7 @@ def assessed(
         **({"transverse_load_factor_method_b": by_standard.factors.transverse_b} if by_standard else {}),
         **outcome.least(),
         "iso": outcome.iso,
+        "agma": _by_agma(case, outcome.by_standard, outcome.capacity),
         "simulated": outcome.simulated,
         "rests_on": outcome.rests,
         "not_judged": not_judged(case.limits, case.lubricant.fzg),

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tribodyn.errors import InputError, unknown_name
+from tribodyn.geometry.families import family
 from tribodyn.scenario import units
 from tribodyn.scenario.fields import Temperature
 from tribodyn.scenario.quantity import InUnit, Table, model_file, written
@@ -19,6 +20,7 @@ from tribodyn.scenario.tables.model_files import MisalignmentTable
 from tribodyn.scenario.tables.quality import tolerances_of
 from tribodyn.studies.assessment.case import AssessmentCase, AssessmentTable
 from tribodyn.studies.assessment.unknowns import broken_unknowns
+from tribodyn.studies.gears.rated.american import broken_agma
 from tribodyn.studies.gears.rated.capacity import required
 from tribodyn.studies.gears.rated.limits import OilLimits, Pressure
 from tribodyn.studies.gears.rated.settings import broken_strength_rules
@@ -116,6 +118,11 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         ", or call the driving gear the pinion",
     )
     yield from broken_strength_rules("assessment", scenario.assessment, materials_of(drive))
+    if scenario.assessment.standard == "agma":
+        width = min(drive.pinion.face_width, drive.gear.face_width)
+        helix = abs(drive.helix_angle or 0.0), drive.module, width
+        others = drive.gear.internal or not family(drive.family).involute
+        yield from broken_agma(helix, others, materials_of(drive))
     yield from _broken_settings(scenario)
 
 
