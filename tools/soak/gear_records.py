@@ -33,8 +33,8 @@ EXTREMES = (
     ("hertz_pressure_max", "hertz_pressure", True),
     ("flash_temperature_max", "flash_temperature_rise", True),
 )
-#: Energy residual over the relative tolerance.
-RESIDUAL = 10.0
+#: Energy residual over the relative tolerance, and how a fault of it begins.
+RESIDUAL, ENERGY = 10.0, "energy residual"
 
 
 def faults(record: Record, rtol: float) -> Iterator[str]:
@@ -136,7 +136,7 @@ def _energy(record: Record, rtol: float) -> Iterator[str]:
     # works are integrated to a share of those of a mesh cycle, of which a run that stops may not have one
     done = min(1.0, summary["cycles_done"])
     if not abs(residual) * done <= RESIDUAL * rtol:
-        yield f"energy residual {residual:.3g}, {abs(residual) / rtol:.3g} times rtol"
+        yield f"{ENERGY} {residual:.3g}, {abs(residual) / rtol:.3g} times rtol"
 
 
 def _means(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
