@@ -13,7 +13,7 @@ from matplotlib.tri import Triangulation
 
 from tribodyn.compliance.sharing.tooth_field import ToothField, tooth_field
 from tribodyn.geometry.drive import SIDES, Side
-from tribodyn.post.figures.panel import record_title
+from tribodyn.post.figures.panel import record_label, record_title
 from tribodyn.post.style import INK, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact.case import LoadContactCase
@@ -55,7 +55,7 @@ def stress_figure(records: Sequence[Record]) -> Figure:
         draw_section(section, field, part, scale)
         draw_flank(flank, field, scale)
         at = MM * float(field.slice_position[part])
-        named = f"{record.label}, {side}" if len(records) > 1 else side
+        named = f"{record_label(record)}, {side}" if len(records) > 1 else side
         for axes, letter, what in (
             (section, "a", f"{named}, at {at:+.1f} mm"),
             (flank, "b", f"{named}, loaded side"),
